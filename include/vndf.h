@@ -1,0 +1,207 @@
+/* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
+ *
+ * A renderer links this header's library; it needs the C library and nothing else. A distribution of
+ * microfacet normals is a table made offline (vndf_build.h, or `vndf build`), or one of the closed
+ * forms vndf_ggx() and vndf_beckmann(). Everything below treats all of them alike.
+ *
+ * Conventions. Local frame: z is the geometric normal, x the axis of alpha_x. Directions are unit
+ * vectors that point away from the surface; wi is the known one, wm a microfacet normal (wm.z >= 0).
+ * The slope of wm is (x, y) = (-wm.x/wm.z, -wm.y/wm.z). The density of normals D is per steradian with
+ * integral D(wm) cos(theta_m) dwm = 1, and P22(x, y) = D cos^4(theta_m) is the density of slopes.
+ * A roughness (alpha_x, alpha_y) stretches the distribution that the table was built from:
+ *
+ *     D(wm) = P22(x/alpha_x, y/alpha_y) / (alpha_x alpha_y cos^4(theta_m)),
+ *
+ * so alpha = 1 is the distribution exactly as it was given to the builder. The visible normals from wi
+ * (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible
+ * Normals", EGSR 2014) have the density  Dv(wm) = max(0, wi.wm) D(wm) / A(wi)  per steradian, where
+ * A(wi) = integral max(0, wi.wm) D(wm) dwm is the projected area of the microsurface.
+ *
+ * Incident directions from 0 to 180 degrees are all valid: below the horizon the visible normals are
+ * those that a ray inside the microsurface meets.
+ *
+ * Errors. Calls that allocate, read or write take a vndf_error* that the caller owns and that may be
+ * NULL. Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and the one
+ * result for invalid input is stated with vndf_view_from. Nothing here keeps state: distributions are
+ * immutable, every function may be called from any number of threads at once.
+ *
+ * Reproducible. The table path uses only + - * / sqrt, comparisons and integer conversions, compiled
+ * without contraction: the same bits on every IEEE machine, compiler and optimisation level. The closed
+ * forms call the C library's elementary functions and promise their accuracy, not their bits. */
+#ifndef VNDF_H
+#define VNDF_H
+
+#include <stddef.h>
+
+#if defined(_WIN32) && defined(VNDF_SHARED)
+#  ifdef VNDF_EXPORTS
+#    define VNDF_API __declspec(dllexport)
+#  else
+#    define VNDF_API __declspec(dllimport)
+#  endif
+#elif defined(__GNUC__)
+#  define VNDF_API __attribute__((visibility("default")))
+#else
+#  define VNDF_API
+#endif
+
+#define VNDF_VERSION_MAJOR 0
+#define VNDF_VERSION_MINOR 1
+#define VNDF_VERSION_PATCH 0
+#define VNDF_VERSION "0.1.0"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum vndf_status {
+    VNDF_OK = 0,
+    VNDF_ERROR_ARGUMENT,     /* an argument of the call is outside its stated range */
+    VNDF_ERROR_MEMORY,       /* no memory */
+    VNDF_ERROR_IO,           /* a file cannot be opened, read or written; errno's text is in the message */
+    VNDF_ERROR_TABLE,        /* the bytes are not a vndf table of a version this library reads */
+    VNDF_ERROR_SYNTAX,       /* an expression, CSV or family name cannot be read; the message says where */
+    VNDF_ERROR_DISTRIBUTION, /* the input cannot be the normals of a microsurface; the message says why */
+    VNDF_ERROR_TARGET        /* the accuracy or size that was asked for cannot be met; the message says what was */
+} vndf_status;
+
+/* What went wrong, for people. The caller owns it; a successful call leaves it untouched. */
+typedef struct vndf_error {
+    vndf_status status;
+    char message[512];
+} vndf_error;
+
+typedef struct vndf_vec3 {
+    float x, y, z;
+} vndf_vec3;
+
+/* ---- distributions ---------------------------------------------------------------------------- */
+
+/* A distribution of normals: a loaded or built table, or a closed form. Immutable, shared freely. */
+typedef struct vndf_distribution vndf_distribution;
+
+/* Reads a table file. NULL and an error if it cannot be read or is not a whole, consistent table. The
+ * bytes are not trusted: no file crashes the loader. Free the result with vndf_free. */
+VNDF_API vndf_distribution *vndf_load(const char *path, vndf_error *error);
+
+/* The same from memory; the bytes are copied and may be freed at once. */
+VNDF_API vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error);
+
+/* Frees a table; NULL and the closed forms are ignored. */
+VNDF_API void vndf_free(vndf_distribution *distribution);
+
+/* GGX (Trowbridge-Reitz), P22(r) = 1/(pi (1 + r^2)^2), sampled by spherical caps (Dupuy & Benyoub,
+ * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023). Exact; not to be freed. */
+VNDF_API const vndf_distribution *vndf_ggx(void);
+
+/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and a continuous inversion of the slope CDF whose
+ * u-error is below 1e-6. Not to be freed. */
+VNDF_API const vndf_distribution *vndf_beckmann(void);
+
+/* What the builder measured on a table, after rounding to float, against quadrature of the D it was
+ * given, over incident directions from 0 to 180 degrees where the projected area exceeds 1e-12 of its
+ * value at normal incidence. All zero for the closed forms. */
+typedef struct vndf_certificate {
+    float tv;          /* largest total variation distance between sampled and true visible normals */
+    float tv_theta;    /* the incident angle where it was found, degrees */
+    float max_weight;  /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
+    float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
+    float area_error;  /* largest relative error of the projected area, hence of Lambda and G1 */
+    float consistency; /* largest |integral of the float pdf - 1| */
+    float ndf_error;   /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
+} vndf_certificate;
+
+/* What a distribution is. Strings belong to the distribution. */
+typedef struct vndf_info {
+    const char *source;      /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
+    const char *tool;        /* version that made it, "vndf 0.1.0" */
+    size_t bytes;            /* size of the table file; 0 for closed forms */
+    size_t radial_cells;     /* cells of the radial table */
+    size_t azimuth_rows;     /* rows of the azimuth tables, above and below the horizon together */
+    size_t azimuth_cells;    /* cells of each row */
+    double normalization;    /* the given D or P22 was multiplied by this */
+    double scale;            /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
+    vndf_certificate certificate;
+} vndf_info;
+
+VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
+
+/* ---- a surface and one incident direction ------------------------------------------------------ */
+
+/* A rough surface: a plain value. alpha_x, alpha_y > 0 scale the slopes of the distribution. */
+typedef struct vndf_surface {
+    const vndf_distribution *distribution;
+    float alpha_x, alpha_y;
+} vndf_surface;
+
+/* Everything that depends on the surface and wi alone; a plain value, valid while the distribution
+ * lives. Its members are private, and may change between versions. */
+typedef struct vndf_view {
+    const vndf_distribution *distribution;
+    vndf_vec3 wi;             /* unit */
+    float alpha_x, alpha_y;   /* roughness times the table's own slope scale */
+    float s, c;               /* sine (>= 0) and cosine of the stretched direction */
+    float length;             /* length of the stretched direction */
+    float cos_phi, sin_phi;   /* azimuth of the stretched direction */
+    float area;               /* projected area of the unit problem; 0 marks an invalid view */
+    float front, wedge;       /* masses of the two azimuth ranges of a half turn */
+    float mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
+    unsigned row;             /* first of the two rows */
+} vndf_view;
+
+/* wi need not be exactly unit. Invalid input - NULL, a direction that is zero or not finite, alpha not
+ * in (0, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1) with density 0, and every
+ * other function 0. Some views are valid and see nothing: wi = (0, 0, -1) exactly, where every normal
+ * is turned away; samples are then horizontal normals with density 0. */
+VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
+
+/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length,
+ * wm.z >= 0, wi.wm >= 0. *pdf, if not NULL, receives the density per steradian with which it was really
+ * drawn; it is what vndf_pdf returns for that normal. The map is continuous; u1 turns the azimuth
+ * of the stretched normal about z from one side of wi to the other, u2 moves the normal away from z, and each is monotone. */
+VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
+
+/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0.
+ * For a table this is close to, not equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the
+ * weight that makes an estimator exact, and its maximum stands in the certificate. */
+VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
+
+/* The uniform numbers that vndf_sample turns into wm. */
+VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
+
+/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. */
+VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
+
+/* ---- the distribution itself ------------------------------------------------------------------- */
+
+/* D(wm) per steradian; 0 for wm.z < 0. wm is unit. */
+VNDF_API float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm);
+
+/* P22 at the slope (x, y), per unit of slope area. */
+VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
+
+/* A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere; in [0, inf). */
+VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
+
+/* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, in [-1, 0] side: Lambda(-w) = -1 -
+ * Lambda(w) below; +-infinity is never returned: at cos(theta) = 0 the largest float with the sign of the limit. */
+VNDF_API float vndf_lambda(const vndf_surface *surface, vndf_vec3 w);
+
+/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w) in [0, 1] above the horizon; below it,
+ * 0. The factor for w.wm > 0 is the caller's. */
+VNDF_API float vndf_g1(const vndf_surface *surface, vndf_vec3 w);
+
+/* How masking and shadowing are correlated in G2 (Heitz, "Understanding the Masking-Shadowing Function
+ * in Microfacet-Based BRDFs", JCGT 2014). */
+typedef enum vndf_g2_model {
+    VNDF_G2_SEPARABLE,         /* G1(wi) G1(wo), eq. 98 */
+    VNDF_G2_HEIGHT_CORRELATED  /* 1/(1 + Lambda(wi) + Lambda(wo)), eq. 99 */
+} vndf_g2_model;
+
+/* Masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */
+VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,111 @@
+/* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
+ *
+ * A *source* is a distribution of normals that a user brings: a formula, a CSV, a named family or a C
+ * callback, at any scale, normalised or not. vndf_build turns it into a table and measures what the
+ * table is worth; vndf_save writes it. Conventions are those of vndf.h. */
+#ifndef VNDF_BUILD_H
+#define VNDF_BUILD_H
+
+#include "vndf.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- sources ----------------------------------------------------------------------------------- */
+
+typedef struct vndf_source vndf_source;
+
+/* A named number for an expression: name is [A-Za-z_][A-Za-z0-9_]*. */
+typedef struct vndf_parameter {
+    const char *name;
+    double value;
+} vndf_parameter;
+
+/* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses,
+ * numbers, pi, parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma
+ * abs min max pow step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that points at
+ * the column if it cannot be read. The text and parameters are copied. */
+VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters,
+                                                 size_t count, vndf_error *error);
+
+/* P22 as a formula in r = tan(theta_m), the slope length; otherwise as above. */
+VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters,
+                                                   size_t count, vndf_error *error);
+
+/* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
+ * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped. Rows
+ * are joined by shape-preserving interpolation; see src/distribution/csv.h for the rule of the tail. */
+VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
+VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size,
+                                           vndf_error *error);
+
+/* A family by name: ggx, beckmann, student-t:GAMMA, gtr:GAMMA, epd:P, abc:B,C or abc:MATERIAL,
+ * sgd:ALPHA,P or sgd:MATERIAL/CHANNEL, hyper-cauchy:..., phong:N, mix:(...). vndf_family_help lists them. */
+VNDF_API vndf_source *vndf_source_family(const char *specification, vndf_error *error);
+
+/* One line per family with its parameters, ranges, formula and reference; a static string. */
+VNDF_API const char *vndf_family_help(void);
+
+/* The i-th measured material that is shipped ("sgd:alum-bronze/r", ..., "abc:two-layer-gold"), or NULL past the last. */
+VNDF_API const char *vndf_family_material(size_t index);
+
+/* A C function: D(cos theta_m), or P22(r) (better for narrow distributions: 1 - cos loses digits). It
+ * must return the same value for the same argument. name is copied into the table as its provenance. */
+typedef double vndf_density_function(double x, void *user);
+VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
+                                               vndf_error *error);
+VNDF_API vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user,
+                                                 const char *name, vndf_error *error);
+
+/* The source that a table was built from, made again from its provenance (expressions and families;
+ * for others NULL and VNDF_ERROR_ARGUMENT with the reason). */
+VNDF_API vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error);
+
+/* The source as given, before normalisation: P22(r), r >= 0. */
+VNDF_API double vndf_source_p22(const vndf_source *source, double r);
+
+/* How it was given, as arguments of `vndf build`; belongs to the source. */
+VNDF_API const char *vndf_source_description(const vndf_source *source);
+
+VNDF_API void vndf_source_free(vndf_source *source);
+
+/* ---- building ---------------------------------------------------------------------------------- */
+
+/* Called now and then during a build with the part done in [0, 1] and what is being done; returns 0 to
+ * go on, anything else to stop the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
+typedef int vndf_progress(double done, const char *what, void *user);
+
+/* Zeroed options are the defaults. */
+typedef struct vndf_build_options {
+    size_t max_bytes;         /* size of the file at most; 0: 16384; from 2048 to 1 MiB */
+    double max_tv;            /* a total variation to reach, then the smallest table that does; 0: the best that fits */
+    vndf_progress *progress;  /* may be NULL */
+    void *progress_user;
+} vndf_build_options;
+
+/* Builds a table. options and certificate may be NULL. NULL and an error if the source cannot be the
+ * normals of a microsurface (VNDF_ERROR_DISTRIBUTION, with the reason) or if the target cannot be met
+ * (VNDF_ERROR_TARGET, with what was reached). Deterministic. Free the result with vndf_free. */
+VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
+                                       vndf_certificate *certificate, vndf_error *error);
+
+/* Measures a table against a source: the certificate that vndf_build would write. */
+VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
+                                  vndf_certificate *certificate, vndf_error *error);
+
+/* The truth by adaptive quadrature of the source, in double: normalised P22 and the projected area of
+ * the unit problem at the angle theta (radians, 0 to pi). An oracle for tools and tests; slow. */
+typedef struct vndf_truth vndf_truth;
+VNDF_API vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error);
+VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
+VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
+VNDF_API void vndf_truth_free(vndf_truth *truth);
+
+/* Writes the table to a file: to a temporary beside it, then renamed over path. */
+VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

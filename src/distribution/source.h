@@ -1,0 +1,18 @@
+/* What every kind of source is to the builder: an unnormalised P22(r), where it is not smooth, and
+ * the words that made it. Each kind (expression.c, csv.c, family.c, callback.c) embeds vndf_source as its
+ * first member and fills it. */
+#ifndef VNDF_DISTRIBUTION_SOURCE_H
+#define VNDF_DISTRIBUTION_SOURCE_H
+
+#include "vndf_build.h"
+
+struct vndf_source {
+    double (*p22)(const vndf_source *self, double r); /* P22 at slope length r >= 0; any scale; may give NaN or inf */
+    void (*destroy)(vndf_source *self);               /* frees self and all it owns */
+    char *description;                                /* arguments of `vndf build`, owned */
+    const double *breaks;                             /* ascending slopes where P22 has kinks or jumps that are known, or NULL */
+    size_t break_count;
+    int rebuildable;                                  /* description alone makes the same source again */
+};
+
+#endif
