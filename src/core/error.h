@@ -5,9 +5,9 @@
 #include "vndf.h"
 
 #if defined(__GNUC__)
-#  define VNDF_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#  define VNDF_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#  define VNDF_PRINTF(format, first)
+#  define VNDF_PRINTF(text, first)
 #endif
 
 /* Fills *error (which may be NULL) with a printf-style message and returns status, so that a failing

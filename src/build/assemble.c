@@ -1,0 +1,183 @@
+#include "build/assemble.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas
+ * by a hundredth of it within what float holds. */
+static double area_error(double error)
+{
+    double e = error / 60;
+    return e < 1e-7 ? 1e-7 : e;
+}
+
+/* ---- refining ---- */
+
+static int report(const vndf_build_options *options, double done, const char *what)
+{
+    return options && options->progress ? options->progress(done, what, options->progress_user) : 0;
+}
+
+static int refine_radial(vndf_plan *plan, size_t limit)
+{
+    const vndf_radial_fit *fit = &plan->radial_fit;
+    double *start = malloc((fit->jump_count + 5) * sizeof *start);
+    size_t n = 0;
+    if (!start)
+        return 0;
+    start[n++] = 0.0;
+    for (size_t i = 0; i < fit->jump_count; i++)
+        start[n++] = fit->jump[i];
+    start[n++] = 1.0;
+    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_cell_error, &plan->radial_fit);
+    free(start);
+    return good;
+}
+
+static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
+{
+    static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, vndf_wedge_row_error, fit);
+}
+
+static int refine_area(vndf_refinement *area, vndf_wedge_fit *fit, size_t limit, double enough)
+{
+    static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, vndf_wedge_area_error, fit);
+}
+
+static uint32_t cells_for(size_t max_bytes)
+{
+    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 16 : 32;
+}
+
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options)
+{
+    uint32_t cells = cells_for(max_bytes);
+    size_t most_rows = max_bytes / (8 * cells + 16), most_cells = max_bytes / 24, most_knots = max_bytes / 12;
+    memset(plan, 0, sizeof *plan);
+    plan->profile = profile;
+    plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
+    if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, cells) ||
+        !vndf_wedge_fit_from(&plan->below_fit, profile, 1, cells))
+        return 0;
+    if (report(options, 0.1, "radial cells"))
+        return -1;
+    if (!refine_radial(plan, most_cells < 4000 ? most_cells : 4000) || report(options, 0.2, "azimuth rows above the horizon") ||
+        !refine_rows(&plan->above_rows, &plan->above_fit, most_rows < 1000 ? most_rows : 1000, plan->finest) ||
+        report(options, 0.4, "azimuth rows below the horizon") ||
+        !refine_rows(&plan->below_rows, &plan->below_fit, most_rows < 1000 ? most_rows : 1000, plan->finest) ||
+        report(options, 0.6, "projected area") ||
+        !refine_area(&plan->above_area, &plan->above_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan->finest)) ||
+        !refine_area(&plan->below_area, &plan->below_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan->finest)))
+        return plan->below_area.error ? 1 : -1;
+    return 1;
+}
+
+void vndf_plan_free(vndf_plan *plan)
+{
+    vndf_radial_fit_free(&plan->radial_fit);
+    vndf_wedge_fit_free(&plan->above_fit);
+    vndf_wedge_fit_free(&plan->below_fit);
+    vndf_refinement_free(&plan->radial);
+    vndf_refinement_free(&plan->above_rows);
+    vndf_refinement_free(&plan->below_rows);
+    vndf_refinement_free(&plan->above_area);
+    vndf_refinement_free(&plan->below_area);
+}
+
+/* ---- cutting a table ---- */
+
+/* Points to add until the recorded error is within bounds. */
+static uint32_t needed(const vndf_refinement *r, double error)
+{
+    size_t n = 0;
+    while (n < r->count && r->error[n] > error)
+        n++;
+    return (uint32_t)n;
+}
+
+vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
+{
+    vndf_table_size size;
+    size.radial = (uint32_t)plan->radial.start - 1 + needed(&plan->radial, error);
+    size.wedge_cells = plan->above_fit.cells;
+    size.above_rows = (uint32_t)plan->above_rows.start + needed(&plan->above_rows, error);
+    size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, 2 * error);
+    size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(error));
+    size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(error));
+    return size;
+}
+
+static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
+{
+    uint32_t n = table->radial_count;
+    vndf_refinement_knots(&plan->radial, n + 1 - plan->radial.start, knots);
+    vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
+    for (uint32_t j = 0; j < n; j++) {
+        vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
+        table->pole[j].x = a.x;
+        table->pole[j].z = a.z;
+        table->cells[j] = vndf_fit_cell(&plan->radial_fit, a, b);
+        a = b;
+    }
+    table->pole[n].x = a.x;
+    table->pole[n].z = a.z;
+}
+
+static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
+{
+    vndf_refinement_knots(rows, wedge->row_count - rows->start, knots);
+    for (uint32_t i = 0; i < wedge->row_count; i++) {
+        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
+        if (!row)
+            return 0;
+        wedge->row_y[i] = (float)row->y;
+        wedge->aspect_p[i] = !fit->below && i == 0 ? 0.0f : (float)row->p;
+        wedge->aspect_r[i] = (float)row->r;
+        memcpy(wedge->nodes + (size_t)i * (fit->cells + 1), row->node, (fit->cells + 1) * sizeof *row->node);
+    }
+    return 1;
+}
+
+/* Knots whose mass is no normal float are left out; slopes are cut to what keeps the spline positive. */
+static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf_wedge_fit *fit, double *knots)
+{
+    uint32_t n = 0;
+    vndf_refinement_knots(area, wedge->knot_count - area->start, knots);
+    for (uint32_t i = 0; i < wedge->knot_count; i++) {
+        vndf_area_value value = vndf_wedge_fit_area(fit, knots[i]);
+        if (i > 0 && value.mass < 1e-36)
+            continue;
+        wedge->knot_y[n] = (float)knots[i];
+        wedge->mass[n] = (float)value.mass;
+        wedge->slope[n] = (float)value.slope;
+        if (n > 0 && wedge->slope[n] * (wedge->knot_y[n] - wedge->knot_y[n - 1]) > 3 * wedge->mass[n])
+            wedge->slope[n] = 2.99999f * wedge->mass[n] / (wedge->knot_y[n] - wedge->knot_y[n - 1]);
+        n++;
+    }
+    wedge->knot_count = n;
+}
+
+vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
+{
+    vndf_distribution *table = vndf_table_allocate(size);
+    size_t most = size.radial + size.above_rows + size.below_rows + size.above_knots + size.below_knots + 8;
+    double *knots = malloc(most * sizeof *knots);
+    int good = table && knots && fill_rows(&table->above, &plan->above_rows, &plan->above_fit, knots) &&
+               fill_rows(&table->below, &plan->below_rows, &plan->below_fit, knots);
+    if (good) {
+        fill_radial(plan, table, knots);
+        fill_area(&table->above, &plan->above_area, &plan->above_fit, knots);
+        fill_area(&table->below, &plan->below_area, &plan->below_fit, knots);
+        table->normalization = plan->profile->normalization;
+        table->scale_exact = plan->profile->scale;
+        table->scale = (float)plan->profile->scale;
+    }
+    free(knots);
+    if (good)
+        return table;
+    vndf_free(table);
+    return NULL;
+}

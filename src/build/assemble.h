@@ -1,0 +1,28 @@
+/* From fits to a table: the fits are refined once, then a table of any size is cut from them. */
+#ifndef VNDF_BUILD_ASSEMBLE_H
+#define VNDF_BUILD_ASSEMBLE_H
+
+#include "build/radial_fit.h"
+#include "build/refine.h"
+#include "build/wedge_fit.h"
+#include "table/layout.h"
+
+typedef struct vndf_plan {
+    const vndf_profile *profile;
+    vndf_radial_fit radial_fit;
+    vndf_wedge_fit above_fit, below_fit;
+    vndf_refinement radial, above_rows, below_rows, above_area, below_area;
+    double finest;  /* the error down to which the fits were refined */
+} vndf_plan;
+
+/* Refines all fits as far as max_bytes may ever need; progress may stop it. 0 without memory, -1 if stopped. */
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options);
+void vndf_plan_free(vndf_plan *plan);
+
+/* Counts of the table whose parts each stay below `error`. */
+vndf_table_size vndf_plan_size(const vndf_plan *plan, double error);
+
+/* That table, complete but for its certificate and texts; NULL if there is no memory. */
+vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size);
+
+#endif

@@ -1,0 +1,163 @@
+/* vndf_build: resolve the source, refine the fits once, cut the table that meets the target, measure it. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "build/assemble.h"
+#include "build/certificate.h"
+#include "core/error.h"
+#include "table/file.h"
+
+enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
+
+static const char TOOL[] = "vndf " VNDF_VERSION;
+
+static char *copy(const char *text)
+{
+    size_t n = strlen(text) + 1;
+    char *made = malloc(n);
+    return made ? memcpy(made, text, n) : NULL;
+}
+
+/* Bytes of the file for counts and texts (table/file.h). */
+static size_t file_bytes(vndf_table_size s, const char *source)
+{
+    size_t floats = 7 + 2 * ((size_t)s.radial + 1) + 4 * (size_t)s.radial;
+    floats += ((size_t)s.above_rows + s.below_rows) * (2 * (size_t)s.wedge_cells + 4) + 3 * ((size_t)s.above_knots + s.below_knots);
+    return 16 + 16 + 24 + 4 * floats + 8 + strlen(source) + strlen(TOOL) + 4;
+}
+
+static int fits(const vndf_plan *plan, double error, size_t max_bytes)
+{
+    return file_bytes(vndf_plan_size(plan, error), plan->profile->source->description) <= max_bytes;
+}
+
+/* The least error for which the table is small enough, or 0. */
+static double error_for_bytes(const vndf_plan *plan, size_t max_bytes)
+{
+    double low = log(plan->finest), high = log(0.5);
+    if (fits(plan, plan->finest, max_bytes))
+        return plan->finest;
+    if (!fits(plan, 0.5, max_bytes))
+        return 0.0;
+    for (int i = 0; i < 40; i++) {
+        double middle = (low + high) / 2;
+        if (fits(plan, exp(middle), max_bytes))
+            high = middle;
+        else
+            low = middle;
+    }
+    return exp(high);
+}
+
+/* The table for an error target as it would be read back from its file: certificate and texts included. */
+static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
+{
+    const char *source = plan->profile->source->description;
+    vndf_distribution *draft = vndf_plan_assemble(plan, vndf_plan_size(plan, error)), *table = NULL;
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    if (draft && (draft->source = copy(source)) && (draft->tool = copy(TOOL)))
+        bytes = malloc(size = vndf_table_encode(draft, NULL, 0));
+    if (bytes) {
+        vndf_table_encode(draft, bytes, size);
+        table = vndf_load_memory(bytes, size, why);
+    } else
+        vndf_fail(why, VNDF_ERROR_MEMORY, "no memory to build the table");
+    free(bytes);
+    vndf_free(draft);
+    if (table && !vndf_certificate_measure(&table->certificate, table, plan->profile)) {
+        vndf_fail(why, VNDF_ERROR_MEMORY, "no memory to measure the table");
+        vndf_free(table);
+        return NULL;
+    }
+    return table;
+}
+
+/* The smallest table with a measured TV of at most max_tv, or NULL and what was reached. */
+static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_tv, vndf_error *error)
+{
+    double low = log(best), high = log(fmax(fmin(2 * max_tv, 0.5), best));
+    vndf_distribution *table = finish(plan, best, error);
+    if (table && table->certificate.tv > max_tv) {
+        vndf_fail(error, VNDF_ERROR_TARGET, "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+                  max_tv, (unsigned long)table->bytes, (double)table->certificate.tv, (double)table->certificate.tv_theta);
+        vndf_free(table);
+        return NULL;
+    }
+    for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
+        double middle = (low + high) / 2;
+        vndf_distribution *smaller = finish(plan, exp(middle), error);
+        if (smaller && smaller->certificate.tv <= max_tv) {
+            vndf_free(table);
+            table = smaller;
+            low = middle;
+        } else {
+            vndf_free(smaller);
+            high = middle;
+        }
+    }
+    return table;
+}
+
+static vndf_distribution *build_planned(vndf_plan *plan, size_t max_bytes, double max_tv, vndf_error *error)
+{
+    double best = error_for_bytes(plan, max_bytes);
+    if (best == 0.0) {
+        vndf_fail(error, VNDF_ERROR_TARGET, "%lu bytes are too few: the smallest table of this distribution takes %lu",
+                  (unsigned long)max_bytes,
+                  (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->source->description));
+        return NULL;
+    }
+    return max_tv > 0.0 ? build_to_tv(plan, best, max_tv, error) : finish(plan, best, error);
+}
+
+static vndf_status check_options(const vndf_source *source, size_t max_bytes, double max_tv, vndf_error *error)
+{
+    if (!source)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no source: NULL was given");
+    if (max_bytes < BYTES_LEAST || max_bytes > BYTES_MOST)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible", (unsigned long)max_bytes,
+                         BYTES_LEAST, BYTES_MOST);
+    if (!(max_tv >= 0.0 && max_tv < 1.0))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
+    return VNDF_OK;
+}
+
+vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
+                              vndf_certificate *certificate, vndf_error *error)
+{
+    size_t max_bytes = options && options->max_bytes ? options->max_bytes : BYTES_DEFAULT;
+    double max_tv = options ? options->max_tv : 0.0;
+    if (check_options(source, max_bytes, max_tv, error) != VNDF_OK)
+        return NULL;
+    vndf_profile *profile = vndf_profile_from(source, error);
+    if (!profile)
+        return NULL;
+    vndf_plan plan;
+    vndf_distribution *table = NULL;
+    int made = vndf_plan_make(&plan, profile, max_bytes, options);
+    if (made == 1)
+        table = build_planned(&plan, max_bytes, max_tv, error);
+    else
+        vndf_fail(error, made < 0 ? VNDF_ERROR_ARGUMENT : VNDF_ERROR_MEMORY, made < 0 ? "interrupted" : "no memory to fit the table");
+    if (table && certificate)
+        *certificate = table->certificate;
+    vndf_plan_free(&plan);
+    vndf_profile_free(profile);
+    return table;
+}
+
+vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source, vndf_certificate *certificate,
+                         vndf_error *error)
+{
+    if (!distribution || distribution->kind != VNDF_KIND_TABLE || !certificate)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a place for its certificate are needed");
+    vndf_profile *profile = vndf_profile_from(source, error);
+    if (!profile)
+        return error ? error->status : VNDF_ERROR_DISTRIBUTION;
+    int done = vndf_certificate_measure(certificate, distribution, profile);
+    vndf_profile_free(profile);
+    return done ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to measure the table");
+}

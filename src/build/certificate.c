@@ -1,0 +1,212 @@
+/* The visible normals from one direction are integrated over half a turn of azimuth (both halves are
+ * alike) and over slope, on Gauss points of the cells of either stage, so that every integrand is smooth
+ * between the points; the cells that hold a jump of the mask, c + s cos(a) R = 0, end there. */
+#include "build/certificate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "sampler/engine.h"
+
+static const double PI = 3.14159265358979323846;
+static const double AREA_LEAST = 1e-12; /* of the area at normal incidence: below it nothing is claimed */
+static const double MASS_LEFT_OUT = 1e-6;
+
+enum { AZIMUTH_PIECES = 24, SLOPE_POINTS = VNDF_GAUSS_COARSE };
+
+/* One Gauss point of a direction. */
+typedef struct sample {
+    double truth, drawn; /* density in slope area, times its share of the area: parts of the two masses */
+} sample;
+
+typedef struct survey {
+    const vndf_distribution *table;
+    const vndf_profile *profile;
+    sample *samples;
+    size_t count, capacity;
+} survey;
+
+typedef struct finding {
+    double tv, max_weight, consistency, area_error;
+    int measured;
+} finding;
+
+static vndf_vec3 normal_at(double r, double a)
+{
+    double z = 1 / (1 + r), x = r < HUGE_VAL ? r * z : 1.0;
+    vndf_vec3 n = {(float)(x * cos(a)), (float)(x * sin(a)), (float)z};
+    return n;
+}
+
+/* The view of the unit problem: isotropic, so that it may be made from s and c alone. */
+static vndf_view view_of(const vndf_distribution *table, double s, double c)
+{
+    vndf_surface surface = {table, 1.0f / table->scale, 1.0f / table->scale};
+    vndf_vec3 wi = {(float)s, 0.0f, (float)c};
+    return vndf_view_from(&surface, wi);
+}
+
+/* pdf per unit of slope area of the unit problem at R, a. */
+static double drawn_density(const vndf_view *view, double r, double a)
+{
+    vndf_vec3 n = normal_at(r, a);
+    double z = n.z; /* vndf_engine_density is per solid angle at X + Z = 1: times Z^3 per slope area */
+    return (double)vndf_engine_density(view, n) * z * z * z;
+}
+
+static void add_slopes(survey *v, const vndf_view *view, double a, double w, double r0, double r1, double area)
+{
+    double s = view->s, c = view->c, v0 = r0 / (1 + r0), v1 = r1 < HUGE_VAL ? r1 / (1 + r1) : 1.0;
+    for (int i = 0; i < SLOPE_POINTS && v->count < v->capacity; i++) {
+        double at = v0 + (v1 - v0) * vndf_gauss_coarse_node[i], z = 1 - at, r = at / z;
+        double measure = w * vndf_gauss_coarse_weight[i] * (v1 - v0) * r / (z * z);
+        double mask = c + s * cos(a) * r, truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / area : 0.0;
+        sample one = {truth * measure, drawn_density(view, r, a) * measure};
+        v->samples[v->count++] = one;
+    }
+}
+
+/* One azimuth: every radial cell that is seen, the one at the cut up to the cut. */
+static void add_azimuth(survey *v, const vndf_view *view, double a, double w, double area)
+{
+    double k = view->s * cos(a), c = view->c, cut = c * k < 0 ? -c / k : 0.0;
+    const vndf_distribution *d = v->table;
+    for (uint32_t j = 0; j < d->radial_count; j++) {
+        double r0 = d->slope[j], r1 = d->slope[j + 1];
+        if (c > 0 && cut > 0)
+            r1 = fmin(r1, cut);
+        else if (c < 0)
+            r0 = fmax(r0, cut > 0 ? cut : HUGE_VAL);
+        if (r1 > r0)
+            add_slopes(v, view, a, w, r0, r1, area);
+    }
+}
+
+/* A quarter turn on even pieces of q for an aspect. */
+static void add_quarter(survey *v, const vndf_view *view, double p, double r, int away, double area)
+{
+    int pieces = v->table->wedge_cells > AZIMUTH_PIECES ? (int)v->table->wedge_cells : AZIMUTH_PIECES / (int)v->table->wedge_cells * (int)v->table->wedge_cells;
+    for (int i = 0; i < pieces * VNDF_GAUSS_COARSE; i++) {
+        double q = (i / VNDF_GAUSS_COARSE + vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE]) / pieces;
+        double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, a = atan2(y, x);
+        double w = vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] / pieces * 2 * p * r * (1 + q * q) / n2;
+        add_azimuth(v, view, away ? PI - a : a, 2 * w, area);
+    }
+}
+
+static int by_weight(const void *a, const void *b)
+{
+    const sample *x = a, *y = b;
+    double p = x->truth * y->drawn, q = y->truth * x->drawn;
+    return (p < q) - (p > q);
+}
+
+/* Largest truth/drawn when the points with the largest, that together hold MASS_LEFT_OUT, are left out. */
+static double weight_of(survey *v)
+{
+    double left = MASS_LEFT_OUT;
+    qsort(v->samples, v->count, sizeof *v->samples, by_weight);
+    for (size_t i = 0; i < v->count; i++) {
+        left -= v->samples[i].truth;
+        if (left < 0)
+            return v->samples[i].drawn > 0 ? v->samples[i].truth / v->samples[i].drawn : HUGE_VAL;
+    }
+    return 1.0;
+}
+
+static double true_area(const vndf_profile *profile, double s, double c)
+{
+    double sum = s + fabs(c);
+    return 2 * sum * vndf_profile_area_below(profile, s / sum).mass + (c > 0 ? c : 0);
+}
+
+static finding survey_direction(survey *v, double s, double c)
+{
+    finding f = {0, 0, 0, 0, 0};
+    double area = true_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
+    vndf_view view = view_of(v->table, s, c);
+    if (!(area > AREA_LEAST * v->profile->f1))
+        return f;
+    f.measured = 1;
+    f.area_error = fabs((double)vndf_unit_area(v->table, view.s, view.c) / area - 1);
+    v->count = 0;
+    if (view.c >= 0)
+        add_quarter(v, &view, 1, 1, 0, area);
+    if (view.wedge > 0 && view.aspect_p > 0)
+        add_quarter(v, &view, view.aspect_p, view.aspect_r, view.c >= 0, area);
+    for (size_t i = 0; i < v->count; i++) {
+        drawn += v->samples[i].drawn;
+        miss += fabs(v->samples[i].drawn - v->samples[i].truth);
+    }
+    f.tv = miss / 2;
+    f.consistency = fabs(drawn - 1);
+    f.max_weight = weight_of(v);
+    return f;
+}
+
+/* Largest relative error of D over the slopes that hold all but MASS_LEFT_OUT. */
+static double ndf_error(const vndf_distribution *d, const vndf_profile *profile)
+{
+    double worst = 0.0, left = MASS_LEFT_OUT * profile->f0;
+    for (size_t i = 0; i < profile->count * VNDF_GAUSS; i++) {
+        vndf_profile_point point = profile->point[i];
+        const vndf_panel *p = &profile->panel[i / VNDF_GAUSS];
+        if (p->f0 < left / 2 || p->t0 < left / 2 || p->jump)
+            continue;
+        double z = 1 / (1 + point.r), truth = vndf_profile_p22(profile, point.r);
+        double held = (double)vndf_engine_p22_over_z4(d, (float)(point.r * z), (float)z) * z * z * z * z;
+        if (truth * point.r * point.r > 1e-6 * profile->f0)
+            worst = fmax(worst, fabs(held / truth - 1));
+    }
+    return worst;
+}
+
+/* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
+static const double ANGLES[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 85, 89, 89.9, 90, 90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
+static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
+
+static void take(vndf_certificate *c, finding f, double theta)
+{
+    if (!f.measured)
+        return;
+    if (f.tv > c->tv) {
+        c->tv = (float)f.tv;
+        c->tv_theta = (float)theta;
+    }
+    c->max_weight = fmaxf(c->max_weight, (float)f.max_weight);
+    c->area_error = fmaxf(c->area_error, (float)f.area_error);
+    c->consistency = fmaxf(c->consistency, (float)f.consistency);
+}
+
+/* D may be unbounded at the pole or fall so slowly that it is at the horizon; a cell is bounded. */
+static int is_bounded(const vndf_profile *profile)
+{
+    double r0 = profile->panel[0].r, r1 = profile->panel[profile->count].r;
+    double pole = vndf_profile_p22(profile, 4 * r0) / vndf_profile_p22(profile, 16 * r0);
+    double tail = vndf_profile_p22(profile, r1 / 16) / vndf_profile_p22(profile, r1 / 4);
+    return pole < 1.01 && tail > 254;
+}
+
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
+{
+    survey v = {table, profile, NULL, 0, 0};
+    vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
+    uint32_t pieces = table->wedge_cells > AZIMUTH_PIECES ? table->wedge_cells : AZIMUTH_PIECES;
+    v.capacity = (size_t)2 * pieces * VNDF_GAUSS_COARSE * table->radial_count * SLOPE_POINTS;
+    v.samples = malloc(v.capacity * sizeof *v.samples);
+    if (!v.samples)
+        return 0;
+    *c = none;
+    for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i++) {
+        double theta = ANGLES[i] * PI / 180, x = sin(theta) * profile->scale, y = ANGLES[i] == 90 ? 0 : cos(theta), l = hypot(x, y);
+        take(c, survey_direction(&v, x / l, y / l), ANGLES[i]);
+    }
+    for (size_t i = 0; i < 2 * (sizeof ELEVATIONS / sizeof *ELEVATIONS); i++) {
+        double k = ELEVATIONS[i / 2] * (i % 2 ? -1 : 1), l = hypot(1, k);
+        take(c, survey_direction(&v, 1 / l, k / l), atan2(1, k * profile->scale) * 180 / PI);
+    }
+    c->weight_bounded = (float)is_bounded(profile);
+    c->ndf_error = (float)ndf_error(table, profile);
+    free(v.samples);
+    return 1;
+}

@@ -1,0 +1,12 @@
+/* The certificate: what a table is worth, measured with the run time's own float code against the profile
+ * of the source. */
+#ifndef VNDF_BUILD_CERTIFICATE_H
+#define VNDF_BUILD_CERTIFICATE_H
+
+#include "build/profile.h"
+#include "table/table.h"
+
+/* 0 if there is no memory. */
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table, const vndf_profile *profile);
+
+#endif

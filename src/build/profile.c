@@ -1,0 +1,304 @@
+/* Panels: see profile.h. The recursion first halves every octave four times without question, so that a
+ * narrow ring is seen, and takes halves back where the whole does as well. */
+#include "build/profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/error.h"
+
+enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40, PANELS_MAX = 60000 };
+
+static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-30;
+
+static double floor_at(const vndf_profile *profile, double r)
+{
+    double q = 1.0 + r * r;
+    return profile->floor / (q * q);
+}
+
+/* P at r, and a note of the first r where the source is not a density. */
+static double density(vndf_profile *profile, double r)
+{
+    double p = vndf_profile_p22(profile, r);
+    if (!(p >= 0.0 && p < HUGE_VAL) && !profile->bad) {
+        profile->bad = 1;
+        profile->bad_r = r * profile->scale;
+        profile->bad_value = vndf_source_p22(profile->source, profile->bad_r);
+    }
+    return p;
+}
+
+double vndf_profile_p22(const vndf_profile *profile, double r)
+{
+    double scale = profile->scale;
+    return profile->normalization * scale * scale * profile->source->p22(profile->source, r * scale) + floor_at(profile, r);
+}
+
+/* ---- panels ---- */
+
+static vndf_moments rule(vndf_profile *profile, double u0, double u1)
+{
+    double r0 = exp(u0);
+    vndf_moments sum = {0.0, 0.0};
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double r = exp(u0 + (u1 - u0) * vndf_gauss_node[i]);
+        double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * density(profile, r);
+        sum.m0 += w;
+        sum.m1 += w * (r - r0);
+    }
+    return sum;
+}
+
+/* Room for one more panel; 0 when there is none. */
+static int grow(vndf_profile *profile)
+{
+    if (profile->count + 1 < profile->capacity)
+        return 1;
+    size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
+    vndf_panel *panel = capacity <= 4 * PANELS_MAX ? realloc(profile->panel, capacity * sizeof *panel) : NULL;
+    if (!panel)
+        return 0;
+    profile->panel = panel;
+    profile->capacity = capacity;
+    return 1;
+}
+
+static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
+{
+    if (profile->count >= PANELS_MAX || !grow(profile)) {
+        profile->rough = 1;
+        return;
+    }
+    vndf_panel panel = {exp(u0), sum.m0, sum.m1, 0, 0, 0, 0, 0, jump};
+    profile->panel[profile->count++] = panel;
+}
+
+static int agree(double a, double b, double least)
+{
+    return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
+}
+
+static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
+{
+    double middle = u0 + (u1 - u0) / 2, gap = exp(middle) - exp(u0);
+    vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1), sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
+    if (profile->bad || profile->rough)
+        return;
+    int good = agree(sum.m0, whole.m0, least) && agree(sum.m1, whole.m1, least * gap);
+    if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
+        push(profile, u0, sum, !good);
+        return;
+    }
+    size_t first = profile->count;
+    resolve(profile, u0, middle, l, depth + 1, least);
+    resolve(profile, middle, u1, r, depth + 1, least);
+    if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !profile->bad && !profile->rough) {
+        profile->count = first; /* neither half needed more: the whole will do */
+        push(profile, u0, sum, 0);
+    }
+}
+
+/* The largest integrand per octave, for what is negligible beside it. */
+static double peak(vndf_profile *profile)
+{
+    double most = 0.0;
+    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !profile->bad; i++) {
+        double r = exp2(i / 16.0) / profile->scale, p = density(profile, r) * r * r;
+        most = p > most ? p : most;
+    }
+    return most;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Octave edges and the known breaks of the source, ascending, as logarithms of canonical R. */
+static double *make_edges(const vndf_profile *profile, size_t *count)
+{
+    const vndf_source *source = profile->source;
+    double shift = log(profile->scale), low = -OCTAVES * log(2.0), high = -low;
+    double *edge = malloc((2 * OCTAVES + 1 + source->break_count) * sizeof *edge);
+    size_t n = 0;
+    for (int i = -OCTAVES; edge && i <= OCTAVES; i++)
+        edge[n++] = i * log(2.0) - shift;
+    for (size_t i = 0; edge && i < source->break_count; i++) {
+        double u = source->breaks[i] > 0.0 ? log(source->breaks[i]) : low;
+        if (u > low && u < high)
+            edge[n++] = u - shift;
+    }
+    if (edge)
+        qsort(edge, n, sizeof *edge, by_value);
+    *count = n;
+    return edge;
+}
+
+/* Fills panels from r = 2^-100 to 2^100 of the source's own unit; 0 without memory. */
+static int fill_panels(vndf_profile *profile)
+{
+    size_t edges;
+    double least = 1e-45 * peak(profile), *edge = make_edges(profile, &edges);
+    profile->count = 0;
+    for (size_t i = 0; edge && i + 1 < edges; i++)
+        if (edge[i + 1] - edge[i] > 1e-12)
+            resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
+    if (!edge || !grow(profile)) {
+        free(edge);
+        return 0;
+    }
+    vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
+    profile->panel[profile->count] = end;
+    free(edge);
+    return 1;
+}
+
+/* Sums from both ends; every term is positive. */
+static void sum_panels(vndf_profile *profile)
+{
+    vndf_panel *p = profile->panel;
+    size_t n = profile->count;
+    p[0].f0 = p[0].f1 = p[0].e = p[n].t0 = p[n].s = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        double a = p[i].r, b = p[i + 1].r;
+        p[i + 1].f0 = p[i].f0 + p[i].m0;
+        p[i + 1].f1 = p[i].f1 + p[i].m1 + a * p[i].m0;
+        p[i + 1].e = p[i].e + p[i].f1 * (1 / a - 1 / b) + ((b - a) * p[i].m0 - p[i].m1) / b;
+    }
+    for (size_t i = n; i-- > 0;) {
+        p[i].t0 = p[i + 1].t0 + p[i].m0;
+        p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
+    }
+    profile->f0 = p[n].f0;
+    profile->f1 = p[n].f1;
+}
+
+/* The Gauss points of all panels, for integrals with other kernels. */
+static int fill_points(vndf_profile *profile)
+{
+    profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
+    for (size_t i = 0; profile->point && i < profile->count; i++) {
+        double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r);
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            double r = exp(u0 + (u1 - u0) * vndf_gauss_node[k]);
+            vndf_profile_point point = {r, vndf_gauss_weight[k] * (u1 - u0) * r * r * density(profile, r)};
+            profile->point[i * VNDF_GAUSS + (size_t)k] = point;
+        }
+    }
+    return profile->point != NULL;
+}
+
+/* ---- what a microsurface must be ---- */
+
+static vndf_status check_values(const vndf_profile *profile, vndf_error *error)
+{
+    if (profile->bad && profile->bad_value < 0.0)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)",
+                         profile->bad_value, profile->bad_r, atan(profile->bad_r) * 57.295779513082323);
+    if (profile->bad)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is %s at slope %g (theta_m = %.9g degrees)",
+                         isnan(profile->bad_value) ? "not a number" : "infinite", profile->bad_r,
+                         atan(profile->bad_r) * 57.295779513082323);
+    if (profile->rough)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is too rough: not resolved by %d panels; the last one began at slope %g", PANELS_MAX,
+                         profile->count ? profile->panel[profile->count - 1].r * profile->scale : 0.0);
+    if (!(profile->f0 > 0.0))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
+    return VNDF_OK;
+}
+
+/* -d log P / d log r between two slopes of the source; 0 if P vanishes there. */
+static double exponent(vndf_profile *profile, double r0, double r1)
+{
+    double p0 = density(profile, r0 / profile->scale), p1 = density(profile, r1 / profile->scale);
+    return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
+}
+
+/* Both ends are integrable, and what lies beyond the panels is little. */
+static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
+{
+    double tail = exponent(profile, exp2(OCTAVES - 2), exp2(OCTAVES)), pole = exponent(profile, exp2(-OCTAVES), exp2(2 - OCTAVES));
+    const vndf_panel *p = profile->panel;
+    size_t n = profile->count;
+    if (pole < HUGE_VAL && pole >= 2.0 - 1e-6)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower than r^-2", pole);
+    if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > 1e-6 * profile->f0)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
+    if (tail <= 3.0 + 1e-6)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "infinite projected area: P22 falls as r^-%.4g for large r, must fall faster than r^-3 "
+                         "(D slower than 1/cos(theta_m) towards 90 degrees)", tail);
+    double last = profile->f1 - p[n].f1 + p[n - 1].m1 + p[n - 1].r * p[n - 1].m0;
+    if (tail < HUGE_VAL && last / (exp2(tail - 3.0) - 1.0) > 1e-3 * profile->f1)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.1%% of the projected area at grazing "
+                         "incidence lies beyond slope 1e30, where no single-precision normal can lie", tail);
+    return VNDF_OK;
+}
+
+static double median(const vndf_profile *profile)
+{
+    size_t i = 0;
+    while (i + 1 < profile->count && profile->panel[i + 1].f0 < profile->f0 / 2)
+        i++;
+    const vndf_panel *p = &profile->panel[i];
+    double part = p->m0 > 0.0 ? (profile->f0 / 2 - p->f0) / p->m0 : 0.5;
+    return p->r + part * (p[1].r - p->r);
+}
+
+static vndf_status measure(vndf_profile *profile, vndf_error *error)
+{
+    if (!fill_panels(profile) && !profile->rough && !profile->bad)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+    if (!profile->bad && !profile->rough)
+        sum_panels(profile);
+    return check_values(profile, error);
+}
+
+/* Pass 1 in the source's own unit, pass 2 at canonical scale with the floor. */
+static vndf_status make(vndf_profile *profile, vndf_error *error)
+{
+    vndf_status status = measure(profile, error);
+    if (status == VNDF_OK)
+        status = check_ends(profile, error);
+    if (status != VNDF_OK)
+        return status;
+    profile->normalization = 1.0 / (2 * 3.14159265358979323846 * profile->f0);
+    profile->scale = median(profile);
+    profile->floor = FLOOR;
+    if (!(profile->scale > 1e-17 && profile->scale < 1e17))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
+    status = measure(profile, error);
+    if (status == VNDF_OK && !fill_points(profile))
+        status = vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+    return status;
+}
+
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error)
+{
+    vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
+    if (!profile) {
+        vndf_fail(error, source ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT, source ? "no memory" : "no source: NULL was given");
+        return NULL;
+    }
+    profile->source = source;
+    profile->normalization = profile->scale = 1.0;
+    if (make(profile, error) == VNDF_OK)
+        return profile;
+    vndf_profile_free(profile);
+    return NULL;
+}
+
+void vndf_profile_free(vndf_profile *profile)
+{
+    if (!profile)
+        return;
+    free(profile->panel);
+    free(profile->point);
+    free(profile);
+}

@@ -1,0 +1,65 @@
+/* A source made fit for integration: P22 at canonical scale, cut into panels on which it is resolved.
+ *
+ * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1
+ * and median R = 1. The floor, 1e-30/(1 + R^2)^2, is too small for any measurement and keeps a density
+ * positive on the whole hemisphere. Panels are even in log R at most an octave wide, halved until ten Gauss points agree with
+ * twice ten to 1e-10 of the panel, or until the panel is 1e-12 of R wide: then there is a jump. All
+ * integrals below are sums over panels, with relative precision near the pole (E) and in the tail (S). */
+#ifndef VNDF_BUILD_PROFILE_H
+#define VNDF_BUILD_PROFILE_H
+
+#include "distribution/source.h"
+#include "quadrature/gauss.h"
+
+/* F_n = integral_0^R P r^(n+1) dr at the inner edge, T_n from there to infinity; E = F0 - F1/R, S = T1 - R T0. */
+typedef struct vndf_panel {
+    double r;                       /* inner edge */
+    double m0, m1;                  /* integral P r dr and P r (r - inner edge) dr over the panel */
+    double f0, f1, e;               /* before the inner edge */
+    double t0, s;                   /* beyond the inner edge */
+    int jump;                       /* narrowed to the limit: P jumps here */
+} vndf_panel;
+
+/* A Gauss point: P r dr = weight. */
+typedef struct vndf_profile_point {
+    double r, weight;
+} vndf_profile_point;
+
+typedef struct vndf_profile {
+    const vndf_source *source;
+    double normalization, scale, floor;
+    size_t count, capacity;         /* panels; panel[count] is the outer end */
+    vndf_panel *panel;
+    vndf_profile_point *point;      /* VNDF_GAUSS per panel */
+    double f0, f1;                  /* totals */
+    double bad_r, bad_value;        /* where the source is no density */
+    int bad, rough;                 /* it is so; it needs more panels than there are */
+} vndf_profile;
+
+/* NULL and an error with the reason if the source cannot be the normals of a microsurface. */
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error);
+void vndf_profile_free(vndf_profile *profile);
+
+/* P(R) at canonical scale. */
+double vndf_profile_p22(const vndf_profile *profile, double r);
+
+/* integral over [a, b] of P r dr and of P r (r - a) dr; b may be infinite. */
+typedef struct vndf_moments {
+    double m0, m1;
+} vndf_moments;
+vndf_moments vndf_profile_moments(const vndf_profile *profile, double a, double b);
+
+/* E(rho) = integral_0^rho P r (1 - r/rho) dr and S(rho) = integral_rho^inf P r (r - rho) dr. */
+double vndf_profile_e(const vndf_profile *profile, double rho);
+double vndf_profile_s(const vndf_profile *profile, double rho);
+
+/* Half of what a direction sees: the area of half a turn. Coordinate y in [0, 1] as in vndf_wedge: above,
+ * the part beyond a right angle from wi for (s, c) = (1-y, y); below, all for (y, -(1-y)). With the
+ * derivative by y. */
+typedef struct vndf_area_value {
+    double mass, slope;
+} vndf_area_value;
+vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y);
+vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y);
+
+#endif

@@ -1,0 +1,190 @@
+/* Integrals of a resolved profile: cells, the two wedge functions, and projected areas.
+ *
+ * Areas of half a turn for the direction (s, c) with k = |c|/s are 1D integrals of P with kernels in
+ * y = sqrt((R/k)^2 - 1), R > k (integrate the azimuth first):
+ *     below   s integral P R k (y - atan y) dR
+ *     above   s [ integral_0^k P R (k pi/2 - R) dR + integral_k^inf P R (k atan(1/y) - k/(sqrt(1+y^2) + y)) dR ]
+ * each without a difference of large terms. */
+#include <math.h>
+
+#include "build/profile.h"
+
+static const double HALF_PI = 1.57079632679489661923;
+
+/* The panel of R: r_i <= R < r_(i+1), the ends extended. */
+static size_t panel_of(const vndf_profile *profile, double r)
+{
+    size_t low = 0, high = profile->count;
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (profile->panel[middle].r <= r)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* integral over [a, b] inside a panel of P r dr and P r (r - a) dr. */
+static vndf_moments part(const vndf_profile *profile, double a, double b)
+{
+    double u0 = log(a), du = log(b / a);
+    vndf_moments sum = {0.0, 0.0};
+    if (!(b > a))
+        return sum;
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double r = exp(u0 + du * vndf_gauss_node[i]), w = vndf_gauss_weight[i] * du * r * r * vndf_profile_p22(profile, r);
+        sum.m0 += w;
+        sum.m1 += w * (r - a);
+    }
+    return sum;
+}
+
+static void add(vndf_moments *sum, double a, vndf_moments more, double from)
+{
+    sum->m0 += more.m0;
+    sum->m1 += more.m1 + more.m0 * (from - a);
+}
+
+vndf_moments vndf_profile_moments(const vndf_profile *profile, double a, double b)
+{
+    const vndf_panel *p = profile->panel;
+    double first = p[0].r, last = p[profile->count].r, from = a > first ? a : first, to = b < last ? b : last;
+    vndf_moments sum = {0.0, 0.0};
+    if (!(to > from))
+        return sum;
+    size_t i = panel_of(profile, from), end = panel_of(profile, to);
+    if (i == end) {
+        add(&sum, a, part(profile, from, to), from);
+        return sum;
+    }
+    add(&sum, a, part(profile, from, p[i + 1].r), from);
+    for (i++; i < end; i++) {
+        vndf_moments whole = {p[i].m0, p[i].m1};
+        add(&sum, a, whole, p[i].r);
+    }
+    add(&sum, a, part(profile, p[end].r, to), p[end].r);
+    return sum;
+}
+
+double vndf_profile_e(const vndf_profile *profile, double rho)
+{
+    const vndf_panel *p = &profile->panel[panel_of(profile, rho)];
+    if (rho >= profile->panel[profile->count].r)
+        return profile->f0;
+    if (rho <= p->r)
+        return 0.0;
+    vndf_moments in = part(profile, p->r, rho);
+    return p->e + p->f1 * (1 / p->r - 1 / rho) + ((rho - p->r) * in.m0 - in.m1) / rho;
+}
+
+double vndf_profile_s(const vndf_profile *profile, double rho)
+{
+    size_t i = panel_of(profile, rho);
+    const vndf_panel *p = &profile->panel[i];
+    if (rho >= profile->panel[profile->count].r)
+        return 0.0;
+    double from = rho > p->r ? rho : p->r;
+    return p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1 + (from > rho ? (p->t0) * (from - rho) : 0.0);
+}
+
+/* Kernels of the two areas by s, and of their derivatives by y (see profile.h), at R > k. */
+typedef struct kernel {
+    double mass, slope;
+} kernel;
+
+static kernel kernel_below(double r, double k)
+{
+    double q = r / k, y = sqrt((q - 1.0) * (q + 1.0)), angle = atan(y);
+    double beyond = y < 0.05 ? y * y * y * (1.0 / 3 - y * y * (1.0 / 5 - y * y * (1.0 / 7 - y * y / 9))) : y - angle;
+    kernel value = {k * beyond, angle + k * y};
+    return value;
+}
+
+static kernel kernel_above(double r, double k)
+{
+    double q = r / k, y = sqrt((q - 1.0) * (q + 1.0)), angle = atan2(1.0, y), rest = 1.0 / (q + y);
+    kernel value = {k * (angle - rest), angle + k * rest};
+    return value;
+}
+
+/* integral over R in [from, to] of a kernel times P R dR, k <= from < to within one panel: R = k + t^2. */
+static kernel near_panel(const vndf_profile *profile, double k, double from, double to, kernel (*at)(double, double))
+{
+    double t0 = sqrt(from - k), dt = sqrt(to - k) - t0;
+    kernel sum = {0.0, 0.0};
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double t = t0 + dt * vndf_gauss_node[i], r = k + t * t;
+        double w = vndf_gauss_weight[i] * 2 * t * dt * r * vndf_profile_p22(profile, r);
+        kernel value = at(r, k);
+        sum.mass += w * value.mass;
+        sum.slope += w * value.slope;
+    }
+    return sum;
+}
+
+static void add_kernel(kernel *sum, kernel more, double weight)
+{
+    sum->mass += weight * more.mass;
+    sum->slope += weight * more.slope;
+}
+
+/* integral from k outwards. Up to 3 k the root of the kernel is felt, and the panels are integrated anew. */
+static kernel beyond(const vndf_profile *profile, double k, kernel (*at)(double, double))
+{
+    size_t i = panel_of(profile, k), count = profile->count;
+    kernel sum = {0.0, 0.0};
+    for (; i < count && profile->panel[i].r < 3 * k; i++) {
+        double from = profile->panel[i].r > k ? profile->panel[i].r : k;
+        if (profile->panel[i + 1].r > from)
+            add_kernel(&sum, near_panel(profile, k, from, profile->panel[i + 1].r, at), 1.0);
+    }
+    for (i *= VNDF_GAUSS; i < count * VNDF_GAUSS; i++)
+        add_kernel(&sum, at(profile->point[i].r, k), profile->point[i].weight);
+    return sum;
+}
+
+vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y)
+{
+    vndf_area_value value = {0.0, 0.0};
+    if (y <= 0.0)
+        return value;
+    if (y >= 1.0) { /* the horizon: integral of cos a over a quarter is 1 */
+        value.mass = profile->f1;
+        value.slope = profile->f1 + profile->f0 * HALF_PI;
+        return value;
+    }
+    kernel sum = beyond(profile, (1.0 - y) / y, kernel_below);
+    value.mass = y * sum.mass;
+    value.slope = sum.slope;
+    return value;
+}
+
+vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
+{
+    vndf_area_value value = {0.0, 0.0};
+    if (y <= 0.0)
+        return value;
+    if (y >= 1.0) {
+        value.mass = profile->f0 * HALF_PI;
+        value.slope = profile->f0 * HALF_PI + profile->f1;
+        return value;
+    }
+    double s = 1.0 - y, k = y / s;
+    const vndf_panel *p = &profile->panel[panel_of(profile, k)];
+    kernel sum = {0.0, 0.0};
+    if (k > p->r && k < profile->panel[profile->count].r) {
+        vndf_moments in = part(profile, p->r, k);
+        double f0 = p->f0 + in.m0, f1 = p->f1 + in.m1 + p->r * in.m0;
+        sum = beyond(profile, k, kernel_above);
+        sum.mass += k * f0 * HALF_PI - f1;
+        sum.slope += f0 * HALF_PI + f1;
+    } else if (k > p->r) {
+        sum.mass = k * profile->f0 * HALF_PI - profile->f1;
+        sum.slope = profile->f0 * HALF_PI + profile->f1;
+    } else
+        sum = beyond(profile, k, kernel_above);
+    value.mass = s * sum.mass;
+    value.slope = sum.slope;
+    return value;
+}

@@ -1,0 +1,187 @@
+/* A cell is judged by the laws that the sampler draws from it: weights Z (all normals), X (grazing), and
+ * the two that vanish at one end (a cut there). Each law's error, half the integral of |drawn - true|,
+ * counts by the largest share of the visible normals that the cell holds from any direction. */
+#include "build/radial_fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "math/rational_cell.h"
+
+enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
+
+static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi keeps a hundred steps in float */
+
+/* ---- knots ---- */
+
+int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
+{
+    double last = 0.0;
+    fit->profile = profile;
+    fit->jump_count = 0;
+    fit->jump = malloc(JUMPS_MAX * sizeof *fit->jump);
+    for (size_t i = 0; fit->jump && i < profile->count && fit->jump_count < JUMPS_MAX; i++) {
+        double r = profile->panel[i].r;
+        double here = vndf_profile_p22(profile, r * (1 - 1e-9)), there = vndf_profile_p22(profile, r * (1 + 1e-9));
+        if (!profile->panel[i].jump || r < last * 1.0001 || fabs(here - there) < 1e-6 * (here + there))
+            continue;
+        fit->jump[fit->jump_count++] = r / (1 + r);
+        last = r;
+    }
+    return fit->jump != NULL;
+}
+
+void vndf_radial_fit_free(vndf_radial_fit *fit)
+{
+    free(fit->jump);
+    fit->jump = NULL;
+}
+
+static int is_jump(const vndf_radial_fit *fit, double v)
+{
+    for (size_t i = 0; i < fit->jump_count; i++)
+        if (fit->jump[i] == v)
+            return 1;
+    return 0;
+}
+
+vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double v)
+{
+    vndf_fit_knot knot = {(float)v, (float)(1 - v), 0.0, is_jump(fit, v)};
+    double r = v / (1 - v);
+    if (knot.jump) { /* the side with more normals keeps its edge inside its own cell */
+        int down = vndf_profile_p22(fit->profile, r * (1 - 1e-9)) > vndf_profile_p22(fit->profile, r * (1 + 1e-9));
+        knot.x = nextafterf(knot.x, down ? 2.0f : 0.0f);
+        knot.z = nextafterf(knot.z, down ? 0.0f : 2.0f);
+    }
+    knot.r = v < 1.0 ? (double)knot.x / (double)knot.z : HUGE_VAL;
+    return knot;
+}
+
+/* ---- cells ---- */
+
+static double width_of(vndf_fit_knot a, vndf_fit_knot b)
+{
+    return (double)b.x * a.z - (double)a.x * b.z;
+}
+
+/* f at xi: P X width/Z^4. */
+static double f_at(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, double xi)
+{
+    double x = a.x + xi * ((double)b.x - a.x), z = a.z + xi * ((double)b.z - a.z);
+    return vndf_profile_p22(fit->profile, x / z) * x * width_of(a, b) / (z * z * z * z);
+}
+
+/* f at an end: seen from inside the cell where P jumps, and at the horizon as the limit. */
+static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, int outer)
+{
+    double inside = 4e-7 * (outer ? b.r : a.r) / (b.r - a.r);
+    if (outer && b.z == 0.0f)
+        return f_at(fit, a, b, 1 - 1e-6);
+    if (!(outer ? b.jump : a.jump))
+        return f_at(fit, a, b, outer ? 1.0 : 0.0);
+    inside = inside < 0.25 ? inside : 0.25;
+    return f_at(fit, a, b, outer ? 1 - inside : inside);
+}
+
+/* The straight line's moments, of which a part is taken when the true ones would make the cubic negative. */
+static void keep_positive(vndf_radial_cell *cell)
+{
+    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3, e0 = cell->mu0 - l0, e1 = cell->mu1 - l1;
+    double first = (36 * e0 - 24 * e1) / 3, second = (36 * e1 - 24 * e0) / 3, line0 = (2 * f0 + f1) / 3, line1 = (f0 + 2 * f1) / 3;
+    double part = 1.0;
+    if (line0 + first < 0)
+        part = line0 / -first;
+    if (line1 + second < 0 && line1 / -second < part)
+        part = line1 / -second;
+    if (part < 1.0) {
+        cell->mu0 = (float)(l0 + 0.999 * part * e0);
+        cell->mu1 = (float)(l1 + 0.999 * part * e1);
+    }
+}
+
+vndf_radial_cell vndf_fit_cell(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b)
+{
+    vndf_radial_cell cell = {0};
+    vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
+    double mu0 = b.z > 0.0f ? (m.m0 - m.m1 / (b.r - a.r)) / a.z : m.m0 / a.z, mu1 = b.z > 0.0f ? m.m1 / (b.r - a.r) / b.z : m.m1;
+    double f1 = f_end(fit, a, b, 1), f0 = a.x > 0.0f ? f_end(fit, a, b, 0) : 0.0, most = 50 * (mu0 + mu1);
+    cell.f0 = (float)(f0 < most ? f0 : most); /* an end far above the mean is a pole of D: the cell stays bounded */
+    cell.f1 = (float)(f1 < most ? f1 : most);
+    cell.mu0 = (float)(mu0 > 1e-36 ? mu0 : 1e-36);
+    cell.mu1 = (float)(mu1 > 1e-36 ? mu1 : 1e-36);
+    cell.width = (float)width_of(a, b);
+    keep_positive(&cell);
+    return cell;
+}
+
+/* ---- errors ---- */
+
+typedef struct law_error {
+    double all, grazing, cut_inside, cut_outside, cubic;
+} law_error;
+
+/* |drawn - true| at xi for the weight w0 (1-xi) + w1 xi. */
+static double miss(const vndf_radial_cell *cell, double w0, double w1, double f, double xi)
+{
+    double mass = w0 * cell->mu0 + w1 * cell->mu1;
+    vndf_rational_cell shape = {(float)(w0 * cell->f0 / mass), (float)(w1 * cell->f1 / mass)};
+    return fabs((double)vndf_rational_density(shape, (float)xi) - f * (w0 * (1 - xi) + w1 * xi) / mass);
+}
+
+static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)
+{
+    double f0 = cell->f0, f1 = cell->f1, e0 = cell->mu0 - f0 / 3 - f1 / 6, e1 = cell->mu1 - f0 / 6 - f1 / 3;
+    double cubic = f0 * (1 - xi) + f1 * xi + xi * (1 - xi) * (36 * e0 - 24 * e1 + 60 * (e1 - e0) * xi);
+    return fabs(cubic - f) / (cell->mu0 + cell->mu1);
+}
+
+/* Half integrals over the cell in `pieces` Gauss rules, and what the rules say the cell lacks. */
+static law_error measure(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, const vndf_radial_cell *cell, int pieces)
+{
+    law_error e = {0, 0, 0, 0, 0};
+    double mass = 0.0, lack;
+    for (int i = 0; i < pieces * VNDF_GAUSS; i++) {
+        double xi = (i / VNDF_GAUSS + vndf_gauss_node[i % VNDF_GAUSS]) / pieces;
+        double w = 0.5 * vndf_gauss_weight[i % VNDF_GAUSS] / pieces, f = f_at(fit, a, b, xi);
+        e.all += w * miss(cell, a.z, b.z, f, xi);
+        e.grazing += w * miss(cell, a.x, b.x, f, xi);
+        e.cut_inside += w * miss(cell, 0, 1, f, xi);
+        e.cut_outside += w * miss(cell, 1, 0, f, xi);
+        e.cubic += w * miss_cubic(cell, f, xi);
+        mass += 2 * w * f;
+    }
+    lack = fabs(mass / ((double)cell->mu0 + cell->mu1) - 1.0);
+    e.all += lack;
+    e.grazing += lack;
+    e.cut_inside += lack;
+    return e;
+}
+
+static size_t panels_between(const vndf_profile *profile, double a, double b)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < profile->count && n < PIECES_MAX; i++)
+        n += profile->panel[i].r > a && profile->panel[i].r < b;
+    return n;
+}
+
+vndf_interval_miss vndf_fit_cell_error(double va, double vb, void *user)
+{
+    const vndf_radial_fit *fit = user;
+    vndf_fit_knot a = vndf_fit_knot_at(fit, va), b = vndf_fit_knot_at(fit, vb);
+    vndf_interval_miss found = {0.0, 0.0};
+    double s0 = fit->profile->f1;
+    if (!(b.r - a.r > WIDTH_LEAST * b.r) && b.z > 0.0f)
+        return found; /* as narrow as a cell can be */
+    vndf_radial_cell cell = vndf_fit_cell(fit, a, b);
+    law_error e = measure(fit, a, b, &cell, 1 + (int)panels_between(fit->profile, a.r, b.r));
+    vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
+    double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
+    double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
+    double seen = s > 1e-12 * s0 ? 1.0 : s > 1e-28 * s0 ? 1e-4 : 1e-6;
+    double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
+    found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
+    found.alone = fmax(e.cut_inside * below * seen, e.cut_outside * outside);
+    return found;
+}

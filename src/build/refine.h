@@ -1,0 +1,32 @@
+/* Knots where the error is: intervals halved one at a time, the worst first, with the error after each
+ * step on record. The order is nested, so one run serves every size of table: its first n points are
+ * the knots of the table with n more knots than at the start. */
+#ifndef VNDF_BUILD_REFINE_H
+#define VNDF_BUILD_REFINE_H
+
+#include <stddef.h>
+
+/* Error of what a table would hold between neighbouring knots a < b. */
+typedef struct vndf_interval_miss {
+    double share; /* adds to that of the other intervals */
+    double alone; /* is met without them */
+} vndf_interval_miss;
+typedef vndf_interval_miss vndf_interval_error(double a, double b, void *user);
+
+typedef struct vndf_refinement {
+    size_t start;      /* knots given at the start, ascending */
+    size_t count;      /* and points added after them, in order of need */
+    double *knot;      /* start + count */
+    double *error;     /* count + 1: sum of the shares plus the largest alone, after n added points */
+} vndf_refinement;
+
+/* Adds points until `limit` or until the error is below `enough`. 0 if there is no memory. */
+int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
+                vndf_interval_error *error, void *user);
+
+/* The first `added` points with the start, ascending, into knots[start + added]. */
+void vndf_refinement_knots(const vndf_refinement *refinement, size_t added, double *knots);
+
+void vndf_refinement_free(vndf_refinement *refinement);
+
+#endif

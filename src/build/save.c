@@ -1,0 +1,72 @@
+/* Saving is atomic: a temporary beside the file, flushed and closed without an error, then renamed over it. */
+#if defined(__unix__) || defined(__APPLE__)
+#  define _POSIX_C_SOURCE 200809L
+#  include <unistd.h>
+#  define VNDF_HAS_POSIX 1
+#endif
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "table/file.h"
+
+/* path + ".<process>.tmp", to be freed; NULL if there is no memory. */
+static char *temporary_name(const char *path)
+{
+    long process = 0;
+#ifdef VNDF_HAS_POSIX
+    process = (long)getpid();
+#endif
+    size_t n = strlen(path) + 32;
+    char *name = malloc(n);
+    if (name)
+        snprintf(name, n, "%s.%ld.tmp", path, process);
+    return name;
+}
+
+/* 0 and errno if anything was not written. */
+static int write_whole(FILE *file, const unsigned char *bytes, size_t size)
+{
+    int good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0;
+#ifdef VNDF_HAS_POSIX
+    good = good && (fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS); /* not every file can be synced */
+#endif
+    int reason = errno, closed = fclose(file) == 0;
+    if (!good)
+        errno = reason;
+    return good && closed;
+}
+
+static vndf_status write_file(const char *path, const unsigned char *bytes, size_t size, vndf_error *error)
+{
+    char *temporary = temporary_name(path);
+    if (!temporary)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+    vndf_status status = VNDF_OK;
+    FILE *file = fopen(temporary, "wb");
+    if (!file)
+        status = vndf_fail(error, VNDF_ERROR_IO, "cannot create %s: %s", temporary, strerror(errno));
+    else if (!write_whole(file, bytes, size) || rename(temporary, path) != 0) {
+        status = vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(errno));
+        remove(temporary);
+    }
+    free(temporary);
+    return status;
+}
+
+vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error)
+{
+    if (!distribution || !path || distribution->kind != VNDF_KIND_TABLE)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a path are needed to save; closed forms have no file");
+    size_t size = vndf_table_encode(distribution, NULL, 0);
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+    vndf_table_encode(distribution, bytes, size);
+    vndf_status status = write_file(path, bytes, size, error);
+    free(bytes);
+    return status;
+}

@@ -1,0 +1,42 @@
+/* The public oracle: a profile without a table. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "build/profile.h"
+#include "core/error.h"
+
+struct vndf_truth {
+    vndf_profile *profile;
+};
+
+vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error)
+{
+    vndf_profile *profile = vndf_profile_from(source, error);
+    vndf_truth *truth = profile ? malloc(sizeof *truth) : NULL;
+    if (truth)
+        truth->profile = profile;
+    else if (profile) {
+        vndf_profile_free(profile);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory");
+    }
+    return truth;
+}
+
+double vndf_truth_p22(const vndf_truth *truth, double r)
+{
+    return truth->profile->normalization * vndf_source_p22(truth->profile->source, r);
+}
+
+double vndf_truth_area(const vndf_truth *truth, double theta)
+{
+    double s = sin(theta) * truth->profile->scale, c = cos(theta), sum = s + fabs(c);
+    return 2 * sum * vndf_profile_area_below(truth->profile, s / sum).mass + (c > 0 ? c : 0);
+}
+
+void vndf_truth_free(vndf_truth *truth)
+{
+    if (!truth)
+        return;
+    vndf_profile_free(truth->profile);
+    free(truth);
+}

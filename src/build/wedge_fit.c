@@ -1,0 +1,189 @@
+#include "build/wedge_fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "math/grading.h"
+
+/* Rows by y; a few hundred at most are asked for often, so a plain hash table will do. */
+enum { BUCKETS = 1024 };
+
+typedef struct entry {
+    vndf_row row;
+    struct entry *next;
+} entry;
+
+struct vndf_row_cache {
+    entry *bucket[BUCKETS];
+};
+
+static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
+
+/* ---- the azimuth density ---- */
+
+typedef struct direction {
+    double s, c, k;
+} direction;
+
+static direction direction_at(const vndf_wedge_fit *fit, double y)
+{
+    double at = y > 1e-9 ? y : 1e-9, up = fit->below ? 1 - at : at, across = fit->below ? at : 1 - at;
+    direction d = {across, up, across > 0 ? up / across : HUGE_VAL};
+    return d;
+}
+
+/* Mass per radian at the azimuth whose cosine is cos_phi, over s (below) or c (above). */
+static double wedge_density(const vndf_wedge_fit *fit, direction d, double cos_phi)
+{
+    double rho = cos_phi > 0 ? d.k / cos_phi : HUGE_VAL;
+    if (fit->below)
+        return cos_phi * vndf_profile_s(fit->profile, rho);
+    return d.k < HUGE_VAL ? vndf_profile_e(fit->profile, rho) : fit->profile->f0;
+}
+
+/* tan of the azimuth with half of the mass on either side, by a sum over a logarithmic grid. */
+static double median_tangent(const vndf_wedge_fit *fit, direction d)
+{
+    enum { STEPS = 96 };
+    double sum[STEPS + 1], from = log(1e-9), step = (log(1e9) - from) / STEPS;
+    sum[0] = 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        double t = exp(from + (i + 0.5) * step), q = 1 + t * t;
+        sum[i + 1] = sum[i] + wedge_density(fit, d, 1 / sqrt(q)) * t / q;
+    }
+    for (int i = 0; i < STEPS; i++)
+        if (sum[i + 1] >= sum[STEPS] / 2 && sum[STEPS] > 0)
+            return exp(from + (i + (sum[STEPS] / 2 - sum[i]) / (sum[i + 1] - sum[i])) * step);
+    return 1.0;
+}
+
+/* Mass per unit of q for the aspect (p, r); azimuth.h has the formulas. */
+static double density_in_q(const vndf_wedge_fit *fit, direction d, double p, double r, double q)
+{
+    double c = p * (1 - q * q), s = r * 2 * q, n2 = c * c + s * s;
+    return wedge_density(fit, d, c / sqrt(n2)) * 2 * p * r * (1 + q * q) / n2;
+}
+
+/* Mass of each cell and density at each node, scaled to total 1. */
+static void fill_row(const vndf_wedge_fit *fit, vndf_row *row)
+{
+    direction d = direction_at(fit, row->y);
+    double mass[VNDF_WEDGE_CELLS_MAX], total = 0.0;
+    for (uint32_t j = 0; j < fit->cells; j++) {
+        double from = vndf_graded_node(j, fit->cells), width = vndf_graded_node(j + 1, fit->cells) - from;
+        mass[j] = 0.0;
+        for (int i = 0; i < VNDF_GAUSS; i++)
+            mass[j] += vndf_gauss_weight[i] * width * density_in_q(fit, d, row->p, row->r, from + vndf_gauss_node[i] * width);
+        total += mass[j];
+    }
+    for (uint32_t j = 0; j <= fit->cells; j++) {
+        double density = density_in_q(fit, d, row->p, row->r, vndf_graded_node(j, fit->cells));
+        row->node[j].cdf = 0.0f;
+        row->node[j].mass = j < fit->cells ? (float)((1 - UNIFORM) * mass[j] / total + UNIFORM / fit->cells) : 0.0f;
+        row->node[j].density = (float)((1 - UNIFORM) * density / total + UNIFORM);
+    }
+}
+
+/* ---- rows ---- */
+
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t cells)
+{
+    vndf_wedge_fit made = {profile, below, cells, calloc(1, sizeof *fit->cache)};
+    *fit = made;
+    return fit->cache != NULL;
+}
+
+void vndf_wedge_fit_free(vndf_wedge_fit *fit)
+{
+    for (int i = 0; fit->cache && i < BUCKETS; i++)
+        for (entry *e = fit->cache->bucket[i], *next; e; e = next) {
+            next = e->next;
+            free(e);
+        }
+    free(fit->cache);
+    fit->cache = NULL;
+}
+
+static unsigned hash(double y)
+{
+    return (unsigned)fmod(y * 1048573.0, BUCKETS);
+}
+
+const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
+{
+    entry **bucket = &fit->cache->bucket[hash(y)];
+    for (entry *e = *bucket; e; e = e->next)
+        if (e->row.y == y)
+            return &e->row;
+    entry *e = calloc(1, sizeof *e);
+    if (!e)
+        return NULL;
+    double t = median_tangent(fit, direction_at(fit, y)), n = sqrt(1 + t * t);
+    e->row.y = y;
+    e->row.p = (float)(1 / n);
+    e->row.r = (float)(t / n);
+    fill_row(fit, &e->row);
+    e->next = *bucket;
+    *bucket = e;
+    return &e->row;
+}
+
+/* ---- errors ---- */
+
+/* Share of what is seen at y that lies in the wedge: all of it below, where it counts while the area is measurable. */
+static double share(const vndf_wedge_fit *fit, double y)
+{
+    double mass = vndf_wedge_fit_area(fit, y).mass;
+    if (!fit->below)
+        return mass / (mass + y * fit->profile->f0 * 1.57079632679489661923 + (1 - y) * fit->profile->f1);
+    return mass > 1e-12 * fit->profile->f1 ? 1.0 : mass > 1e-28 * fit->profile->f1 ? 1e-3 : 1e-6;
+}
+
+/* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
+ * by the densities at their ends for what masses do not see. What the cells themselves cannot show is not counted, more rows do not mend it. */
+static double row_miss(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, double mix)
+{
+    vndf_row truth;
+    double by_mass = 0.0, by_density = 0.0;
+    truth.y = a->y + mix * (b->y - a->y);
+    truth.p = a->p + mix * (b->p - a->p);
+    truth.r = a->r + mix * (b->r - a->r);
+    fill_row(fit, &truth);
+    for (uint32_t j = 0; j <= fit->cells; j++) {
+        double width = (double)vndf_graded_node(j < fit->cells ? j + 1 : j, fit->cells) - vndf_graded_node(j ? j - 1 : 0, fit->cells);
+        by_mass += fabs((1 - mix) * a->node[j].mass + mix * b->node[j].mass - truth.node[j].mass);
+        by_density += width / 2 * fabs((1 - mix) * a->node[j].density + mix * b->node[j].density - truth.node[j].density);
+    }
+    return fmax(by_mass, by_density) / 2;
+}
+
+vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
+{
+    vndf_wedge_fit *fit = user;
+    const vndf_row *first = vndf_wedge_fit_row(fit, a), *second = vndf_wedge_fit_row(fit, b);
+    vndf_interval_miss found = {0.0, 0.0};
+    if (first && second && b - a > 1e-6)
+        found.alone = row_miss(fit, first, second, 0.5) * share(fit, (a + b) / 2);
+    return found;
+}
+
+vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y)
+{
+    return fit->below ? vndf_profile_area_below(fit->profile, y) : vndf_profile_area_above(fit->profile, y);
+}
+
+vndf_interval_miss vndf_wedge_area_error(double a, double b, void *user)
+{
+    const vndf_wedge_fit *fit = user;
+    vndf_area_value va = vndf_wedge_fit_area(fit, a), vb = vndf_wedge_fit_area(fit, b);
+    double h = b - a, worst = 0.0;
+    for (int i = 1; i <= 3; i++) {
+        double t = i / 4.0, u = 1 - t, y = a + t * h, truth = vndf_wedge_fit_area(fit, y).mass;
+        double b1 = va.mass + h * va.slope / 3, b2 = vb.mass - h * vb.slope / 3;
+        double spline = u * u * (u * va.mass + 3 * t * b1) + t * t * (3 * u * (b2 > 0 ? b2 : 0) + t * vb.mass);
+        double error = fabs(spline - truth) / (fit->below ? truth + 1e-34 : truth / share(fit, y));
+        worst = fmax(worst, error * (fit->below ? share(fit, y) : 1.0));
+    }
+    vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
+    return found;
+}

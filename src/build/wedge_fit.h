@@ -1,0 +1,42 @@
+/* Azimuth rows and area knots of one side of the horizon, for a profile. The coordinate y in [0, 1] is
+ * that of vndf_wedge. */
+#ifndef VNDF_BUILD_WEDGE_FIT_H
+#define VNDF_BUILD_WEDGE_FIT_H
+
+#include "build/profile.h"
+#include "build/refine.h"
+#include "table/table.h"
+
+typedef struct vndf_row_cache vndf_row_cache;
+
+typedef struct vndf_wedge_fit {
+    const vndf_profile *profile;
+    int below;                /* the side */
+    uint32_t cells;           /* of a row */
+    vndf_row_cache *cache;    /* rows made so far */
+} vndf_wedge_fit;
+
+/* One row: aspect, and mass and density of its cells, total mass 1. */
+typedef struct vndf_row {
+    double y, p, r;
+    vndf_azimuth_node node[VNDF_WEDGE_CELLS_MAX + 1];
+} vndf_row;
+
+/* 0 if there is no memory. */
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t cells);
+void vndf_wedge_fit_free(vndf_wedge_fit *fit);
+
+/* The row at y; NULL if there is no memory. Belongs to the fit. */
+const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y);
+
+/* Total variation of azimuth halfway between the rows at a and b, times the wedge's share of what is seen
+ * there: a vndf_interval_error with a vndf_wedge_fit. */
+vndf_interval_miss vndf_wedge_row_error(double a, double b, void *fit);
+
+/* Mass of the wedge per (s + |c|), and its slope. */
+vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y);
+
+/* Relative error of the area, or its share of it above, between knots at a and b: a vndf_interval_error. */
+vndf_interval_miss vndf_wedge_area_error(double a, double b, void *fit);
+
+#endif

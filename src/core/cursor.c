@@ -1,0 +1,77 @@
+#include "core/cursor.h"
+
+#include <string.h>
+
+const unsigned char *vndf_read_bytes(vndf_reader *reader, size_t n)
+{
+    if (reader->failed || n > reader->size - reader->at) {
+        reader->failed = 1;
+        return NULL;
+    }
+    reader->at += n;
+    return reader->bytes + (reader->at - n);
+}
+
+static uint64_t read_integer(vndf_reader *reader, unsigned n)
+{
+    const unsigned char *bytes = vndf_read_bytes(reader, n);
+    uint64_t value = 0;
+    for (unsigned i = 0; bytes && i < n; i++)
+        value |= (uint64_t)bytes[i] << (8 * i);
+    return value;
+}
+
+uint32_t vndf_read_u32(vndf_reader *reader)
+{
+    return (uint32_t)read_integer(reader, 4);
+}
+
+float vndf_read_f32(vndf_reader *reader)
+{
+    uint32_t bits = (uint32_t)read_integer(reader, 4);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+double vndf_read_f64(vndf_reader *reader)
+{
+    uint64_t bits = read_integer(reader, 8);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n)
+{
+    if (n > 0 && writer->at <= writer->capacity && n <= writer->capacity - writer->at)
+        memcpy(writer->bytes + writer->at, bytes, n);
+    writer->at += n;
+}
+
+static void write_integer(vndf_writer *writer, uint64_t value, unsigned n)
+{
+    unsigned char bytes[8];
+    for (unsigned i = 0; i < n; i++)
+        bytes[i] = (unsigned char)(value >> (8 * i));
+    vndf_write_bytes(writer, bytes, n);
+}
+
+void vndf_write_u32(vndf_writer *writer, uint32_t value)
+{
+    write_integer(writer, value, 4);
+}
+
+void vndf_write_f32(vndf_writer *writer, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    write_integer(writer, bits, 4);
+}
+
+void vndf_write_f64(vndf_writer *writer, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    write_integer(writer, bits, 8);
+}

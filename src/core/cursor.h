@@ -1,0 +1,31 @@
+/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`, writes past
+ * the end only count, so that a first pass with capacity 0 measures what a second pass writes. */
+#ifndef VNDF_CORE_CURSOR_H
+#define VNDF_CORE_CURSOR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct vndf_reader {
+    const unsigned char *bytes;
+    size_t size, at;
+    int failed;
+} vndf_reader;
+
+typedef struct vndf_writer {
+    unsigned char *bytes;
+    size_t capacity, at;
+} vndf_writer;
+
+/* The next n bytes, or NULL (and failed) if there are not as many. */
+const unsigned char *vndf_read_bytes(vndf_reader *reader, size_t n);
+uint32_t vndf_read_u32(vndf_reader *reader);
+float vndf_read_f32(vndf_reader *reader);
+double vndf_read_f64(vndf_reader *reader);
+
+void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n);
+void vndf_write_u32(vndf_writer *writer, uint32_t value);
+void vndf_write_f32(vndf_writer *writer, float value);
+void vndf_write_f64(vndf_writer *writer, double value);
+
+#endif

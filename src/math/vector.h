@@ -1,0 +1,49 @@
+/* Vectors, and the few scalar operations that every room of the run time needs. All inline, all exact in
+ * the sense of the promise: + - * / sqrt and comparisons only. */
+#ifndef VNDF_MATH_VECTOR_H
+#define VNDF_MATH_VECTOR_H
+
+#include <math.h>
+
+#include "vndf.h"
+
+static inline float vndf_dot(vndf_vec3 a, vndf_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
+{
+    vndf_vec3 r = {v.x * factor, v.y * factor, v.z * factor};
+    return r;
+}
+
+static inline float vndf_max_abs(vndf_vec3 v)
+{
+    float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z);
+    float m = x > y ? x : y;
+    return m > z ? m : z;
+}
+
+/* v / |v| for a finite v that is not zero; scaled first, so that no square overflows or vanishes. */
+static inline vndf_vec3 vndf_normalize(vndf_vec3 v)
+{
+    vndf_vec3 r = vndf_scale(v, 1.0f / vndf_max_abs(v));
+    return vndf_scale(r, 1.0f / sqrtf(vndf_dot(r, r)));
+}
+
+/* sqrt(x^2 + y^2) without overflow or loss for any finite x, y. */
+static inline float vndf_length2(float x, float y)
+{
+    float ax = fabsf(x), ay = fabsf(y);
+    float big = ax > ay ? ax : ay, ratio = (ax > ay ? ay : ax) / big;
+    return big > 0.0f ? big * sqrtf(1.0f + ratio * ratio) : 0.0f;
+}
+
+/* u in [0, 1]; NaN becomes 0. */
+static inline float vndf_clamp_unit(float u)
+{
+    return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
+}
+
+#endif

@@ -1,0 +1,11 @@
+/* Gauss-Legendre rules on [0, 1]: integral_0^1 f ~ sum weight_i f(node_i), exact for polynomials of degree
+ * 2n - 1. */
+#ifndef VNDF_QUADRATURE_GAUSS_H
+#define VNDF_QUADRATURE_GAUSS_H
+
+enum { VNDF_GAUSS = 10, VNDF_GAUSS_COARSE = 4 };
+
+extern const double vndf_gauss_node[VNDF_GAUSS], vndf_gauss_weight[VNDF_GAUSS];
+extern const double vndf_gauss_coarse_node[VNDF_GAUSS_COARSE], vndf_gauss_coarse_weight[VNDF_GAUSS_COARSE];
+
+#endif

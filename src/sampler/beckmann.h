@@ -1,0 +1,32 @@
+/* Beckmann in the unit problem: roughness 1, incident direction (s, 0, c), s >= 0; see sampler/ggx.h for what
+ * that is and what s and c must carry. Uniform numbers lie in [0, 1]. */
+#ifndef VNDF_SAMPLER_BECKMANN_H
+#define VNDF_SAMPLER_BECKMANN_H
+
+#include "vndf.h"
+
+/* A1 = c (1 + erf(c/s))/2 + s exp(-(c/s)^2)/(2 sqrt(pi)), relative error below 2e-7 on the whole sphere as
+ * long as the result is a normal float; it underflows to 0 beyond c/s = -9 (174 degrees). */
+float vndf_beckmann_area(float s, float c);
+
+/* P22 = exp(-r2)/pi at squared slope length r2 in [0, inf]. */
+float vndf_beckmann_p22(float r2);
+
+/* D = exp(-tan^2)/(pi cos^4) at roughness 1; 0 at the horizon and for n.z < 0. */
+float vndf_beckmann_ndf(vndf_vec3 n);
+
+/* A visible normal: unit, z >= 0, s x + c z >= 0. Slopes are (-x/z, -y/z): u1 moves the first from -infinity
+ * (normals leaning towards the incident direction) up to c/s, u2 moves the second, on its own, from -infinity
+ * to infinity. Both are monotone, continuous inversions. The error in u1 is below 1e-7, absolute and
+ * relative, for every direction, 180 degrees included; rounding the normal to float comes on top and is worth up to
+ * some 1e-7 (1 + (c/s)^2) below the horizon, where all visible slopes crowd at c/s. Numbers below 2^-64
+ * count as 2^-64, and 1 as 1 - 2^-26, which bounds slopes that nothing else would. */
+vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2);
+
+/* The inversion alone: d = c/s - x for the slope x that u1 stands for, before anything is rounded to float. */
+double vndf_beckmann_slope_distance(float s, float c, float u1);
+
+/* The uniform numbers that vndf_beckmann_sample turns into wm. */
+void vndf_beckmann_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2);
+
+#endif

@@ -1,0 +1,27 @@
+/* The two closed forms as distributions, and what any distribution says of itself. */
+#include "table/table.h"
+
+static const vndf_distribution ggx = {
+    .kind = VNDF_KIND_GGX, .scale = 1.0f, .normalization = 1.0, .scale_exact = 1.0,
+    .source = "--family ggx", .tool = "vndf " VNDF_VERSION};
+
+static const vndf_distribution beckmann = {
+    .kind = VNDF_KIND_BECKMANN, .scale = 1.0f, .normalization = 1.0, .scale_exact = 0.83255461115769776,
+    .source = "--family beckmann", .tool = "vndf " VNDF_VERSION};
+
+const vndf_distribution *vndf_ggx(void)
+{
+    return &ggx;
+}
+
+const vndf_distribution *vndf_beckmann(void)
+{
+    return &beckmann;
+}
+
+vndf_info vndf_distribution_info(const vndf_distribution *d)
+{
+    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, (size_t)d->above.row_count + d->below.row_count,
+                      d->wedge_cells, d->normalization, d->scale_exact, d->certificate};
+    return info;
+}

@@ -1,0 +1,54 @@
+/* The engine: azimuth first, radius second.
+ *
+ * After stretching and turning about z the incident direction is (s, 0, c), s >= 0, c of either sign, and
+ * normals are (X cos a, X sin a, Z) with slope length R = X/Z. The visible density is
+ *
+ *     P22(R) R (c + s cos(a) R) dR da        where c + s cos(a) R > 0.                               (1)
+ *
+ * For a given azimuth a the law of R depends on the direction through two numbers only, c and k = s cos a:
+ * mass up to R is  c F0(R) + k F1(R),  F_n(R) = integral_0^R P22 r^(n+1) dr. So two 1D tables of D give
+ * the law of R exactly for every direction of the sphere, whatever D is: rings, jumps, peaks and tails cost
+ * cells where they are and nothing else. The cut at rho = -c/k falls into one cell, which is shortened.
+ *
+ * The density of the azimuth is the total of that law,
+ *     a front half (c >= 0, cos a >= 0):   c F0(inf) + s cos(a) F1(inf)                               (2)
+ *     the wedge above (c > 0, cos a < 0):  c (F0(rho) - F1(rho)/rho),   rho = c/(s |cos a|)           (3)
+ *     the wedge below (c < 0, cos a > 0):  k (T1(rho) - rho T0(rho)),   T_n = F_n(inf) - F_n          (4)
+ * (2) is Kepler's equation with two numbers of D. (3) and (4) are integrals of D over a half plane's strip,
+ * twice smoother than D: here, and only here, a 2D table stands (vndf_wedge): rows over the angle of
+ * incidence of mass and density on cells of a half-angle tangent q, mixed linearly between two rows.
+ *
+ * Both stages draw from piecewise densities that are *defined* by the numbers of the table (cells of
+ * math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
+ * density is known whatever the size of the table, only its distance to (1) shrinks with it.
+ *
+ * Why this and not the other orders (measured, see the closing notes in the history): slope x first, then y
+ * given x needs a 2D table of D itself, in which rings and jumps never converge well; radius first needs a
+ * kernel of two variables (angle and radius) approximated by sums of powers, which stops at 1e-4 above the
+ * horizon and has no relative precision below it. */
+#ifndef VNDF_SAMPLER_ENGINE_H
+#define VNDF_SAMPLER_ENGINE_H
+
+#include "vndf.h"
+
+/* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
+float vndf_unit_area(const vndf_distribution *d, float s, float c);
+
+/* Table kinds only. Normal of the unit problem, in the turned frame and not of unit length:
+ * (X cos a, X sin a, Z) with X + Z = 1. */
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2);
+
+/* The density of the unit problem at such a normal, times the sine-free measure of vndf_pdf: per
+ * radian and per (xi/(width X)), see engine.c. 0 where nothing is drawn. */
+float vndf_engine_density(const vndf_view *view, vndf_vec3 normal);
+
+/* The uniform numbers of such a normal. */
+void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
+
+/* Fills the members of a view that belong to the table engine: front, wedge, mix, aspect, row. */
+void vndf_engine_view(vndf_view *view);
+
+/* D(normal)/(Z^4) ... P22 at (X, Z), X + Z = 1, divided by Z^4. */
+float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z);
+
+#endif

@@ -1,0 +1,88 @@
+/* GGX by spherical caps (Dupuy & Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023), in
+ * half angles.
+ *
+ * At roughness 1 D is the constant 1/pi, and a visible normal bisects w = (s, 0, c) and a direction that is
+ * uniform on the cap z >= -c: with v = 1 - u2 the cap direction has height z = v (1 + c) - c, azimuth phi,
+ * and wm is parallel to w + cap. As published this is a difference of nearly equal numbers wherever cap comes
+ * close to -w: 0/0 at normal incidence with u2 = 1 and, at grazing and below, noise instead of a normal.
+ * With C = cos(theta/2), S = sin(theta/2), that is s = 2 S C, 1 + c = 2 C^2, 1 - c = 2 S^2, the sum is
+ *
+ *     (w + cap)/(2 C) = (S + T cos(phi), T sin(phi), v C),    T^2 = u2 (1 - u2 C^2) = u2 (S^2 + v C^2)
+ *
+ * where the factor 2 C, which vanishes at 180 degrees, is gone. With phi = 2 pi u1 - pi
+ *
+ *     S + T cos(phi) = (S - T) + 2 T sin^2(pi u1),    S - T = v (S^2 - u2 C^2)/(S + T)
+ *
+ * so nothing cancels except where another component dominates. The length of the sum is (w . wm)/C. */
+#include "sampler/ggx.h"
+
+#include <math.h>
+
+#include "math/half_turn.h"
+#include "math/vector.h"
+#include "sampler/facing.h"
+
+static const float inverse_pi = 0.318309886f;
+
+/* At v = 0 and phi = -pi the sum is (0, 0, 0): a corner of the unit square where the normal turns by a finite
+ * angle. A v that is never quite 0 (far below 2^-24, the least that a float u2 < 1 gives) picks the limit. */
+static const float least_v = 1e-15f;
+
+typedef struct half_angle {
+    float sine, cosine;
+} half_angle;
+
+/* sin and cos of theta/2 times sqrt(2): the larger by the sum, the smaller by s, so that both keep their digits. */
+static half_angle half_angle_of(float s, float c)
+{
+    float root = sqrtf(1.0f + fabsf(c)), other = s / root;
+    half_angle h = {c < 0.0f ? root : other, c < 0.0f ? other : root};
+    return h;
+}
+
+float vndf_ggx_area(float s, float c)
+{
+    return c < 0.0f ? 0.5f * s * (s / (1.0f - c)) : 0.5f * (1.0f + c);
+}
+
+float vndf_ggx_p22(float r2)
+{
+    float q = 1.0f / (1.0f + r2);
+    return inverse_pi * q * q;
+}
+
+float vndf_ggx_ndf(vndf_vec3 n)
+{
+    return n.z >= 0.0f ? inverse_pi : 0.0f;
+}
+
+/* The factor sqrt(2) in S and C is in T and the sum too, and leaves with the normalisation. */
+vndf_vec3 vndf_ggx_sample(float s, float c, float u1, float u2)
+{
+    half_angle h = half_angle_of(s, c);
+    vndf_turn turn = vndf_half_turn(u1);
+    float v = u2 < 1.0f ? 1.0f - u2 : least_v;
+    float s2 = h.sine * h.sine, c2 = h.cosine * h.cosine;
+    float t = sqrtf(u2 * (s2 + v * c2));
+    float twice = 2.0f * t * turn.sine;
+    /* The small term keeps normal incidence with u2 = 0 from being 0/0; the numerator is 0 there. */
+    float x = v * (s2 - u2 * c2) / (h.sine + t + 1e-30f) + twice * turn.sine;
+    float y = -twice * turn.cosine, z = v * h.cosine;
+    float inverse = 1.0f / sqrtf(x * x + y * y + z * z);
+    vndf_vec3 n = {x * inverse, y * inverse, z * inverse};
+    return vndf_face(s, c, n);
+}
+
+/* The length of the sum, sqrt(2) included, is mu = 2 (w . wm)/C; then T and phi are polar coordinates of
+ * mu (wm.x, wm.y) about (S, 0), and u2 = T^2/(S^2 + v C^2) with v C = mu wm.z. */
+void vndf_ggx_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2)
+{
+    half_angle h = half_angle_of(s, c);
+    float below = h.cosine > 0.0f ? c / h.cosine * wm.z : 0.0f;
+    float mu = 2.0f * (h.sine * wm.x + below);
+    float x = mu * wm.x - h.sine, y = mu * wm.y;
+    float whole = h.sine * h.sine + mu * wm.z * h.cosine;
+    /* whole = 0: normal incidence and a normal on the horizon, where u2 tends to 1. */
+    *u2 = whole > 0.0f ? vndf_clamp_unit((x * x + y * y) / whole) : 1.0f;
+    *u1 = vndf_clamp_unit(0.5f + 0.5f * inverse_pi * atan2f(y, x));
+}

@@ -1,0 +1,276 @@
+#include "table/file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/checksum.h"
+#include "core/cursor.h"
+#include "core/error.h"
+#include "table/layout.h"
+#include "table/validate.h"
+
+static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
+enum { VERSION = 1, TEXT_MAX = 16384, FILE_MAX = 1 << 26 };
+
+/* ---- writing ---- */
+
+static void write_array(vndf_writer *w, const float *values, size_t count, size_t stride)
+{
+    for (size_t i = 0; i < count; i++)
+        vndf_write_f32(w, values[i * stride]);
+}
+
+static void write_text(vndf_writer *w, const char *text)
+{
+    size_t n = strlen(text);
+    vndf_write_u32(w, (uint32_t)n);
+    vndf_write_bytes(w, text, n);
+}
+
+static void write_radial(vndf_writer *w, const vndf_distribution *table)
+{
+    size_t n = table->radial_count, knot = sizeof *table->pole / sizeof(float), cell = sizeof *table->cells / sizeof(float);
+    write_array(w, &table->pole->x, n + 1, knot);
+    write_array(w, &table->pole->z, n + 1, knot);
+    write_array(w, &table->cells->f0, n, cell);
+    write_array(w, &table->cells->f1, n, cell);
+    write_array(w, &table->cells->mu0, n, cell);
+    write_array(w, &table->cells->mu1, n, cell);
+}
+
+static void write_wedge(vndf_writer *w, const vndf_wedge *wedge, uint32_t cells)
+{
+    size_t node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    write_array(w, wedge->row_y, rows, 1);
+    write_array(w, wedge->aspect_p, rows, 1);
+    write_array(w, wedge->aspect_r, rows, 1);
+    for (size_t i = 0; i < rows; i++)
+        write_array(w, &wedge->nodes[i * (cells + 1)].mass, cells, node);
+    write_array(w, &wedge->nodes->density, rows * (cells + 1), node);
+    write_array(w, wedge->knot_y, knots, 1);
+    write_array(w, wedge->mass, knots, 1);
+    write_array(w, wedge->slope, knots, 1);
+}
+
+static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
+{
+    const vndf_certificate *c = &table->certificate;
+    vndf_write_bytes(w, MAGIC, sizeof MAGIC);
+    vndf_write_u32(w, VERSION);
+    vndf_write_u32(w, size);
+    vndf_write_f64(w, table->normalization);
+    vndf_write_f64(w, table->scale_exact);
+    vndf_write_u32(w, table->radial_count);
+    vndf_write_u32(w, table->wedge_cells);
+    vndf_write_u32(w, table->above.row_count);
+    vndf_write_u32(w, table->above.knot_count);
+    vndf_write_u32(w, table->below.row_count);
+    vndf_write_u32(w, table->below.knot_count);
+    write_array(w, &c->tv, sizeof *c / sizeof(float), 1);
+    write_text(w, table->source);
+    write_text(w, table->tool);
+}
+
+static size_t write_all(const vndf_distribution *table, unsigned char *bytes, size_t capacity, uint32_t size)
+{
+    vndf_writer w = {bytes, capacity, 0};
+    write_head(&w, table, size);
+    write_radial(&w, table);
+    write_wedge(&w, &table->above, table->wedge_cells);
+    write_wedge(&w, &table->below, table->wedge_cells);
+    vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
+    return w.at;
+}
+
+size_t vndf_table_encode(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
+{
+    size_t size = write_all(table, NULL, 0, 0);
+    return size > capacity ? size : write_all(table, bytes, capacity, (uint32_t)size);
+}
+
+/* ---- reading ---- */
+
+static void read_array(vndf_reader *r, float *values, size_t count, size_t stride)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i * stride] = vndf_read_f32(r);
+}
+
+/* A copy of the next length-prefixed text, terminated; NULL if it is too long or there is no memory. */
+static char *read_text(vndf_reader *r)
+{
+    uint32_t n = vndf_read_u32(r);
+    const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
+    char *text = bytes && !memchr(bytes, 0, n) ? malloc((size_t)n + 1) : NULL;
+    if (!text)
+        return NULL;
+    memcpy(text, bytes, n);
+    text[n] = '\0';
+    return text;
+}
+
+static void read_radial(vndf_reader *r, vndf_distribution *table)
+{
+    size_t n = table->radial_count, knot = sizeof *table->pole / sizeof(float), cell = sizeof *table->cells / sizeof(float);
+    read_array(r, &table->pole->x, n + 1, knot);
+    read_array(r, &table->pole->z, n + 1, knot);
+    read_array(r, &table->cells->f0, n, cell);
+    read_array(r, &table->cells->f1, n, cell);
+    read_array(r, &table->cells->mu0, n, cell);
+    read_array(r, &table->cells->mu1, n, cell);
+}
+
+static void read_wedge(vndf_reader *r, vndf_wedge *wedge, uint32_t cells)
+{
+    size_t node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    read_array(r, wedge->row_y, rows, 1);
+    read_array(r, wedge->aspect_p, rows, 1);
+    read_array(r, wedge->aspect_r, rows, 1);
+    for (size_t i = 0; i < rows; i++)
+        read_array(r, &wedge->nodes[i * (cells + 1)].mass, cells, node);
+    read_array(r, &wedge->nodes->density, rows * (cells + 1), node);
+    read_array(r, wedge->knot_y, knots, 1);
+    read_array(r, wedge->mass, knots, 1);
+    read_array(r, wedge->slope, knots, 1);
+}
+
+static vndf_table_size read_counts(vndf_reader *r)
+{
+    vndf_table_size size;
+    size.radial = vndf_read_u32(r);
+    size.wedge_cells = vndf_read_u32(r);
+    size.above_rows = vndf_read_u32(r);
+    size.above_knots = vndf_read_u32(r);
+    size.below_rows = vndf_read_u32(r);
+    size.below_knots = vndf_read_u32(r);
+    return size;
+}
+
+static int within(uint32_t value, uint32_t least, uint32_t most)
+{
+    return value >= least && value <= most;
+}
+
+static int counts_valid(vndf_table_size s)
+{
+    return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.wedge_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
+           within(s.above_rows, 2, VNDF_WEDGE_ROWS_MAX) && within(s.below_rows, 2, VNDF_WEDGE_ROWS_MAX) &&
+           within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
+}
+
+/* Everything after the counts; 0 if bytes or memory end early. */
+static int read_body(vndf_reader *r, vndf_distribution *table)
+{
+    vndf_certificate *c = &table->certificate;
+    read_array(r, &c->tv, sizeof *c / sizeof(float), 1);
+    table->source = read_text(r);
+    table->tool = read_text(r);
+    if (!table->source || !table->tool)
+        return 0;
+    read_radial(r, table);
+    read_wedge(r, &table->above, table->wedge_cells);
+    read_wedge(r, &table->below, table->wedge_cells);
+    return !r->failed && r->at + 4 == r->size;
+}
+
+static vndf_status check_frame(const unsigned char *bytes, size_t size, vndf_error *error)
+{
+    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
+    if (size < 64 || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf table: it must begin with \"VNDFtab\"");
+    uint32_t version = vndf_read_u32(&r), stated = vndf_read_u32(&r);
+    if (version != VERSION)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
+                         (unsigned)version, VERSION);
+    if (stated != size)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, but %lu are here",
+                         (unsigned)stated, (unsigned long)size);
+    vndf_reader last = {bytes, size, size - 4, 0};
+    if (vndf_read_u32(&last) != vndf_crc32(0, bytes, size - 4))
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the checksum does not match: the table is damaged");
+    return VNDF_OK;
+}
+
+vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
+{
+    if (!bytes) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
+        return NULL;
+    }
+    if (check_frame(bytes, size, error) != VNDF_OK)
+        return NULL;
+    vndf_reader r = {bytes, size, 16, 0};
+    double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
+    vndf_table_size counts = read_counts(&r);
+    if (!counts_valid(counts)) {
+        vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
+        return NULL;
+    }
+    vndf_distribution *table = vndf_table_allocate(counts);
+    if (!table) {
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
+        return NULL;
+    }
+    table->normalization = normalization;
+    table->scale_exact = scale;
+    table->scale = (float)scale;
+    table->bytes = size;
+    const char *why = read_body(&r, table) ? vndf_table_invalid(table) : "its parts do not fill the file";
+    if (!why && vndf_table_derive(table) && !(why = vndf_table_invalid_derived(table)))
+        return table;
+    if (why)
+        vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why);
+    else
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
+    vndf_free(table);
+    return NULL;
+}
+
+/* The whole file in memory; NULL and an error otherwise. */
+static unsigned char *read_file(const char *path, size_t *size, vndf_error *error)
+{
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    if (!file) {
+        vndf_fail(error, path ? VNDF_ERROR_IO : VNDF_ERROR_ARGUMENT, "cannot open %s: %s", path ? path : "(NULL)",
+                  path ? strerror(errno) : "no path");
+        return NULL;
+    }
+    unsigned char *bytes = NULL;
+    size_t capacity = 0, n = 0, got;
+    do {
+        capacity = capacity ? 2 * capacity : 1 << 15;
+        unsigned char *more = capacity <= FILE_MAX ? realloc(bytes, capacity) : NULL;
+        if (!more) {
+            vndf_fail(error, VNDF_ERROR_MEMORY, "%s: too large to be a table", path);
+            free(bytes);
+            fclose(file);
+            return NULL;
+        }
+        bytes = more;
+        n += got = fread(bytes + n, 1, capacity - n, file);
+    } while (n == capacity);
+    if (ferror(file)) {
+        vndf_fail(error, VNDF_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
+        free(bytes);
+        bytes = NULL;
+    }
+    fclose(file);
+    *size = n;
+    return bytes;
+}
+
+vndf_distribution *vndf_load(const char *path, vndf_error *error)
+{
+    size_t size = 0;
+    unsigned char *bytes = read_file(path, &size, error);
+    if (!bytes)
+        return NULL;
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_distribution *table = vndf_load_memory(bytes, size, &inner);
+    if (!table)
+        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
+    free(bytes);
+    return table;
+}

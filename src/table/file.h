@@ -1,0 +1,24 @@
+/* The table on disk, version 1. All little-endian; strings without terminator; floats are IEEE single.
+ *
+ *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
+ *     f64 normalization           f64 scale
+ *     u32 radial cells, wedge cells, above: rows, knots, below: rows, knots
+ *     7 f32 certificate (order of vndf_certificate)
+ *     u32 n, n bytes source       u32 n, n bytes tool
+ *     radial  f32 x[n+1], z[n+1], f0[n], f1[n], mu0[n], mu1[n]
+ *     wedge above, then below: f32 row_y[], aspect_p[], aspect_r[], mass[rows][cells],
+ *             density[rows][cells+1], knot_y[], mass[], slope[]
+ *     u32 CRC-32 of all bytes before it
+ *
+ * A reader checks the size, the checksum, every count against its limit, and every array against what the
+ * sampler relies on: ascending knots that begin and end where they must, positive masses, a cubic that
+ * stays positive. */
+#ifndef VNDF_TABLE_FILE_H
+#define VNDF_TABLE_FILE_H
+
+#include "table/table.h"
+
+/* Writes the table into bytes[0..capacity); returns the size that the whole takes, whether it fitted. */
+size_t vndf_table_encode(const vndf_distribution *table, unsigned char *bytes, size_t capacity);
+
+#endif

@@ -1,0 +1,33 @@
+/* Guide tables: the cell of a value among ascending knots in a step or two, for knots at any spread of
+ * scales. The bits of a positive float are a logarithm of it, so equal steps of the bits are about equal
+ * steps of ratio; each entry holds the last knot at or below its bucket. */
+#ifndef VNDF_TABLE_GUIDE_H
+#define VNDF_TABLE_GUIDE_H
+
+#include <string.h>
+
+#include "table/table.h"
+
+/* The bits of a float >= 0 grow with it. */
+static inline uint32_t vndf_float_bits(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Makes the guide of knots[0..count), ascending, knots[0] >= 0. 0 if there is no memory. */
+int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count);
+
+/* Index i in [0, count - 2] with knots[i] <= value < knots[i+1], the ends extended; value >= 0. */
+static inline uint32_t vndf_guide_find(const vndf_guide *guide, const float *knots, uint32_t count, float value)
+{
+    uint32_t bits = vndf_float_bits(value);
+    uint32_t bucket = bits > guide->low ? (bits - guide->low) >> guide->shift : 0;
+    uint32_t i = guide->first[bucket < guide->last ? bucket : guide->last];
+    while (i + 2 < count && value >= knots[i + 1])
+        i++;
+    return i;
+}
+
+#endif

@@ -1,0 +1,19 @@
+/* Memory of a table: one block for the arrays that the file holds, and what follows from them. */
+#ifndef VNDF_TABLE_LAYOUT_H
+#define VNDF_TABLE_LAYOUT_H
+
+#include "table/table.h"
+
+typedef struct vndf_table_size {
+    uint32_t radial, wedge_cells, above_rows, above_knots, below_rows, below_knots;
+} vndf_table_size;
+
+/* An empty table with room for everything, zeroed; NULL if there is no memory. */
+vndf_distribution *vndf_table_allocate(vndf_table_size size);
+
+/* After the arrays of the file are filled (knots in pole[].x/z, cells' f0 f1 mu0 mu1, rows' mass and
+ * density, area splines): prefix sums, cubic coefficients, guides. In double where sums are long. 0 if
+ * there is no memory. */
+int vndf_table_derive(vndf_distribution *table);
+
+#endif

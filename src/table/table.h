@@ -1,0 +1,89 @@
+/* The table in memory: what a distribution is to the sampler.
+ *
+ * The unit problem (sampler/engine.h derives it) needs three things, all for the distribution at a
+ * canonical scale (median slope 1; `scale` brings it back):
+ *
+ * Radial cells. The slope length R = X/Z is cut by knots (X_j, Z_j), X + Z = 1, from (0, 1) to (1, 0);
+ *   inside a cell X and Z are linear in xi in [0, 1]. The mass of normals at R, P22(R) R dR = f(xi) Z dxi
+ *   per radian of azimuth, is held as a cubic f through the end values f0, f1 and the two moments
+ *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so the weighted
+ *   mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
+ * Prefix sums over the cells, from the pole and from the tail (see vndf_pole_knot, vndf_tail_knot).
+ * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
+ *   circle that the horizon of wi cuts, as rows over the angle of incidence.
+ *
+ * Floats on disk are cells and rows alone; prefix sums, guides and cubic coefficients follow from them. */
+#ifndef VNDF_TABLE_TABLE_H
+#define VNDF_TABLE_TABLE_H
+
+#include <stdint.h>
+
+#include "vndf.h"
+
+enum {
+    VNDF_RADIAL_CELLS_MAX = 8192,
+    VNDF_WEDGE_ROWS_MAX = 4096,
+    VNDF_WEDGE_CELLS_MAX = 64,
+    VNDF_AREA_KNOTS_MAX = 4096
+};
+
+/* integral from the pole to knot j of f (c Z + k X) dxi = c e + (c z + k x) g, both terms >= 0 when
+ * c > 0 and the weight has not yet changed its sign: e = F0 - F1 z/x, g = F1/x, F_n = integral P22 R^(n+1) dR. */
+typedef struct vndf_pole_knot {
+    float x, z, e, g;
+} vndf_pole_knot;
+
+/* integral from knot j to infinity of f (c Z + k X) dxi = k s + (c z + k x) t, both terms >= 0 when k > 0
+ * and the weight is already positive: s = T1 - T0 x/z, t = T0/z, T_n the integrals beyond the knot. */
+typedef struct vndf_tail_knot {
+    float x, z, s, t;
+} vndf_tail_knot;
+
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. */
+typedef struct vndf_radial_cell {
+    float f0, f1, mu0, mu1, a, b, width;
+} vndf_radial_cell;
+
+/* A cell boundary of an azimuth row: mass before it, mass of the cell that begins here, density in q. */
+typedef struct vndf_azimuth_node {
+    float cdf, mass, density;
+} vndf_azimuth_node;
+
+/* index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps. */
+typedef struct vndf_guide {
+    uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
+    uint16_t *first;
+} vndf_guide;
+
+/* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
+ * the wedge has no mass. Rows of azimuth density with aspect (p, r), and the wedge's mass divided by
+ * (s+|c|) as a cubic Hermite spline on knots of its own. */
+typedef struct vndf_wedge {
+    uint32_t row_count, knot_count;
+    float *row_y, *aspect_p, *aspect_r;  /* row_count */
+    vndf_azimuth_node *nodes;            /* row_count rows of cell_count + 1; each row's mass is 1 */
+    float *knot_y, *mass, *slope;        /* knot_count */
+    vndf_guide row_guide, knot_guide;
+} vndf_wedge;
+
+typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
+
+struct vndf_distribution {
+    vndf_kind kind;
+    float scale;               /* canonical slope 1 is this slope of the source */
+    uint32_t radial_count;     /* cells */
+    uint32_t wedge_cells;      /* cells of a wedge row */
+    float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
+    vndf_pole_knot *pole;      /* radial_count + 1 */
+    vndf_tail_knot *tail;      /* radial_count + 1 */
+    float *slope;              /* X/Z of the knots, ascending, last is infinite */
+    vndf_radial_cell *cells;   /* radial_count */
+    vndf_guide slope_guide;
+    vndf_wedge above, below;
+    double normalization, scale_exact;
+    vndf_certificate certificate;
+    const char *source, *tool; /* owned by tables */
+    size_t bytes;              /* of the file */
+};
+
+#endif

@@ -1,0 +1,110 @@
+#include "table/validate.h"
+
+#include <math.h>
+
+/* In [least, most]; false for NaN. */
+static int in_range(float value, float least, float most)
+{
+    return value >= least && value <= most;
+}
+
+static int ascending(const float *values, uint32_t count)
+{
+    for (uint32_t i = 0; i + 1 < count; i++)
+        if (!(values[i] < values[i + 1]))
+            return 0;
+    return values[0] == 0.0f && values[count - 1] == 1.0f;
+}
+
+static const char *radial_invalid(const vndf_distribution *table)
+{
+    uint32_t n = table->radial_count;
+    const vndf_pole_knot *k = table->pole;
+    for (uint32_t j = 0; j <= n; j++)
+        if (!in_range(k[j].x, 0.0f, 1.0f) || !in_range(k[j].z, 0.0f, 1.0f) || fabsf(k[j].x + k[j].z - 1.0f) > 1e-6f)
+            return "a radial knot lies off the line x + z = 1";
+    for (uint32_t j = 0; j < n; j++) {
+        vndf_radial_cell c = table->cells[j];
+        if (k[j + 1].x < k[j].x || k[j + 1].z > k[j].z)
+            return "the radial knots do not ascend";
+        if (!in_range(c.f0, 0.0f, 1e18f) || !in_range(c.f1, 0.0f, 1e18f) || !in_range(c.mu0, 1e-37f, 1e6f) ||
+            !in_range(c.mu1, 1e-37f, 1e6f))
+            return "a radial cell has a density or moment out of range";
+    }
+    if (k[0].x != 0.0f || k[0].z != 1.0f || k[n].x != 1.0f || k[n].z != 0.0f || table->cells[0].f0 != 0.0f)
+        return "the radial knots do not run from the pole to the horizon";
+    return NULL;
+}
+
+static const char *rows_invalid(const vndf_wedge *wedge, uint32_t cells)
+{
+    for (uint32_t i = 0; i < wedge->row_count; i++) {
+        const vndf_azimuth_node *node = wedge->nodes + (size_t)i * (cells + 1);
+        double total = 0.0;
+        for (uint32_t j = 0; j <= cells; j++) {
+            if (!in_range(node[j].density, 0.0f, 1e6f) || (j < cells && !in_range(node[j].mass, 1e-12f, 1.0f)))
+                return "an azimuth row has a mass or density out of range";
+            total += j < cells ? node[j].mass : 0.0;
+        }
+        if (!(fabs(total - 1.0) < 1e-4))
+            return "the masses of an azimuth row do not add up to 1";
+        if (!in_range(wedge->aspect_p[i], i ? 1e-30f : 0.0f, 1.0f) || !in_range(wedge->aspect_r[i], 1e-30f, 1.0f))
+            return "the aspect of an azimuth row is out of range";
+    }
+    return ascending(wedge->row_y, wedge->row_count) ? NULL : "the azimuth rows do not ascend from 0 to 1";
+}
+
+/* Knots from 0 to 1, and a cubic between them that stays >= 0. */
+static const char *area_invalid(const vndf_wedge *wedge)
+{
+    const float *y = wedge->knot_y, *m = wedge->mass, *d = wedge->slope;
+    if (!ascending(y, wedge->knot_count))
+        return "the area knots do not ascend from 0 to 1";
+    for (uint32_t i = 0; i < wedge->knot_count; i++)
+        if (!in_range(m[i], 0.0f, 1e6f) || !in_range(d[i], 0.0f, 1e6f) || (m[i] > 0.0f) != (i > 0))
+            return "a wedge mass is out of range";
+    for (uint32_t i = 0; i + 1 < wedge->knot_count; i++)
+        if (m[i + 1] < m[i] || m[i + 1] - d[i + 1] * (y[i + 1] - y[i]) / 3.0f < 0.0f)
+            return "the area spline falls below zero";
+    return NULL;
+}
+
+const char *vndf_table_invalid(const vndf_distribution *table)
+{
+    const char *why = radial_invalid(table);
+    const vndf_certificate *c = &table->certificate;
+    const float claims[] = {c->tv, c->tv_theta, c->max_weight, c->weight_bounded, c->area_error, c->consistency, c->ndf_error};
+    for (unsigned i = 0; i < sizeof claims / sizeof *claims; i++)
+        if (!in_range(claims[i], 0.0f, HUGE_VALF))
+            return "the certificate holds what is no measurement";
+    if (!(table->scale > 1e-18f && table->scale < 1e18f) || !(table->normalization > 0.0) || !isfinite(table->normalization))
+        return "the scale or normalization is out of range";
+    if (!why)
+        why = rows_invalid(&table->above, table->wedge_cells);
+    if (!why)
+        why = rows_invalid(&table->below, table->wedge_cells);
+    if (!why)
+        why = area_invalid(&table->above);
+    return why ? why : area_invalid(&table->below);
+}
+
+/* Bernstein coefficients of the cubic: all >= 0 keeps the density >= 0 in the whole cell. Rounding of a
+ * moment moves a coefficient by some 1e-5 of the larger end; that much is forgiven here and cut in the sampler. */
+static int cubic_positive(const vndf_radial_cell *c)
+{
+    float least = -1e-4f * (c->f0 + c->f1 + c->mu0 + c->mu1);
+    float first = c->f0 + (c->f1 - c->f0 + c->a) / 3.0f;
+    float second = c->f1 + (c->f0 - c->f1 + c->a + c->b) / 3.0f;
+    return first >= least && second >= least;
+}
+
+const char *vndf_table_invalid_derived(const vndf_distribution *table)
+{
+    for (uint32_t j = 0; j < table->radial_count; j++) {
+        if (!(table->cells[j].width > 0.0f) || !(table->slope[j] < table->slope[j + 1]))
+            return "two radial knots coincide";
+        if (!cubic_positive(&table->cells[j]))
+            return "the density of a radial cell falls below zero";
+    }
+    return isfinite(table->f0_total) && isfinite(table->f1_total) ? NULL : "the moments of the table are not finite";
+}

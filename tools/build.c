@@ -1,0 +1,190 @@
+/* vndf build: a table from what the user brings. Reads the options, makes the source, calls the
+ * builder, saves, prints what came out. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "command.h"
+#include "describe.h"
+#include "output.h"
+#include "vndf_build.h"
+
+static const char name[] = "vndf build";
+
+static const char help[] =
+    "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
+    "       vndf build --list\n"
+    "\n"
+    "Makes a table that samples the visible normals of an isotropic distribution of normals, and prints what it\n"
+    "is worth. The input may have any scale and need not be normalised; the factor found is printed.\n"
+    "\n"
+    "  --ndf EXPR      D per steradian, in c = cos(theta_m), theta (radians), t = tan(theta_m)\n"
+    "  --slope EXPR    P22 = D cos^4, in r, the slope length tan(theta_m)\n"
+    "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log sqrt sin cos tan asin acos\n"
+    "                  atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
+    "  --set NAME=X    a parameter of the expression; may be repeated\n"
+    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then numbers\n"
+    "  --family NAME   a named distribution or a measured material\n"
+    "  --list          lists families and materials\n"
+    "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384)\n"
+    "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
+    "  -o FILE         the table; it appears whole or not at all\n"
+    "\n"
+    "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
+    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n";
+
+typedef struct build_words {
+    words ndf, slope, csv, family, set, list, bytes, tv, output;
+} build_words;
+
+static int print_list(void)
+{
+    const char *material;
+    fputs("families:\n", stdout);
+    fputs(vndf_family_help(), stdout);
+    fputs("\nmaterials:\n", stdout);
+    for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
+        puts(material);
+    return STATUS_GOOD;
+}
+
+/* ---- the source ---------------------------------------------------------------------------------- */
+
+enum { NAME_MAX_LENGTH = 64 };
+
+/* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
+static int read_parameter(const char *text, char storage[NAME_MAX_LENGTH], vndf_parameter *parameter)
+{
+    const char *equals = strchr(text, '=');
+    size_t length = equals ? (size_t)(equals - text) : 0;
+    if (length == 0 || length >= NAME_MAX_LENGTH) {
+        complain(name, "--set '%s' is not NAME=NUMBER", text);
+        return 0;
+    }
+    memcpy(storage, text, length);
+    storage[length] = '\0';
+    parameter->name = storage;
+    return parse_numbers(name, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
+}
+
+static vndf_source *source_from_expression(const build_words *given, vndf_error *error)
+{
+    vndf_parameter parameters[WORDS_MAX];
+    char names[WORDS_MAX][NAME_MAX_LENGTH];
+    for (size_t i = 0; i < given->set.count; i++)
+        if (!read_parameter(given->set.item[i], names[i], &parameters[i]))
+            return NULL;
+    if (given->ndf.count)
+        return vndf_source_ndf_expression(only_word(&given->ndf), parameters, given->set.count, error);
+    return vndf_source_slope_expression(only_word(&given->slope), parameters, given->set.count, error);
+}
+
+static vndf_source *source_from_words(const build_words *given)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source;
+    if (given->csv.count)
+        source = vndf_source_csv_file(only_word(&given->csv), &error);
+    else if (given->family.count)
+        source = vndf_source_family(only_word(&given->family), &error);
+    else
+        source = source_from_expression(given, &error);
+    if (!source && error.status != VNDF_OK)
+        complain(name, "%s", error.message);
+    return source;
+}
+
+/* ---- building ------------------------------------------------------------------------------------ */
+
+static int show_progress(double done, const char *what, void *user)
+{
+    (void)user;
+    fprintf(stderr, "\r\033[Kbuilding: %3.0f%% %s", 100 * done, what);
+    fflush(stderr);
+    return 0;
+}
+
+static vndf_distribution *build_table(const vndf_source *source, const build_words *given)
+{
+    vndf_build_options options = {0};
+    vndf_error error = {VNDF_OK, ""};
+    unsigned long long bytes = 0;
+    int shows = isatty(STDERR_FILENO);
+    if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
+        !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv))
+        return NULL;
+    options.max_bytes = (size_t)bytes;
+    options.progress = shows ? show_progress : NULL;
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    if (shows)
+        fputs("\r\033[K", stderr);
+    if (!table)
+        complain(name, "%s", error.message);
+    return table;
+}
+
+static int save_table(const vndf_distribution *table, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    if (!output_replaceable(name, path))
+        return STATUS_USE;
+    unsigned held = output_hold_signals();
+    vndf_status status = vndf_save(table, path, &error);
+    output_release_signals(held);
+    return status == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
+}
+
+static int build_and_save(const vndf_source *source, const build_words *given)
+{
+    vndf_distribution *table = build_table(source, given);
+    if (!table)
+        return STATUS_USE;
+    int status = save_table(table, only_word(&given->output));
+    if (status == STATUS_GOOD) {
+        vndf_info info = vndf_distribution_info(table);
+        describe_info(&info);
+        describe_certificate(&info.certificate);
+    }
+    vndf_free(table);
+    return status;
+}
+
+static int check_words(const build_words *given)
+{
+    size_t sources = given->ndf.count + given->slope.count + given->csv.count + given->family.count;
+    if (sources != 1)
+        return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
+                        sources ? "more than one" : "none");
+    if (given->set.count && !given->ndf.count && !given->slope.count)
+        return complain(name, "--set is for the parameters of --ndf and --slope; those of a family follow its name");
+    if (!given->output.count)
+        return complain(name, "-o FILE is missing");
+    return PARSE_GO_ON;
+}
+
+int command_build(int argc, char **argv)
+{
+    build_words given = {0};
+    words positional = {{NULL}, 0};
+    const option_form options[] = {
+        {"--ndf", 1, 1, &given.ndf},         {"--slope", 1, 1, &given.slope},  {"--csv", 1, 1, &given.csv},
+        {"--family", 1, 1, &given.family},   {"--list", 0, 1, &given.list},    {"--set", 1, WORDS_MAX, &given.set},
+        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},    {"-o", 1, 1, &given.output},
+    };
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed == PARSE_GO_ON && given.list.count)
+        return print_list();
+    if (parsed == PARSE_GO_ON)
+        parsed = check_words(&given);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    vndf_source *source = source_from_words(&given);
+    if (!source)
+        return STATUS_USE;
+    int status = build_and_save(source, &given);
+    vndf_source_free(source);
+    return status;
+}

@@ -1,0 +1,19 @@
+/* The subcommands of `vndf` and what they return. Each takes the words after its own name, prints its
+ * answer on stdout and its complaints on stderr as `vndf NAME: ...`, and returns an exit status. */
+#ifndef TOOLS_COMMAND_H
+#define TOOLS_COMMAND_H
+
+enum {
+    STATUS_GOOD = 0, /* done, and the answer is yes */
+    STATUS_NO = 1,   /* done, and the answer is no: a claim failed */
+    STATUS_USE = 2   /* not done: wrong use, unreadable input, an output that cannot be written */
+};
+
+int command_build(int argc, char **argv);
+int command_info(int argc, char **argv);
+int command_check(int argc, char **argv);
+int command_sample(int argc, char **argv);
+int command_eval(int argc, char **argv);
+int command_plot(int argc, char **argv);
+
+#endif

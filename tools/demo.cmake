@@ -1,0 +1,51 @@
+# The demo: tables from a formula that nobody has a sampler for, from a CSV and from a measured material;
+# each is built, printed with its certificate, checked, and drawn. All of it through the program `vndf`.
+#
+#   cmake -DVNDF=path/of/vndf -DOUT=folder -DEXAMPLE=tables/example.csv -P tools/demo.cmake
+cmake_minimum_required(VERSION 3.16)
+
+foreach(needed VNDF OUT EXAMPLE)
+    if(NOT DEFINED ${needed})
+        message(FATAL_ERROR "-D${needed}=... is missing; see the head of demo.cmake")
+    endif()
+endforeach()
+file(MAKE_DIRECTORY ${OUT})
+get_filename_component(program ${VNDF} NAME_WE)
+
+# Runs `vndf ...`, prints the command as one would type it, and ends the demo if it fails.
+function(vndf)
+    set(shown "")
+    foreach(word IN LISTS ARGN)
+        if(word MATCHES "[^-+.,:/=_A-Za-z0-9]")
+            set(word "'${word}'")
+        endif()
+        string(APPEND shown " ${word}")
+    endforeach()
+    message("\n$ ${program}${shown}")
+    execute_process(COMMAND ${VNDF} ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "the command above ended with exit status ${status}")
+    endif()
+endfunction()
+
+message("1. A formula: a distribution of slopes with rings, which has no name and no published sampler")
+vndf(build --slope "exp(-3*r)*(1+0.8*cos(6*r))" -o rings.vndf)
+vndf(check rings.vndf --samples 300000)
+vndf(plot rings.vndf -o rings.svg)
+
+message("\n2. A curve: angle and density in a CSV, as a gloss meter gives them")
+vndf(build --csv ${EXAMPLE} -o gloss.vndf)
+vndf(check gloss.vndf --csv ${EXAMPLE} --samples 300000)
+vndf(plot gloss.vndf -o gloss.svg)
+
+message("\n3. A measured material: the published fit of alum-bronze, and the same stretched along y")
+vndf(build --family sgd:alum-bronze/r -o alum-bronze.vndf)
+vndf(check alum-bronze.vndf --samples 300000)
+vndf(plot alum-bronze.vndf -o alum-bronze.svg)
+vndf(plot alum-bronze.vndf --alpha 1,3 --theta 0,60,85 -o alum-bronze-brushed.svg)
+vndf(sample alum-bronze.vndf --theta 60 -n 10 -o -)
+
+message("\nTables, and figures of density and samples, are in ${OUT}:
+  rings.vndf        rings.svg
+  gloss.vndf        gloss.svg
+  alum-bronze.vndf  alum-bronze.svg  alum-bronze-brushed.svg")

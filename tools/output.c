@@ -1,0 +1,187 @@
+#define _POSIX_C_SOURCE 200809L
+#include "output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "command.h"
+
+/* ---- signals ------------------------------------------------------------------------------------- */
+
+enum { STOPPING_COUNT = 3 };
+
+static const int stopping[STOPPING_COUNT] = {SIGINT, SIGTERM, SIGHUP};
+
+static sigset_t set_of(unsigned held)
+{
+    sigset_t set;
+    sigemptyset(&set);
+    for (unsigned i = 0; i < STOPPING_COUNT; i++)
+        if (held >> i & 1u)
+            sigaddset(&set, stopping[i]);
+    return set;
+}
+
+/* A signal that the parent told us to ignore, or holds itself, is left alone: it would count as
+ * pending for ever, or be let through by us. */
+unsigned output_hold_signals(void)
+{
+    unsigned held = 0;
+    sigset_t before;
+    sigprocmask(SIG_BLOCK, NULL, &before);
+    for (unsigned i = 0; i < STOPPING_COUNT; i++) {
+        struct sigaction action;
+        if (sigaction(stopping[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN &&
+            !sigismember(&before, stopping[i]))
+            held |= 1u << i;
+    }
+    sigset_t set = set_of(held);
+    sigprocmask(SIG_BLOCK, &set, NULL);
+    return held;
+}
+
+void output_release_signals(unsigned held)
+{
+    sigset_t set = set_of(held);
+    sigprocmask(SIG_UNBLOCK, &set, NULL);
+}
+
+int output_interrupted(const output_file *output)
+{
+    sigset_t pending;
+    if (!output->temporary || sigpending(&pending) != 0)
+        return 0;
+    for (unsigned i = 0; i < STOPPING_COUNT; i++)
+        if ((output->held >> i & 1u) && sigismember(&pending, stopping[i]))
+            return 1;
+    return 0;
+}
+
+/* ---- opening ------------------------------------------------------------------------------------- */
+
+int output_replaceable(const char *command, const char *path)
+{
+    struct stat status;
+    if (path[0] == '\0') {
+        complain(command, "the name of the output file is empty");
+        return 0;
+    }
+    if (stat(path, &status) != 0 || S_ISREG(status.st_mode))
+        return 1;
+    complain(command, "'%s' is not a file that can be replaced", path);
+    return 0;
+}
+
+static char *temporary_beside(const char *path)
+{
+    size_t size = strlen(path) + 32;
+    char *name = malloc(size);
+    if (name)
+        snprintf(name, size, "%s.%ld.tmp", path, (long)getpid());
+    return name;
+}
+
+/* O_EXCL: never write through something that another user put there. */
+static FILE *create_new(const char *path)
+{
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    if (descriptor >= 0 && !file)
+        close(descriptor);
+    return file;
+}
+
+static int open_file(output_file *output)
+{
+    output->temporary = temporary_beside(output->path);
+    if (!output->temporary) {
+        complain(output->command, "no memory");
+        return 0;
+    }
+    output->held = output_hold_signals();
+    output->file = create_new(output->temporary);
+    if (output->file)
+        return 1;
+    complain(output->command, "cannot write '%s': %s", output->path, strerror(errno));
+    output_release_signals(output->held);
+    free(output->temporary);
+    return 0;
+}
+
+int output_open(output_file *output, const char *command, const char *path)
+{
+    output->command = command;
+    output->path = path;
+    output->temporary = NULL;
+    if (strcmp(path, "-") != 0)
+        return output_replaceable(command, path) && open_file(output);
+    output->path = NULL;
+    output->file = stdout;
+    return 1;
+}
+
+/* ---- closing ------------------------------------------------------------------------------------- */
+
+/* The error is cleared once it is told, so that it is told once. */
+int output_finish_stdout(const char *command)
+{
+    int failed_before = ferror(stdout);
+    errno = 0;
+    if (fflush(stdout) == 0 && !failed_before)
+        return STATUS_GOOD;
+    clearerr(stdout);
+    if (errno != EPIPE)
+        complain(command, "cannot write to stdout%s%s", errno ? ": " : "", errno ? strerror(errno) : "");
+    return STATUS_USE;
+}
+
+static void close_file(output_file *output)
+{
+    free(output->temporary);
+    output->temporary = NULL;
+    output_release_signals(output->held);
+}
+
+/* Full disks show at fclose, not before. */
+static int close_and_rename(output_file *output)
+{
+    int failed_before = ferror(output->file);
+    if (fclose(output->file) != 0 || failed_before)
+        return 0;
+    return rename(output->temporary, output->path) == 0;
+}
+
+int output_commit(output_file *output)
+{
+    if (!output->temporary)
+        return output_finish_stdout(output->command);
+    errno = 0;
+    int good = close_and_rename(output);
+    if (!good) {
+        complain(output->command, "cannot write '%s': %s", output->path, errno ? strerror(errno) : "write failed");
+        remove(output->temporary);
+    }
+    close_file(output);
+    return good ? STATUS_GOOD : STATUS_USE;
+}
+
+void output_discard(output_file *output)
+{
+    if (!output->temporary)
+        return;
+    fclose(output->file);
+    remove(output->temporary);
+    close_file(output);
+}
+
+const char *output_extension(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strchr(dot, '/') ? dot + 1 : "";
+}

@@ -1,0 +1,44 @@
+/* Files that appear whole or not at all: what is written goes to a temporary beside the file and is
+ * renamed over it at the end. While the temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask
+ * output_interrupted() now and then, and closing lets the signal through after the temporary is gone.
+ * (Waiting, not a handler: a handler would need global state.) */
+#ifndef TOOLS_OUTPUT_H
+#define TOOLS_OUTPUT_H
+
+#include <stdio.h>
+
+typedef struct output_file {
+    const char *command; /* opens every message */
+    const char *path;    /* NULL for stdout */
+    char *temporary;     /* owned; NULL for stdout */
+    FILE *file;
+    unsigned held;       /* stopping signals that wait; see output_hold_signals */
+} output_file;
+
+/* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
+int output_open(output_file *output, const char *command, const char *path);
+
+/* 1 if the user asked to stop; close with output_discard then. */
+int output_interrupted(const output_file *output);
+
+/* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
+int output_commit(output_file *output);
+
+/* Closes and leaves nothing behind. */
+void output_discard(output_file *output);
+
+/* Refuses a path that a rename would damage: a device, a pipe, a folder. 1 if it is free or a file. */
+int output_replaceable(const char *command, const char *path);
+
+/* Makes the stopping signals wait, for a library call that writes a file. The result tells
+ * output_release_signals which ones it stopped, and is of no other use. */
+unsigned output_hold_signals(void);
+void output_release_signals(unsigned held);
+
+/* Flushes stdout; an exit status, with a complaint if what was printed could not be delivered. */
+int output_finish_stdout(const char *command);
+
+/* The part of path after its last dot, "" if there is none. */
+const char *output_extension(const char *path);
+
+#endif
