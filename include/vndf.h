@@ -99,8 +99,8 @@ VNDF_API const vndf_distribution *vndf_ggx(void);
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured on a table, after rounding to float, against quadrature of the D it was
- * given, over incident directions from 0 to 180 degrees where the projected area exceeds 1e-12 of its
- * value at normal incidence. All zero for the closed forms. */
+ * given, over incident directions from 0 to 180 degrees where the projected area exceeds 1e-10 of its
+ * value at grazing incidence. All zero for the closed forms. */
 typedef struct vndf_certificate {
     float tv;          /* largest total variation distance between sampled and true visible normals */
     float tv_theta;    /* the incident angle where it was found, degrees */
@@ -118,7 +118,7 @@ typedef struct vndf_info {
     size_t bytes;            /* size of the table file; 0 for closed forms */
     size_t radial_cells;     /* cells of the radial table */
     size_t azimuth_rows;     /* rows of the azimuth tables, above and below the horizon together */
-    size_t azimuth_cells;    /* cells of each row */
+    size_t azimuth_cells;    /* cells of a row above the horizon */
     double normalization;    /* the given D or P22 was multiplied by this */
     double scale;            /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
     vndf_certificate certificate;

@@ -12,6 +12,9 @@ static double area_error(double error)
     return e < 1e-7 ? 1e-7 : e;
 }
 
+/* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
+static const double POLE_CELL = 1.0 / 512;
+
 /* ---- refining ---- */
 
 static int report(const vndf_build_options *options, double done, const char *what)
@@ -27,6 +30,8 @@ static int refine_radial(vndf_plan *plan, size_t limit)
     if (!start)
         return 0;
     start[n++] = 0.0;
+    if (fit->jump_count == 0 || fit->jump[0] > 2 * POLE_CELL)
+        start[n++] = POLE_CELL;
     for (size_t i = 0; i < fit->jump_count; i++)
         start[n++] = fit->jump[i];
     start[n++] = 1.0;
@@ -47,20 +52,21 @@ static int refine_area(vndf_refinement *area, vndf_wedge_fit *fit, size_t limit,
     return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, vndf_wedge_area_error, fit);
 }
 
-static uint32_t cells_for(size_t max_bytes)
+/* Cells of an azimuth row: at most a few per cent of the bytes each. */
+static uint32_t most_cells_for(size_t max_bytes)
 {
-    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 16 : 32;
+    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 48;
 }
 
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options)
 {
-    uint32_t cells = cells_for(max_bytes);
-    size_t most_rows = max_bytes / (8 * cells + 16), most_cells = max_bytes / 24, most_knots = max_bytes / 12;
+    uint32_t row_cells = most_cells_for(max_bytes);
+    size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
     plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
-    if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, cells) ||
-        !vndf_wedge_fit_from(&plan->below_fit, profile, 1, cells))
+    if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, row_cells, 2 * plan->finest) ||
+        !vndf_wedge_fit_from(&plan->below_fit, profile, 1, row_cells, 2 * plan->finest))
         return 0;
     if (report(options, 0.1, "radial cells"))
         return -1;
@@ -102,7 +108,8 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
     vndf_table_size size;
     size.radial = (uint32_t)plan->radial.start - 1 + needed(&plan->radial, error);
-    size.wedge_cells = plan->above_fit.cells;
+    size.above_cells = plan->above_fit.cells;
+    size.below_cells = plan->below_fit.cells;
     size.above_rows = (uint32_t)plan->above_rows.start + needed(&plan->above_rows, error);
     size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, 2 * error);
     size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(error));
@@ -129,6 +136,7 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
 static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
 {
     vndf_refinement_knots(rows, wedge->row_count - rows->start, knots);
+    memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
     for (uint32_t i = 0; i < wedge->row_count; i++) {
         const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
         if (!row)

@@ -7,12 +7,13 @@
 #include <stdlib.h>
 
 #include "sampler/engine.h"
+#include "sampler/front.h"
 
 static const double PI = 3.14159265358979323846;
-static const double AREA_LEAST = 1e-12; /* of the area at normal incidence: below it nothing is claimed */
+static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
 static const double MASS_LEFT_OUT = 1e-6;
 
-enum { AZIMUTH_PIECES = 24, SLOPE_POINTS = VNDF_GAUSS_COARSE };
+enum { SLOPE_POINTS = VNDF_GAUSS_COARSE };
 
 /* One Gauss point of a direction. */
 typedef struct sample {
@@ -82,14 +83,14 @@ static void add_azimuth(survey *v, const vndf_view *view, double a, double w, do
     }
 }
 
-/* A quarter turn on even pieces of q for an aspect. */
-static void add_quarter(survey *v, const vndf_view *view, double p, double r, int away, double area)
+/* A quarter turn on the cells of a row with an aspect. */
+static void add_quarter(survey *v, const vndf_view *view, const float *node, uint32_t cells, double p, double r, int away, double area)
 {
-    int pieces = v->table->wedge_cells > AZIMUTH_PIECES ? (int)v->table->wedge_cells : AZIMUTH_PIECES / (int)v->table->wedge_cells * (int)v->table->wedge_cells;
-    for (int i = 0; i < pieces * VNDF_GAUSS_COARSE; i++) {
-        double q = (i / VNDF_GAUSS_COARSE + vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE]) / pieces;
+    for (uint32_t i = 0; i < cells * VNDF_GAUSS_COARSE; i++) {
+        double q0 = node[i / VNDF_GAUSS_COARSE], q1 = node[i / VNDF_GAUSS_COARSE + 1];
+        double q = q0 + (q1 - q0) * vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE];
         double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, a = atan2(y, x);
-        double w = vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] / pieces * 2 * p * r * (1 + q * q) / n2;
+        double w = vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] * (q1 - q0) * 2 * p * r * (1 + q * q) / n2;
         add_azimuth(v, view, away ? PI - a : a, 2 * w, area);
     }
 }
@@ -131,9 +132,10 @@ static finding survey_direction(survey *v, double s, double c)
     f.area_error = fabs((double)vndf_unit_area(v->table, view.s, view.c) / area - 1);
     v->count = 0;
     if (view.c >= 0)
-        add_quarter(v, &view, 1, 1, 0, area);
+        add_quarter(v, &view, vndf_front_q, VNDF_FRONT_CELLS, 1, 1, 0, area);
+    const vndf_wedge *wedge = view.c >= 0 ? &v->table->above : &v->table->below;
     if (view.wedge > 0 && view.aspect_p > 0)
-        add_quarter(v, &view, view.aspect_p, view.aspect_r, view.c >= 0, area);
+        add_quarter(v, &view, wedge->q, wedge->cell_count, view.aspect_p, view.aspect_r, view.c >= 0, area);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);
@@ -191,8 +193,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
 {
     survey v = {table, profile, NULL, 0, 0};
     vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
-    uint32_t pieces = table->wedge_cells > AZIMUTH_PIECES ? table->wedge_cells : AZIMUTH_PIECES;
-    v.capacity = (size_t)2 * pieces * VNDF_GAUSS_COARSE * table->radial_count * SLOPE_POINTS;
+    v.capacity = (size_t)(table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS) * VNDF_GAUSS_COARSE * table->radial_count * SLOPE_POINTS;
     v.samples = malloc(v.capacity * sizeof *v.samples);
     if (!v.samples)
         return 0;

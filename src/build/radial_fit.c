@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "math/rational_cell.h"
+#include "math/weighted_cell.h"
 
 enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 
@@ -125,8 +125,8 @@ typedef struct law_error {
 static double miss(const vndf_radial_cell *cell, double w0, double w1, double f, double xi)
 {
     double mass = w0 * cell->mu0 + w1 * cell->mu1;
-    vndf_rational_cell shape = {(float)(w0 * cell->f0 / mass), (float)(w1 * cell->f1 / mass)};
-    return fabs((double)vndf_rational_density(shape, (float)xi) - f * (w0 * (1 - xi) + w1 * xi) / mass);
+    vndf_weighted_cell drawn = vndf_weighted_cell_from(cell->f0, cell->f1, (float)w0, (float)w1, (float)mass);
+    return fabs((double)vndf_weighted_density(&drawn, (float)xi) - f * (w0 * (1 - xi) + w1 * xi) / mass);
 }
 
 static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "math/grading.h"
+#include "math/rational_cell.h"
 
 /* Rows by y; a few hundred at most are asked for often, so a plain hash table will do. */
 enum { BUCKETS = 1024 };
@@ -70,27 +70,101 @@ static void fill_row(const vndf_wedge_fit *fit, vndf_row *row)
     direction d = direction_at(fit, row->y);
     double mass[VNDF_WEDGE_CELLS_MAX], total = 0.0;
     for (uint32_t j = 0; j < fit->cells; j++) {
-        double from = vndf_graded_node(j, fit->cells), width = vndf_graded_node(j + 1, fit->cells) - from;
+        double from = fit->node[j], width = fit->node[j + 1] - from;
         mass[j] = 0.0;
         for (int i = 0; i < VNDF_GAUSS; i++)
             mass[j] += vndf_gauss_weight[i] * width * density_in_q(fit, d, row->p, row->r, from + vndf_gauss_node[i] * width);
         total += mass[j];
     }
     for (uint32_t j = 0; j <= fit->cells; j++) {
-        double density = density_in_q(fit, d, row->p, row->r, vndf_graded_node(j, fit->cells));
+        double density = density_in_q(fit, d, row->p, row->r, fit->node[j]);
         row->node[j].cdf = 0.0f;
         row->node[j].mass = j < fit->cells ? (float)((1 - UNIFORM) * mass[j] / total + UNIFORM / fit->cells) : 0.0f;
         row->node[j].density = (float)((1 - UNIFORM) * density / total + UNIFORM);
     }
 }
 
+/* ---- cells of q ---- */
+
+/* Directions by which cells are judged. */
+static const double JUDGES[] = {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97};
+enum { JUDGE_COUNT = sizeof JUDGES / sizeof *JUDGES };
+
+typedef struct judge {
+    direction d;
+    double p, r, scale; /* aspect, and what brings the mass to a share of all that is seen */
+} judge;
+
+typedef struct bench {
+    const vndf_wedge_fit *fit;
+    judge judges[JUDGE_COUNT];
+} bench;
+
+static double share(const vndf_wedge_fit *fit, double y);
+
+static judge judge_at(const vndf_wedge_fit *fit, double y)
+{
+    direction d = direction_at(fit, y);
+    double t = median_tangent(fit, d), n = sqrt(1 + t * t);
+    double mass = vndf_wedge_fit_area(fit, y).mass / (fit->below ? d.s : d.c);
+    judge made = {d, 1 / n, t / n, mass > 0 ? share(fit, y) / mass : 0.0};
+    return made;
+}
+
+/* Half the integral of |drawn - true| in one cell of one row. */
+static double cell_miss(const vndf_wedge_fit *fit, const judge *j, double a, double b)
+{
+    double f[VNDF_GAUSS], mass = 0.0, miss = 0.0, h = b - a;
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        f[i] = density_in_q(fit, j->d, j->p, j->r, a + h * vndf_gauss_node[i]);
+        mass += vndf_gauss_weight[i] * h * f[i];
+    }
+    double per_mean = mass > 0 ? h / mass : 0.0;
+    vndf_rational_cell cell = {(float)(density_in_q(fit, j->d, j->p, j->r, a) * per_mean),
+                               (float)(density_in_q(fit, j->d, j->p, j->r, b) * per_mean)};
+    for (int i = 0; i < VNDF_GAUSS; i++)
+        miss += vndf_gauss_weight[i] * fabs((double)vndf_rational_density(cell, (float)vndf_gauss_node[i]) * mass / h - f[i]);
+    return miss * h / 2 * j->scale;
+}
+
+static vndf_interval_miss worst_miss(double a, double b, void *user)
+{
+    const bench *judges = user;
+    vndf_interval_miss found = {0.0, 0.0};
+    for (int i = 0; i < JUDGE_COUNT; i++)
+        found.share = fmax(found.share, cell_miss(judges->fit, &judges->judges[i], a, b));
+    return found;
+}
+
+static int place_cells(vndf_wedge_fit *fit, uint32_t most_cells, double enough)
+{
+    static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    enum { START = sizeof start / sizeof *start };
+    vndf_refinement cells;
+    double knots[VNDF_WEDGE_CELLS_MAX + 1];
+    bench judges = {fit, {{{0, 0, 0}, 0, 0, 0}}};
+    for (int i = 0; i < JUDGE_COUNT; i++)
+        judges.judges[i] = judge_at(fit, JUDGES[i]);
+    int good = vndf_refine(&cells, start, START, most_cells + 1 - START, enough, worst_miss, &judges);
+    if (good) {
+        fit->cells = (uint32_t)cells.count + START - 1;
+        vndf_refinement_knots(&cells, cells.count, knots);
+        for (uint32_t j = 0; j <= fit->cells; j++)
+            fit->node[j] = (float)knots[j];
+    }
+    vndf_refinement_free(&cells);
+    return good;
+}
+
 /* ---- rows ---- */
 
-int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t cells)
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t most_cells, double enough)
 {
-    vndf_wedge_fit made = {profile, below, cells, calloc(1, sizeof *fit->cache)};
-    *fit = made;
-    return fit->cache != NULL;
+    fit->profile = profile;
+    fit->below = below;
+    fit->cells = 0;
+    fit->cache = calloc(1, sizeof *fit->cache);
+    return fit->cache && place_cells(fit, most_cells, enough);
 }
 
 void vndf_wedge_fit_free(vndf_wedge_fit *fit)
@@ -150,7 +224,7 @@ static double row_miss(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_
     truth.r = a->r + mix * (b->r - a->r);
     fill_row(fit, &truth);
     for (uint32_t j = 0; j <= fit->cells; j++) {
-        double width = (double)vndf_graded_node(j < fit->cells ? j + 1 : j, fit->cells) - vndf_graded_node(j ? j - 1 : 0, fit->cells);
+        double width = (double)fit->node[j < fit->cells ? j + 1 : j] - fit->node[j ? j - 1 : 0];
         by_mass += fabs((1 - mix) * a->node[j].mass + mix * b->node[j].mass - truth.node[j].mass);
         by_density += width / 2 * fabs((1 - mix) * a->node[j].density + mix * b->node[j].density - truth.node[j].density);
     }

@@ -13,6 +13,7 @@ typedef struct vndf_wedge_fit {
     const vndf_profile *profile;
     int below;                /* the side */
     uint32_t cells;           /* of a row */
+    float node[VNDF_WEDGE_CELLS_MAX + 1]; /* their ends in q */
     vndf_row_cache *cache;    /* rows made so far */
 } vndf_wedge_fit;
 
@@ -22,8 +23,9 @@ typedef struct vndf_row {
     vndf_azimuth_node node[VNDF_WEDGE_CELLS_MAX + 1];
 } vndf_row;
 
-/* 0 if there is no memory. */
-int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t cells);
+/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row,
+ * from 6 to most_cells. 0 if there is no memory. */
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t most_cells, double enough);
 void vndf_wedge_fit_free(vndf_wedge_fit *fit);
 
 /* The row at y; NULL if there is no memory. Belongs to the fit. */

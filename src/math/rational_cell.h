@@ -29,14 +29,6 @@ static inline float vndf_rational_density(vndf_rational_cell cell, float xi)
     return (cell.d1 * xi * xi + 2.0f * w + cell.d0 * eta * eta) / (q * q);
 }
 
-/* F'(xi)/xi for a cell with d0 = 0, finite at xi = 0. */
-static inline float vndf_rational_density_over_xi(vndf_rational_cell cell, float xi)
-{
-    float eta = 1.0f - xi;
-    float q = 1.0f + (cell.d1 - 2.0f) * xi * eta;
-    return (cell.d1 * xi + 2.0f * eta) / (q * q);
-}
-
 /* xi with F(xi) = u: the root in [0, 1] of a xi^2 + b xi = u, where a + b = 1. */
 static inline float vndf_rational_invert(vndf_rational_cell cell, float u)
 {

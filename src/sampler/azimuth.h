@@ -1,19 +1,19 @@
 /* Stage 1 of the engine: an azimuth p in [0, pi/2] from one row of cells, or two that are mixed.
  *
- * The row's cells are graded (math/grading.h) in q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
+ * The row's variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
  * the density:  (cos, sin) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
  *               dphi/dq = 2 p r (1 + q^2) / N^2.
  * With p = r this is the plain half-angle tangent. */
 #ifndef VNDF_SAMPLER_AZIMUTH_H
 #define VNDF_SAMPLER_AZIMUTH_H
 
-#include "math/grading.h"
 #include "math/rational_cell.h"
 #include "table/table.h"
 
 /* weight_a a + weight_b b, cell by cell. */
 typedef struct vndf_azimuth_row {
     const vndf_azimuth_node *a, *b;
+    const float *q; /* cells + 1 */
     float weight_a, weight_b;
     uint32_t cells;
     float p, r;
@@ -36,7 +36,7 @@ static inline float vndf_azimuth_mass(const vndf_azimuth_row *row, uint32_t j)
 
 static inline float vndf_azimuth_width(const vndf_azimuth_row *row, uint32_t j)
 {
-    return vndf_graded_node(j + 1, row->cells) - vndf_graded_node(j, row->cells);
+    return row->q[j + 1] - row->q[j];
 }
 
 /* The cell's density relative to its mean: row densities are per unit of q. */
@@ -60,13 +60,18 @@ static inline float vndf_azimuth_invert(const vndf_azimuth_row *row, float targe
     }
     float u = (target - vndf_azimuth_cdf_at(row, j)) / vndf_azimuth_mass(row, j);
     float xi = vndf_rational_invert(vndf_azimuth_cell(row, j), u < 1.0f ? (u > 0.0f ? u : 0.0f) : 1.0f);
-    return vndf_graded_node(j, row->cells) + xi * vndf_azimuth_width(row, j);
+    return row->q[j] + xi * vndf_azimuth_width(row, j);
 }
 
 static inline uint32_t vndf_azimuth_find(const vndf_azimuth_row *row, float q, float *xi)
 {
-    uint32_t j = vndf_graded_find(q, row->cells);
-    float at = (q - vndf_graded_node(j, row->cells)) / vndf_azimuth_width(row, j);
+    uint32_t j = 0, n = row->cells;
+    while (n > 1) {
+        uint32_t half = n / 2;
+        j = row->q[j + half] <= q ? j + half : j;
+        n -= half;
+    }
+    float at = (q - row->q[j]) / vndf_azimuth_width(row, j);
     *xi = at > 0.0f ? (at < 1.0f ? at : 1.0f) : 0.0f;
     return j;
 }

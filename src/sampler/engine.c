@@ -66,16 +66,17 @@ void vndf_engine_view(vndf_view *view)
 static vndf_azimuth_row front_row(const vndf_view *view)
 {
     const vndf_distribution *d = view->distribution;
-    vndf_azimuth_row row = {vndf_front_even, vndf_front_cosine, view->c * d->f0_total, view->s * d->f1_total,
+    vndf_azimuth_row row = {vndf_front_even, vndf_front_cosine, vndf_front_q, view->c * d->f0_total, view->s * d->f1_total,
                             VNDF_FRONT_CELLS, 1.0f, 1.0f};
     return row;
 }
 
 static vndf_azimuth_row wedge_row(const vndf_view *view)
 {
-    uint32_t cells = view->distribution->wedge_cells;
-    const vndf_azimuth_node *first = wedge_of(view)->nodes + (size_t)view->row * (cells + 1);
-    vndf_azimuth_row row = {first, first + cells + 1, 1.0f - view->mix, view->mix, cells, view->aspect_p, view->aspect_r};
+    const vndf_wedge *wedge = wedge_of(view);
+    uint32_t cells = wedge->cell_count;
+    const vndf_azimuth_node *first = wedge->nodes + (size_t)view->row * (cells + 1);
+    vndf_azimuth_row row = {first, first + cells + 1, wedge->q, 1.0f - view->mix, view->mix, cells, view->aspect_p, view->aspect_r};
     return row;
 }
 

@@ -40,9 +40,10 @@ static void write_radial(vndf_writer *w, const vndf_distribution *table)
     write_array(w, &table->cells->mu1, n, cell);
 }
 
-static void write_wedge(vndf_writer *w, const vndf_wedge *wedge, uint32_t cells)
+static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 {
-    size_t node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    size_t cells = wedge->cell_count, node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    write_array(w, wedge->q, cells + 1, 1);
     write_array(w, wedge->row_y, rows, 1);
     write_array(w, wedge->aspect_p, rows, 1);
     write_array(w, wedge->aspect_r, rows, 1);
@@ -63,9 +64,10 @@ static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t 
     vndf_write_f64(w, table->normalization);
     vndf_write_f64(w, table->scale_exact);
     vndf_write_u32(w, table->radial_count);
-    vndf_write_u32(w, table->wedge_cells);
+    vndf_write_u32(w, table->above.cell_count);
     vndf_write_u32(w, table->above.row_count);
     vndf_write_u32(w, table->above.knot_count);
+    vndf_write_u32(w, table->below.cell_count);
     vndf_write_u32(w, table->below.row_count);
     vndf_write_u32(w, table->below.knot_count);
     write_array(w, &c->tv, sizeof *c / sizeof(float), 1);
@@ -78,8 +80,8 @@ static size_t write_all(const vndf_distribution *table, unsigned char *bytes, si
     vndf_writer w = {bytes, capacity, 0};
     write_head(&w, table, size);
     write_radial(&w, table);
-    write_wedge(&w, &table->above, table->wedge_cells);
-    write_wedge(&w, &table->below, table->wedge_cells);
+    write_wedge(&w, &table->above);
+    write_wedge(&w, &table->below);
     vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
     return w.at;
 }
@@ -122,9 +124,10 @@ static void read_radial(vndf_reader *r, vndf_distribution *table)
     read_array(r, &table->cells->mu1, n, cell);
 }
 
-static void read_wedge(vndf_reader *r, vndf_wedge *wedge, uint32_t cells)
+static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
 {
-    size_t node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    size_t cells = wedge->cell_count, node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    read_array(r, wedge->q, cells + 1, 1);
     read_array(r, wedge->row_y, rows, 1);
     read_array(r, wedge->aspect_p, rows, 1);
     read_array(r, wedge->aspect_r, rows, 1);
@@ -140,9 +143,10 @@ static vndf_table_size read_counts(vndf_reader *r)
 {
     vndf_table_size size;
     size.radial = vndf_read_u32(r);
-    size.wedge_cells = vndf_read_u32(r);
+    size.above_cells = vndf_read_u32(r);
     size.above_rows = vndf_read_u32(r);
     size.above_knots = vndf_read_u32(r);
+    size.below_cells = vndf_read_u32(r);
     size.below_rows = vndf_read_u32(r);
     size.below_knots = vndf_read_u32(r);
     return size;
@@ -155,7 +159,8 @@ static int within(uint32_t value, uint32_t least, uint32_t most)
 
 static int counts_valid(vndf_table_size s)
 {
-    return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.wedge_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
+    return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.above_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
+           within(s.below_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
            within(s.above_rows, 2, VNDF_WEDGE_ROWS_MAX) && within(s.below_rows, 2, VNDF_WEDGE_ROWS_MAX) &&
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
@@ -170,8 +175,8 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
     if (!table->source || !table->tool)
         return 0;
     read_radial(r, table);
-    read_wedge(r, &table->above, table->wedge_cells);
-    read_wedge(r, &table->below, table->wedge_cells);
+    read_wedge(r, &table->above);
+    read_wedge(r, &table->below);
     return !r->failed && r->at + 4 == r->size;
 }
 

@@ -2,11 +2,11 @@
  *
  *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
  *     f64 normalization           f64 scale
- *     u32 radial cells, wedge cells, above: rows, knots, below: rows, knots
+ *     u32 radial cells; above: cells, rows, knots; below: cells, rows, knots
  *     7 f32 certificate (order of vndf_certificate)
  *     u32 n, n bytes source       u32 n, n bytes tool
  *     radial  f32 x[n+1], z[n+1], f0[n], f1[n], mu0[n], mu1[n]
- *     wedge above, then below: f32 row_y[], aspect_p[], aspect_r[], mass[rows][cells],
+ *     wedge above, then below: f32 q[cells+1], row_y[], aspect_p[], aspect_r[], mass[rows][cells],
  *             density[rows][cells+1], knot_y[], mass[], slope[]
  *     u32 CRC-32 of all bytes before it
  *

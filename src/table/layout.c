@@ -6,10 +6,11 @@
 
 #include "table/guide.h"
 
-static int allocate_wedge(vndf_wedge *wedge, uint32_t rows, uint32_t knots, uint32_t cells)
+static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
-    float *block = calloc((size_t)3 * rows + (size_t)3 * knots, sizeof *block);
+    float *block = calloc((size_t)3 * rows + (size_t)3 * knots + cells + 1, sizeof *block);
     wedge->nodes = calloc((size_t)rows * (cells + 1), sizeof *wedge->nodes);
+    wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
     wedge->row_y = block;
@@ -20,6 +21,7 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t rows, uint32_t knots, uint
     wedge->knot_y = block + 3 * rows;
     wedge->mass = wedge->knot_y + knots;
     wedge->slope = wedge->mass + knots;
+    wedge->q = wedge->slope + knots;
     return 1;
 }
 
@@ -38,13 +40,12 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
         return NULL;
     table->kind = VNDF_KIND_TABLE;
     table->radial_count = size.radial;
-    table->wedge_cells = size.wedge_cells;
     table->pole = calloc(size.radial + 1, sizeof *table->pole);
     table->tail = calloc(size.radial + 1, sizeof *table->tail);
     table->slope = calloc(size.radial + 1, sizeof *table->slope);
     table->cells = calloc(size.radial, sizeof *table->cells);
-    int whole = allocate_wedge(&table->above, size.above_rows, size.above_knots, size.wedge_cells);
-    whole &= allocate_wedge(&table->below, size.below_rows, size.below_knots, size.wedge_cells);
+    int whole = allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
+    whole &= allocate_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
     if (whole && table->pole && table->tail && table->slope && table->cells)
         return table;
     vndf_free(table);
@@ -121,8 +122,9 @@ static void derive_tail(vndf_distribution *table)
 }
 
 /* Running sums of each row, and each row scaled to mass 1. */
-static void derive_rows(vndf_wedge *wedge, uint32_t cells)
+static void derive_rows(vndf_wedge *wedge)
 {
+    uint32_t cells = wedge->cell_count;
     for (uint32_t i = 0; i < wedge->row_count; i++) {
         vndf_azimuth_node *node = wedge->nodes + (size_t)i * (cells + 1);
         double total = 0.0, sum = 0.0;
@@ -138,9 +140,9 @@ static void derive_rows(vndf_wedge *wedge, uint32_t cells)
     }
 }
 
-static int derive_wedge(vndf_wedge *wedge, uint32_t cells)
+static int derive_wedge(vndf_wedge *wedge)
 {
-    derive_rows(wedge, cells);
+    derive_rows(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, wedge->row_count) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);
 }
@@ -153,5 +155,5 @@ int vndf_table_derive(vndf_distribution *table)
     for (uint32_t j = 0; j <= table->radial_count; j++)
         table->slope[j] = table->pole[j].z > 0.0f ? table->pole[j].x / table->pole[j].z : HUGE_VALF;
     return vndf_guide_make(&table->slope_guide, table->slope, table->radial_count + 1) &&
-           derive_wedge(&table->above, table->wedge_cells) && derive_wedge(&table->below, table->wedge_cells);
+           derive_wedge(&table->above) && derive_wedge(&table->below);
 }

@@ -5,7 +5,9 @@
 #include "table/table.h"
 
 typedef struct vndf_table_size {
-    uint32_t radial, wedge_cells, above_rows, above_knots, below_rows, below_knots;
+    uint32_t radial;
+    uint32_t above_cells, above_rows, above_knots;
+    uint32_t below_cells, below_rows, below_knots;
 } vndf_table_size;
 
 /* An empty table with room for everything, zeroed; NULL if there is no memory. */

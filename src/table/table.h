@@ -10,7 +10,7 @@
  *   mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
  * Prefix sums over the cells, from the pole and from the tail (see vndf_pole_knot, vndf_tail_knot).
  * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
- *   circle that the horizon of wi cuts, as rows over the angle of incidence.
+ *   circle that the horizon of wi cuts, as rows over the angle of incidence, all on the same cells of q.
  *
  * Floats on disk are cells and rows alone; prefix sums, guides and cubic coefficients follow from them. */
 #ifndef VNDF_TABLE_TABLE_H
@@ -56,10 +56,11 @@ typedef struct vndf_guide {
 } vndf_guide;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
- * the wedge has no mass. Rows of azimuth density with aspect (p, r), and the wedge's mass divided by
+ * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r), and the wedge's mass divided by
  * (s+|c|) as a cubic Hermite spline on knots of its own. */
 typedef struct vndf_wedge {
-    uint32_t row_count, knot_count;
+    uint32_t cell_count, row_count, knot_count;
+    float *q;                            /* cell_count + 1, from 0 to 1 */
     float *row_y, *aspect_p, *aspect_r;  /* row_count */
     vndf_azimuth_node *nodes;            /* row_count rows of cell_count + 1; each row's mass is 1 */
     float *knot_y, *mass, *slope;        /* knot_count */
@@ -72,7 +73,6 @@ struct vndf_distribution {
     vndf_kind kind;
     float scale;               /* canonical slope 1 is this slope of the source */
     uint32_t radial_count;     /* cells */
-    uint32_t wedge_cells;      /* cells of a wedge row */
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_pole_knot *pole;      /* radial_count + 1 */
     vndf_tail_knot *tail;      /* radial_count + 1 */

@@ -36,8 +36,11 @@ static const char *radial_invalid(const vndf_distribution *table)
     return NULL;
 }
 
-static const char *rows_invalid(const vndf_wedge *wedge, uint32_t cells)
+static const char *rows_invalid(const vndf_wedge *wedge)
 {
+    uint32_t cells = wedge->cell_count;
+    if (!ascending(wedge->q, cells + 1))
+        return "the azimuth cells do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->row_count; i++) {
         const vndf_azimuth_node *node = wedge->nodes + (size_t)i * (cells + 1);
         double total = 0.0;
@@ -80,9 +83,9 @@ const char *vndf_table_invalid(const vndf_distribution *table)
     if (!(table->scale > 1e-18f && table->scale < 1e18f) || !(table->normalization > 0.0) || !isfinite(table->normalization))
         return "the scale or normalization is out of range";
     if (!why)
-        why = rows_invalid(&table->above, table->wedge_cells);
+        why = rows_invalid(&table->above);
     if (!why)
-        why = rows_invalid(&table->below, table->wedge_cells);
+        why = rows_invalid(&table->below);
     if (!why)
         why = area_invalid(&table->above);
     return why ? why : area_invalid(&table->below);
