@@ -127,7 +127,9 @@ function(millionths result text)
 endfunction()
 
 # eval gives each normal of a.csv the density that sample wrote, within 1e-5.
-string(REGEX REPLACE "^[^\n]*\n" "" rows "${a}")
+string(FIND "${a}" "\n" header)
+math(EXPR header "${header} + 1")
+string(SUBSTRING "${a}" ${header} -1 rows)
 string(REGEX REPLACE ",[^,\n]*\n" "\n" input "${rows}")
 run(0 eval table.vndf --theta 60 --phi 30 --alpha 0.1,0.3)
 string(REGEX MATCHALL "[^\n]+" rows "${rows}")

@@ -5,11 +5,15 @@
 #include "distribution.h"
 #include "random.h"
 
+/* Below it, certificates do not measure either: the whole lobe is the far end of a tail. */
+static const float least_area = 1e-12f;
+
 typedef struct draw {
+    consistency_point point;
     vndf_surface surface;
     vndf_view view;
     vndf_vec3 wi, wm;
-    float u1, u2, pdf;
+    float pdf;
 } draw;
 
 static double dot(vndf_vec3 a, vndf_vec3 b)
@@ -18,18 +22,24 @@ static double dot(vndf_vec3 a, vndf_vec3 b)
 }
 
 /* Angles uniform, not the sphere: grazing and steep directions are where things break. */
-static draw draw_normal(const vndf_distribution *distribution, random_stream *stream)
+static consistency_point draw_point(random_stream *stream)
 {
-    draw it;
-    double theta = 180 * random_double(stream), phi = 360 * random_double(stream);
-    it.surface.distribution = distribution;
-    it.surface.alpha_x = (float)pow(10, -3 * random_double(stream));
-    it.surface.alpha_y = (float)pow(10, -3 * random_double(stream));
-    it.wi = direction_from(theta, phi);
-    it.u1 = random_float(stream);
-    it.u2 = random_float(stream);
+    consistency_point point;
+    point.theta = 180 * random_double(stream);
+    point.phi = 360 * random_double(stream);
+    point.alpha_x = (float)pow(10, -3 * random_double(stream));
+    point.alpha_y = (float)pow(10, -3 * random_double(stream));
+    point.u1 = random_float(stream);
+    point.u2 = random_float(stream);
+    return point;
+}
+
+static draw draw_normal(const vndf_distribution *distribution, consistency_point point)
+{
+    draw it = {.point = point, .surface = {distribution, point.alpha_x, point.alpha_y}};
+    it.wi = direction_from(point.theta, point.phi);
     it.view = vndf_view_from(&it.surface, it.wi);
-    it.wm = vndf_sample(&it.view, it.u1, it.u2, &it.pdf);
+    it.wm = vndf_sample(&it.view, point.u1, point.u2, &it.pdf);
     return it;
 }
 
@@ -46,12 +56,6 @@ static int is_blind(const draw *it)
     return it->pdf == 0 && vndf_projected_area(&it->surface, it->wi) < 1e-30f;
 }
 
-/* NaN is worse than anything. */
-static double worse(double a, double b)
-{
-    return isnan(b) ? INFINITY : fmax(a, b);
-}
-
 static double pdf_difference(const draw *it)
 {
     double pdf = (double)it->pdf;
@@ -65,27 +69,47 @@ static double invert_difference(const draw *it)
     vndf_invert(&it->view, it->wm, &u1, &u2);
     if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
         return INFINITY;
-    if (fabs((double)u1 - (double)it->u1) <= steps && fabs((double)u2 - (double)it->u2) <= steps)
+    if (fabs((double)u1 - (double)it->point.u1) <= steps && fabs((double)u2 - (double)it->point.u2) <= steps)
         return 0;
     vndf_vec3 back = vndf_sample(&it->view, u1, u2, NULL);
     vndf_vec3 apart = {back.x - it->wm.x, back.y - it->wm.y, back.z - it->wm.z};
     return sqrt(dot(apart, apart));
 }
 
+/* NaN is worse than any number. */
+static void keep_worst(double difference, consistency_point point, double *worst, consistency_point *at)
+{
+    if (difference <= *worst)
+        return;
+    *worst = isnan(difference) ? INFINITY : difference;
+    *at = point;
+}
+
+static void measure_point(const draw *it, consistency *result)
+{
+    if (is_blind(it)) {
+        result->blind++;
+        return;
+    }
+    if (!is_valid(it)) {
+        result->invalid++;
+        result->invalid_at = it->point;
+        return;
+    }
+    if (vndf_projected_area(&it->surface, it->wi) < least_area)
+        return;
+    result->measured++;
+    keep_worst(pdf_difference(it), it->point, &result->worst_pdf, &result->pdf_at);
+    keep_worst(invert_difference(it), it->point, &result->worst_invert, &result->invert_at);
+}
+
 consistency consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed)
 {
-    consistency result = {0, 0, 0, points, 0};
+    consistency result = {.points = points};
     random_stream stream = random_from(seed);
     for (size_t i = 0; i < points; i++) {
-        draw it = draw_normal(distribution, &stream);
-        if (is_blind(&it))
-            result.blind++;
-        else if (!is_valid(&it))
-            result.invalid++;
-        else {
-            result.worst_pdf = worse(result.worst_pdf, pdf_difference(&it));
-            result.worst_invert = worse(result.worst_invert, invert_difference(&it));
-        }
+        draw it = draw_normal(distribution, draw_point(&stream));
+        measure_point(&it, &result);
     }
     return result;
 }

@@ -34,8 +34,8 @@ static int refine_radial(vndf_plan *plan, size_t limit)
         start[n++] = POLE_CELL;
     for (size_t i = 0; i < fit->jump_count; i++)
         start[n++] = fit->jump[i];
-    start[n++] = 1.0;
-    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_cell_error, &plan->radial_fit);
+    start[n++] = HUGE_VAL;
+    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_middle, vndf_fit_cell_error, &plan->radial_fit);
     free(start);
     return good;
 }
@@ -43,13 +43,13 @@ static int refine_radial(vndf_plan *plan, size_t limit)
 static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
 {
     static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-    return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, vndf_wedge_row_error, fit);
+    return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_row_error, fit);
 }
 
 static int refine_area(vndf_refinement *area, vndf_wedge_fit *fit, size_t limit, double enough)
 {
     static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, vndf_wedge_area_error, fit);
+    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_area_error, fit);
 }
 
 /* Cells of an azimuth row: at most a few per cent of the bytes each. */
@@ -156,7 +156,7 @@ static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf
     vndf_refinement_knots(area, wedge->knot_count - area->start, knots);
     for (uint32_t i = 0; i < wedge->knot_count; i++) {
         vndf_area_value value = vndf_wedge_fit_area(fit, knots[i]);
-        if (i > 0 && value.mass < 1e-36)
+        if (i > 0 && (value.mass < 1e-36 || (float)knots[i] == wedge->knot_y[n - 1]))
             continue;
         wedge->knot_y[n] = (float)knots[i];
         wedge->mass[n] = (float)value.mass;

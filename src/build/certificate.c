@@ -55,12 +55,14 @@ static double drawn_density(const vndf_view *view, double r, double a)
     return (double)vndf_engine_density(view, n) * z * z * z;
 }
 
+/* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
 static void add_slopes(survey *v, const vndf_view *view, double a, double w, double r0, double r1, double area)
 {
-    double s = view->s, c = view->c, v0 = r0 / (1 + r0), v1 = r1 < HUGE_VAL ? r1 / (1 + r1) : 1.0;
+    double s = view->s, c = view->c, x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
+    double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
     for (int i = 0; i < SLOPE_POINTS && v->count < v->capacity; i++) {
-        double at = v0 + (v1 - v0) * vndf_gauss_coarse_node[i], z = 1 - at, r = at / z;
-        double measure = w * vndf_gauss_coarse_weight[i] * (v1 - v0) * r / (z * z);
+        double xi = vndf_gauss_coarse_node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
+        double measure = w * vndf_gauss_coarse_weight[i] * width * r / (z * z);
         double mask = c + s * cos(a) * r, truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / area : 0.0;
         sample one = {truth * measure, drawn_density(view, r, a) * measure};
         v->samples[v->count++] = one;

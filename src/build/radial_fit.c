@@ -14,19 +14,22 @@ static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi 
 
 /* ---- knots ---- */
 
+static int jumps_at(const vndf_profile *profile, double r)
+{
+    double here = vndf_profile_p22(profile, r * (1 - 1e-9)), there = vndf_profile_p22(profile, r * (1 + 1e-9));
+    return fabs(here - there) > 1e-4 * fmax(here, there) && fmax(here, there) * r * r > 1e-25;
+}
+
 int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
 {
     double last = 0.0;
     fit->profile = profile;
     fit->jump_count = 0;
     fit->jump = malloc(JUMPS_MAX * sizeof *fit->jump);
-    for (size_t i = 0; fit->jump && i < profile->count && fit->jump_count < JUMPS_MAX; i++) {
+    for (size_t i = 1; fit->jump && i < profile->count && fit->jump_count < JUMPS_MAX; i++) {
         double r = profile->panel[i].r;
-        double here = vndf_profile_p22(profile, r * (1 - 1e-9)), there = vndf_profile_p22(profile, r * (1 + 1e-9));
-        if (!profile->panel[i].jump || r < last * 1.0001 || fabs(here - there) < 1e-6 * (here + there))
-            continue;
-        fit->jump[fit->jump_count++] = r / (1 + r);
-        last = r;
+        if (r > last * 1.0001 && jumps_at(profile, r))
+            fit->jump[fit->jump_count++] = last = r;
     }
     return fit->jump != NULL;
 }
@@ -37,25 +40,32 @@ void vndf_radial_fit_free(vndf_radial_fit *fit)
     fit->jump = NULL;
 }
 
-static int is_jump(const vndf_radial_fit *fit, double v)
+static int is_jump(const vndf_radial_fit *fit, double r)
 {
     for (size_t i = 0; i < fit->jump_count; i++)
-        if (fit->jump[i] == v)
+        if (fit->jump[i] == r)
             return 1;
     return 0;
 }
 
-vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double v)
+vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r)
 {
-    vndf_fit_knot knot = {(float)v, (float)(1 - v), 0.0, is_jump(fit, v)};
-    double r = v / (1 - v);
+    int infinite = r == HUGE_VAL;
+    vndf_fit_knot knot = {infinite ? 1.0f : (float)(r / (1 + r)), (float)(1 / (1 + r)), r, is_jump(fit, r)};
     if (knot.jump) { /* the side with more normals keeps its edge inside its own cell */
         int down = vndf_profile_p22(fit->profile, r * (1 - 1e-9)) > vndf_profile_p22(fit->profile, r * (1 + 1e-9));
         knot.x = nextafterf(knot.x, down ? 2.0f : 0.0f);
         knot.z = nextafterf(knot.z, down ? 0.0f : 2.0f);
     }
-    knot.r = v < 1.0 ? (double)knot.x / (double)knot.z : HUGE_VAL;
+    if (!infinite)
+        knot.r = (double)knot.x / (double)knot.z;
     return knot;
+}
+
+double vndf_fit_middle(double a, double b)
+{
+    double xa = a / (1 + a), za = 1 / (1 + a), xb = b < HUGE_VAL ? b / (1 + b) : 1.0, zb = 1 / (1 + b);
+    return (xa + xb) / (za + zb);
 }
 
 /* ---- cells ---- */
@@ -166,10 +176,10 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
     return n;
 }
 
-vndf_interval_miss vndf_fit_cell_error(double va, double vb, void *user)
+vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
 {
     const vndf_radial_fit *fit = user;
-    vndf_fit_knot a = vndf_fit_knot_at(fit, va), b = vndf_fit_knot_at(fit, vb);
+    vndf_fit_knot a = vndf_fit_knot_at(fit, ra), b = vndf_fit_knot_at(fit, rb);
     vndf_interval_miss found = {0.0, 0.0};
     double s0 = fit->profile->f1;
     if (!(b.r - a.r > WIDTH_LEAST * b.r) && b.z > 0.0f)
@@ -179,7 +189,7 @@ vndf_interval_miss vndf_fit_cell_error(double va, double vb, void *user)
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
     double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
     double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
-    double seen = s > 1e-12 * s0 ? 1.0 : s > 1e-28 * s0 ? 1e-4 : 1e-6;
+    double seen = s / (s + 1e-12 * s0) + 1e-5;
     double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
     found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
     found.alone = fmax(e.cut_inside * below * seen, e.cut_outside * outside);

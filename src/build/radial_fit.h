@@ -1,4 +1,4 @@
-/* Cells of the radial table for a profile. Knots are given by v = R/(1 + R) in [0, 1]. */
+/* Cells of the radial table for a profile. Knots are given by the canonical slope R in [0, inf]. */
 #ifndef VNDF_BUILD_RADIAL_FIT_H
 #define VNDF_BUILD_RADIAL_FIT_H
 
@@ -15,7 +15,7 @@ typedef struct vndf_fit_knot {
 
 typedef struct vndf_radial_fit {
     const vndf_profile *profile;
-    double *jump;      /* v of the jumps, ascending */
+    double *jump;      /* slopes where P jumps, ascending */
     size_t jump_count;
 } vndf_radial_fit;
 
@@ -23,12 +23,15 @@ typedef struct vndf_radial_fit {
 int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile);
 void vndf_radial_fit_free(vndf_radial_fit *fit);
 
-vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double v);
+vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r);
+
+/* Halfway between two slopes in R/(1 + R): a vndf_interval_middle. */
+double vndf_fit_middle(double a, double b);
 
 /* f0, f1, mu0, mu1 of the cell between two knots; never a cubic that falls below 0. */
 vndf_radial_cell vndf_fit_cell(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b);
 
-/* What the cell from v = a to b adds to the total variation, at most: with the others where all normals are
+/* What the cell from R = a to b adds to the total variation, at most: with the others where all normals are
  * drawn, alone where the cut below the horizon lies in it. A vndf_interval_error with a vndf_radial_fit. */
 vndf_interval_miss vndf_fit_cell_error(double a, double b, void *fit);
 

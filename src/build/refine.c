@@ -53,12 +53,16 @@ static double total(const interval *heap, size_t count)
     return sum + most;
 }
 
-static void split(vndf_refinement *r, interval *heap, size_t intervals, vndf_interval_error *error, void *user)
+static double arithmetic_middle(double a, double b)
+{
+    return a + (b - a) / 2;
+}
+
+static void split(vndf_refinement *r, interval *heap, size_t intervals, double at, vndf_interval_error *error, void *user)
 {
     interval whole = heap[0];
-    double middle = whole.a + (whole.b - whole.a) / 2;
-    interval left = make_interval(whole.a, middle, error, user), right = make_interval(middle, whole.b, error, user);
-    r->knot[r->start + r->count++] = middle;
+    interval left = make_interval(whole.a, at, error, user), right = make_interval(at, whole.b, error, user);
+    r->knot[r->start + r->count++] = at;
     heap[0] = left;
     sift_down(heap, intervals, 0);
     heap[intervals] = right;
@@ -66,7 +70,7 @@ static void split(vndf_refinement *r, interval *heap, size_t intervals, vndf_int
 }
 
 int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, size_t limit, double enough,
-                vndf_interval_error *error, void *user)
+                vndf_interval_middle *middle, vndf_interval_error *error, void *user)
 {
     size_t intervals = start_count - 1;
     interval *heap = malloc((intervals + limit + 1) * sizeof *heap);
@@ -87,7 +91,7 @@ int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, siz
         r->error[r->count] = total(heap, intervals + r->count);
         if (r->count == limit || r->error[r->count] <= enough || heap[0].urgency <= 0.0)
             break;
-        split(r, heap, intervals + r->count, error, user);
+        split(r, heap, intervals + r->count, (middle ? middle : arithmetic_middle)(heap[0].a, heap[0].b), error, user);
     }
     free(heap);
     return 1;

@@ -13,6 +13,9 @@ typedef struct vndf_interval_miss {
 } vndf_interval_miss;
 typedef vndf_interval_miss vndf_interval_error(double a, double b, void *user);
 
+/* Where an interval is halved; NULL stands for (a + b)/2. */
+typedef double vndf_interval_middle(double a, double b);
+
 typedef struct vndf_refinement {
     size_t start;      /* knots given at the start, ascending */
     size_t count;      /* and points added after them, in order of need */
@@ -22,7 +25,7 @@ typedef struct vndf_refinement {
 
 /* Adds points until `limit` or until the error is below `enough`. 0 if there is no memory. */
 int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
-                vndf_interval_error *error, void *user);
+                vndf_interval_middle *middle, vndf_interval_error *error, void *user);
 
 /* The first `added` points with the start, ascending, into knots[start + added]. */
 void vndf_refinement_knots(const vndf_refinement *refinement, size_t added, double *knots);

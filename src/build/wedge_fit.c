@@ -17,6 +17,7 @@ struct vndf_row_cache {
     entry *bucket[BUCKETS];
 };
 
+static const double LEAST = 1e-12; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
 static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
 
 /* ---- the azimuth density ---- */
@@ -145,7 +146,7 @@ static int place_cells(vndf_wedge_fit *fit, uint32_t most_cells, double enough)
     bench judges = {fit, {{{0, 0, 0}, 0, 0, 0}}};
     for (int i = 0; i < JUDGE_COUNT; i++)
         judges.judges[i] = judge_at(fit, JUDGES[i]);
-    int good = vndf_refine(&cells, start, START, most_cells + 1 - START, enough, worst_miss, &judges);
+    int good = vndf_refine(&cells, start, START, most_cells + 1 - START, enough, NULL, worst_miss, &judges);
     if (good) {
         fit->cells = (uint32_t)cells.count + START - 1;
         vndf_refinement_knots(&cells, cells.count, knots);
@@ -210,7 +211,7 @@ static double share(const vndf_wedge_fit *fit, double y)
     double mass = vndf_wedge_fit_area(fit, y).mass;
     if (!fit->below)
         return mass / (mass + y * fit->profile->f0 * 1.57079632679489661923 + (1 - y) * fit->profile->f1);
-    return mass > 1e-12 * fit->profile->f1 ? 1.0 : mass > 1e-28 * fit->profile->f1 ? 1e-3 : 1e-6;
+    return mass / (mass + LEAST * fit->profile->f1);
 }
 
 /* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
@@ -236,8 +237,11 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
     vndf_wedge_fit *fit = user;
     const vndf_row *first = vndf_wedge_fit_row(fit, a), *second = vndf_wedge_fit_row(fit, b);
     vndf_interval_miss found = {0.0, 0.0};
-    if (first && second && b - a > 1e-6)
-        found.alone = row_miss(fit, first, second, 0.5) * share(fit, (a + b) / 2);
+    if (!first || !second || b - a < 1e-6)
+        return found;
+    found.alone = row_miss(fit, first, second, 0.5) * share(fit, (a + b) / 2);
+    if (fit->below) /* where masses fall off towards a, nothing may be left of them halfway */
+        found.alone = fmax(found.alone, row_miss(fit, first, second, 0.85) * share(fit, a + 0.85 * (b - a)));
     return found;
 }
 
@@ -255,8 +259,8 @@ vndf_interval_miss vndf_wedge_area_error(double a, double b, void *user)
         double t = i / 4.0, u = 1 - t, y = a + t * h, truth = vndf_wedge_fit_area(fit, y).mass;
         double b1 = va.mass + h * va.slope / 3, b2 = vb.mass - h * vb.slope / 3;
         double spline = u * u * (u * va.mass + 3 * t * b1) + t * t * (3 * u * (b2 > 0 ? b2 : 0) + t * vb.mass);
-        double error = fabs(spline - truth) / (fit->below ? truth + 1e-34 : truth / share(fit, y));
-        worst = fmax(worst, error * (fit->below ? share(fit, y) : 1.0));
+        double error = fabs(spline - truth) / (fit->below ? truth + LEAST * fit->profile->f1 : truth / share(fit, y));
+        worst = fmax(worst, error);
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
     return found;
