@@ -5,11 +5,11 @@
 #include <string.h>
 
 /* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas
- * by a hundredth of it within what float holds. */
-static double area_error(double error)
+ * by a part of it, and by no more than what is promised of a default table. */
+static double area_error(const vndf_plan *plan, double error)
 {
-    double e = error / 60;
-    return e < 1e-7 ? 1e-7 : e;
+    double most = plan->max_bytes < 8192 ? 1.0 : 8e-7;
+    return fmin(fmax(error / 60, 2e-7), most);
 }
 
 /* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
@@ -64,6 +64,7 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
+    plan->max_bytes = max_bytes;
     plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, row_cells, 2 * plan->finest) ||
         !vndf_wedge_fit_from(&plan->below_fit, profile, 1, row_cells, 2 * plan->finest))
@@ -75,8 +76,8 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
         report(options, 0.4, "azimuth rows below the horizon") ||
         !refine_rows(&plan->below_rows, &plan->below_fit, most_rows < 1000 ? most_rows : 1000, plan->finest) ||
         report(options, 0.6, "projected area") ||
-        !refine_area(&plan->above_area, &plan->above_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan->finest)) ||
-        !refine_area(&plan->below_area, &plan->below_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan->finest)))
+        !refine_area(&plan->above_area, &plan->above_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan, plan->finest)) ||
+        !refine_area(&plan->below_area, &plan->below_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan, plan->finest)))
         return plan->below_area.error ? 1 : -1;
     return 1;
 }
@@ -112,8 +113,8 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     size.below_cells = plan->below_fit.cells;
     size.above_rows = (uint32_t)plan->above_rows.start + needed(&plan->above_rows, error);
     size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, 2 * error);
-    size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(error));
-    size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(error));
+    size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(plan, error));
+    size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(plan, error));
     return size;
 }
 

@@ -12,6 +12,7 @@ typedef struct vndf_plan {
     vndf_radial_fit radial_fit;
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
+    size_t max_bytes;
     double finest;  /* the error down to which the fits were refined */
 } vndf_plan;
 

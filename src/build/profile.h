@@ -25,6 +25,9 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
+/* Below the horizon an error counts by this power of the area that is seen: a tenth where 1e-8 of it is left. */
+#define VNDF_FADE 0.125
+
 typedef struct vndf_profile {
     const vndf_source *source;
     double normalization, scale, floor;

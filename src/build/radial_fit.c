@@ -189,7 +189,7 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
     double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
     double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
-    double seen = s / (s + 1e-12 * s0) + 1e-5;
+    double seen = pow(s / s0, VNDF_FADE) / (1 + a.r * 1e-8);
     double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
     found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
     found.alone = fmax(e.cut_inside * below * seen, e.cut_outside * outside);

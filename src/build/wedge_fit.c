@@ -17,7 +17,7 @@ struct vndf_row_cache {
     entry *bucket[BUCKETS];
 };
 
-static const double LEAST = 1e-12; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
+static const double AREA_LEAST = 1e-11; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
 static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
 
 /* ---- the azimuth density ---- */
@@ -205,13 +205,13 @@ const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
 
 /* ---- errors ---- */
 
-/* Share of what is seen at y that lies in the wedge: all of it below, where it counts while the area is measurable. */
+/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen. */
 static double share(const vndf_wedge_fit *fit, double y)
 {
     double mass = vndf_wedge_fit_area(fit, y).mass;
     if (!fit->below)
         return mass / (mass + y * fit->profile->f0 * 1.57079632679489661923 + (1 - y) * fit->profile->f1);
-    return mass / (mass + LEAST * fit->profile->f1);
+    return pow(mass / fit->profile->f1, VNDF_FADE);
 }
 
 /* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
@@ -259,7 +259,7 @@ vndf_interval_miss vndf_wedge_area_error(double a, double b, void *user)
         double t = i / 4.0, u = 1 - t, y = a + t * h, truth = vndf_wedge_fit_area(fit, y).mass;
         double b1 = va.mass + h * va.slope / 3, b2 = vb.mass - h * vb.slope / 3;
         double spline = u * u * (u * va.mass + 3 * t * b1) + t * t * (3 * u * (b2 > 0 ? b2 : 0) + t * vb.mass);
-        double error = fabs(spline - truth) / (fit->below ? truth + LEAST * fit->profile->f1 : truth / share(fit, y));
+        double error = fabs(spline - truth) / (fit->below ? truth + AREA_LEAST * fit->profile->f1 : truth / share(fit, y));
         worst = fmax(worst, error);
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
