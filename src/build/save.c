@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "table/file.h"
+#include "vndf_build.h"
 
 /* path + ".<process>.tmp", to be freed; NULL if there is no memory. */
 static char *temporary_name(const char *path)
