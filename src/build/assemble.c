@@ -125,13 +125,13 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
-        table->pole[j].x = a.x;
-        table->pole[j].z = a.z;
+        table->knots.x[j] = a.x;
+        table->knots.z[j] = a.z;
         table->cells[j] = vndf_fit_cell(&plan->radial_fit, a, b);
         a = b;
     }
-    table->pole[n].x = a.x;
-    table->pole[n].z = a.z;
+    table->knots.x[n] = a.x;
+    table->knots.z[n] = a.z;
 }
 
 static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
@@ -145,7 +145,8 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
         wedge->row_y[i] = (float)row->y;
         wedge->aspect_p[i] = !fit->below && i == 0 ? 0.0f : (float)row->p;
         wedge->aspect_r[i] = (float)row->r;
-        memcpy(wedge->nodes + (size_t)i * (fit->cells + 1), row->node, (fit->cells + 1) * sizeof *row->node);
+        memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, fit->cells * sizeof *row->mass);
+        memcpy(wedge->density + (size_t)i * wedge->stride, row->density, (fit->cells + 1) * sizeof *row->density);
     }
     return 1;
 }

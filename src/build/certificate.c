@@ -47,12 +47,12 @@ static vndf_view view_of(const vndf_distribution *table, double s, double c)
     return vndf_view_from(&surface, wi);
 }
 
-/* pdf per unit of slope area of the unit problem at R, a. */
+/* pdf per unit of slope area of the unit problem at R, a: the engine's density is per X Z^2 dR da and W. */
 static double drawn_density(const vndf_view *view, double r, double a)
 {
     vndf_vec3 n = normal_at(r, a);
-    double z = n.z; /* vndf_engine_density is per solid angle at X + Z = 1: times Z^3 per slope area */
-    return (double)vndf_engine_density(view, n) * z * z * z;
+    double z = n.z, w = view->s * n.x + view->c * z;
+    return w > 0 ? (double)vndf_engine_density(view, n) * w * z * z * z : 0.0;
 }
 
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */

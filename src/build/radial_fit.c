@@ -136,7 +136,8 @@ static double miss(const vndf_radial_cell *cell, double w0, double w1, double f,
 {
     double mass = w0 * cell->mu0 + w1 * cell->mu1;
     vndf_weighted_cell drawn = vndf_weighted_cell_from(cell->f0, cell->f1, (float)w0, (float)w1, (float)mass);
-    return fabs((double)vndf_weighted_density(&drawn, (float)xi) - f * (w0 * (1 - xi) + w1 * xi) / mass);
+    double w = w0 * (1 - xi) + w1 * xi, density = vndf_rational_density(drawn.shape, vndf_weighted_zeta(&drawn, (float)xi));
+    return fabs(density * 2 * w / (w0 + w1) - f * w / mass);
 }
 
 static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)

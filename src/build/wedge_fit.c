@@ -79,9 +79,9 @@ static void fill_row(const vndf_wedge_fit *fit, vndf_row *row)
     }
     for (uint32_t j = 0; j <= fit->cells; j++) {
         double density = density_in_q(fit, d, row->p, row->r, fit->node[j]);
-        row->node[j].cdf = 0.0f;
-        row->node[j].mass = j < fit->cells ? (float)((1 - UNIFORM) * mass[j] / total + UNIFORM / fit->cells) : 0.0f;
-        row->node[j].density = (float)((1 - UNIFORM) * density / total + UNIFORM);
+        row->density[j] = (float)((1 - UNIFORM) * density / total + UNIFORM);
+        if (j < fit->cells)
+            row->mass[j] = (float)((1 - UNIFORM) * mass[j] / total + UNIFORM / fit->cells);
     }
 }
 
@@ -226,8 +226,8 @@ static double row_miss(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_
     fill_row(fit, &truth);
     for (uint32_t j = 0; j <= fit->cells; j++) {
         double width = (double)fit->node[j < fit->cells ? j + 1 : j] - fit->node[j ? j - 1 : 0];
-        by_mass += fabs((1 - mix) * a->node[j].mass + mix * b->node[j].mass - truth.node[j].mass);
-        by_density += width / 2 * fabs((1 - mix) * a->node[j].density + mix * b->node[j].density - truth.node[j].density);
+        by_mass += j < fit->cells ? fabs((1 - mix) * a->mass[j] + mix * b->mass[j] - truth.mass[j]) : 0.0;
+        by_density += width / 2 * fabs((1 - mix) * a->density[j] + mix * b->density[j] - truth.density[j]);
     }
     return fmax(by_mass, by_density) / 2;
 }

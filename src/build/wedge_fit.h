@@ -20,7 +20,7 @@ typedef struct vndf_wedge_fit {
 /* One row: aspect, and mass and density of its cells, total mass 1. */
 typedef struct vndf_row {
     double y, p, r;
-    vndf_azimuth_node node[VNDF_WEDGE_CELLS_MAX + 1];
+    float mass[VNDF_WEDGE_CELLS_MAX], density[VNDF_WEDGE_CELLS_MAX + 1];
 } vndf_row;
 
 /* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row,

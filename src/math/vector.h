@@ -25,17 +25,29 @@ static inline float vndf_max_abs(vndf_vec3 v)
     return m > z ? m : z;
 }
 
-/* v / |v| for a finite v that is not zero; scaled first, so that no square overflows or vanishes. */
+/* Squares between these neither overflow nor lose digits when they are added. */
+static inline int vndf_is_plain(float square)
+{
+    return square > 1e-30f && square < 1e30f;
+}
+
+/* v / |v| for a finite v that is not zero; scaled first where squares overflow or vanish. */
 static inline vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
-    vndf_vec3 r = vndf_scale(v, 1.0f / vndf_max_abs(v));
-    return vndf_scale(r, 1.0f / sqrtf(vndf_dot(r, r)));
+    float square = vndf_dot(v, v);
+    if (!vndf_is_plain(square)) {
+        v = vndf_scale(v, 1.0f / vndf_max_abs(v));
+        square = vndf_dot(v, v);
+    }
+    return vndf_scale(v, 1.0f / sqrtf(square));
 }
 
 /* sqrt(x^2 + y^2) without overflow or loss for any finite x, y. */
 static inline float vndf_length2(float x, float y)
 {
-    float ax = fabsf(x), ay = fabsf(y);
+    float square = x * x + y * y, ax = fabsf(x), ay = fabsf(y);
+    if (vndf_is_plain(square))
+        return sqrtf(square);
     float big = ax > ay ? ax : ay, ratio = (ax > ay ? ay : ax) / big;
     return big > 0.0f ? big * sqrtf(1.0f + ratio * ratio) : 0.0f;
 }

@@ -4,7 +4,8 @@
  *     zeta = (W^2 - w0^2) / (w1^2 - w0^2) = xi (w0 + W) / (w0 + w1),      dzeta = 2 W / (w0 + w1) dxi
  *
  * the density is that of f alone: a rational cell (rational_cell.h) through f's end values and its mean
- * mass / ((w0 + w1)/2) follows it to third order whatever the weight, a cut (w0 or w1 = 0) included. */
+ * mass / ((w0 + w1)/2) follows it to third order whatever the weight, a cut (w0 or w1 = 0) included. The part
+ * of the mass before xi is the shape's cdf at zeta; its derivative by xi the shape's density times dzeta/dxi. */
 #ifndef VNDF_MATH_WEIGHTED_CELL_H
 #define VNDF_MATH_WEIGHTED_CELL_H
 
@@ -30,23 +31,9 @@ static inline float vndf_weighted_zeta(const vndf_weighted_cell *cell, float xi)
     return zeta < 1.0f ? zeta : 1.0f;
 }
 
-/* Part of the mass before xi. */
-static inline float vndf_weighted_cdf(const vndf_weighted_cell *cell, float xi)
+static inline float vndf_weighted_xi(const vndf_weighted_cell *cell, float zeta)
 {
-    return vndf_rational_cdf(cell->shape, vndf_weighted_zeta(cell, xi));
-}
-
-/* Its derivative by xi. */
-static inline float vndf_weighted_density(const vndf_weighted_cell *cell, float xi)
-{
-    float w = cell->w0 * (1.0f - xi) + cell->w1 * xi, sum = cell->w0 + cell->w1;
-    return sum > 0.0f ? 2.0f * w / sum * vndf_rational_density(cell->shape, vndf_weighted_zeta(cell, xi)) : 0.0f;
-}
-
-/* xi with a part u of the mass before it. */
-static inline float vndf_weighted_invert(const vndf_weighted_cell *cell, float u)
-{
-    float zeta = vndf_rational_invert(cell->shape, u), sum = cell->w0 + cell->w1;
+    float sum = cell->w0 + cell->w1;
     float w = sqrtf(cell->w0 * cell->w0 * (1.0f - zeta) + cell->w1 * cell->w1 * zeta);
     float xi = cell->w0 + w > 0.0f ? zeta * sum / (cell->w0 + w) : zeta;
     return xi < 1.0f ? xi : 1.0f;

@@ -1,4 +1,4 @@
-/* Stage 1 of the engine: an azimuth p in [0, pi/2] from one row of cells, or two that are mixed.
+/* Stage 1 of the engine: an azimuth p in [0, pi/2] from a mix of two rows of cells.
  *
  * The row's variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
  * the density:  (cos, sin) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
@@ -7,106 +7,102 @@
 #ifndef VNDF_SAMPLER_AZIMUTH_H
 #define VNDF_SAMPLER_AZIMUTH_H
 
+#include <stdint.h>
+
 #include "math/rational_cell.h"
 #include "table/table.h"
 
-/* weight_a a + weight_b b, cell by cell. */
+/* One row: mass before each cell (padded to `stride` beyond every target), in it, density at its ends. */
+typedef struct vndf_azimuth_part {
+    const float *cdf, *mass, *density;
+    float weight;
+} vndf_azimuth_part;
+
+/* a.weight a + b.weight b, cell by cell. */
 typedef struct vndf_azimuth_row {
-    const vndf_azimuth_node *a, *b;
-    const float *q; /* cells + 1 */
-    float weight_a, weight_b;
-    uint32_t cells;
+    vndf_azimuth_part a, b;
+    const float *q;         /* cells + 1 */
+    uint32_t cells, stride;
     float p, r;
 } vndf_azimuth_row;
 
-/* cos and sin >= 0 of the azimuth. */
-typedef struct vndf_turn {
-    float cos_phi, sin_phi;
-} vndf_turn;
+/* cos and sin >= 0 of an azimuth, and the row's mass per radian there. */
+typedef struct vndf_azimuth {
+    float cos_phi, sin_phi, density;
+} vndf_azimuth;
 
-static inline float vndf_azimuth_cdf_at(const vndf_azimuth_row *row, uint32_t j)
-{
-    return row->weight_a * row->a[j].cdf + row->weight_b * row->b[j].cdf;
-}
+/* One cell of the mix. */
+typedef struct vndf_azimuth_cell {
+    float before, mass, width;
+    vndf_rational_cell shape;
+} vndf_azimuth_cell;
 
-static inline float vndf_azimuth_mass(const vndf_azimuth_row *row, uint32_t j)
+static inline vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, uint32_t j)
 {
-    return row->weight_a * row->a[j].mass + row->weight_b * row->b[j].mass;
-}
-
-static inline float vndf_azimuth_width(const vndf_azimuth_row *row, uint32_t j)
-{
-    return row->q[j + 1] - row->q[j];
-}
-
-/* The cell's density relative to its mean: row densities are per unit of q. */
-static inline vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j)
-{
-    float per_mean = vndf_azimuth_width(row, j) / vndf_azimuth_mass(row, j);
-    vndf_rational_cell cell = {
-        (row->weight_a * row->a[j].density + row->weight_b * row->b[j].density) * per_mean,
-        (row->weight_a * row->a[j + 1].density + row->weight_b * row->b[j + 1].density) * per_mean};
+    const vndf_azimuth_part *a = &row->a, *b = &row->b;
+    vndf_azimuth_cell cell;
+    cell.before = a->weight * a->cdf[j] + b->weight * b->cdf[j];
+    cell.mass = a->weight * a->mass[j] + b->weight * b->mass[j];
+    cell.width = row->q[j + 1] - row->q[j];
+    float per_mean = cell.width / cell.mass;
+    cell.shape.d0 = (a->weight * a->density[j] + b->weight * b->density[j]) * per_mean;
+    cell.shape.d1 = (a->weight * a->density[j + 1] + b->weight * b->density[j + 1]) * per_mean;
     return cell;
 }
 
-/* q where the mass before it is `target`. */
-static inline float vndf_azimuth_invert(const vndf_azimuth_row *row, float target)
+/* The azimuth at q, xi within a cell. */
+static inline vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, float q, float xi)
 {
-    uint32_t j = 0, n = row->cells;
-    while (n > 1) { /* the last cell whose mass before it is <= target */
-        uint32_t half = n / 2;
-        j = vndf_azimuth_cdf_at(row, j + half) <= target ? j + half : j;
-        n -= half;
-    }
-    float u = (target - vndf_azimuth_cdf_at(row, j)) / vndf_azimuth_mass(row, j);
-    float xi = vndf_rational_invert(vndf_azimuth_cell(row, j), u < 1.0f ? (u > 0.0f ? u : 0.0f) : 1.0f);
-    return row->q[j] + xi * vndf_azimuth_width(row, j);
+    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
+    float scale = 1.0f / sqrtf(n2), per_q = cell->mass * vndf_rational_density(cell->shape, xi);
+    vndf_azimuth at = {c * scale, s * scale, per_q * n2 / (2.0f * row->p * row->r * (1.0f + q * q) * cell->width)};
+    return at;
 }
 
-static inline uint32_t vndf_azimuth_find(const vndf_azimuth_row *row, float q, float *xi)
+/* The azimuth with mass `target` before it. All cells are counted through: no step waits for another. */
+static inline vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float target)
 {
-    uint32_t j = 0, n = row->cells;
-    while (n > 1) {
-        uint32_t half = n / 2;
-        j = row->q[j + half] <= q ? j + half : j;
-        n -= half;
-    }
-    float at = (q - row->q[j]) / vndf_azimuth_width(row, j);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < row->stride; i++)
+        count += row->a.weight * row->a.cdf[i] + row->b.weight * row->b.cdf[i] <= target;
+    uint32_t j = count > 0 ? count - 1 : 0;
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
+    float u = (target - cell.before) / cell.mass;
+    float xi = vndf_rational_invert(cell.shape, u < 1.0f ? (u > 0.0f ? u : 0.0f) : 1.0f);
+    return vndf_azimuth_at(row, &cell, row->q[j] + xi * cell.width, xi);
+}
+
+/* Place of an azimuth in the row. */
+static inline float vndf_azimuth_q(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
+{
+    float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
+    uint32_t count = 0;
+    q = q < 1.0f ? q : 1.0f;
+    for (uint32_t i = 1; i < row->cells; i++)
+        count += row->q[i] <= q;
+    float at = (q - row->q[count]) / (row->q[count + 1] - row->q[count]);
+    *j = count;
     *xi = at > 0.0f ? (at < 1.0f ? at : 1.0f) : 0.0f;
-    return j;
+    return q;
 }
 
-/* Mass before q. */
-static inline float vndf_azimuth_cdf(const vndf_azimuth_row *row, float q)
+/* Mass before an azimuth. */
+static inline float vndf_azimuth_before(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
+    uint32_t j;
     float xi;
-    uint32_t j = vndf_azimuth_find(row, q, &xi);
-    return vndf_azimuth_cdf_at(row, j) + vndf_azimuth_mass(row, j) * vndf_rational_cdf(vndf_azimuth_cell(row, j), xi);
+    vndf_azimuth_q(row, cos_phi, sin_phi, &j, &xi);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
+    return cell.before + cell.mass * vndf_rational_cdf(cell.shape, xi);
 }
 
-/* Mass per radian of azimuth at q. */
-static inline float vndf_azimuth_density(const vndf_azimuth_row *row, float q)
+/* Mass per radian at an azimuth. */
+static inline float vndf_azimuth_density(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
-    float xi;
-    uint32_t j = vndf_azimuth_find(row, q, &xi);
-    float per_q = vndf_azimuth_mass(row, j) / vndf_azimuth_width(row, j) * vndf_rational_density(vndf_azimuth_cell(row, j), xi);
-    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q;
-    return per_q * (c * c + s * s) / (2.0f * row->p * row->r * (1.0f + q * q));
-}
-
-static inline vndf_turn vndf_azimuth_turn(const vndf_azimuth_row *row, float q)
-{
-    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q;
-    float scale = 1.0f / sqrtf(c * c + s * s);
-    vndf_turn turn = {c * scale, s * scale};
-    return turn;
-}
-
-static inline float vndf_azimuth_q(const vndf_azimuth_row *row, vndf_turn turn)
-{
-    float c = row->r * turn.cos_phi, s = row->p * turn.sin_phi;
-    float q = s / (c + sqrtf(c * c + s * s));
-    return q < 1.0f ? q : 1.0f;
+    uint32_t j;
+    float xi, q = vndf_azimuth_q(row, cos_phi, sin_phi, &j, &xi);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
+    return vndf_azimuth_at(row, &cell, q, xi).density;
 }
 
 #endif

@@ -42,17 +42,11 @@ static const vndf_wedge *wedge_of(const vndf_view *view)
     return view->c >= 0.0f ? &view->distribution->above : &view->distribution->below;
 }
 
-static float front_total(const vndf_distribution *d, float s, float c)
-{
-    return c * d->f0_total * vndf_front_even[VNDF_FRONT_CELLS].cdf + s * d->f1_total;
-}
-
 void vndf_engine_view(vndf_view *view)
 {
     const vndf_distribution *d = view->distribution;
-    float s = view->s, c = view->c, sum = s + fabsf(c);
-    float y = c >= 0.0f ? c / sum : s / sum;
     const vndf_wedge *wedge = wedge_of(view);
+    float s = view->s, c = view->c, sum = s + fabsf(c), y = (c >= 0.0f ? c : s) / sum;
     uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count, y);
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
     view->row = i;
@@ -60,137 +54,138 @@ void vndf_engine_view(vndf_view *view)
     view->aspect_p = (1.0f - mix) * wedge->aspect_p[i] + mix * wedge->aspect_p[i + 1];
     view->aspect_r = (1.0f - mix) * wedge->aspect_r[i] + mix * wedge->aspect_r[i + 1];
     view->wedge = sum * wedge_mass(wedge, y);
-    view->front = c >= 0.0f ? front_total(d, s, c) : 0.0f;
+    view->front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
 }
 
+/* The half circle towards wi, above the horizon. */
 static vndf_azimuth_row front_row(const vndf_view *view)
 {
     const vndf_distribution *d = view->distribution;
-    vndf_azimuth_row row = {vndf_front_even, vndf_front_cosine, vndf_front_q, view->c * d->f0_total, view->s * d->f1_total,
-                            VNDF_FRONT_CELLS, 1.0f, 1.0f};
+    vndf_azimuth_row row = {
+        {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
+        {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
+        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_STRIDE, 1.0f, 1.0f};
     return row;
 }
 
+/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. */
 static vndf_azimuth_row wedge_row(const vndf_view *view)
 {
-    const vndf_wedge *wedge = wedge_of(view);
-    uint32_t cells = wedge->cell_count;
-    const vndf_azimuth_node *first = wedge->nodes + (size_t)view->row * (cells + 1);
-    vndf_azimuth_row row = {first, first + cells + 1, wedge->q, 1.0f - view->mix, view->mix, cells, view->aspect_p, view->aspect_r};
+    const vndf_wedge *w = wedge_of(view);
+    size_t a = (size_t)view->row * w->stride, b = a + w->stride;
+    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + a, 1.0f - view->mix},
+                            {w->cdf + b, w->cell_mass + b, w->density + b, view->mix},
+                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
     return row;
 }
 
 /* ---- sampling ---- */
 
-/* |a| where the mass `half` (0 to 1) of a half turn lies between the side of wi and a. */
-static vndf_turn sample_turn(const vndf_view *view, float half)
+/* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
+static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
     float target = half * (view->front + view->wedge);
-    if (view->c < 0.0f) {
-        vndf_azimuth_row row = wedge_row(view);
-        return vndf_azimuth_turn(&row, vndf_azimuth_invert(&row, half));
-    }
-    if (target < view->front || !(view->wedge > 0.0f)) {
+    vndf_azimuth at;
+    if (view->c >= 0.0f && (target < view->front || !(view->wedge > 0.0f))) {
         vndf_azimuth_row row = front_row(view);
-        return vndf_azimuth_turn(&row, vndf_azimuth_invert(&row, target));
+        return vndf_azimuth_draw(&row, target);
     }
-    vndf_azimuth_row row = wedge_row(view); /* counted from the far side, a = pi */
-    float rest = (target - view->front) / view->wedge;
-    vndf_turn turn = vndf_azimuth_turn(&row, vndf_azimuth_invert(&row, rest < 1.0f ? 1.0f - rest : 0.0f));
-    turn.cos_phi = -turn.cos_phi;
-    return turn;
+    vndf_azimuth_row row = wedge_row(view);
+    if (view->c >= 0.0f) { /* counted from the far side, a = pi */
+        float rest = (target - view->front) / view->wedge;
+        at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
+        at.cos_phi = -at.cos_phi;
+    } else
+        at = vndf_azimuth_draw(&row, half);
+    at.density *= view->wedge;
+    return at;
 }
 
-vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2)
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *density)
 {
-    float half = 2.0f * u1 - 1.0f;
-    vndf_turn turn = sample_turn(view, fabsf(half));
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * turn.cos_phi);
-    vndf_radius at = vndf_radial_invert(&law, u2);
-    const vndf_pole_knot *knot = &view->distribution->pole[at.cell];
-    float x = knot[0].x + at.xi * (knot[1].x - knot[0].x), z = knot[0].z + at.xi * (knot[1].z - knot[0].z);
-    vndf_vec3 normal = {x * turn.cos_phi, half < 0.0f ? -x * turn.sin_phi : x * turn.sin_phi, z > 0.0f ? z : 0.0f};
+    float half = 2.0f * u1 - 1.0f, radial;
+    vndf_azimuth a = draw_azimuth(view, fabsf(half));
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * a.cos_phi);
+    vndf_radius at = vndf_radial_draw(&law, u2, &radial);
+    const vndf_knots *k = &view->distribution->knots;
+    float x = k->x[at.cell] + at.xi * (k->x[at.cell + 1] - k->x[at.cell]);
+    float z = k->z[at.cell] + at.xi * (k->z[at.cell + 1] - k->z[at.cell]);
+    vndf_vec3 normal = {x * a.cos_phi, half < 0.0f ? -x * a.sin_phi : x * a.sin_phi, z > 0.0f ? z : 0.0f};
+    *density = 0.5f * a.density / (view->front + view->wedge) * radial;
     return normal;
 }
 
 /* ---- density and inverse ---- */
 
-/* A normal of the unit problem taken apart. */
+/* A normal of the unit problem taken apart: azimuth |a| and radius. */
 typedef struct place {
-    vndf_turn turn; /* of |a|: cos of either sign, sin >= 0 */
+    float cos_phi, sin_phi;
     vndf_radius at;
 } place;
 
 static vndf_radius radius_of(const vndf_distribution *d, float x, float z)
 {
+    const vndf_knots *k = &d->knots;
     float slope = z > 0.0f ? x / z : HUGE_VALF;
-    vndf_radius at = {vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, slope), 0.0f};
-    const vndf_pole_knot *k = &d->pole[at.cell];
-    float inner = x * k[0].z - z * k[0].x, outer = z * k[1].x - x * k[1].z;
+    uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, slope);
+    float inner = x * k->z[j] - z * k->x[j], outer = z * k->x[j + 1] - x * k->z[j + 1];
     float xi = inner + outer > 0.0f ? inner / (inner + outer) : 0.0f;
-    at.xi = xi > 0.0f ? (xi < 1.0f ? xi : 1.0f) : 0.0f;
+    vndf_radius at = {j, xi > 0.0f ? (xi < 1.0f ? xi : 1.0f) : 0.0f};
     return at;
 }
 
 static place place_of(const vndf_view *view, vndf_vec3 normal)
 {
-    float x = vndf_length2(normal.x, normal.y);
-    place p = {{1.0f, 0.0f}, radius_of(view->distribution, x, normal.z)};
-    if (x > 0.0f) {
-        p.turn.cos_phi = normal.x / x;
-        p.turn.sin_phi = fabsf(normal.y) / x;
-    }
+    float x = vndf_length2(normal.x, normal.y), per = x > 0.0f ? 1.0f / x : 0.0f;
+    place p = {x > 0.0f ? normal.x * per : 1.0f, fabsf(normal.y) * per, radius_of(view->distribution, x, normal.z)};
     return p;
 }
 
-/* The row that a turn belongs to, the turn as the row counts it, and the row's scale; 0 if nothing is drawn there. */
-static int row_of(const vndf_view *view, vndf_turn *turn, vndf_azimuth_row *row)
+/* The row that an azimuth belongs to; 0 if nothing is drawn there. */
+static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
 {
-    int toward = turn->cos_phi >= 0.0f;
-    turn->cos_phi = fabsf(turn->cos_phi);
-    if (view->c >= 0.0f && toward) {
+    int toward = cos_phi >= 0.0f, above = view->c >= 0.0f;
+    if (above && toward) {
         *row = front_row(view);
         return view->front > 0.0f;
     }
     *row = wedge_row(view);
-    return toward == (view->c < 0.0f) && view->wedge > 0.0f && row->p > 0.0f;
+    return above != toward && view->wedge > 0.0f && row->p > 0.0f;
 }
 
 float vndf_engine_density(const vndf_view *view, vndf_vec3 normal)
 {
     place p = place_of(view, normal);
-    float k = view->s * p.turn.cos_phi;
-    int front = view->c >= 0.0f && p.turn.cos_phi >= 0.0f;
     vndf_azimuth_row row;
-    if (!row_of(view, &p.turn, &row))
+    if (!row_of(view, p.cos_phi, &row))
         return 0.0f;
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, k);
-    if (!(law.total > 0.0f))
-        return 0.0f;
-    float azimuth = vndf_azimuth_density(&row, vndf_azimuth_q(&row, p.turn)) * (front ? 1.0f : view->wedge);
-    float radial = vndf_radial_density_over_x(&law, p.at) / view->distribution->cells[p.at.cell].width;
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
+    vndf_radial_piece piece = vndf_radial_piece_of(&law, p.at.cell);
+    float azimuth = vndf_azimuth_density(&row, fabsf(p.cos_phi), p.sin_phi);
+    if (row.q != vndf_front_q)
+        azimuth *= view->wedge;
+    float radial = vndf_radial_density(&law, &piece, p.at, vndf_radial_zeta(&piece, p.at.xi));
     return 0.5f * azimuth / (view->front + view->wedge) * radial;
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */
-static float half_turn(const vndf_view *view, vndf_turn turn)
+static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
     vndf_azimuth_row row;
-    int front = view->c >= 0.0f && turn.cos_phi >= 0.0f;
     float total = view->front + view->wedge;
-    if (!row_of(view, &turn, &row))
+    if (!row_of(view, cos_phi, &row))
         return 1.0f;
-    float cdf = vndf_azimuth_cdf(&row, vndf_azimuth_q(&row, turn));
-    if (front)
-        return cdf / total;
-    return view->c < 0.0f ? cdf : (view->front + (1.0f - cdf) * view->wedge) / total;
+    float before = vndf_azimuth_before(&row, fabsf(cos_phi), sin_phi);
+    if (row.q == vndf_front_q)
+        return before / total;
+    return view->c < 0.0f ? before : (view->front + (1.0f - before) * view->wedge) / total;
 }
 
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     place p = place_of(view, normal);
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.turn.cos_phi);
-    float half = half_turn(view, p.turn);
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
+    float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
     *u2 = law.total > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }
@@ -203,9 +198,9 @@ float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z)
     const vndf_radial_cell *cell = &d->cells[at.cell];
     float bump = (1.0f - at.xi) * (cell->a + cell->b * at.xi), f_over_x;
     if (at.cell == 0) /* f begins at 0, as X does */
-        f_over_x = (cell->f1 + bump) / d->pole[1].x;
+        f_over_x = (cell->f1 + bump) / d->knots.x[1];
     else
         f_over_x = (cell->f0 * (1.0f - at.xi) + at.xi * (cell->f1 + bump)) /
-                   (d->pole[at.cell].x + at.xi * (d->pole[at.cell + 1].x - d->pole[at.cell].x));
+                   (d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]));
     return f_over_x > 0.0f ? f_over_x / cell->width : 0.0f;
 }

@@ -34,21 +34,18 @@
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 float vndf_unit_area(const vndf_distribution *d, float s, float c);
 
-/* Table kinds only. Normal of the unit problem, in the turned frame and not of unit length:
- * (X cos a, X sin a, Z) with X + Z = 1. */
-vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2);
+/* What follows is for tables. Normals of the unit problem are (X cos a, X sin a, Z) with X + Z = 1, in the
+ * turned frame. Their density is given per unit of  width X dxi da = X Z^2 dR da  and without the factor
+ * W = c Z + s X cos a = (direction . normal), which vanishes at the cut: the caller takes it from the final normal. */
 
-/* The density of the unit problem at such a normal, times the sine-free measure of vndf_pdf: per
- * radian and per (xi/(width X)), see engine.c. 0 where nothing is drawn. */
-float vndf_engine_density(const vndf_view *view, vndf_vec3 normal);
-
-/* The uniform numbers of such a normal. */
-void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
-
-/* Fills the members of a view that belong to the table engine: front, wedge, mix, aspect, row. */
+/* Fills the members of a view that belong to the engine: front, wedge, mix, aspect, row. */
 void vndf_engine_view(vndf_view *view);
 
-/* D(normal)/(Z^4) ... P22 at (X, Z), X + Z = 1, divided by Z^4. */
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *density);
+float vndf_engine_density(const vndf_view *view, vndf_vec3 normal);
+void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
+
+/* P22/Z^4 at (X, Z): D is this times (X^2 + Z^2)^2, finite at the horizon. */
 float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z);
 
 #endif

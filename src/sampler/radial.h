@@ -30,20 +30,20 @@ typedef struct vndf_radius {
 
 static inline float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
 {
-    float w = law->c * law->table->pole[j].z + law->k * law->table->pole[j].x;
+    float w = law->c * law->table->knots.z[j] + law->k * law->table->knots.x[j];
     return w > 0.0f ? w : 0.0f; /* rounding may bring a weight at the cut below 0 */
 }
 
 /* Mass from the pole to knot j (c > 0). */
 static inline float vndf_radial_before(const vndf_radial_law *law, uint32_t j)
 {
-    return law->c * law->table->pole[j].e + vndf_radial_weight(law, j) * law->table->pole[j].g;
+    return law->c * law->table->knots.e[j] + vndf_radial_weight(law, j) * law->table->knots.g[j];
 }
 
 /* Mass beyond knot j (k > 0). */
 static inline float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
 {
-    return law->k * law->table->tail[j].s + vndf_radial_weight(law, j) * law->table->tail[j].t;
+    return law->k * law->table->knots.s[j] + vndf_radial_weight(law, j) * law->table->knots.t[j];
 }
 
 /* f at xi from the cubic. */
@@ -67,7 +67,7 @@ static inline void vndf_radial_cut_above(vndf_radial_law *law)
 {
     const vndf_distribution *d = law->table;
     uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, law->c / -law->k);
-    float w0 = vndf_radial_weight(law, j), w1 = law->c * d->pole[j + 1].z + law->k * d->pole[j + 1].x;
+    float w0 = vndf_radial_weight(law, j), w1 = law->c * d->knots.z[j + 1] + law->k * d->knots.x[j + 1];
     const vndf_radial_cell *cell = &d->cells[j];
     law->cut = j;
     law->part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
@@ -80,7 +80,7 @@ static inline void vndf_radial_cut_below(vndf_radial_law *law)
 {
     const vndf_distribution *d = law->table;
     uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, -law->c / law->k);
-    float w0 = law->c * d->pole[j].z + law->k * d->pole[j].x, w1 = vndf_radial_weight(law, j + 1);
+    float w0 = law->c * d->knots.z[j] + law->k * d->knots.x[j], w1 = vndf_radial_weight(law, j + 1);
     const vndf_radial_cell *cell = &d->cells[j];
     law->cut = j;
     law->part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
@@ -127,71 +127,97 @@ static inline vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law,
     return piece;
 }
 
-/* The last cell with no more than `target` before it (c >= 0). */
-static inline uint32_t vndf_radial_search_before(const vndf_radial_law *law, float target)
+/* How many of the knots k[from .. from + n) have no more than `target` before them (c >= 0). */
+static inline uint32_t vndf_radial_count_before(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
 {
-    uint32_t j = 0, n = law->cut < law->table->radial_count ? law->cut + 1 : law->table->radial_count;
-    while (n > 1) {
-        uint32_t half = n / 2;
-        j = vndf_radial_before(law, j + half) <= target ? j + half : j;
-        n -= half;
+    uint32_t count = 0;
+    float c = law->c, kx = law->k;
+    for (uint32_t i = from; i < from + n; i++) {
+        float w = c * k->z[i] + kx * k->x[i];
+        count += c * k->e[i] + (w > 0.0f ? w : 0.0f) * k->g[i] <= target;
     }
-    return j;
+    return count;
 }
 
-/* The last cell with more than `target` beyond its inner end (c < 0). */
-static inline uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float target)
+/* How many have more than `target` beyond them (c < 0). */
+static inline uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
 {
-    uint32_t j = law->cut, n = law->table->radial_count - law->cut;
-    while (n > 1) {
-        uint32_t half = n / 2;
-        j = vndf_radial_beyond(law, j + half) > target ? j + half : j;
-        n -= half;
+    uint32_t count = 0;
+    float c = law->c, kx = law->k;
+    for (uint32_t i = from; i < from + n; i++) {
+        float w = c * k->z[i] + kx * k->x[i];
+        count += kx * k->s[i] + (w > 0.0f ? w : 0.0f) * k->t[i] > target;
     }
-    return j;
+    return count;
 }
 
-/* Place with a part u of the mass before it. Below the horizon mass is counted from infinity inwards. */
-static inline vndf_radius vndf_radial_invert(const vndf_radial_law *law, float u)
+/* The cell of a mass: first its block, then within; a knot outside the visible part counts as its end. */
+static inline uint32_t vndf_radial_search(const vndf_radial_law *law, float target)
+{
+    const vndf_distribution *d = law->table;
+    uint32_t last = d->radial_count - 1, j;
+    if (law->c < 0.0f) {
+        uint32_t block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law, target);
+        block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+        j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law, target);
+        j = j > 0 ? j - 1 : 0;
+        return j < law->cut ? law->cut : (j < last ? j : last);
+    }
+    uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, law, target);
+    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+    j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, law, target);
+    j = j > 0 ? j - 1 : 0;
+    last = law->cut < last ? law->cut : last;
+    return j < last ? j : last;
+}
+
+/* Part of the mass per unit of xi at a place, divided by W, X and the cell's width: smooth up to the cut, and
+ * finite at the pole. `zeta` is the place as the piece's shape counts it. */
+static inline float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float zeta)
+{
+    const vndf_distribution *d = law->table;
+    float sum = piece->cell.w0 + piece->cell.w1;
+    if (at.cell == 0 && at.xi < 1e-6f) { /* f and X both begin at 0: the limit of their quotient */
+        at.xi = 1e-6f;
+        zeta = vndf_weighted_zeta(&piece->cell, (at.xi - piece->begin) / piece->length);
+    }
+    float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
+    float below = law->total * piece->length * x * d->cells[at.cell].width * sum;
+    return below > 0.0f ? 2.0f * piece->mass * vndf_rational_density(piece->cell.shape, zeta) / below : 0.0f;
+}
+
+/* Place with a part u of the mass before it, and the density there. Below the horizon mass is counted from infinity inwards. */
+static inline vndf_radius vndf_radial_draw(const vndf_radial_law *law, float u, float *density)
 {
     int below = law->c < 0.0f;
     float target = (below ? 1.0f - u : u) * law->total;
-    uint32_t j = below ? vndf_radial_search_beyond(law, target) : vndf_radial_search_before(law, target);
+    uint32_t j = vndf_radial_search(law, target);
     vndf_radial_piece piece = vndf_radial_piece_of(law, j);
     float rest = target - (below ? vndf_radial_beyond(law, j + 1) : vndf_radial_before(law, j));
     float inside = piece.mass > 0.0f ? rest / piece.mass : 0.5f;
     inside = inside < 1.0f ? (inside > 0.0f ? inside : 0.0f) : 1.0f;
-    vndf_radius at = {j, piece.begin + piece.length * vndf_weighted_invert(&piece.cell, below ? 1.0f - inside : inside)};
+    float zeta = vndf_rational_invert(piece.cell.shape, below ? 1.0f - inside : inside);
+    vndf_radius at = {j, piece.begin + piece.length * vndf_weighted_xi(&piece.cell, zeta)};
     at.xi = at.xi < 1.0f ? at.xi : 1.0f;
+    *density = vndf_radial_density(law, &piece, at, zeta);
     return at;
 }
 
-/* xi as the piece counts it. */
-static inline float vndf_radial_inside(const vndf_radial_piece *piece, float xi)
+/* zeta of a place in its piece. */
+static inline float vndf_radial_zeta(const vndf_radial_piece *piece, float xi)
 {
-    float at = (xi - piece->begin) / piece->length;
-    return at > 0.0f ? (at < 1.0f ? at : 1.0f) : 0.0f;
+    float inside = (xi - piece->begin) / piece->length;
+    return vndf_weighted_zeta(&piece->cell, inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f);
 }
 
 /* Part of the mass before a place. */
 static inline float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
-    float inside = vndf_weighted_cdf(&piece.cell, vndf_radial_inside(&piece, at.xi));
+    float inside = vndf_rational_cdf(piece.cell.shape, vndf_radial_zeta(&piece, at.xi));
     if (law->c < 0.0f)
         return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (1.0f - inside) * piece.mass) / law->total;
     return (vndf_radial_before(law, at.cell) + inside * piece.mass) / law->total;
-}
-
-/* Part of the mass per unit of xi, divided by X: finite at the pole, where both vanish. */
-static inline float vndf_radial_density_over_x(const vndf_radial_law *law, vndf_radius at)
-{
-    const vndf_pole_knot *knot = &law->table->pole[at.cell];
-    vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
-    float xi = at.cell == 0 && at.xi < 1e-6f ? 1e-6f : at.xi; /* the limit, to the first order in xi */
-    float x = knot[0].x + xi * (knot[1].x - knot[0].x);
-    float density = vndf_weighted_density(&piece.cell, vndf_radial_inside(&piece, xi));
-    return piece.mass / law->total * density / (piece.length * x);
 }
 
 #endif

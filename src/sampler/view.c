@@ -77,31 +77,52 @@ static vndf_vec3 facing(const vndf_view *view, vndf_vec3 wm)
     return vndf_normalize(level);
 }
 
-static vndf_vec3 sample_unit(const vndf_view *view, float u1, float u2)
+/* The factor that brings n = (x, y, z) of the unit problem to X + Z = 1: |real normal| there, if wm is unit. */
+static float to_simplex(vndf_vec3 n)
 {
-    switch (view->distribution->kind) {
-    case VNDF_KIND_GGX:
-        return vndf_ggx_sample(view->s, view->c, u1, u2);
-    case VNDF_KIND_BECKMANN:
-        return vndf_beckmann_sample(view->s, view->c, u1, u2);
-    default:
-        return vndf_engine_sample(view, u1, u2);
-    }
+    return 1.0f / (vndf_length2(n.x, n.y) + n.z);
+}
+
+/* Per steradian at the unit normal wm: the engine's density times W, and dwm = ax ay X Z^2 dR da scale^-3.
+ * W comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
+static float per_steradian(const vndf_view *view, vndf_vec3 wm, float density, float scale)
+{
+    float w = vndf_dot(view->wi, wm) * scale / view->length;
+    return density * w * (scale / view->alpha_x) * (scale / view->alpha_y) * scale;
+}
+
+static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(view->s, view->c, u1, u2)
+                                                             : vndf_beckmann_sample(view->s, view->c, u1, u2);
+    vndf_vec3 wm = from_unit(view, n);
+    if (!(vndf_dot(view->wi, wm) > 0.0f))
+        wm = facing(view, wm);
+    if (pdf)
+        *pdf = vndf_visible(view, wm);
+    return wm;
 }
 
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    float density;
     if (!view->distribution) {
         if (pdf)
             *pdf = 0.0f;
         return up;
     }
-    vndf_vec3 wm = from_unit(view, sample_unit(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2)));
-    if (!(vndf_dot(view->wi, wm) > 0.0f))
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    if (view->distribution->kind != VNDF_KIND_TABLE)
+        return sample_closed(view, u1, u2, pdf);
+    vndf_vec3 n = vndf_engine_sample(view, u1, u2, &density), wm = from_unit(view, n);
+    if (!(vndf_dot(view->wi, wm) > 0.0f)) {
         wm = facing(view, wm);
-    if (pdf)
-        *pdf = vndf_pdf(view, wm); /* of the normal as it was rounded: the same number for the same normal */
+        if (pdf)
+            *pdf = vndf_pdf(view, wm);
+    } else if (pdf)
+        *pdf = per_steradian(view, wm, density, to_simplex(to_unit(view, wm)));
     return wm;
 }
 
@@ -112,8 +133,7 @@ float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
     if (view->distribution->kind != VNDF_KIND_TABLE)
         return vndf_visible(view, wm);
     vndf_vec3 n = to_unit(view, wm);
-    float scale = 1.0f / (vndf_length2(n.x, n.y) + n.z); /* brings n to X + Z = 1, where dwm = dn/(width X) scale^-3 ax ay */
-    return vndf_engine_density(view, n) * (scale / view->alpha_x) * (scale / view->alpha_y) * scale;
+    return per_steradian(view, wm, vndf_engine_density(view, n), to_simplex(n));
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)

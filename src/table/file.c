@@ -31,9 +31,9 @@ static void write_text(vndf_writer *w, const char *text)
 
 static void write_radial(vndf_writer *w, const vndf_distribution *table)
 {
-    size_t n = table->radial_count, knot = sizeof *table->pole / sizeof(float), cell = sizeof *table->cells / sizeof(float);
-    write_array(w, &table->pole->x, n + 1, knot);
-    write_array(w, &table->pole->z, n + 1, knot);
+    size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
+    write_array(w, table->knots.x, n + 1, 1);
+    write_array(w, table->knots.z, n + 1, 1);
     write_array(w, &table->cells->f0, n, cell);
     write_array(w, &table->cells->f1, n, cell);
     write_array(w, &table->cells->mu0, n, cell);
@@ -42,14 +42,15 @@ static void write_radial(vndf_writer *w, const vndf_distribution *table)
 
 static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 {
-    size_t cells = wedge->cell_count, node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     write_array(w, wedge->q, cells + 1, 1);
     write_array(w, wedge->row_y, rows, 1);
     write_array(w, wedge->aspect_p, rows, 1);
     write_array(w, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
-        write_array(w, &wedge->nodes[i * (cells + 1)].mass, cells, node);
-    write_array(w, &wedge->nodes->density, rows * (cells + 1), node);
+        write_array(w, wedge->cell_mass + i * wedge->stride, cells, 1);
+    for (size_t i = 0; i < rows; i++)
+        write_array(w, wedge->density + i * wedge->stride, cells + 1, 1);
     write_array(w, wedge->knot_y, knots, 1);
     write_array(w, wedge->mass, knots, 1);
     write_array(w, wedge->slope, knots, 1);
@@ -115,9 +116,9 @@ static char *read_text(vndf_reader *r)
 
 static void read_radial(vndf_reader *r, vndf_distribution *table)
 {
-    size_t n = table->radial_count, knot = sizeof *table->pole / sizeof(float), cell = sizeof *table->cells / sizeof(float);
-    read_array(r, &table->pole->x, n + 1, knot);
-    read_array(r, &table->pole->z, n + 1, knot);
+    size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
+    read_array(r, table->knots.x, n + 1, 1);
+    read_array(r, table->knots.z, n + 1, 1);
     read_array(r, &table->cells->f0, n, cell);
     read_array(r, &table->cells->f1, n, cell);
     read_array(r, &table->cells->mu0, n, cell);
@@ -126,14 +127,15 @@ static void read_radial(vndf_reader *r, vndf_distribution *table)
 
 static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
 {
-    size_t cells = wedge->cell_count, node = sizeof *wedge->nodes / sizeof(float), rows = wedge->row_count, knots = wedge->knot_count;
+    size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     read_array(r, wedge->q, cells + 1, 1);
     read_array(r, wedge->row_y, rows, 1);
     read_array(r, wedge->aspect_p, rows, 1);
     read_array(r, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
-        read_array(r, &wedge->nodes[i * (cells + 1)].mass, cells, node);
-    read_array(r, &wedge->nodes->density, rows * (cells + 1), node);
+        read_array(r, wedge->cell_mass + i * wedge->stride, cells, 1);
+    for (size_t i = 0; i < rows; i++)
+        read_array(r, wedge->density + i * wedge->stride, cells + 1, 1);
     read_array(r, wedge->knot_y, knots, 1);
     read_array(r, wedge->mass, knots, 1);
     read_array(r, wedge->slope, knots, 1);

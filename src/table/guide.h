@@ -25,6 +25,7 @@ static inline uint32_t vndf_guide_find(const vndf_guide *guide, const float *kno
     uint32_t bits = vndf_float_bits(value);
     uint32_t bucket = bits > guide->low ? (bits - guide->low) >> guide->shift : 0;
     uint32_t i = guide->first[bucket < guide->last ? bucket : guide->last];
+    i += i + 2 < count && value >= knots[i + 1]; /* most values need no more: no branch to mispredict */
     while (i + 2 < count && value >= knots[i + 1])
         i++;
     return i;

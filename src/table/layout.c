@@ -6,19 +6,41 @@
 
 #include "table/guide.h"
 
+/* The six arrays in one block. */
+static int allocate_knots(vndf_knots *knots, uint32_t count)
+{
+    uint32_t padded = (count + VNDF_BLOCK - 1) / VNDF_BLOCK * VNDF_BLOCK;
+    float *block = calloc((size_t)6 * padded, sizeof *block);
+    knots->count = padded;
+    knots->x = block;
+    if (!block)
+        return 0;
+    knots->z = block + padded;
+    knots->e = block + 2 * (size_t)padded;
+    knots->g = block + 3 * (size_t)padded;
+    knots->s = block + 4 * (size_t)padded;
+    knots->t = block + 5 * (size_t)padded;
+    return 1;
+}
+
 static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
-    float *block = calloc((size_t)3 * rows + (size_t)3 * knots + cells + 1, sizeof *block);
-    wedge->nodes = calloc((size_t)rows * (cells + 1), sizeof *wedge->nodes);
+    uint32_t stride = (cells + 1 + VNDF_ROW_PAD - 1) / VNDF_ROW_PAD * VNDF_ROW_PAD;
+    size_t row_floats = (size_t)rows * stride;
+    float *block = calloc(3 * row_floats + (size_t)3 * rows + (size_t)3 * knots + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
-    wedge->row_y = block;
-    if (!block || !wedge->nodes)
+    wedge->stride = stride;
+    wedge->cdf = block;
+    if (!block)
         return 0;
-    wedge->aspect_p = block + rows;
-    wedge->aspect_r = block + 2 * rows;
-    wedge->knot_y = block + 3 * rows;
+    wedge->cell_mass = block + row_floats;
+    wedge->density = block + 2 * row_floats;
+    wedge->row_y = block + 3 * row_floats;
+    wedge->aspect_p = wedge->row_y + rows;
+    wedge->aspect_r = wedge->aspect_p + rows;
+    wedge->knot_y = wedge->aspect_r + rows;
     wedge->mass = wedge->knot_y + knots;
     wedge->slope = wedge->mass + knots;
     wedge->q = wedge->slope + knots;
@@ -27,8 +49,7 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
 
 static void free_wedge(vndf_wedge *wedge)
 {
-    free(wedge->row_y);
-    free(wedge->nodes);
+    free(wedge->cdf);
     free(wedge->row_guide.first);
     free(wedge->knot_guide.first);
 }
@@ -40,13 +61,13 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
         return NULL;
     table->kind = VNDF_KIND_TABLE;
     table->radial_count = size.radial;
-    table->pole = calloc(size.radial + 1, sizeof *table->pole);
-    table->tail = calloc(size.radial + 1, sizeof *table->tail);
     table->slope = calloc(size.radial + 1, sizeof *table->slope);
     table->cells = calloc(size.radial, sizeof *table->cells);
-    int whole = allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
+    int whole = allocate_knots(&table->knots, size.radial + 1);
+    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1);
+    whole &= allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
     whole &= allocate_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
-    if (whole && table->pole && table->tail && table->slope && table->cells)
+    if (whole && table->slope && table->cells)
         return table;
     vndf_free(table);
     return NULL;
@@ -56,8 +77,8 @@ void vndf_free(vndf_distribution *table)
 {
     if (!table || table->kind != VNDF_KIND_TABLE)
         return;
-    free(table->pole);
-    free(table->tail);
+    free(table->knots.x);
+    free(table->blocks.x);
     free(table->slope);
     free(table->cells);
     free(table->slope_guide.first);
@@ -68,34 +89,37 @@ void vndf_free(vndf_distribution *table)
     free(table);
 }
 
+/* X1 Z0 - X0 Z1. */
+static double width_of(const vndf_knots *k, uint32_t j)
+{
+    return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
+}
+
 /* The cubic through f0, f1 with the moments mu0, mu1. */
 static void derive_cells(vndf_distribution *table)
 {
     for (uint32_t j = 0; j < table->radial_count; j++) {
         vndf_radial_cell *cell = &table->cells[j];
-        const vndf_pole_knot *k = &table->pole[j];
         double f0 = cell->f0, f1 = cell->f1;
         double e0 = cell->mu0 - f0 / 3 - f1 / 6, e1 = cell->mu1 - f0 / 6 - f1 / 3;
         cell->a = (float)(36 * e0 - 24 * e1);
         cell->b = (float)(60 * (e1 - e0));
-        cell->width = (float)((double)k[1].x * k[0].z - (double)k[0].x * k[1].z);
+        cell->width = (float)width_of(&table->knots, j);
     }
 }
 
 /* F1 and E = F0 - F1 z/x from the pole outwards; every term is positive, so nothing cancels. */
 static void derive_pole(vndf_distribution *table)
 {
+    vndf_knots *k = &table->knots;
     double e = 0.0, f0 = 0.0, f1 = 0.0;
-    table->pole[0].e = table->pole[0].g = 0.0f;
     for (uint32_t j = 0; j < table->radial_count; j++) {
-        vndf_pole_knot *k = &table->pole[j];
-        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, x0 = k[0].x, z0 = k[0].z, x1 = k[1].x, z1 = k[1].z;
-        double width = x1 * z0 - x0 * z1;
-        e += (j ? f1 * width / (x0 * x1) : 0.0) + mu0 * width / x1;
-        f0 += z0 * mu0 + z1 * mu1;
-        f1 += x0 * mu0 + x1 * mu1;
-        k[1].e = (float)e;
-        k[1].g = (float)(f1 / x1);
+        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, x1 = k->x[j + 1], width = width_of(k, j);
+        e += (j ? f1 * width / (k->x[j] * x1) : 0.0) + mu0 * width / x1;
+        f0 += k->z[j] * mu0 + k->z[j + 1] * mu1;
+        f1 += k->x[j] * mu0 + x1 * mu1;
+        k->e[j + 1] = (float)e;
+        k->g[j + 1] = (float)(f1 / x1);
     }
     table->f0_total = (float)f0;
     table->f1_total = (float)f1;
@@ -104,39 +128,60 @@ static void derive_pole(vndf_distribution *table)
 /* T0 and S = T1 - T0 x/z from infinity inwards. */
 static void derive_tail(vndf_distribution *table)
 {
+    vndf_knots *k = &table->knots;
     double s = 0.0, t0 = 0.0;
-    uint32_t n = table->radial_count;
-    for (uint32_t j = 0; j <= n; j++) {
-        table->tail[j].x = table->pole[j].x;
-        table->tail[j].z = table->pole[j].z;
-    }
-    for (uint32_t j = n; j-- > 0;) {
-        vndf_tail_knot *k = &table->tail[j];
-        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, x0 = k[0].x, z0 = k[0].z, x1 = k[1].x, z1 = k[1].z;
-        double width = x1 * z0 - x0 * z1;
+    for (uint32_t j = table->radial_count; j-- > 0;) {
+        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, z0 = k->z[j], z1 = k->z[j + 1], width = width_of(k, j);
         s += (z1 > 0 ? t0 * width / (z0 * z1) : 0.0) + mu1 * width / z0;
         t0 += z0 * mu0 + z1 * mu1;
-        k[0].s = (float)s;
-        k[0].t = (float)(t0 / z0);
+        k->s[j] = (float)s;
+        k->t[j] = (float)(t0 / z0);
     }
 }
 
-/* Running sums of each row, and each row scaled to mass 1. */
+/* Sums that are beyond every target from the pole, and below every one from the tail. */
+static void pad_knots(vndf_knots *k, uint32_t from)
+{
+    for (uint32_t j = from; j < k->count; j++) {
+        k->x[j] = 1.0f;
+        k->z[j] = k->s[j] = k->t[j] = 0.0f;
+        k->e[j] = k->g[j] = 1e30f;
+    }
+}
+
+static void derive_blocks(vndf_distribution *table)
+{
+    const vndf_knots *k = &table->knots;
+    vndf_knots *b = &table->blocks;
+    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1;
+    pad_knots(&table->knots, table->radial_count + 1);
+    pad_knots(b, blocks);
+    for (uint32_t i = 0; i < blocks; i++) {
+        uint32_t j = i * VNDF_BLOCK;
+        b->x[i] = k->x[j];
+        b->z[i] = k->z[j];
+        b->e[i] = k->e[j];
+        b->g[i] = k->g[j];
+        b->s[i] = k->s[j];
+        b->t[i] = k->t[j];
+    }
+}
+
+/* Running sums of each row, and each row scaled to mass 1; padding is beyond every target. */
 static void derive_rows(vndf_wedge *wedge)
 {
-    uint32_t cells = wedge->cell_count;
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        vndf_azimuth_node *node = wedge->nodes + (size_t)i * (cells + 1);
+        float *cdf = wedge->cdf + (size_t)i * wedge->stride, *mass = wedge->cell_mass + (size_t)i * wedge->stride;
+        float *density = wedge->density + (size_t)i * wedge->stride;
         double total = 0.0, sum = 0.0;
-        for (uint32_t j = 0; j < cells; j++)
-            total += node[j].mass;
-        for (uint32_t j = 0; j <= cells; j++) {
-            node[j].cdf = (float)(sum / total);
-            sum += node[j].mass;
-            node[j].mass = (float)(node[j].mass / total);
-            node[j].density = (float)(node[j].density / total);
+        for (uint32_t j = 0; j < wedge->cell_count; j++)
+            total += mass[j];
+        for (uint32_t j = 0; j < wedge->stride; j++) {
+            cdf[j] = j < wedge->cell_count ? (float)(sum / total) : 2.0f;
+            sum += mass[j];
+            mass[j] = (float)(mass[j] / total);
+            density[j] = (float)(density[j] / total);
         }
-        node[cells].cdf = 1.0f;
     }
 }
 
@@ -152,8 +197,9 @@ int vndf_table_derive(vndf_distribution *table)
     derive_cells(table);
     derive_pole(table);
     derive_tail(table);
+    derive_blocks(table);
     for (uint32_t j = 0; j <= table->radial_count; j++)
-        table->slope[j] = table->pole[j].z > 0.0f ? table->pole[j].x / table->pole[j].z : HUGE_VALF;
+        table->slope[j] = table->knots.z[j] > 0.0f ? table->knots.x[j] / table->knots.z[j] : HUGE_VALF;
     return vndf_guide_make(&table->slope_guide, table->slope, table->radial_count + 1) &&
            derive_wedge(&table->above) && derive_wedge(&table->below);
 }

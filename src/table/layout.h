@@ -13,7 +13,7 @@ typedef struct vndf_table_size {
 /* An empty table with room for everything, zeroed; NULL if there is no memory. */
 vndf_distribution *vndf_table_allocate(vndf_table_size size);
 
-/* After the arrays of the file are filled (knots in pole[].x/z, cells' f0 f1 mu0 mu1, rows' mass and
+/* After the arrays of the file are filled (knots.x and knots.z, cells' f0 f1 mu0 mu1, rows' cell_mass and
  * density, area splines): prefix sums, cubic coefficients, guides. In double where sums are long. 0 if
  * there is no memory. */
 int vndf_table_derive(vndf_distribution *table);

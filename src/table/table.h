@@ -8,7 +8,7 @@
  *   per radian of azimuth, is held as a cubic f through the end values f0, f1 and the two moments
  *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so the weighted
  *   mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
- * Prefix sums over the cells, from the pole and from the tail (see vndf_pole_knot, vndf_tail_knot).
+ * Sums over the cells, from the pole and from the tail (vndf_knots).
  * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
  *   circle that the horizon of wi cuts, as rows over the angle of incidence, all on the same cells of q.
  *
@@ -24,30 +24,27 @@ enum {
     VNDF_RADIAL_CELLS_MAX = 8192,
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
-    VNDF_AREA_KNOTS_MAX = 4096
+    VNDF_AREA_KNOTS_MAX = 4096,
+    VNDF_BLOCK = 16,   /* radial knots are searched by blocks */
+    VNDF_ROW_PAD = 8   /* and azimuth rows through their whole length, padded to a multiple of this */
 };
 
-/* integral from the pole to knot j of f (c Z + k X) dxi = c e + (c z + k x) g, both terms >= 0 when
- * c > 0 and the weight has not yet changed its sign: e = F0 - F1 z/x, g = F1/x, F_n = integral P22 R^(n+1) dR. */
-typedef struct vndf_pole_knot {
-    float x, z, e, g;
-} vndf_pole_knot;
-
-/* integral from knot j to infinity of f (c Z + k X) dxi = k s + (c z + k x) t, both terms >= 0 when k > 0
- * and the weight is already positive: s = T1 - T0 x/z, t = T0/z, T_n the integrals beyond the knot. */
-typedef struct vndf_tail_knot {
-    float x, z, s, t;
-} vndf_tail_knot;
+/* The knots and the sums up to them. For W = c z + k x at knot j,
+ *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
+ *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
+ * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
+ * T_n the rest. Arrays, so that a search can count through sixteen knots at once; `count` is a multiple of VNDF_BLOCK, and what
+ * lies beyond the last knot has sums that no search reaches. */
+typedef struct vndf_knots {
+    uint32_t count;
+    float *x, *z, *e, *g, *s, *t;
+} vndf_knots;
 
 /* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1, a, b, width;
+    float unused; /* 32 bytes */
 } vndf_radial_cell;
-
-/* A cell boundary of an azimuth row: mass before it, mass of the cell that begins here, density in q. */
-typedef struct vndf_azimuth_node {
-    float cdf, mass, density;
-} vndf_azimuth_node;
 
 /* index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps. */
 typedef struct vndf_guide {
@@ -62,7 +59,8 @@ typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count;
     float *q;                            /* cell_count + 1, from 0 to 1 */
     float *row_y, *aspect_p, *aspect_r;  /* row_count */
-    vndf_azimuth_node *nodes;            /* row_count rows of cell_count + 1; each row's mass is 1 */
+    uint32_t stride;                     /* floats from row to row in the next three: a multiple of VNDF_ROW_PAD */
+    float *cdf, *cell_mass, *density;    /* mass before a cell, in it, and density at its ends; each row's mass is 1 */
     float *knot_y, *mass, *slope;        /* knot_count */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
@@ -74,8 +72,8 @@ struct vndf_distribution {
     float scale;               /* canonical slope 1 is this slope of the source */
     uint32_t radial_count;     /* cells */
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
-    vndf_pole_knot *pole;      /* radial_count + 1 */
-    vndf_tail_knot *tail;      /* radial_count + 1 */
+    vndf_knots knots;          /* radial_count + 1 and padding */
+    vndf_knots blocks;         /* the first knot of each block, padded likewise */
     float *slope;              /* X/Z of the knots, ascending, last is infinite */
     vndf_radial_cell *cells;   /* radial_count */
     vndf_guide slope_guide;

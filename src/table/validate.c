@@ -19,19 +19,19 @@ static int ascending(const float *values, uint32_t count)
 static const char *radial_invalid(const vndf_distribution *table)
 {
     uint32_t n = table->radial_count;
-    const vndf_pole_knot *k = table->pole;
+    const float *x = table->knots.x, *z = table->knots.z;
     for (uint32_t j = 0; j <= n; j++)
-        if (!in_range(k[j].x, 0.0f, 1.0f) || !in_range(k[j].z, 0.0f, 1.0f) || fabsf(k[j].x + k[j].z - 1.0f) > 1e-6f)
+        if (!in_range(x[j], 0.0f, 1.0f) || !in_range(z[j], 0.0f, 1.0f) || fabsf(x[j] + z[j] - 1.0f) > 1e-6f)
             return "a radial knot lies off the line x + z = 1";
     for (uint32_t j = 0; j < n; j++) {
         vndf_radial_cell c = table->cells[j];
-        if (k[j + 1].x < k[j].x || k[j + 1].z > k[j].z)
+        if (x[j + 1] < x[j] || z[j + 1] > z[j])
             return "the radial knots do not ascend";
         if (!in_range(c.f0, 0.0f, 1e18f) || !in_range(c.f1, 0.0f, 1e18f) || !in_range(c.mu0, 1e-37f, 1e6f) ||
             !in_range(c.mu1, 1e-37f, 1e6f))
             return "a radial cell has a density or moment out of range";
     }
-    if (k[0].x != 0.0f || k[0].z != 1.0f || k[n].x != 1.0f || k[n].z != 0.0f || table->cells[0].f0 != 0.0f)
+    if (x[0] != 0.0f || z[0] != 1.0f || x[n] != 1.0f || z[n] != 0.0f || table->cells[0].f0 != 0.0f)
         return "the radial knots do not run from the pole to the horizon";
     return NULL;
 }
@@ -42,12 +42,12 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     if (!ascending(wedge->q, cells + 1))
         return "the azimuth cells do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const vndf_azimuth_node *node = wedge->nodes + (size_t)i * (cells + 1);
+        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride, *density = wedge->density + (size_t)i * wedge->stride;
         double total = 0.0;
         for (uint32_t j = 0; j <= cells; j++) {
-            if (!in_range(node[j].density, 0.0f, 1e6f) || (j < cells && !in_range(node[j].mass, 1e-12f, 1.0f)))
+            if (!in_range(density[j], 0.0f, 1e6f) || (j < cells && !in_range(mass[j], 1e-12f, 1.0f)))
                 return "an azimuth row has a mass or density out of range";
-            total += j < cells ? node[j].mass : 0.0;
+            total += j < cells ? mass[j] : 0.0f;
         }
         if (!(fabs(total - 1.0) < 1e-4))
             return "the masses of an azimuth row do not add up to 1";
