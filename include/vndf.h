@@ -137,16 +137,16 @@ typedef struct vndf_surface {
 /* Everything that depends on the surface and wi alone; a plain value, valid while the distribution
  * lives. Its members are private, and may change between versions. */
 typedef struct vndf_view {
-    const vndf_distribution *distribution;
-    vndf_vec3 wi;             /* unit */
-    float alpha_x, alpha_y;   /* roughness times the table's own slope scale */
-    float s, c;               /* sine (>= 0) and cosine of the stretched direction */
-    float length;             /* length of the stretched direction */
-    float cos_phi, sin_phi;   /* azimuth of the stretched direction */
-    float area;               /* projected area of the unit problem; 0 marks an invalid view */
-    float front, wedge;       /* masses of the two azimuth ranges of a half turn */
+    const vndf_distribution *distribution; /* NULL marks an invalid view */
+    vndf_vec3 wi;                  /* unit */
+    float alpha_x, alpha_y;        /* roughness times the table's own slope scale */
+    float per_alpha_x, per_alpha_y, per_length; /* reciprocals; length is that of the stretched direction */
+    float s, c;                    /* sine (>= 0) and cosine of the stretched direction */
+    float cos_phi, sin_phi;        /* its azimuth */
+    float area;                    /* projected area of the unit problem */
+    float front, wedge;            /* masses of the two azimuth ranges of a half turn */
     float mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
-    unsigned row;             /* first of the two rows */
+    unsigned row;                  /* first of the two rows */
 } vndf_view;
 
 /* wi need not be exactly unit. Invalid input - NULL, a direction that is zero or not finite, alpha not

@@ -146,7 +146,7 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
         wedge->aspect_p[i] = !fit->below && i == 0 ? 0.0f : (float)row->p;
         wedge->aspect_r[i] = (float)row->r;
         memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, fit->cells * sizeof *row->mass);
-        memcpy(wedge->density + (size_t)i * wedge->stride, row->density, (fit->cells + 1) * sizeof *row->density);
+        memcpy(wedge->density + (size_t)i * (fit->cells + 1), row->density, (fit->cells + 1) * sizeof *row->density);
     }
     return 1;
 }

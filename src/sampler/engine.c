@@ -9,14 +9,13 @@
 
 /* ---- area ---- */
 
-/* The cubic Hermite spline of a wedge's mass at y, per (s + |c|). */
+/* The spline of a wedge's mass at y, per (s + |c|). */
 static float wedge_mass(const vndf_wedge *wedge, float y)
 {
     uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, y);
-    float h = wedge->knot_y[i + 1] - wedge->knot_y[i], t = (y - wedge->knot_y[i]) / h, u = 1.0f - t;
-    float b0 = wedge->mass[i], b3 = wedge->mass[i + 1]; /* as a Bezier curve: terms >= 0, nothing cancels */
-    float b1 = b0 + h * wedge->slope[i] / 3.0f, b2 = b3 - h * wedge->slope[i + 1] / 3.0f;
-    return u * u * (u * b0 + 3.0f * t * b1) + t * t * (3.0f * u * b2 + t * b3);
+    const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
+    float t = (y - wedge->knot_y[i]) * b[4], u = 1.0f - t;
+    return u * u * (u * b[0] + 3.0f * t * b[1]) + t * t * (3.0f * u * b[2] + t * b[3]);
 }
 
 /* A(s, -|c|): what is seen from below, s >= 0. */
@@ -55,6 +54,7 @@ void vndf_engine_view(vndf_view *view)
     view->aspect_r = (1.0f - mix) * wedge->aspect_r[i] + mix * wedge->aspect_r[i + 1];
     view->wedge = sum * wedge_mass(wedge, y);
     view->front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
+    view->area = 2.0f * (view->front + view->wedge);
 }
 
 /* The half circle towards wi, above the horizon. */
@@ -64,7 +64,7 @@ static vndf_azimuth_row front_row(const vndf_view *view)
     vndf_azimuth_row row = {
         {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
         {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
-        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_STRIDE, 1.0f, 1.0f};
+        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f};
     return row;
 }
 
@@ -72,9 +72,9 @@ static vndf_azimuth_row front_row(const vndf_view *view)
 static vndf_azimuth_row wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = wedge_of(view);
-    size_t a = (size_t)view->row * w->stride, b = a + w->stride;
-    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + a, 1.0f - view->mix},
-                            {w->cdf + b, w->cell_mass + b, w->density + b, view->mix},
+    size_t a = (size_t)view->row * w->stride, b = a + w->stride, end = (size_t)view->row * (w->cell_count + 1);
+    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, 1.0f - view->mix},
+                            {w->cdf + b, w->cell_mass + b, w->density + end + w->cell_count + 1, view->mix},
                             w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
     return row;
 }

@@ -38,7 +38,7 @@ float vndf_unit_area(const vndf_distribution *d, float s, float c);
  * turned frame. Their density is given per unit of  width X dxi da = X Z^2 dR da  and without the factor
  * W = c Z + s X cos a = (direction . normal), which vanishes at the cut: the caller takes it from the final normal. */
 
-/* Fills the members of a view that belong to the engine: front, wedge, mix, aspect, row. */
+/* Fills the members of a view that belong to the engine: area, front, wedge, mix, aspect, row. */
 void vndf_engine_view(vndf_view *view);
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *density);

@@ -5,7 +5,7 @@
 #ifndef VNDF_SAMPLER_FRONT_H
 #define VNDF_SAMPLER_FRONT_H
 
-enum { VNDF_FRONT_CELLS = 16, VNDF_FRONT_STRIDE = 24 };
+enum { VNDF_FRONT_CELLS = 16 };
 
 static const float VNDF_QUARTER_TURN = 1.57079633f; /* integral of 1 over the front; that of cos a is 1 */
 
@@ -14,11 +14,10 @@ static const float vndf_front_q[VNDF_FRONT_CELLS + 1] = {
     0.303346694f, 0.357805729f, 0.414213568f, 0.472964764f, 0.534511149f, 0.599376917f,
     0.668178618f, 0.741650522f, 0.820678771f, 0.906347156f, 1.0f};
 
-static const float vndf_front_even_cdf[VNDF_FRONT_STRIDE] = {
+static const float vndf_front_even_cdf[VNDF_FRONT_CELLS] = {
     0.0f, 0.098174768f, 0.196349535f, 0.294524323f, 0.392699081f, 0.49087387f,
     0.589048641f, 0.687223406f, 0.785398173f, 0.883572914f, 0.981747724f, 1.07992245f,
-    1.17809722f, 1.27627198f, 1.37444676f, 1.47262154f, 1e+30f, 1e+30f,
-    1e+30f, 1e+30f, 1e+30f, 1e+30f, 1e+30f, 1e+30f};
+    1.17809722f, 1.27627198f, 1.37444676f, 1.47262154f};
 
 static const float vndf_front_even_mass[VNDF_FRONT_CELLS] = {
     0.098174768f, 0.0981747671f, 0.0981747874f, 0.0981747589f, 0.0981747891f, 0.0981747702f,
@@ -30,11 +29,10 @@ static const float vndf_front_even_density[VNDF_FRONT_CELLS + 1] = {
     1.8314696f, 1.77301044f, 1.70710677f, 1.6343933f, 1.55557022f, 1.47139676f,
     1.38268346f, 1.29028471f, 1.19509035f, 1.09801716f, 1.0f};
 
-static const float vndf_front_cosine_cdf[VNDF_FRONT_STRIDE] = {
+static const float vndf_front_cosine_cdf[VNDF_FRONT_CELLS] = {
     0.0f, 0.098017138f, 0.195090316f, 0.290284688f, 0.382683432f, 0.471396753f,
     0.555570248f, 0.634393295f, 0.707106788f, 0.773010441f, 0.831469624f, 0.881921253f,
-    0.923879522f, 0.956940327f, 0.980785276f, 0.995184725f, 1e+30f, 1e+30f,
-    1e+30f, 1e+30f, 1e+30f, 1e+30f, 1e+30f, 1e+30f};
+    0.923879522f, 0.956940327f, 0.980785276f, 0.995184725f};
 
 static const float vndf_front_cosine_mass[VNDF_FRONT_CELLS] = {
     0.098017138f, 0.0970731785f, 0.0951943716f, 0.0923987441f, 0.0887133209f, 0.0841734951f,

@@ -9,12 +9,13 @@
 #include "sampler/ggx.h"
 #include "table/table.h"
 
-int vndf_surface_usable(const vndf_surface *surface)
+int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay)
 {
     if (!surface || !surface->distribution)
         return 0;
-    float ax = surface->alpha_x * surface->distribution->scale, ay = surface->alpha_y * surface->distribution->scale;
-    return ax >= 1e-18f && ax <= 1e18f && ay >= 1e-18f && ay <= 1e18f;
+    *ax = surface->alpha_x * surface->distribution->scale;
+    *ay = surface->alpha_y * surface->distribution->scale;
+    return *ax >= 1e-18f && *ax <= 1e18f && *ay >= 1e-18f && *ay <= 1e18f;
 }
 
 /* D at roughness 1 in unit direction n. */
@@ -36,18 +37,18 @@ float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
-    if (!vndf_surface_usable(surface) || !(wm.z >= 0.0f) || !(vndf_max_abs(wm) > 0.0f) || !(vndf_max_abs(wm) < HUGE_VALF))
+    float ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !(wm.z >= 0.0f) || !(vndf_max_abs(wm) > 0.0f) || !(vndf_max_abs(wm) < HUGE_VALF))
         return 0.0f;
-    float scale = surface->distribution->scale;
-    return vndf_ndf_scaled(surface->distribution, surface->alpha_x * scale, surface->alpha_y * scale, wm);
+    return vndf_ndf_scaled(surface->distribution, ax, ay, wm);
 }
 
 float vndf_p22(const vndf_surface *surface, float x, float y)
 {
-    if (!vndf_surface_usable(surface) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
+    float ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
         return 0.0f;
     const vndf_distribution *d = surface->distribution;
-    float ax = surface->alpha_x * d->scale, ay = surface->alpha_y * d->scale;
     float r = vndf_length2(x / ax, y / ay), z = 1.0f / (1.0f + r);
     if (d->kind == VNDF_KIND_GGX)
         return vndf_ggx_p22(r * r) / ax / ay;
@@ -65,7 +66,7 @@ static vndf_view stretched(const vndf_surface *surface, vndf_vec3 w)
 float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 {
     vndf_view view = stretched(surface, w);
-    return view.length * view.area;
+    return view.distribution ? vndf_unit_area(view.distribution, view.s, view.c) / view.per_length : 0.0f;
 }
 
 /* Lambda(w) = A(-w)/cos(theta) above the horizon, without a difference; -1 - Lambda(-w) below. */
@@ -82,7 +83,7 @@ float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
     vndf_view view = stretched(surface, w);
-    float g1 = view.c > 0.0f ? view.c / view.area : 0.0f;
+    float g1 = view.distribution && view.c > 0.0f ? view.c / vndf_unit_area(view.distribution, view.s, view.c) : 0.0f;
     return g1 < 1.0f ? g1 : 1.0f;
 }
 

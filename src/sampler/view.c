@@ -22,44 +22,58 @@ static int is_usable_direction(vndf_vec3 w)
 static void stretch(vndf_view *view)
 {
     float x = view->alpha_x * view->wi.x, y = view->alpha_y * view->wi.y, z = view->wi.z;
-    float across = vndf_length2(x, y);
-    view->length = vndf_length2(across, z);
-    view->s = across / view->length;
-    view->c = z / view->length + 0.0f; /* -0 becomes +0: the horizon is seen from above */
-    view->cos_phi = across > 0.0f ? x / across : 1.0f;
-    view->sin_phi = across > 0.0f ? y / across : 0.0f;
+    float across = vndf_length2(x, y), per_across = across > 0.0f ? 1.0f / across : 0.0f;
+    view->per_length = 1.0f / vndf_length2(across, z);
+    view->s = across * view->per_length;
+    view->c = z * view->per_length + 0.0f; /* -0 becomes +0: the horizon is seen from above */
+    view->cos_phi = across > 0.0f ? x * per_across : 1.0f;
+    view->sin_phi = y * per_across;
+}
+
+/* The parts that every kind of distribution shares; 0 if anything is invalid. */
+static int begin_view(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    float square = vndf_dot(wi, wi), ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || (!vndf_is_plain(square) && !is_usable_direction(wi)))
+        return 0;
+    view->distribution = surface->distribution;
+    view->wi = vndf_normalize(wi);
+    view->alpha_x = ax;
+    view->alpha_y = ay;
+    view->per_alpha_x = 1.0f / ax;
+    view->per_alpha_y = 1.0f / ay;
+    stretch(view);
+    return 1;
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_view view;
-    memset(&view, 0, sizeof view);
-    if (!vndf_surface_usable(surface) || !is_usable_direction(wi))
+    if (!begin_view(&view, surface, wi)) {
+        memset(&view, 0, sizeof view);
         return view;
-    view.distribution = surface->distribution;
-    view.alpha_x = surface->alpha_x * surface->distribution->scale;
-    view.alpha_y = surface->alpha_y * surface->distribution->scale;
-    view.wi = vndf_normalize(wi);
-    stretch(&view);
-    view.area = vndf_unit_area(view.distribution, view.s, view.c);
+    }
     if (view.distribution->kind == VNDF_KIND_TABLE)
         vndf_engine_view(&view);
+    else
+        view.area = vndf_unit_area(view.distribution, view.s, view.c);
     return view;
 }
 
 /* wm taken back to the unit problem in the turned frame: not of unit length. */
 static vndf_vec3 to_unit(const vndf_view *view, vndf_vec3 wm)
 {
-    float x = wm.x / view->alpha_x, y = wm.y / view->alpha_y;
+    float x = wm.x * view->per_alpha_x, y = wm.y * view->per_alpha_y;
     vndf_vec3 n = {view->cos_phi * x + view->sin_phi * y, view->cos_phi * y - view->sin_phi * x, wm.z};
     return n;
 }
 
+/* The real normal of one of the unit problem: not of unit length. */
 static vndf_vec3 from_unit(const vndf_view *view, vndf_vec3 n)
 {
     vndf_vec3 wm = {view->alpha_x * (view->cos_phi * n.x - view->sin_phi * n.y),
                     view->alpha_y * (view->sin_phi * n.x + view->cos_phi * n.y), n.z};
-    return vndf_normalize(wm);
+    return wm;
 }
 
 /* A normal that rounding has turned away from wi is turned back by about one unit in the last place; where
@@ -87,15 +101,15 @@ static float to_simplex(vndf_vec3 n)
  * W comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
 static float per_steradian(const vndf_view *view, vndf_vec3 wm, float density, float scale)
 {
-    float w = vndf_dot(view->wi, wm) * scale / view->length;
-    return density * w * (scale / view->alpha_x) * (scale / view->alpha_y) * scale;
+    float w = vndf_dot(view->wi, wm) * scale * view->per_length;
+    return density * w * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale;
 }
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(view->s, view->c, u1, u2)
                                                              : vndf_beckmann_sample(view->s, view->c, u1, u2);
-    vndf_vec3 wm = from_unit(view, n);
+    vndf_vec3 wm = vndf_normalize(from_unit(view, n));
     if (!(vndf_dot(view->wi, wm) > 0.0f))
         wm = facing(view, wm);
     if (pdf)
@@ -116,13 +130,15 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
     u2 = vndf_clamp_unit(u2);
     if (view->distribution->kind != VNDF_KIND_TABLE)
         return sample_closed(view, u1, u2, pdf);
-    vndf_vec3 n = vndf_engine_sample(view, u1, u2, &density), wm = from_unit(view, n);
+    vndf_vec3 stretched = from_unit(view, vndf_engine_sample(view, u1, u2, &density)), wm;
+    float length = sqrtf(vndf_dot(stretched, stretched)); /* from 1e-18 to 1e18 */
+    wm = vndf_scale(stretched, 1.0f / length);
     if (!(vndf_dot(view->wi, wm) > 0.0f)) {
         wm = facing(view, wm);
         if (pdf)
             *pdf = vndf_pdf(view, wm);
     } else if (pdf)
-        *pdf = per_steradian(view, wm, density, to_simplex(to_unit(view, wm)));
+        *pdf = per_steradian(view, wm, density, length);
     return wm;
 }
 
@@ -157,5 +173,5 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     float facing_cos = view->distribution ? vndf_dot(view->wi, wm) : 0.0f;
     if (!(wm.z >= 0.0f) || !(facing_cos > 0.0f) || !(view->area > 0.0f))
         return 0.0f;
-    return vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos / (view->length * view->area));
+    return vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos * view->per_length / view->area);
 }

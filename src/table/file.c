@@ -50,7 +50,7 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
     for (size_t i = 0; i < rows; i++)
         write_array(w, wedge->cell_mass + i * wedge->stride, cells, 1);
     for (size_t i = 0; i < rows; i++)
-        write_array(w, wedge->density + i * wedge->stride, cells + 1, 1);
+        write_array(w, wedge->density + i * (cells + 1), cells + 1, 1);
     write_array(w, wedge->knot_y, knots, 1);
     write_array(w, wedge->mass, knots, 1);
     write_array(w, wedge->slope, knots, 1);
@@ -135,7 +135,7 @@ static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
     for (size_t i = 0; i < rows; i++)
         read_array(r, wedge->cell_mass + i * wedge->stride, cells, 1);
     for (size_t i = 0; i < rows; i++)
-        read_array(r, wedge->density + i * wedge->stride, cells + 1, 1);
+        read_array(r, wedge->density + i * (cells + 1), cells + 1, 1);
     read_array(r, wedge->knot_y, knots, 1);
     read_array(r, wedge->mass, knots, 1);
     read_array(r, wedge->slope, knots, 1);

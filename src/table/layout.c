@@ -7,9 +7,9 @@
 #include "table/guide.h"
 
 /* The six arrays in one block. */
-static int allocate_knots(vndf_knots *knots, uint32_t count)
+static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
 {
-    uint32_t padded = (count + VNDF_BLOCK - 1) / VNDF_BLOCK * VNDF_BLOCK;
+    uint32_t padded = (count + multiple - 1) / multiple * multiple;
     float *block = calloc((size_t)6 * padded, sizeof *block);
     knots->count = padded;
     knots->x = block;
@@ -25,9 +25,9 @@ static int allocate_knots(vndf_knots *knots, uint32_t count)
 
 static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
-    uint32_t stride = (cells + 1 + VNDF_ROW_PAD - 1) / VNDF_ROW_PAD * VNDF_ROW_PAD;
-    size_t row_floats = (size_t)rows * stride;
-    float *block = calloc(3 * row_floats + (size_t)3 * rows + (size_t)3 * knots + cells + 1, sizeof *block);
+    uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+    size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1);
+    float *block = calloc(2 * row_floats + ends + (size_t)3 * rows + (3 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
@@ -37,13 +37,14 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
         return 0;
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
-    wedge->row_y = block + 3 * row_floats;
+    wedge->row_y = wedge->density + ends;
     wedge->aspect_p = wedge->row_y + rows;
     wedge->aspect_r = wedge->aspect_p + rows;
     wedge->knot_y = wedge->aspect_r + rows;
     wedge->mass = wedge->knot_y + knots;
     wedge->slope = wedge->mass + knots;
-    wedge->q = wedge->slope + knots;
+    wedge->bezier = wedge->slope + knots;
+    wedge->q = wedge->bezier + VNDF_BEZIER * (size_t)knots;
     return 1;
 }
 
@@ -63,8 +64,8 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
     table->radial_count = size.radial;
     table->slope = calloc(size.radial + 1, sizeof *table->slope);
     table->cells = calloc(size.radial, sizeof *table->cells);
-    int whole = allocate_knots(&table->knots, size.radial + 1);
-    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1);
+    int whole = allocate_knots(&table->knots, size.radial + 1, VNDF_BLOCK);
+    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1, VNDF_LANES);
     whole &= allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
     whole &= allocate_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
     if (whole && table->slope && table->cells)
@@ -172,7 +173,7 @@ static void derive_rows(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < wedge->row_count; i++) {
         float *cdf = wedge->cdf + (size_t)i * wedge->stride, *mass = wedge->cell_mass + (size_t)i * wedge->stride;
-        float *density = wedge->density + (size_t)i * wedge->stride;
+        float *density = wedge->density + (size_t)i * (wedge->cell_count + 1);
         double total = 0.0, sum = 0.0;
         for (uint32_t j = 0; j < wedge->cell_count; j++)
             total += mass[j];
@@ -180,14 +181,29 @@ static void derive_rows(vndf_wedge *wedge)
             cdf[j] = j < wedge->cell_count ? (float)(sum / total) : 2.0f;
             sum += mass[j];
             mass[j] = (float)(mass[j] / total);
-            density[j] = (float)(density[j] / total);
         }
+        for (uint32_t j = 0; j <= wedge->cell_count; j++)
+            density[j] = (float)(density[j] / total);
+    }
+}
+
+/* The Hermite spline of a wedge's mass as Bezier pieces: no coefficient is below 0, so nothing cancels. */
+static void derive_area(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
+        float *b = wedge->bezier + (size_t)VNDF_BEZIER * i, h = wedge->knot_y[i + 1] - wedge->knot_y[i];
+        b[0] = wedge->mass[i];
+        b[1] = wedge->mass[i] + h * wedge->slope[i] / 3.0f;
+        b[2] = wedge->mass[i + 1] - h * wedge->slope[i + 1] / 3.0f;
+        b[3] = wedge->mass[i + 1];
+        b[4] = 1.0f / h;
     }
 }
 
 static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
+    derive_area(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, wedge->row_count) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);
 }

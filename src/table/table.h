@@ -25,15 +25,16 @@ enum {
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
-    VNDF_BLOCK = 16,   /* radial knots are searched by blocks */
-    VNDF_ROW_PAD = 8   /* and azimuth rows through their whole length, padded to a multiple of this */
+    VNDF_BLOCK = 16, /* radial knots are searched by blocks */
+    VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
+    VNDF_BEZIER = 5
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
  *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
- * T_n the rest. Arrays, so that a search can count through sixteen knots at once; `count` is a multiple of VNDF_BLOCK, and what
+ * T_n the rest. Arrays, so that a search can count through sixteen knots at once; `count` includes padding: what
  * lies beyond the last knot has sums that no search reaches. */
 typedef struct vndf_knots {
     uint32_t count;
@@ -59,9 +60,11 @@ typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count;
     float *q;                            /* cell_count + 1, from 0 to 1 */
     float *row_y, *aspect_p, *aspect_r;  /* row_count */
-    uint32_t stride;                     /* floats from row to row in the next three: a multiple of VNDF_ROW_PAD */
-    float *cdf, *cell_mass, *density;    /* mass before a cell, in it, and density at its ends; each row's mass is 1 */
+    uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_LANES */
+    float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
+    float *density;                      /* at the ends of the cells, cell_count + 1 to a row */
     float *knot_y, *mass, *slope;        /* knot_count */
+    float *bezier;                       /* the spline once more: 4 coefficients and 1/width to a piece */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 

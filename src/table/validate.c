@@ -42,7 +42,7 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     if (!ascending(wedge->q, cells + 1))
         return "the azimuth cells do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride, *density = wedge->density + (size_t)i * wedge->stride;
+        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride, *density = wedge->density + (size_t)i * (cells + 1);
         double total = 0.0;
         for (uint32_t j = 0; j <= cells; j++) {
             if (!in_range(density[j], 0.0f, 1e6f) || (j < cells && !in_range(mass[j], 1e-12f, 1.0f)))
