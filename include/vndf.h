@@ -140,8 +140,8 @@ typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
     vndf_vec3 wi;                  /* unit */
     float alpha_x, alpha_y;        /* roughness times the table's own slope scale */
-    float per_alpha_x, per_alpha_y, per_length; /* reciprocals; length is that of the stretched direction */
-    float s, c;                    /* sine (>= 0) and cosine of the stretched direction */
+    float per_alpha_x, per_alpha_y, per_length; /* reciprocals; length brings the stretched direction to (s, c) */
+    float s, c;                    /* stretched direction: across (>= 0) and along z */
     float cos_phi, sin_phi;        /* its azimuth */
     float area;                    /* projected area of the unit problem */
     float front, wedge;            /* masses of the two azimuth ranges of a half turn */

@@ -100,7 +100,8 @@ typedef struct ring {
     const vndf_view *view;
     double sine, cosine;      /* of theta' */
     double phi_low, phi_high; /* of the bin */
-    double tolerance;
+    double absolute;          /* error that a row may have */
+    long budget;              /* evaluations that the bin may still cost */
 } ring;
 
 static double density_at(double phi, const ring *at)
@@ -117,48 +118,59 @@ static double density_at(double phi, const ring *at)
 /* ---- quadrature ---------------------------------------------------------------------------------- */
 
 /* How often an interval is halved to find a jump. Azimuth: it is known to 2e-4 of the bin's width then, which no
- * test of 1e8 samples can see. theta': to 3e-5, since all bins of a row may share a jump and its error; deeper
- * levels come to where the roundings of a float normal begin, and would chase noise. */
-enum { NODES = 5, DEPTH_PHI = 12, DEPTH_THETA = 15 };
+ * test of 1e8 samples can see. theta': to 3e-5, since all bins of a row may share a jump and its error. A bin
+ * with a jump costs some 3e4 evaluations; the budget ends what is not a jump but noise. */
+enum { NODES = 5, DEPTH_PHI = 12, DEPTH_THETA = 15, BUDGET = 100000 };
 
 /* Lobatto's rule of 5 points on [-1, 1], exact to degree 7. The end points are drawn in by 1e-7 of the
  * interval: the density there is that of this side of a border. */
 static const double node[NODES] = {-0.9999999, -0.65465367070797714380, 0, 0.65465367070797714380, 0.9999999};
 static const double weight[NODES] = {0.1, 49.0 / 90, 32.0 / 45, 49.0 / 90, 0.1};
 
-static double row_rule(const ring *at, double low, double high)
+/* What an interval may be wrong by. Halving it takes 1/sqrt(2) of the absolute error to each half, as
+ * independent errors ask for, and lets the relative error of each grow likewise. (With 1/2, the roundings of
+ * the float density, 1e-7 and much more near wi.wm = 0, would be refined for ever.) */
+typedef struct accuracy {
+    double absolute, relative;
+    int halvings; /* that are left */
+} accuracy;
+
+static accuracy of_half(accuracy whole)
+{
+    return (accuracy){whole.absolute * sqrt(0.5), whole.relative * sqrt(2), whole.halvings - 1};
+}
+
+static int agrees(double whole, double halves, accuracy wanted)
+{
+    return wanted.halvings <= 0 || fabs(halves - whole) <= fmax(wanted.absolute, wanted.relative * fabs(halves));
+}
+
+static double row_rule(ring *at, double low, double high)
 {
     double sum = 0, middle = (low + high) / 2, half = (high - low) / 2;
     for (int i = 0; i < NODES; i++)
         sum += weight[i] * density_at(middle + half * node[i], at);
+    at->budget -= NODES;
     return sum * half;
 }
 
-/* Whether two halves agree with the whole. The relative part keeps the roundings of the float density (some
- * 1e-7) from being refined. */
-static int agrees(double whole, double halves, double tolerance, double relative)
-{
-    return fabs(halves - whole) <= fmax(tolerance, relative * fabs(halves));
-}
-
-/* The tolerance is shared between the halves; along a jump only one of the two goes on. */
-static double row_adaptive(const ring *at, double low, double high, double coarse, double tolerance, int depth)
+static double row_adaptive(ring *at, double low, double high, double whole, accuracy wanted)
 {
     double middle = (low + high) / 2;
     double left = row_rule(at, low, middle), right = row_rule(at, middle, high);
-    if (depth >= DEPTH_PHI || agrees(coarse, left + right, tolerance, 2e-6))
+    if (at->budget <= 0 || agrees(whole, left + right, wanted))
         return left + right;
-    return row_adaptive(at, low, middle, left, tolerance / 2, depth + 1) +
-           row_adaptive(at, middle, high, right, tolerance / 2, depth + 1);
+    wanted = of_half(wanted);
+    return row_adaptive(at, low, middle, left, wanted) + row_adaptive(at, middle, high, right, wanted);
 }
 
 /* The integral over phi' at one theta'. */
 static double integrate_row(ring *at, double theta)
 {
+    const accuracy wanted = {at->absolute, 5e-6, DEPTH_PHI};
     at->sine = sin(theta);
     at->cosine = cos(theta);
-    double coarse = row_rule(at, at->phi_low, at->phi_high);
-    return row_adaptive(at, at->phi_low, at->phi_high, coarse, at->tolerance, 0);
+    return row_adaptive(at, at->phi_low, at->phi_high, row_rule(at, at->phi_low, at->phi_high), wanted);
 }
 
 static double bin_rule(ring *at, double low, double high)
@@ -169,23 +181,24 @@ static double bin_rule(ring *at, double low, double high)
     return sum * half;
 }
 
-static double bin_adaptive(ring *at, double low, double high, double coarse, double tolerance, int depth)
+static double bin_adaptive(ring *at, double low, double high, double whole, accuracy wanted)
 {
     double middle = (low + high) / 2;
     double left = bin_rule(at, low, middle), right = bin_rule(at, middle, high);
-    if (depth >= DEPTH_THETA || agrees(coarse, left + right, tolerance, 1e-5))
+    if (at->budget <= 0 || agrees(whole, left + right, wanted))
         return left + right;
-    return bin_adaptive(at, low, middle, left, tolerance / 2, depth + 1) +
-           bin_adaptive(at, middle, high, right, tolerance / 2, depth + 1);
+    wanted = of_half(wanted);
+    return bin_adaptive(at, low, middle, left, wanted) + bin_adaptive(at, middle, high, right, wanted);
 }
 
 void bins_integrate(const bin_map *map, const vndf_view *view, double probability[BINS_COUNT])
 {
-    const double absolute = 5e-10;
+    const accuracy wanted = {5e-10, 1e-5, DEPTH_THETA};
     for (size_t bin = 0; bin < BINS_COUNT; bin++) {
         const double *theta = map->theta + bin / BINS_PHI, *phi = map->phi + bin % BINS_PHI;
-        ring at = {map, view, 0, 0, phi[0], phi[1], 0.2 * absolute / (theta[1] - theta[0] + 1e-30)};
-        double coarse = bin_rule(&at, theta[0], theta[1]);
-        probability[bin] = bin_adaptive(&at, theta[0], theta[1], coarse, absolute, 0);
+        double row_absolute = 0.2 * wanted.absolute / (theta[1] - theta[0] + 1e-30);
+        ring at = {map, view, 0, 0, phi[0], phi[1], row_absolute, BUDGET};
+        double whole = bin_rule(&at, theta[0], theta[1]);
+        probability[bin] = bin_adaptive(&at, theta[0], theta[1], whole, wanted);
     }
 }

@@ -10,7 +10,13 @@ foreach(needed VNDF OUT EXAMPLE)
     endif()
 endforeach()
 file(MAKE_DIRECTORY ${OUT})
+configure_file(${EXAMPLE} ${OUT}/example.csv COPYONLY) # so that the table names it without a path
 get_filename_component(program ${VNDF} NAME_WE)
+
+# To stdout like the program's own lines, so that they stay in order in a log.
+function(say text)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E echo "${text}")
+endfunction()
 
 # Runs `vndf ...`, prints the command as one would type it, and ends the demo if it fails.
 function(vndf)
@@ -21,31 +27,31 @@ function(vndf)
         endif()
         string(APPEND shown " ${word}")
     endforeach()
-    message("\n$ ${program}${shown}")
+    say("\n$ ${program}${shown}")
     execute_process(COMMAND ${VNDF} ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "the command above ended with exit status ${status}")
     endif()
 endfunction()
 
-message("1. A formula: a distribution of slopes with rings, which has no name and no published sampler")
+say("1. A formula: a distribution of slopes with rings, which has no name and no published sampler")
 vndf(build --slope "exp(-3*r)*(1+0.8*cos(6*r))" -o rings.vndf)
 vndf(check rings.vndf --samples 300000)
 vndf(plot rings.vndf -o rings.svg)
 
-message("\n2. A curve: angle and density in a CSV, as a gloss meter gives them")
-vndf(build --csv ${EXAMPLE} -o gloss.vndf)
-vndf(check gloss.vndf --csv ${EXAMPLE} --samples 300000)
+say("\n2. A curve: angle and density in a CSV, as a gloss meter gives them")
+vndf(build --csv example.csv -o gloss.vndf)
+vndf(check gloss.vndf --csv example.csv --samples 300000)
 vndf(plot gloss.vndf -o gloss.svg)
 
-message("\n3. A measured material: the published fit of alum-bronze, and the same stretched along y")
+say("\n3. A measured material: the published fit of alum-bronze, and the same stretched along y")
 vndf(build --family sgd:alum-bronze/r -o alum-bronze.vndf)
 vndf(check alum-bronze.vndf --samples 300000)
 vndf(plot alum-bronze.vndf -o alum-bronze.svg)
 vndf(plot alum-bronze.vndf --alpha 1,3 --theta 0,60,85 -o alum-bronze-brushed.svg)
 vndf(sample alum-bronze.vndf --theta 60 -n 10 -o -)
 
-message("\nTables, and figures of density and samples, are in ${OUT}:
+say("\nTables, and figures of density and samples, are in ${OUT}:
   rings.vndf        rings.svg
   gloss.vndf        gloss.svg
   alum-bronze.vndf  alum-bronze.svg  alum-bronze-brushed.svg")

@@ -47,12 +47,12 @@ static vndf_view view_of(const vndf_distribution *table, double s, double c)
     return vndf_view_from(&surface, wi);
 }
 
-/* pdf per unit of slope area of the unit problem at R, a: the engine's density is per X Z^2 dR da and W. */
+/* pdf per unit of slope area of the unit problem at R, a: the engine's density is per X Z^2 dR da. */
 static double drawn_density(const vndf_view *view, double r, double a)
 {
     vndf_vec3 n = normal_at(r, a);
     double z = n.z, w = view->s * n.x + view->c * z;
-    return w > 0 ? (double)vndf_engine_density(view, n) * w * z * z * z : 0.0;
+    return w > 0 ? (double)vndf_engine_density(view, n, (float)w) * z * z * z : 0.0;
 }
 
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
@@ -131,7 +131,8 @@ static finding survey_direction(survey *v, double s, double c)
     if (!(area > AREA_LEAST * v->profile->f1))
         return f;
     f.measured = 1;
-    f.area_error = fabs((double)vndf_unit_area(v->table, view.s, view.c) / area - 1);
+    f.area_error = fabs((double)vndf_unit_area(v->table, (float)s, (float)c) / area - 1);
+    area /= s + fabs(c); /* as the view has it: s + |c| = 1 */
     v->count = 0;
     if (view.c >= 0)
         add_quarter(v, &view, vndf_front_q, VNDF_FRONT_CELLS, 1, 1, 0, area);

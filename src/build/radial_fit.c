@@ -131,13 +131,15 @@ typedef struct law_error {
     double all, grazing, cut_inside, cut_outside, cubic;
 } law_error;
 
-/* |drawn - true| at xi for the weight w0 (1-xi) + w1 xi. */
+/* |drawn - true| at xi for the weight w0 (1-xi) + w1 xi, drawn as the sampler does at a cut and away from it. */
 static double miss(const vndf_radial_cell *cell, double w0, double w1, double f, double xi)
 {
-    double mass = w0 * cell->mu0 + w1 * cell->mu1;
-    vndf_weighted_cell drawn = vndf_weighted_cell_from(cell->f0, cell->f1, (float)w0, (float)w1, (float)mass);
-    double w = w0 * (1 - xi) + w1 * xi, density = vndf_rational_density(drawn.shape, vndf_weighted_zeta(&drawn, (float)xi));
-    return fabs(density * 2 * w / (w0 + w1) - f * w / mass);
+    double mass = w0 * cell->mu0 + w1 * cell->mu1, w = w0 * (1 - xi) + w1 * xi, sum = w0 + w1;
+    int weighted = w0 == 0 || w1 == 0;
+    vndf_rational_cell drawn = vndf_rational_cell_from((float)(cell->f0 * (weighted ? sum / 2 : w0) / mass),
+                                                       (float)(cell->f1 * (weighted ? sum / 2 : w1) / mass), 1.0f);
+    float at = weighted ? vndf_weighted_zeta((float)w0, (float)w1, (float)xi) : (float)xi;
+    return fabs((double)vndf_rational_density(&drawn, at) * (weighted ? 2 * w / sum : 1) - f * w / mass);
 }
 
 static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)

@@ -1,11 +1,12 @@
-/* One cell of a piecewise density whose mass and end densities are given: the monotone rational
+/* One cell of a piecewise density, known by its mass and its densities at both ends: the monotone rational
  * quadratic of Gregory & Delbourgo ("Piecewise rational quadratic interpolation to monotonic data",
- * IMA J. Numer. Anal. 2, 1982). On xi in [0, 1] with end densities d0, d1 >= 0 (relative to the mean),
+ * IMA J. Numer. Anal. 2, 1982). For xi in [0, 1], eta = 1 - xi, mass m, end densities e0, e1 >= 0 per unit of
+ * xi, and k = (e0 + e1)/m,
  *
- *     F(xi) = (xi^2 + d0 xi (1-xi)) / (1 + (d0 + d1 - 2) xi (1-xi)),       F(0) = 0, F(1) = 1
- *     F'(xi) = (d1 xi^2 + 2 xi (1-xi) + d0 (1-xi)^2) / (1 + (d0 + d1 - 2) xi (1-xi))^2
+ *     F(xi)  = m (xi^2 + e0/m xi eta) / (1 + (k - 2) xi eta),              F(0) = 0, F(1) = m
+ *     F'(xi) = (e1 xi^2 + 2 m xi eta + e0 eta^2) / (1 + (k - 2) xi eta)^2.
  *
- * F' > 0 inside for any d0, d1, so a cell never has a hole; F is inverted by one square root; and F'
+ * F' > 0 inside for any e0, e1, so a cell never has a hole; F is inverted by one square root; and F'
  * follows a smooth density to third order in the cell's width, where a linear one reaches the second. */
 #ifndef VNDF_MATH_RATIONAL_CELL_H
 #define VNDF_MATH_RATIONAL_CELL_H
@@ -13,30 +14,38 @@
 #include <math.h>
 
 typedef struct vndf_rational_cell {
-    float d0, d1;
+    float e0, e1, mass, k;
 } vndf_rational_cell;
 
-static inline float vndf_rational_cdf(vndf_rational_cell cell, float xi)
+static inline vndf_rational_cell vndf_rational_cell_from(float e0, float e1, float mass)
+{
+    vndf_rational_cell cell = {e0, e1, mass, mass > 0.0f ? (e0 + e1) / mass : 2.0f};
+    return cell;
+}
+
+/* Mass before xi. */
+static inline float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
 {
     float w = xi * (1.0f - xi);
-    return (xi * xi + cell.d0 * w) / (1.0f + (cell.d0 + cell.d1 - 2.0f) * w);
+    return (cell->mass * xi * xi + cell->e0 * w) / (1.0f + (cell->k - 2.0f) * w);
 }
 
-static inline float vndf_rational_density(vndf_rational_cell cell, float xi)
+/* Mass per unit of xi. */
+static inline float vndf_rational_density(const vndf_rational_cell *cell, float xi)
 {
-    float eta = 1.0f - xi, w = xi * eta;
-    float q = 1.0f + (cell.d0 + cell.d1 - 2.0f) * w;
-    return (cell.d1 * xi * xi + 2.0f * w + cell.d0 * eta * eta) / (q * q);
+    float eta = 1.0f - xi, w = xi * eta, q = 1.0f + (cell->k - 2.0f) * w;
+    return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) / (q * q);
 }
 
-/* xi with F(xi) = u: the root in [0, 1] of a xi^2 + b xi = u, where a + b = 1. */
-static inline float vndf_rational_invert(vndf_rational_cell cell, float u)
+/* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
+ * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other. */
+static inline float vndf_rational_invert(const vndf_rational_cell *cell, float t)
 {
-    float b = cell.d0 - u * (cell.d0 + cell.d1 - 2.0f), a = 1.0f - b;
-    float discriminant = b * b + 4.0f * a * u;
-    float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
-    float xi = b >= 0.0f ? 2.0f * u / (b + root) : (root - b) / (2.0f * a); /* either way no difference of equals */
-    return xi < 1.0f ? xi : 1.0f;
+    float middle = cell->e0 - t * cell->k, b = middle + 2.0f * t;
+    float square = middle * middle + 4.0f * t * (cell->mass - t);
+    float root = sqrtf(square > 0.0f ? square : 0.0f); /* below 0 only by rounding of t beyond m */
+    float xi = b >= 0.0f ? 2.0f * t / (b + root) : (root - b) / (2.0f * (cell->mass - b)); /* no difference of equals */
+    return xi < 1.0f ? xi : 1.0f; /* also for 0/0 in a cell without mass */
 }
 
 #endif

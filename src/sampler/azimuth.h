@@ -26,36 +26,32 @@ typedef struct vndf_azimuth_row {
     float p, r;
 } vndf_azimuth_row;
 
-/* cos and sin >= 0 of an azimuth, and the row's mass per radian there. */
+/* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
 typedef struct vndf_azimuth {
-    float cos_phi, sin_phi, density;
+    float c, s, n, density;
 } vndf_azimuth;
 
-/* One cell of the mix. */
-typedef struct vndf_azimuth_cell {
-    float before, mass, width;
-    vndf_rational_cell shape;
-} vndf_azimuth_cell;
-
-static inline vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, uint32_t j)
+static inline float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
 {
-    const vndf_azimuth_part *a = &row->a, *b = &row->b;
-    vndf_azimuth_cell cell;
-    cell.before = a->weight * a->cdf[j] + b->weight * b->cdf[j];
-    cell.mass = a->weight * a->mass[j] + b->weight * b->mass[j];
-    cell.width = row->q[j + 1] - row->q[j];
-    float per_mean = cell.width / cell.mass;
-    cell.shape.d0 = (a->weight * a->density[j] + b->weight * b->density[j]) * per_mean;
-    cell.shape.d1 = (a->weight * a->density[j + 1] + b->weight * b->density[j + 1]) * per_mean;
-    return cell;
+    return row->a.weight * row->a.cdf[j] + row->b.weight * row->b.cdf[j];
 }
 
-/* The azimuth at q, xi within a cell. */
-static inline vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, float q, float xi)
+/* A cell of the mix, and its width in q. */
+static inline vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j, float *width)
+{
+    const vndf_azimuth_part *a = &row->a, *b = &row->b;
+    float h = row->q[j + 1] - row->q[j];
+    *width = h;
+    return vndf_rational_cell_from((a->weight * a->density[j] + b->weight * b->density[j]) * h,
+                                   (a->weight * a->density[j + 1] + b->weight * b->density[j + 1]) * h,
+                                   a->weight * a->mass[j] + b->weight * b->mass[j]);
+}
+
+/* The azimuth at q, where the mass per unit of q is per_q. */
+static inline vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
 {
     float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    float scale = 1.0f / sqrtf(n2), per_q = cell->mass * vndf_rational_density(cell->shape, xi);
-    vndf_azimuth at = {c * scale, s * scale, per_q * n2 / (2.0f * row->p * row->r * (1.0f + q * q) * cell->width)};
+    vndf_azimuth at = {c, s, sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * (1.0f + q * q))};
     return at;
 }
 
@@ -66,14 +62,14 @@ static inline vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float 
     for (uint32_t i = 0; i < row->stride; i++)
         count += row->a.weight * row->a.cdf[i] + row->b.weight * row->b.cdf[i] <= target;
     uint32_t j = count > 0 ? count - 1 : 0;
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    float u = (target - cell.before) / cell.mass;
-    float xi = vndf_rational_invert(cell.shape, u < 1.0f ? (u > 0.0f ? u : 0.0f) : 1.0f);
-    return vndf_azimuth_at(row, &cell, row->q[j] + xi * cell.width, xi);
+    float width;
+    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
+    float xi = vndf_rational_invert(&cell, target - vndf_azimuth_before(row, j));
+    return vndf_azimuth_at(row, row->q[j] + xi * width, vndf_rational_density(&cell, xi) / width);
 }
 
-/* Place of an azimuth in the row. */
-static inline float vndf_azimuth_q(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
+/* Place of the azimuth (cos, sin) in the row: q, its cell and xi within. */
+static inline float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
 {
     float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
     uint32_t count = 0;
@@ -87,22 +83,22 @@ static inline float vndf_azimuth_q(const vndf_azimuth_row *row, float cos_phi, f
 }
 
 /* Mass before an azimuth. */
-static inline float vndf_azimuth_before(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
+static inline float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
     uint32_t j;
-    float xi;
-    vndf_azimuth_q(row, cos_phi, sin_phi, &j, &xi);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    return cell.before + cell.mass * vndf_rational_cdf(cell.shape, xi);
+    float xi, width;
+    vndf_azimuth_place(row, cos_phi, sin_phi, &j, &xi);
+    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
+    return vndf_azimuth_before(row, j) + vndf_rational_cdf(&cell, xi);
 }
 
 /* Mass per radian at an azimuth. */
 static inline float vndf_azimuth_density(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
     uint32_t j;
-    float xi, q = vndf_azimuth_q(row, cos_phi, sin_phi, &j, &xi);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    return vndf_azimuth_at(row, &cell, q, xi).density;
+    float xi, width, q = vndf_azimuth_place(row, cos_phi, sin_phi, &j, &xi);
+    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
+    return vndf_azimuth_at(row, q, vndf_rational_density(&cell, xi) / width).density;
 }
 
 #endif

@@ -45,14 +45,14 @@ void vndf_engine_view(vndf_view *view)
 {
     const vndf_distribution *d = view->distribution;
     const vndf_wedge *wedge = wedge_of(view);
-    float s = view->s, c = view->c, sum = s + fabsf(c), y = (c >= 0.0f ? c : s) / sum;
+    float s = view->s, c = view->c, y = c >= 0.0f ? c : s;
     uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count, y);
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
     view->row = i;
     view->mix = mix;
     view->aspect_p = (1.0f - mix) * wedge->aspect_p[i] + mix * wedge->aspect_p[i + 1];
     view->aspect_r = (1.0f - mix) * wedge->aspect_r[i] + mix * wedge->aspect_r[i + 1];
-    view->wedge = sum * wedge_mass(wedge, y);
+    view->wedge = wedge_mass(wedge, y);
     view->front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
     view->area = 2.0f * (view->front + view->wedge);
 }
@@ -94,25 +94,33 @@ static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
     if (view->c >= 0.0f) { /* counted from the far side, a = pi */
         float rest = (target - view->front) / view->wedge;
         at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
-        at.cos_phi = -at.cos_phi;
+        at.c = -at.c;
     } else
         at = vndf_azimuth_draw(&row, half);
     at.density *= view->wedge;
     return at;
 }
 
-vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *density)
+void vndf_engine_sample(const vndf_view *view, float u1, float u2, vndf_engine_draw *draw)
 {
-    float half = 2.0f * u1 - 1.0f, radial;
+    float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * a.cos_phi);
-    vndf_radius at = vndf_radial_draw(&law, u2, &radial);
+    draw->law = vndf_radial_law_for(view->distribution, view->c * a.n, view->s * a.c);
+    vndf_radius at = vndf_radial_draw(&draw->law, u2, &draw->piece, &draw->inside);
     const vndf_knots *k = &view->distribution->knots;
     float x = k->x[at.cell] + at.xi * (k->x[at.cell + 1] - k->x[at.cell]);
-    float z = k->z[at.cell] + at.xi * (k->z[at.cell + 1] - k->z[at.cell]);
-    vndf_vec3 normal = {x * a.cos_phi, half < 0.0f ? -x * a.sin_phi : x * a.sin_phi, z > 0.0f ? z : 0.0f};
-    *density = 0.5f * a.density / (view->front + view->wedge) * radial;
-    return normal;
+    float z = k->z[at.cell] + at.xi * (k->z[at.cell + 1] - k->z[at.cell]), across = x / a.n;
+    draw->normal.x = across * a.c;
+    draw->normal.y = across * (half < 0.0f ? -a.s : a.s);
+    draw->normal.z = z > 0.0f ? z : 0.0f;
+    draw->at = at;
+    draw->n = a.n;
+    draw->azimuth = 0.5f * a.density / (view->front + view->wedge);
+}
+
+float vndf_engine_drawn(const vndf_engine_draw *draw, float w)
+{
+    return draw->azimuth * vndf_radial_density(&draw->law, &draw->piece, draw->at, draw->inside, draw->n * w);
 }
 
 /* ---- density and inverse ---- */
@@ -153,7 +161,7 @@ static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
     return above != toward && view->wedge > 0.0f && row->p > 0.0f;
 }
 
-float vndf_engine_density(const vndf_view *view, vndf_vec3 normal)
+float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w)
 {
     place p = place_of(view, normal);
     vndf_azimuth_row row;
@@ -164,7 +172,7 @@ float vndf_engine_density(const vndf_view *view, vndf_vec3 normal)
     float azimuth = vndf_azimuth_density(&row, fabsf(p.cos_phi), p.sin_phi);
     if (row.q != vndf_front_q)
         azimuth *= view->wedge;
-    float radial = vndf_radial_density(&law, &piece, p.at, vndf_radial_zeta(&piece, p.at.xi));
+    float radial = vndf_radial_density(&law, &piece, p.at, vndf_radial_inside(&piece, p.at.xi), w);
     return 0.5f * azimuth / (view->front + view->wedge) * radial;
 }
 
@@ -175,7 +183,7 @@ static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
     float total = view->front + view->wedge;
     if (!row_of(view, cos_phi, &row))
         return 1.0f;
-    float before = vndf_azimuth_before(&row, fabsf(cos_phi), sin_phi);
+    float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
     if (row.q == vndf_front_q)
         return before / total;
     return view->c < 0.0f ? before : (view->front + (1.0f - before) * view->wedge) / total;

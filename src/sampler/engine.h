@@ -29,20 +29,33 @@
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 
+#include "sampler/radial.h"
 #include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 float vndf_unit_area(const vndf_distribution *d, float s, float c);
 
-/* What follows is for tables. Normals of the unit problem are (X cos a, X sin a, Z) with X + Z = 1, in the
- * turned frame. Their density is given per unit of  width X dxi da = X Z^2 dR da  and without the factor
- * W = c Z + s X cos a = (direction . normal), which vanishes at the cut: the caller takes it from the final normal. */
+/* What follows is for tables. The direction has s + |c| = 1, normals of the unit problem (X cos a, X sin a, Z)
+ * have X + Z = 1, both in the turned frame. */
 
 /* Fills the members of a view that belong to the engine: area, front, wedge, mix, aspect, row. */
 void vndf_engine_view(vndf_view *view);
 
-vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *density);
-float vndf_engine_density(const vndf_view *view, vndf_vec3 normal);
+/* A normal and all that its density needs but W = (direction . normal), which vanishes at the cut: that the
+ * caller takes from the normal as it was rounded, and hands to vndf_engine_drawn. */
+typedef struct vndf_engine_draw {
+    vndf_vec3 normal;
+    vndf_radial_law law;
+    vndf_radial_piece piece;
+    vndf_radius at;
+    float inside, azimuth, n; /* azimuth: part of the mass per radian; the law's weights are n times the direction's */
+} vndf_engine_draw;
+void vndf_engine_sample(const vndf_view *view, float u1, float u2, vndf_engine_draw *draw);
+
+/* Density per unit of width X dxi da = X Z^2 dR da. */
+float vndf_engine_drawn(const vndf_engine_draw *draw, float w);
+float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w);
+
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z): D is this times (X^2 + Z^2)^2, finite at the horizon. */

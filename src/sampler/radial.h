@@ -2,8 +2,9 @@
  * cell of the radial table, where c Z + k X > 0.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
- * the prefix of the side where nothing cancels. Inside a cell f is drawn by a weighted cell (math/weighted_cell.h). The
- * cell that holds the cut W = 0 is used on its visible part alone, with its mass and its end value at the cut from the cubic. */
+ * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the
+ * cell that holds the cut W = 0, and in its neighbour, by a weighted one (math/weighted_cell.h). The cell at the
+ * cut is used on its visible part alone, with its mass and its value at the cut from the cubic. */
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
@@ -19,7 +20,8 @@ typedef struct vndf_radial_law {
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi */
     float part_mass;          /* its mass */
-    vndf_weighted_cell part_cell; /* its shape, from the pole outwards */
+    float part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
+    float part_w0, part_w1;   /* W there */
 } vndf_radial_law;
 
 /* A place in the table. */
@@ -72,7 +74,9 @@ static inline void vndf_radial_cut_above(vndf_radial_law *law)
     law->cut = j;
     law->part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
     law->part_mass = w0 * law->part * vndf_radial_part(cell->f0, cell->f1, cell->a, cell->b, law->part);
-    law->part_cell = vndf_weighted_cell_from(cell->f0 * law->part, vndf_radial_f(cell, law->part) * law->part, w0, 0.0f, law->part_mass);
+    law->part_f0 = cell->f0 * law->part;
+    law->part_f1 = vndf_radial_f(cell, law->part) * law->part;
+    law->part_w0 = w0;
     law->total = vndf_radial_before(law, j) + law->part_mass;
 }
 
@@ -85,14 +89,16 @@ static inline void vndf_radial_cut_below(vndf_radial_law *law)
     law->cut = j;
     law->part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
     law->part_mass = w1 * law->part * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law->part);
-    law->part_cell = vndf_weighted_cell_from(vndf_radial_f(cell, 1.0f - law->part) * law->part, cell->f1 * law->part, 0.0f, w1, law->part_mass);
+    law->part_f0 = vndf_radial_f(cell, 1.0f - law->part) * law->part;
+    law->part_f1 = cell->f1 * law->part;
+    law->part_w1 = w1;
     law->total = vndf_radial_beyond(law, j + 1) + law->part_mass;
 }
 
 /* The law for the weights (c, k), at least one of them positive. */
 static inline vndf_radial_law vndf_radial_law_for(const vndf_distribution *table, float c, float k)
 {
-    vndf_radial_law law = {table, c, k, 0.0f, table->radial_count, 1.0f, 0.0f, {{0.0f, 0.0f}, 0.0f, 0.0f}};
+    vndf_radial_law law = {table, c, k, 0.0f, table->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     if (c > 0.0f && k < 0.0f)
         vndf_radial_cut_above(&law);
     else if (c < 0.0f && k > 0.0f)
@@ -102,28 +108,35 @@ static inline vndf_radial_law vndf_radial_law_for(const vndf_distribution *table
     return law;
 }
 
-/* Mass and shape of a cell as far as it is visible, and where that part begins in xi. */
+/* A cell as far as it is visible: where that part begins in xi and how long it is. */
 typedef struct vndf_radial_piece {
-    vndf_weighted_cell cell;
-    float mass, begin, length;
+    vndf_rational_cell cell; /* in xi of the part, or in zeta if weighted */
+    int weighted;
+    float w0, w1, begin, length;
 } vndf_radial_piece;
 
 static inline vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
 {
-    vndf_radial_piece piece;
-    if (j == law->cut) {
-        piece.cell = law->part_cell;
-        piece.mass = law->part_mass;
-        piece.length = law->part;
-        piece.begin = law->c < 0.0f ? 1.0f - law->part : 0.0f;
-        return piece;
-    }
     const vndf_radial_cell *cell = &law->table->cells[j];
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
-    piece.mass = w0 * cell->mu0 + w1 * cell->mu1;
-    piece.cell = vndf_weighted_cell_from(cell->f0, cell->f1, w0, w1, piece.mass);
+    vndf_radial_piece piece;
+    float f0 = cell->f0, f1 = cell->f1, mass;
+    piece.w0 = vndf_radial_weight(law, j);
+    piece.w1 = vndf_radial_weight(law, j + 1);
+    mass = piece.w0 * cell->mu0 + piece.w1 * cell->mu1;
     piece.begin = 0.0f;
     piece.length = 1.0f;
+    piece.weighted = j + 1 >= law->cut && j <= law->cut + 1;
+    if (j == law->cut) {
+        f0 = law->part_f0;
+        f1 = law->part_f1;
+        piece.w0 = law->part_w0;
+        piece.w1 = law->part_w1;
+        mass = law->part_mass;
+        piece.length = law->part;
+        piece.begin = law->c < 0.0f ? 1.0f - law->part : 0.0f;
+    }
+    float half = 0.5f * (piece.w0 + piece.w1);
+    piece.cell = vndf_rational_cell_from(f0 * (piece.weighted ? half : piece.w0), f1 * (piece.weighted ? half : piece.w1), mass);
     return piece;
 }
 
@@ -171,53 +184,61 @@ static inline uint32_t vndf_radial_search(const vndf_radial_law *law, float targ
     return j < last ? j : last;
 }
 
-/* Part of the mass per unit of xi at a place, divided by W, X and the cell's width: smooth up to the cut, and
- * finite at the pole. `zeta` is the place as the piece's shape counts it. */
-static inline float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float zeta)
+/* Where the piece's rational cell stands at xi of the whole cell. */
+static inline float vndf_radial_inside(const vndf_radial_piece *piece, float xi)
 {
-    const vndf_distribution *d = law->table;
-    float sum = piece->cell.w0 + piece->cell.w1;
-    if (at.cell == 0 && at.xi < 1e-6f) { /* f and X both begin at 0: the limit of their quotient */
-        at.xi = 1e-6f;
-        zeta = vndf_weighted_zeta(&piece->cell, (at.xi - piece->begin) / piece->length);
-    }
-    float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
-    float below = law->total * piece->length * x * d->cells[at.cell].width * sum;
-    return below > 0.0f ? 2.0f * piece->mass * vndf_rational_density(piece->cell.shape, zeta) / below : 0.0f;
+    float inside = (xi - piece->begin) / piece->length;
+    inside = inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f;
+    return piece->weighted ? vndf_weighted_zeta(piece->w0, piece->w1, inside) : inside;
 }
 
-/* Place with a part u of the mass before it, and the density there. Below the horizon mass is counted from infinity inwards. */
-static inline vndf_radius vndf_radial_draw(const vndf_radial_law *law, float u, float *density)
+/* Part of the mass per unit of xi at a place, divided by W, X and the cell's width: finite at the pole, where f
+ * and X begin at 0, and at the cut, where the mass and W vanish. W is (direction . normal) of the very normal whose density is
+ * asked for, so that rounding near the cut is the same wherever it is computed. */
+static inline float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside, float w)
+{
+    const vndf_distribution *d = law->table;
+    if (at.cell == 0 && at.xi < 1e-6f) {
+        at.xi = 1e-6f;
+        inside = vndf_radial_inside(piece, at.xi);
+    }
+    float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
+    float density = vndf_rational_density(&piece->cell, inside);
+    float below = law->total * piece->length * x * d->cells[at.cell].width;
+    if (piece->weighted) {
+        density *= 2.0f * w;
+        below *= piece->w0 + piece->w1;
+    }
+    return below > 0.0f ? density / below : 0.0f;
+}
+
+/* Place with a part u of the mass before it. Below the horizon mass is counted from infinity inwards. */
+static inline vndf_radius vndf_radial_draw(const vndf_radial_law *law, float u, vndf_radial_piece *piece, float *inside)
 {
     int below = law->c < 0.0f;
     float target = (below ? 1.0f - u : u) * law->total;
     uint32_t j = vndf_radial_search(law, target);
-    vndf_radial_piece piece = vndf_radial_piece_of(law, j);
+    *piece = vndf_radial_piece_of(law, j);
     float rest = target - (below ? vndf_radial_beyond(law, j + 1) : vndf_radial_before(law, j));
-    float inside = piece.mass > 0.0f ? rest / piece.mass : 0.5f;
-    inside = inside < 1.0f ? (inside > 0.0f ? inside : 0.0f) : 1.0f;
-    float zeta = vndf_rational_invert(piece.cell.shape, below ? 1.0f - inside : inside);
-    vndf_radius at = {j, piece.begin + piece.length * vndf_weighted_xi(&piece.cell, zeta)};
-    at.xi = at.xi < 1.0f ? at.xi : 1.0f;
-    *density = vndf_radial_density(law, &piece, at, zeta);
+    rest = below ? piece->cell.mass - rest : rest;
+    float at_piece = vndf_rational_invert(&piece->cell, rest > 0.0f ? rest : 0.0f);
+    *inside = at_piece;
+    if (piece->weighted) {
+        at_piece = vndf_weighted_xi(piece->w0, piece->w1, at_piece);
+        at_piece = piece->begin + piece->length * at_piece;
+    }
+    vndf_radius at = {j, at_piece < 1.0f ? at_piece : 1.0f};
     return at;
-}
-
-/* zeta of a place in its piece. */
-static inline float vndf_radial_zeta(const vndf_radial_piece *piece, float xi)
-{
-    float inside = (xi - piece->begin) / piece->length;
-    return vndf_weighted_zeta(&piece->cell, inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f);
 }
 
 /* Part of the mass before a place. */
 static inline float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
-    float inside = vndf_rational_cdf(piece.cell.shape, vndf_radial_zeta(&piece, at.xi));
+    float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at.xi));
     if (law->c < 0.0f)
-        return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (1.0f - inside) * piece.mass) / law->total;
-    return (vndf_radial_before(law, at.cell) + inside * piece.mass) / law->total;
+        return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside)) / law->total;
+    return (vndf_radial_before(law, at.cell) + inside) / law->total;
 }
 
 #endif

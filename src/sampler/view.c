@@ -18,12 +18,14 @@ static int is_usable_direction(vndf_vec3 w)
     return m > 0.0f && m < HUGE_VALF && w.x == w.x && w.y == w.y && w.z == w.z; /* max_abs may pass over a NaN */
 }
 
-/* Direction and length of (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form, exact for the smallest parts. */
+/* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form, exact for the smallest parts: azimuth, and s + |c| = 1
+ * for the engine or s^2 + c^2 = 1 for the closed forms. */
 static void stretch(vndf_view *view)
 {
     float x = view->alpha_x * view->wi.x, y = view->alpha_y * view->wi.y, z = view->wi.z;
     float across = vndf_length2(x, y), per_across = across > 0.0f ? 1.0f / across : 0.0f;
-    view->per_length = 1.0f / vndf_length2(across, z);
+    int table = view->distribution->kind == VNDF_KIND_TABLE;
+    view->per_length = 1.0f / (table ? across + fabsf(z) : vndf_length2(across, z));
     view->s = across * view->per_length;
     view->c = z * view->per_length + 0.0f; /* -0 becomes +0: the horizon is seen from above */
     view->cos_phi = across > 0.0f ? x * per_across : 1.0f;
@@ -91,18 +93,17 @@ static vndf_vec3 facing(const vndf_view *view, vndf_vec3 wm)
     return vndf_normalize(level);
 }
 
-/* The factor that brings n = (x, y, z) of the unit problem to X + Z = 1: |real normal| there, if wm is unit. */
-static float to_simplex(vndf_vec3 n)
+/* W = (direction . normal) of the engine for the unit normal wm, where `scale` brings its image in the unit problem to
+ * X + Z = 1. It comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
+static float weight(const vndf_view *view, vndf_vec3 wm, float scale)
 {
-    return 1.0f / (vndf_length2(n.x, n.y) + n.z);
+    return vndf_dot(view->wi, wm) * scale * view->per_length;
 }
 
-/* Per steradian at the unit normal wm: the engine's density times W, and dwm = ax ay X Z^2 dR da scale^-3.
- * W comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
-static float per_steradian(const vndf_view *view, vndf_vec3 wm, float density, float scale)
+/* The engine's density per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
+static float per_steradian(const vndf_view *view, float density, float scale)
 {
-    float w = vndf_dot(view->wi, wm) * scale * view->per_length;
-    return density * w * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale;
+    return density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale;
 }
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
@@ -117,29 +118,36 @@ static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float 
     return wm;
 }
 
-vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
+static vndf_vec3 sample_table(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    float density;
-    if (!view->distribution) {
-        if (pdf)
-            *pdf = 0.0f;
-        return up;
-    }
-    u1 = vndf_clamp_unit(u1);
-    u2 = vndf_clamp_unit(u2);
-    if (view->distribution->kind != VNDF_KIND_TABLE)
-        return sample_closed(view, u1, u2, pdf);
-    vndf_vec3 stretched = from_unit(view, vndf_engine_sample(view, u1, u2, &density)), wm;
+    vndf_engine_draw draw;
+    vndf_engine_sample(view, u1, u2, &draw);
+    vndf_vec3 stretched = from_unit(view, draw.normal);
     float length = sqrtf(vndf_dot(stretched, stretched)); /* from 1e-18 to 1e18 */
-    wm = vndf_scale(stretched, 1.0f / length);
-    if (!(vndf_dot(view->wi, wm) > 0.0f)) {
+    vndf_vec3 wm = vndf_scale(stretched, 1.0f / length);
+    float w = weight(view, wm, length);
+    if (!(w > 0.0f)) {
         wm = facing(view, wm);
         if (pdf)
             *pdf = vndf_pdf(view, wm);
     } else if (pdf)
-        *pdf = per_steradian(view, wm, density, length);
+        *pdf = per_steradian(view, vndf_engine_drawn(&draw, w), length);
     return wm;
+}
+
+vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    if (!view->distribution) {
+        vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+        if (pdf)
+            *pdf = 0.0f;
+        return up;
+    }
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return sample_table(view, u1, u2, pdf);
+    return sample_closed(view, u1, u2, pdf);
 }
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
@@ -149,7 +157,8 @@ float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
     if (view->distribution->kind != VNDF_KIND_TABLE)
         return vndf_visible(view, wm);
     vndf_vec3 n = to_unit(view, wm);
-    return per_steradian(view, wm, vndf_engine_density(view, n), to_simplex(n));
+    float scale = 1.0f / (vndf_length2(n.x, n.y) + n.z);
+    return per_steradian(view, vndf_engine_density(view, n, weight(view, wm, scale)), scale);
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
