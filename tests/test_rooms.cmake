@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.16)
 
 set(rooms core math table sampler quadrature distribution build)
 set(below_core "")
-set(below_math "")
+set(below_math core)
 set(below_table core)
 set(below_sampler core math table)
 set(below_quadrature "")

@@ -25,7 +25,7 @@ static const char help[] =
     "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log sqrt sin cos tan asin acos\n"
     "                  atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
     "  --set NAME=X    a parameter of the expression; may be repeated\n"
-    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then numbers\n"
+    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384)\n"
@@ -158,7 +158,7 @@ static int check_words(const build_words *given)
         return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
                         sources ? "more than one" : "none");
     if (given->set.count && !given->ndf.count && !given->slope.count)
-        return complain(name, "--set is for the parameters of --ndf and --slope; those of a family follow its name");
+        return complain(name, "--set is for --ndf and --slope; the parameters of a family follow its name");
     if (!given->output.count)
         return complain(name, "-o FILE is missing");
     return PARSE_GO_ON;

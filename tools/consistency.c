@@ -53,7 +53,7 @@ static int is_valid(const draw *it)
 /* Density 0 is for views that see nothing, or as good as nothing in float. */
 static int is_blind(const draw *it)
 {
-    return it->pdf == 0 && vndf_projected_area(&it->surface, it->wi) < 1e-30f;
+    return it->pdf == 0 && sees_nothing(&it->surface, it->wi);
 }
 
 static double pdf_difference(const draw *it)

@@ -45,6 +45,11 @@ vndf_vec3 direction_from(double theta, double phi)
     return direction;
 }
 
+int sees_nothing(const vndf_surface *surface, vndf_vec3 w)
+{
+    return w.z < 0 && vndf_projected_area(surface, w) < 1e-25f;
+}
+
 int roughness_from(const char *command, const char *text, vndf_surface *surface)
 {
     double alpha[2] = {1, 1};
@@ -61,7 +66,7 @@ int view_from_words(const char *command, const aim_words *aim, const vndf_distri
 {
     double theta = 0, phi = 0;
     if (!aim->theta.count) {
-        complain(command, "--theta is missing: the angle of the incident direction from the normal, 0 to 180 degrees");
+        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
         return 0;
     }
     if (!option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||

@@ -63,12 +63,13 @@ static double rim_angle(const vndf_view *view, unsigned seed)
         angle[i] = atan2(hypot((double)wm.x, (double)wm.y), (double)wm.z) * 180 / pi;
     }
     qsort(angle, PILOTS, sizeof angle[0], ascending);
-    return round_angle(angle[PILOTS * 99 / 100]);
+    return round_angle(angle[PILOTS * 95 / 100]);
 }
 
 /* ---- density ------------------------------------------------------------------------------------- */
 
-/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at its rim). */
+/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at the
+ * rim). */
 static double pixel_density(const vndf_view *view, double rim, size_t column, size_t row)
 {
     double sum = 0;

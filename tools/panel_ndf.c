@@ -67,8 +67,8 @@ static void draw_curve(FILE *file, const log_axes *axes, const ndf_curve *curve)
 {
     int inside = 0;
     double span = axes->decade_high - axes->decade_low;
-    fprintf(file, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-dasharray=\"%s\" d=\"", curve->stroke,
-            curve->dashes);
+    fprintf(file, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-dasharray=\"%s\" d=\"",
+            curve->stroke, curve->dashes);
     for (int i = 0; i < POINTS; i++) {
         double fraction = (double)i / (POINTS - 1), ndf = ndf_at(curve, axes->degrees * fraction);
         double height = ndf > 0 ? (log10(ndf) - axes->decade_low) / span : -1;

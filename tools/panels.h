@@ -17,7 +17,7 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface);
 
 /* Visible normals from (theta, azimuth 0): density as colour, samples as dots, on the hemisphere seen
  * from above in the equal-area projection (radius ~ sin(theta_m/2)), so that dots are as dense as the
- * colour says. The rim is the smallest round angle that holds 99% of the samples. 0: no memory. */
+ * colour says. The rim is the smallest round angle that holds 95% of the samples. 0: no memory. */
 int panel_disc(FILE *file, panel_box box, const vndf_surface *surface, double theta, unsigned seed);
 
 /* The smallest of 90, 60, 30, 15, 6, 3, 1.5, 0.6 ... degrees that is not below `degrees`; each can be

@@ -47,7 +47,8 @@ static void draw_header(FILE *file, const figure_plan *figure, double width)
     const char *source = vndf_distribution_info(figure->surface.distribution).source;
     size_t fits = (size_t)(width - 2 * margin) / 9 - 20;
     int shown = (int)(fits < 100 ? fits : 100);
-    snprintf(title, sizeof title, "Visible normals of %.*s%s", shown, source, strlen(source) > (size_t)shown ? "..." : "");
+    const char *cut = strlen(source) > (size_t)shown ? "..." : "";
+    snprintf(title, sizeof title, "Visible normals of %.*s%s", shown, source, cut);
     snprintf(roughness, sizeof roughness, "αx = %.4g, αy = %.4g", (double)figure->surface.alpha_x,
              (double)figure->surface.alpha_y);
     svg_text(file, margin, 30, 18, SVG_START, title);

@@ -16,7 +16,7 @@ static const char name[] = "vndf sample";
 static const char help[] =
     "usage: vndf sample FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]] -n N [--seed S] -o OUT\n"
     "\n"
-    "Draws visible normals from one incident direction, each with the density per steradian with which it was drawn.\n"
+    "Draws visible normals from one incident direction, each with its density per steradian.\n"
     "\n"
     "  --theta DEG      angle of the incident direction from the normal, 0 to 180; above 90 is below the surface\n"
     "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"

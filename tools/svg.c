@@ -44,8 +44,8 @@ void svg_text(FILE *file, double x, double y, double size, svg_anchor anchor, co
 
 void svg_text_on_picture(FILE *file, double x, double y, double size, const char *text)
 {
-    fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" stroke-width=\"3\" "
-                  "stroke-linejoin=\"round\" paint-order=\"stroke\">", x, y, size, ink);
+    fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" "
+                  "stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">", x, y, size, ink);
     write_escaped(file, text);
     fputs("</text>\n", file);
 }

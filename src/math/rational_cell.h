@@ -13,25 +13,27 @@
 
 #include <math.h>
 
+#include "core/inline.h"
+
 typedef struct vndf_rational_cell {
     float e0, e1, mass, k;
 } vndf_rational_cell;
 
-static inline vndf_rational_cell vndf_rational_cell_from(float e0, float e1, float mass)
+VNDF_INLINE vndf_rational_cell vndf_rational_cell_from(float e0, float e1, float mass)
 {
     vndf_rational_cell cell = {e0, e1, mass, mass > 0.0f ? (e0 + e1) / mass : 2.0f};
     return cell;
 }
 
 /* Mass before xi. */
-static inline float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
+VNDF_INLINE float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
 {
     float w = xi * (1.0f - xi);
     return (cell->mass * xi * xi + cell->e0 * w) / (1.0f + (cell->k - 2.0f) * w);
 }
 
 /* Mass per unit of xi. */
-static inline float vndf_rational_density(const vndf_rational_cell *cell, float xi)
+VNDF_INLINE float vndf_rational_density(const vndf_rational_cell *cell, float xi)
 {
     float eta = 1.0f - xi, w = xi * eta, q = 1.0f + (cell->k - 2.0f) * w;
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) / (q * q);
@@ -39,7 +41,7 @@ static inline float vndf_rational_density(const vndf_rational_cell *cell, float 
 
 /* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
  * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other. */
-static inline float vndf_rational_invert(const vndf_rational_cell *cell, float t)
+VNDF_INLINE float vndf_rational_invert(const vndf_rational_cell *cell, float t)
 {
     float middle = cell->e0 - t * cell->k, b = middle + 2.0f * t;
     float square = middle * middle + 4.0f * t * (cell->mass - t);

@@ -5,20 +5,22 @@
 
 #include <math.h>
 
+#include "core/inline.h"
+
 #include "vndf.h"
 
-static inline float vndf_dot(vndf_vec3 a, vndf_vec3 b)
+VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static inline vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
+VNDF_INLINE vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
 {
     vndf_vec3 r = {v.x * factor, v.y * factor, v.z * factor};
     return r;
 }
 
-static inline float vndf_max_abs(vndf_vec3 v)
+VNDF_INLINE float vndf_max_abs(vndf_vec3 v)
 {
     float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z);
     float m = x > y ? x : y;
@@ -26,13 +28,13 @@ static inline float vndf_max_abs(vndf_vec3 v)
 }
 
 /* Squares between these neither overflow nor lose digits when they are added. */
-static inline int vndf_is_plain(float square)
+VNDF_INLINE int vndf_is_plain(float square)
 {
     return square > 1e-30f && square < 1e30f;
 }
 
 /* v / |v| for a finite v that is not zero; scaled first where squares overflow or vanish. */
-static inline vndf_vec3 vndf_normalize(vndf_vec3 v)
+VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
     float square = vndf_dot(v, v);
     if (!vndf_is_plain(square)) {
@@ -43,7 +45,7 @@ static inline vndf_vec3 vndf_normalize(vndf_vec3 v)
 }
 
 /* sqrt(x^2 + y^2) without overflow or loss for any finite x, y. */
-static inline float vndf_length2(float x, float y)
+VNDF_INLINE float vndf_length2(float x, float y)
 {
     float square = x * x + y * y, ax = fabsf(x), ay = fabsf(y);
     if (vndf_is_plain(square))
@@ -53,7 +55,7 @@ static inline float vndf_length2(float x, float y)
 }
 
 /* u in [0, 1]; NaN becomes 0. */
-static inline float vndf_clamp_unit(float u)
+VNDF_INLINE float vndf_clamp_unit(float u)
 {
     return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
 }

@@ -10,17 +10,18 @@
 
 #include "math/rational_cell.h"
 
-static inline float vndf_weighted_zeta(float w0, float w1, float xi)
+VNDF_INLINE float vndf_weighted_zeta(float w0, float w1, float xi)
 {
     float w = w0 * (1.0f - xi) + w1 * xi, sum = w0 + w1;
     float zeta = sum > 0.0f ? xi * (w0 + w) / sum : xi;
     return zeta < 1.0f ? zeta : 1.0f;
 }
 
-static inline float vndf_weighted_xi(float w0, float w1, float zeta)
+VNDF_INLINE float vndf_weighted_xi(float w0, float w1, float zeta)
 {
-    float w = sqrtf(w0 * w0 * (1.0f - zeta) + w1 * w1 * zeta);
-    float xi = w0 + w > 0.0f ? zeta * (w0 + w1) / (w0 + w) : zeta;
+    float sum = w0 + w1, per = sum > 0.0f ? 1.0f / sum : 0.0f, r0 = w0 * per, r1 = w1 * per; /* squares stay in range */
+    float r = sqrtf(r0 * r0 * (1.0f - zeta) + r1 * r1 * zeta);
+    float xi = r0 + r > 0.0f ? zeta / (r0 + r) : zeta;
     return xi < 1.0f ? xi : 1.0f;
 }
 

@@ -31,13 +31,13 @@ typedef struct vndf_azimuth {
     float c, s, n, density;
 } vndf_azimuth;
 
-static inline float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
+VNDF_INLINE float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
 {
     return row->a.weight * row->a.cdf[j] + row->b.weight * row->b.cdf[j];
 }
 
 /* A cell of the mix, and its width in q. */
-static inline vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j, float *width)
+VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j, float *width)
 {
     const vndf_azimuth_part *a = &row->a, *b = &row->b;
     float h = row->q[j + 1] - row->q[j];
@@ -48,7 +48,7 @@ static inline vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, 
 }
 
 /* The azimuth at q, where the mass per unit of q is per_q. */
-static inline vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
+VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
 {
     float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
     vndf_azimuth at = {c, s, sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * (1.0f + q * q))};
@@ -56,7 +56,7 @@ static inline vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q,
 }
 
 /* The azimuth with mass `target` before it. All cells are counted through: no step waits for another. */
-static inline vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float target)
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float target)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < row->stride; i++)
@@ -69,7 +69,7 @@ static inline vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float 
 }
 
 /* Place of the azimuth (cos, sin) in the row: q, its cell and xi within. */
-static inline float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
+VNDF_INLINE float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
 {
     float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
     uint32_t count = 0;
@@ -83,7 +83,7 @@ static inline float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_ph
 }
 
 /* Mass before an azimuth. */
-static inline float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
+VNDF_INLINE float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
     uint32_t j;
     float xi, width;
@@ -93,7 +93,7 @@ static inline float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi,
 }
 
 /* Mass per radian at an azimuth. */
-static inline float vndf_azimuth_density(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
+VNDF_INLINE float vndf_azimuth_density(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
 {
     uint32_t j;
     float xi, width, q = vndf_azimuth_place(row, cos_phi, sin_phi, &j, &xi);

@@ -1,29 +1,11 @@
 #include "sampler/engine.h"
 
 #include "math/vector.h"
-#include "sampler/azimuth.h"
 #include "sampler/beckmann.h"
-#include "sampler/front.h"
+#include "sampler/frame.h"
 #include "sampler/ggx.h"
 #include "sampler/radial.h"
-
-/* ---- area ---- */
-
-/* The spline of a wedge's mass at y, per (s + |c|). */
-static float wedge_mass(const vndf_wedge *wedge, float y)
-{
-    uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, y);
-    const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    float t = (y - wedge->knot_y[i]) * b[4], u = 1.0f - t;
-    return u * u * (u * b[0] + 3.0f * t * b[1]) + t * t * (3.0f * u * b[2] + t * b[3]);
-}
-
-/* A(s, -|c|): what is seen from below, s >= 0. */
-static float area_below(const vndf_distribution *d, float s, float c)
-{
-    float sum = s + fabsf(c);
-    return 2.0f * sum * wedge_mass(&d->below, s / sum);
-}
+#include "sampler/wedge.h"
 
 float vndf_unit_area(const vndf_distribution *d, float s, float c)
 {
@@ -31,66 +13,36 @@ float vndf_unit_area(const vndf_distribution *d, float s, float c)
         return vndf_ggx_area(s, c);
     if (d->kind == VNDF_KIND_BECKMANN)
         return vndf_beckmann_area(s, c);
-    return area_below(d, s, c) + (c > 0.0f ? c : 0.0f); /* A(w) = cos + A(-w) */
+    float sum = s + fabsf(c), below = 2.0f * sum * vndf_wedge_mass(&d->below, s / sum);
+    return below + (c > 0.0f ? c : 0.0f); /* A(w) = cos + A(-w) */
 }
 
-/* ---- view ---- */
-
-static const vndf_wedge *wedge_of(const vndf_view *view)
+/* W = (direction . normal) of the unit problem for the unit normal wm, where `scale` brings its image there to
+ * X + Z = 1. It comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
+VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, float scale)
 {
-    return view->c >= 0.0f ? &view->distribution->above : &view->distribution->below;
+    double dot = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y + (double)view->wi.z * wm.z; /* near the cut it cancels */
+    return (float)dot * scale * view->per_length;
 }
 
-void vndf_engine_view(vndf_view *view)
+/* Per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
+VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scale)
 {
-    const vndf_distribution *d = view->distribution;
-    const vndf_wedge *wedge = wedge_of(view);
-    float s = view->s, c = view->c, y = c >= 0.0f ? c : s;
-    uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count, y);
-    float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
-    view->row = i;
-    view->mix = mix;
-    view->aspect_p = (1.0f - mix) * wedge->aspect_p[i] + mix * wedge->aspect_p[i + 1];
-    view->aspect_r = (1.0f - mix) * wedge->aspect_r[i] + mix * wedge->aspect_r[i + 1];
-    view->wedge = wedge_mass(wedge, y);
-    view->front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
-    view->area = 2.0f * (view->front + view->wedge);
-}
-
-/* The half circle towards wi, above the horizon. */
-static vndf_azimuth_row front_row(const vndf_view *view)
-{
-    const vndf_distribution *d = view->distribution;
-    vndf_azimuth_row row = {
-        {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
-        {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
-        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f};
-    return row;
-}
-
-/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. */
-static vndf_azimuth_row wedge_row(const vndf_view *view)
-{
-    const vndf_wedge *w = wedge_of(view);
-    size_t a = (size_t)view->row * w->stride, b = a + w->stride, end = (size_t)view->row * (w->cell_count + 1);
-    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, 1.0f - view->mix},
-                            {w->cdf + b, w->cell_mass + b, w->density + end + w->cell_count + 1, view->mix},
-                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
-    return row;
+    return density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale;
 }
 
 /* ---- sampling ---- */
 
 /* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
-static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
+VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
     float target = half * (view->front + view->wedge);
     vndf_azimuth at;
     if (view->c >= 0.0f && (target < view->front || !(view->wedge > 0.0f))) {
-        vndf_azimuth_row row = front_row(view);
+        vndf_azimuth_row row = vndf_front_row(view);
         return vndf_azimuth_draw(&row, target);
     }
-    vndf_azimuth_row row = wedge_row(view);
+    vndf_azimuth_row row = vndf_wedge_row(view);
     if (view->c >= 0.0f) { /* counted from the far side, a = pi */
         float rest = (target - view->front) / view->wedge;
         at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
@@ -101,26 +53,30 @@ static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
     return at;
 }
 
-void vndf_engine_sample(const vndf_view *view, float u1, float u2, vndf_engine_draw *draw)
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    const vndf_knots *k = &view->distribution->knots;
     float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
-    draw->law = vndf_radial_law_for(view->distribution, view->c * a.n, view->s * a.c);
-    vndf_radius at = vndf_radial_draw(&draw->law, u2, &draw->piece, &draw->inside);
-    const vndf_knots *k = &view->distribution->knots;
-    float x = k->x[at.cell] + at.xi * (k->x[at.cell + 1] - k->x[at.cell]);
-    float z = k->z[at.cell] + at.xi * (k->z[at.cell + 1] - k->z[at.cell]), across = x / a.n;
-    draw->normal.x = across * a.c;
-    draw->normal.y = across * (half < 0.0f ? -a.s : a.s);
-    draw->normal.z = z > 0.0f ? z : 0.0f;
-    draw->at = at;
-    draw->n = a.n;
-    draw->azimuth = 0.5f * a.density / (view->front + view->wedge);
-}
-
-float vndf_engine_drawn(const vndf_engine_draw *draw, float w)
-{
-    return draw->azimuth * vndf_radial_density(&draw->law, &draw->piece, draw->at, draw->inside, draw->n * w);
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c * a.n, view->s * a.c); /* n times the direction */
+    vndf_radial_draw_result r = vndf_radial_draw(&law, u2);
+    uint32_t j = r.at.cell;
+    float across = (k->x[j] + r.at.xi * (k->x[j + 1] - k->x[j])) / a.n, z = k->z[j] + r.at.xi * (k->z[j + 1] - k->z[j]);
+    vndf_vec3 normal = {across * a.c, across * (half < 0.0f ? -a.s : a.s), z > 0.0f ? z : 0.0f};
+    vndf_vec3 stretched = vndf_from_unit(view, normal);
+    float length = sqrtf(vndf_dot(stretched, stretched)); /* from 1e-18 to 1e18 */
+    vndf_vec3 wm = vndf_scale(stretched, 1.0f / length);
+    float w = weight(view, wm, length);
+    if (!(w > 0.0f))
+        wm = vndf_turn_to_face(view, wm);
+    if (!pdf)
+        return wm;
+    if (!(w > 0.0f) || view->c < 0.0f || vndf_radial_is_steep(&law, &r.piece, j))
+        *pdf = vndf_pdf(view, wm); /* rounding of the normal would show */
+    else
+        *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
+                                   vndf_radial_density(&law, &r.piece, r.at, r.inside, a.n * w), length);
+    return wm;
 }
 
 /* ---- density and inverse ---- */
@@ -154,10 +110,10 @@ static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
 {
     int toward = cos_phi >= 0.0f, above = view->c >= 0.0f;
     if (above && toward) {
-        *row = front_row(view);
+        *row = vndf_front_row(view);
         return view->front > 0.0f;
     }
-    *row = wedge_row(view);
+    *row = vndf_wedge_row(view);
     return above != toward && view->wedge > 0.0f && row->p > 0.0f;
 }
 
@@ -174,6 +130,13 @@ float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w)
         azimuth *= view->wedge;
     float radial = vndf_radial_density(&law, &piece, p.at, vndf_radial_inside(&piece, p.at.xi), w);
     return 0.5f * azimuth / (view->front + view->wedge) * radial;
+}
+
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_vec3 n = vndf_to_unit(view, wm);
+    float scale = 1.0f / (vndf_length2(n.x, n.y) + n.z);
+    return per_steradian(view, vndf_engine_density(view, n, weight(view, wm, scale)), scale);
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */

@@ -29,36 +29,23 @@
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 
-#include "sampler/radial.h"
 #include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 float vndf_unit_area(const vndf_distribution *d, float s, float c);
 
-/* What follows is for tables. The direction has s + |c| = 1, normals of the unit problem (X cos a, X sin a, Z)
- * have X + Z = 1, both in the turned frame. */
+/* What follows is for tables, whose views have s + |c| = 1. */
 
-/* Fills the members of a view that belong to the engine: area, front, wedge, mix, aspect, row. */
-void vndf_engine_view(vndf_view *view);
+/* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* A normal and all that its density needs but W = (direction . normal), which vanishes at the cut: that the
- * caller takes from the normal as it was rounded, and hands to vndf_engine_drawn. */
-typedef struct vndf_engine_draw {
-    vndf_vec3 normal;
-    vndf_radial_law law;
-    vndf_radial_piece piece;
-    vndf_radius at;
-    float inside, azimuth, n; /* azimuth: part of the mass per radian; the law's weights are n times the direction's */
-} vndf_engine_draw;
-void vndf_engine_sample(const vndf_view *view, float u1, float u2, vndf_engine_draw *draw);
-
-/* Density per unit of width X dxi da = X Z^2 dR da. */
-float vndf_engine_drawn(const vndf_engine_draw *draw, float w);
+/* Normals of the unit problem, (X cos a, X sin a, Z) in the turned frame, need not be scaled: their density per
+ * X Z^2 dR da at X + Z = 1, where w = s X cos a + c Z > 0; and the uniform numbers that give them. */
 float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w);
-
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
-/* P22/Z^4 at (X, Z): D is this times (X^2 + Z^2)^2, finite at the horizon. */
+/* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
 float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z);
 
 #endif

@@ -16,6 +16,7 @@
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
+    float scale;              /* by which they were multiplied */
     float total;              /* mass of the law */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi */
@@ -30,26 +31,26 @@ typedef struct vndf_radius {
     float xi;
 } vndf_radius;
 
-static inline float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
+VNDF_INLINE float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
 {
     float w = law->c * law->table->knots.z[j] + law->k * law->table->knots.x[j];
     return w > 0.0f ? w : 0.0f; /* rounding may bring a weight at the cut below 0 */
 }
 
 /* Mass from the pole to knot j (c > 0). */
-static inline float vndf_radial_before(const vndf_radial_law *law, uint32_t j)
+VNDF_INLINE float vndf_radial_before(const vndf_radial_law *law, uint32_t j)
 {
     return law->c * law->table->knots.e[j] + vndf_radial_weight(law, j) * law->table->knots.g[j];
 }
 
 /* Mass beyond knot j (k > 0). */
-static inline float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
+VNDF_INLINE float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
 {
     return law->k * law->table->knots.s[j] + vndf_radial_weight(law, j) * law->table->knots.t[j];
 }
 
 /* f at xi from the cubic. */
-static inline float vndf_radial_f(const vndf_radial_cell *cell, float xi)
+VNDF_INLINE float vndf_radial_f(const vndf_radial_cell *cell, float xi)
 {
     float f = cell->f0 * (1.0f - xi) + cell->f1 * xi + xi * (1.0f - xi) * (cell->a + cell->b * xi);
     return f > 0.0f ? f : 0.0f; /* where it touches 0, rounding */
@@ -57,7 +58,7 @@ static inline float vndf_radial_f(const vndf_radial_cell *cell, float xi)
 
 /* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t); a thousandth of
  * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
-static inline float vndf_radial_part(float f0, float f1, float a, float b, float h)
+VNDF_INLINE float vndf_radial_part(float f0, float f1, float a, float b, float h)
 {
     float slope = f1 - f0;
     float cubic = f0 / 2.0f + h * ((slope + a) / 6.0f + h * ((b - a) / 12.0f - h * b / 20.0f));
@@ -65,7 +66,7 @@ static inline float vndf_radial_part(float f0, float f1, float a, float b, float
     return cubic > least ? cubic : least;
 }
 
-static inline void vndf_radial_cut_above(vndf_radial_law *law)
+VNDF_INLINE void vndf_radial_cut_above(vndf_radial_law *law)
 {
     const vndf_distribution *d = law->table;
     uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, law->c / -law->k);
@@ -80,7 +81,7 @@ static inline void vndf_radial_cut_above(vndf_radial_law *law)
     law->total = vndf_radial_before(law, j) + law->part_mass;
 }
 
-static inline void vndf_radial_cut_below(vndf_radial_law *law)
+VNDF_INLINE void vndf_radial_cut_below(vndf_radial_law *law)
 {
     const vndf_distribution *d = law->table;
     uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, -law->c / law->k);
@@ -95,16 +96,29 @@ static inline void vndf_radial_cut_below(vndf_radial_law *law)
     law->total = vndf_radial_beyond(law, j + 1) + law->part_mass;
 }
 
-/* The law for the weights (c, k), at least one of them positive. */
-static inline vndf_radial_law vndf_radial_law_for(const vndf_distribution *table, float c, float k)
+VNDF_INLINE vndf_radial_law vndf_radial_law_unscaled(const vndf_distribution *table, float c, float k)
 {
-    vndf_radial_law law = {table, c, k, 0.0f, table->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {table, c, k, 1.0f, 0.0f, table->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     if (c > 0.0f && k < 0.0f)
         vndf_radial_cut_above(&law);
     else if (c < 0.0f && k > 0.0f)
         vndf_radial_cut_below(&law);
     else if (c >= 0.0f && k >= 0.0f)
         law.total = vndf_radial_before(&law, table->radial_count);
+    else
+        law.cut = table->radial_count - 1; /* nothing is visible: the horizon stands for it */
+    return law;
+}
+
+/* The law for the weights (c, k). Where next to nothing is visible they are scaled up, so that no square of a mass vanishes. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *table, float c, float k)
+{
+    vndf_radial_law law = vndf_radial_law_unscaled(table, c, k);
+    if (law.total < 1e-10f && law.total > 1e-36f) {
+        float scale = 1.0f / law.total;
+        law = vndf_radial_law_unscaled(table, c * scale, k * scale);
+        law.scale = scale;
+    }
     return law;
 }
 
@@ -115,7 +129,7 @@ typedef struct vndf_radial_piece {
     float w0, w1, begin, length;
 } vndf_radial_piece;
 
-static inline vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     vndf_radial_piece piece;
@@ -141,7 +155,7 @@ static inline vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law,
 }
 
 /* How many of the knots k[from .. from + n) have no more than `target` before them (c >= 0). */
-static inline uint32_t vndf_radial_count_before(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
+VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
 {
     uint32_t count = 0;
     float c = law->c, kx = law->k;
@@ -153,7 +167,7 @@ static inline uint32_t vndf_radial_count_before(const vndf_knots *k, uint32_t fr
 }
 
 /* How many have more than `target` beyond them (c < 0). */
-static inline uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
+VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
 {
     uint32_t count = 0;
     float c = law->c, kx = law->k;
@@ -165,7 +179,7 @@ static inline uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t fr
 }
 
 /* The cell of a mass: first its block, then within; a knot outside the visible part counts as its end. */
-static inline uint32_t vndf_radial_search(const vndf_radial_law *law, float target)
+VNDF_INLINE uint32_t vndf_radial_search(const vndf_radial_law *law, float target)
 {
     const vndf_distribution *d = law->table;
     uint32_t last = d->radial_count - 1, j;
@@ -185,17 +199,17 @@ static inline uint32_t vndf_radial_search(const vndf_radial_law *law, float targ
 }
 
 /* Where the piece's rational cell stands at xi of the whole cell. */
-static inline float vndf_radial_inside(const vndf_radial_piece *piece, float xi)
+VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, float xi)
 {
     float inside = (xi - piece->begin) / piece->length;
     inside = inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f;
     return piece->weighted ? vndf_weighted_zeta(piece->w0, piece->w1, inside) : inside;
 }
 
-/* Part of the mass per unit of xi at a place, divided by W, X and the cell's width: finite at the pole, where f
- * and X begin at 0, and at the cut, where the mass and W vanish. W is (direction . normal) of the very normal whose density is
- * asked for, so that rounding near the cut is the same wherever it is computed. */
-static inline float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside, float w)
+/* Part of the mass per unit of xi at a place, divided by X and the cell's width: finite at the pole, where f and
+ * X begin at 0. `w` is W of the very normal whose density is asked for, (direction . normal): what c and k make
+ * of W near the cut differs between sample and pdf by rounding, in the cell's mass and in its W alike. */
+VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside, float w)
 {
     const vndf_distribution *d = law->table;
     if (at.cell == 0 && at.xi < 1e-6f) {
@@ -203,36 +217,48 @@ static inline float vndf_radial_density(const vndf_radial_law *law, const vndf_r
         inside = vndf_radial_inside(piece, at.xi);
     }
     float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
-    float density = vndf_rational_density(&piece->cell, inside);
-    float below = law->total * piece->length * x * d->cells[at.cell].width;
-    if (piece->weighted) {
-        density *= 2.0f * w;
-        below *= piece->w0 + piece->w1;
-    }
-    return below > 0.0f ? density / below : 0.0f;
+    float own_w = piece->weighted ? 0.5f * (piece->w0 + piece->w1) : piece->w0 + at.xi * (piece->w1 - piece->w0);
+    float below = law->total * piece->length * x * d->cells[at.cell].width * own_w;
+    return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
 }
 
-/* Place with a part u of the mass before it. Below the horizon mass is counted from infinity inwards. */
-static inline vndf_radius vndf_radial_draw(const vndf_radial_law *law, float u, vndf_radial_piece *piece, float *inside)
+/* Whether the density changes by more than a factor e^8 per e-fold of the slope, so that a normal and its rounded
+ * self differ in density by more than a millionth. */
+VNDF_INLINE int vndf_radial_is_steep(const vndf_radial_law *law, const vndf_radial_piece *piece, uint32_t j)
+{
+    const vndf_knots *k = &law->table->knots;
+    float change = fabsf(piece->cell.e1 - piece->cell.e0) * k->x[j + 1] * k->z[j];
+    return change > 8.0f * piece->cell.mass * law->table->cells[j].width;
+}
+
+/* A drawn place, its piece and where that stands. */
+typedef struct vndf_radial_draw_result {
+    vndf_radius at;
+    vndf_radial_piece piece;
+    float inside;
+} vndf_radial_draw_result;
+
+/* The place with a part u of the mass before it. Below the horizon mass is counted from infinity inwards. */
+VNDF_INLINE vndf_radial_draw_result vndf_radial_draw(const vndf_radial_law *law, float u)
 {
     int below = law->c < 0.0f;
     float target = (below ? 1.0f - u : u) * law->total;
     uint32_t j = vndf_radial_search(law, target);
-    *piece = vndf_radial_piece_of(law, j);
+    vndf_radial_draw_result r;
+    r.piece = vndf_radial_piece_of(law, j);
     float rest = target - (below ? vndf_radial_beyond(law, j + 1) : vndf_radial_before(law, j));
-    rest = below ? piece->cell.mass - rest : rest;
-    float at_piece = vndf_rational_invert(&piece->cell, rest > 0.0f ? rest : 0.0f);
-    *inside = at_piece;
-    if (piece->weighted) {
-        at_piece = vndf_weighted_xi(piece->w0, piece->w1, at_piece);
-        at_piece = piece->begin + piece->length * at_piece;
-    }
-    vndf_radius at = {j, at_piece < 1.0f ? at_piece : 1.0f};
-    return at;
+    rest = below ? r.piece.cell.mass - rest : rest;
+    r.inside = vndf_rational_invert(&r.piece.cell, rest > 0.0f ? rest : 0.0f);
+    float xi = r.inside;
+    if (r.piece.weighted)
+        xi = r.piece.begin + r.piece.length * vndf_weighted_xi(r.piece.w0, r.piece.w1, xi);
+    r.at.cell = j;
+    r.at.xi = xi < 1.0f ? xi : 1.0f;
+    return r;
 }
 
 /* Part of the mass before a place. */
-static inline float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
+VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
     float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at.xi));

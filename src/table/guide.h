@@ -6,10 +6,11 @@
 
 #include <string.h>
 
+#include "core/inline.h"
 #include "table/table.h"
 
 /* The bits of a float >= 0 grow with it. */
-static inline uint32_t vndf_float_bits(float x)
+VNDF_INLINE uint32_t vndf_float_bits(float x)
 {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -20,7 +21,7 @@ static inline uint32_t vndf_float_bits(float x)
 int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count);
 
 /* Index i in [0, count - 2] with knots[i] <= value < knots[i+1], the ends extended; value >= 0. */
-static inline uint32_t vndf_guide_find(const vndf_guide *guide, const float *knots, uint32_t count, float value)
+VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, const float *knots, uint32_t count, float value)
 {
     uint32_t bits = vndf_float_bits(value);
     uint32_t bucket = bits > guide->low ? (bits - guide->low) >> guide->shift : 0;
