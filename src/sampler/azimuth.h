@@ -24,6 +24,7 @@ typedef struct vndf_azimuth_row {
     const float *q;         /* cells + 1 */
     uint32_t cells, stride;
     float p, r;
+    int plain;              /* p = r = 1 */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
@@ -50,8 +51,9 @@ VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, ui
 /* The azimuth at q, where the mass per unit of q is per_q. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
 {
-    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    vndf_azimuth at = {c, s, sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * (1.0f + q * q))};
+    float even = 1.0f + q * q; /* n if p = r = 1 */
+    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = row->plain ? even * even : c * c + s * s;
+    vndf_azimuth at = {c, s, row->plain ? even : sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * even)};
     return at;
 }
 

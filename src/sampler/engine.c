@@ -58,14 +58,17 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     const vndf_knots *k = &view->distribution->knots;
     float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
+    float per_n = 1.0f / a.n;
+    vndf_vec3 level = {a.c * per_n, (half < 0.0f ? -a.s : a.s) * per_n, 0.0f}; /* stretched back while the radius is drawn */
+    level = vndf_from_unit(view, level);
+    float level2 = level.x * level.x + level.y * level.y;
     vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c * a.n, view->s * a.c); /* n times the direction */
     vndf_radial_draw_result r = vndf_radial_draw(&law, u2);
     uint32_t j = r.at.cell;
-    float across = (k->x[j] + r.at.xi * (k->x[j + 1] - k->x[j])) / a.n, z = k->z[j] + r.at.xi * (k->z[j + 1] - k->z[j]);
-    vndf_vec3 normal = {across * a.c, across * (half < 0.0f ? -a.s : a.s), z > 0.0f ? z : 0.0f};
-    vndf_vec3 stretched = vndf_from_unit(view, normal);
-    float length = sqrtf(vndf_dot(stretched, stretched)); /* from 1e-18 to 1e18 */
-    vndf_vec3 wm = vndf_scale(stretched, 1.0f / length);
+    float x = k->x[j] + r.at.xi * (k->x[j + 1] - k->x[j]), z = k->z[j] + r.at.xi * (k->z[j + 1] - k->z[j]);
+    z = z > 0.0f ? z : 0.0f;
+    float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length, across = x * per; /* from 1e-18 to 1e18 */
+    vndf_vec3 wm = {across * level.x, across * level.y, z * per};
     float w = weight(view, wm, length);
     if (!(w > 0.0f))
         wm = vndf_turn_to_face(view, wm);

@@ -18,14 +18,15 @@ typedef struct polar {
     float s, c, cos_phi, sin_phi, per_length;
 } polar;
 
-/* With s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms; exact for the smallest parts. */
-VNDF_INLINE polar stretch(vndf_vec3 wi, float ax, float ay, int table)
+/* With s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms; exact for the smallest parts. wi need not
+ * be unit: `length` is its length. */
+VNDF_INLINE polar stretch(vndf_vec3 wi, float length, float ax, float ay, int table)
 {
     float x = ax * wi.x, y = ay * wi.y, across = vndf_length2(x, y);
-    float per_length = 1.0f / (table ? across + fabsf(wi.z) : vndf_length2(across, wi.z));
+    float per = 1.0f / (table ? across + fabsf(wi.z) : vndf_length2(across, wi.z));
     float per_across = across > 0.0f ? 1.0f / across : 0.0f;
-    polar p = {across * per_length, wi.z * per_length + 0.0f, /* -0 becomes +0: the horizon is seen from above */
-               across > 0.0f ? x * per_across : 1.0f, y * per_across, per_length};
+    polar p = {across * per, wi.z * per + 0.0f, /* -0 becomes +0: the horizon is seen from above */
+               across > 0.0f ? x * per_across : 1.0f, y * per_across, length * per};
     return p;
 }
 
@@ -38,18 +39,23 @@ static vndf_view invalid_view(void)
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     float square = vndf_dot(wi, wi), ax, ay;
-    if (!vndf_surface_scaled(surface, &ax, &ay) || (!vndf_is_plain(square) && !is_usable_direction(wi)))
+    int plain = vndf_is_plain(square);
+    if (!vndf_surface_scaled(surface, &ax, &ay) || (!plain && !is_usable_direction(wi)))
         return invalid_view();
     const vndf_distribution *d = surface->distribution;
     int table = d->kind == VNDF_KIND_TABLE;
-    wi = vndf_normalize(wi);
-    polar p = stretch(wi, ax, ay, table);
+    if (!plain) {
+        wi = vndf_normalize(wi);
+        square = 1.0f;
+    }
+    float length = sqrtf(square);
+    polar p = stretch(wi, length, ax, ay, table);
     vndf_wedge_view w = {0};
     if (table)
         w = vndf_wedge_view_at(d, p.s, p.c);
     else
         w.area = vndf_unit_area(d, p.s, p.c);
-    vndf_view view = {d, wi, ax, ay, 1.0f / ax, 1.0f / ay, p.per_length, p.s, p.c, p.cos_phi, p.sin_phi,
+    vndf_view view = {d, vndf_scale(wi, 1.0f / length), ax, ay, 1.0f / ax, 1.0f / ay, p.per_length, p.s, p.c, p.cos_phi, p.sin_phi,
                       w.area, w.front, w.wedge, w.mix, w.aspect_p, w.aspect_r, w.row};
     return view;
 }

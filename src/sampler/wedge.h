@@ -49,7 +49,7 @@ VNDF_INLINE vndf_azimuth_row vndf_front_row(const vndf_view *view)
     vndf_azimuth_row row = {
         {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
         {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
-        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f};
+        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f, 1};
     return row;
 }
 
@@ -60,7 +60,7 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
     size_t a = (size_t)view->row * w->stride, b = a + w->stride, end = (size_t)view->row * (w->cell_count + 1);
     vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, 1.0f - view->mix},
                             {w->cdf + b, w->cell_mass + b, w->density + end + w->cell_count + 1, view->mix},
-                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
+                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r, 0};
     return row;
 }
 
