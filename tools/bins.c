@@ -102,6 +102,7 @@ typedef struct ring {
     double phi_low, phi_high; /* of the bin */
     double absolute;          /* error that a row may have */
     long budget;              /* evaluations that the bin may still cost */
+    double depth;             /* angle that the bin reaches up from the horizon, if it touches it; else 0 */
 } ring;
 
 static double density_at(double phi, const ring *at)
@@ -164,13 +165,23 @@ static double row_adaptive(ring *at, double low, double high, double whole, accu
     return row_adaptive(at, low, middle, left, wanted) + row_adaptive(at, middle, high, right, wanted);
 }
 
-/* The integral over phi' at one theta'. */
-static double integrate_row(ring *at, double theta)
+/* The integral over phi' at one theta'. A bin that touches the horizon, where D of a heavy tail is unbounded but
+ * integrable, counts theta' from there as depth t^8. */
+static double integrate_row(ring *at, double place)
 {
-    const accuracy wanted = {at->absolute, 5e-6, DEPTH_PHI};
-    at->sine = sin(theta);
-    at->cosine = cos(theta);
-    return row_adaptive(at, at->phi_low, at->phi_high, row_rule(at, at->phi_low, at->phi_high), wanted);
+    double theta = place, measure = 1, absolute = at->absolute;
+    if (at->depth > 0) {
+        double up = at->depth * pow(place, 8);
+        measure = 8 * at->depth * pow(place, 7);
+        absolute *= at->depth / (measure + 1e-30);
+        at->sine = cos(up);
+        at->cosine = sin(up);
+    } else {
+        at->sine = sin(theta);
+        at->cosine = cos(theta);
+    }
+    const accuracy wanted = {absolute, 5e-6, DEPTH_PHI};
+    return measure * row_adaptive(at, at->phi_low, at->phi_high, row_rule(at, at->phi_low, at->phi_high), wanted);
 }
 
 static double bin_rule(ring *at, double low, double high)
@@ -197,8 +208,9 @@ void bins_integrate(const bin_map *map, const vndf_view *view, double probabilit
     for (size_t bin = 0; bin < BINS_COUNT; bin++) {
         const double *theta = map->theta + bin / BINS_PHI, *phi = map->phi + bin % BINS_PHI;
         double row_absolute = 0.2 * wanted.absolute / (theta[1] - theta[0] + 1e-30);
-        ring at = {map, view, 0, 0, phi[0], phi[1], row_absolute, BUDGET};
-        double whole = bin_rule(&at, theta[0], theta[1]);
-        probability[bin] = bin_adaptive(&at, theta[0], theta[1], whole, wanted);
+        int touches = bin / BINS_PHI == BINS_THETA - 1;
+        ring at = {map, view, 0, 0, phi[0], phi[1], row_absolute, BUDGET, touches ? theta[1] - theta[0] : 0};
+        double low = touches ? 0 : theta[0], high = touches ? 1 : theta[1], whole = bin_rule(&at, low, high);
+        probability[bin] = bin_adaptive(&at, low, high, whole, wanted);
     }
 }

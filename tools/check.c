@@ -29,7 +29,7 @@ static const char help[] =
     "  consistency  at 200000 random views (0 to 180 degrees, roughness 1e-3 to 1): normals are unit, above the\n"
     "               surface and face the incident direction; where the projected area exceeds 1e-12, pdf gives\n"
     "               the density that sample returned within 1e-5, and invert, then sample, gives the normal\n"
-    "               within 1e-5, or its uniform numbers come back within 4 steps of 2^-24.\n"
+    "               within 1e-5, or its uniform numbers come back within 8 steps of 2^-24.\n"
     "  chi-square   N samples per view against the density integrated over 130 x 65 bins, at 0, 30, 60, 80, 89\n"
     "               and 130 degrees, roughness 1 and 0.05 x 0.4 (azimuth 25 degrees). The bins divide the\n"
     "               hemisphere stretched to the lobe, half of their borders evenly, half at quantiles; bins\n"

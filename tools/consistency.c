@@ -64,7 +64,7 @@ static double pdf_difference(const draw *it)
 
 static double invert_difference(const draw *it)
 {
-    const double steps = 4 * 0x1p-24;
+    const double steps = 8 * 0x1p-24;
     float u1, u2;
     vndf_invert(&it->view, it->wm, &u1, &u2);
     if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))

@@ -9,7 +9,7 @@
 
 enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40, PANELS_MAX = 60000 };
 
-static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-30;
+static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 
 static double floor_at(const vndf_profile *profile, double r)
 {

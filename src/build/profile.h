@@ -1,7 +1,7 @@
 /* A source made fit for integration: P22 at canonical scale, cut into panels on which it is resolved.
  *
  * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1
- * and median R = 1. The floor, 1e-30/(1 + R^2)^2, is too small for any measurement and keeps a density
+ * and median R = 1. The floor, 1e-26/(1 + R^2)^2, is too small for any measurement and keeps a density
  * positive on the whole hemisphere. Panels are even in log R at most an octave wide, halved until ten Gauss points agree with
  * twice ten to 1e-10 of the panel, or until the panel is 1e-12 of R wide: then there is a jump. All
  * integrals below are sums over panels, with relative precision near the pole (E) and in the tail (S). */

@@ -13,7 +13,13 @@
  *
  *     S + T cos(phi) = (S - T) + 2 T sin^2(pi u1),    S - T = v (S^2 - u2 C^2)/(S + T)
  *
- * so nothing cancels except where another component dominates. The length of the sum is (w . wm)/C. */
+ * so nothing cancels except where another component dominates. The length of the sum is (w . wm)/C.
+ *
+ * D and Dv of the real problem need no unit problem: with a = alpha_x alpha_y
+ *
+ *     D(wm) = a^3/(pi Q^2),    Q = (alpha_y wm.x)^2 + (alpha_x wm.y)^2 + (a wm.z)^2
+ *
+ * where nothing is divided before the end, and double overflows nowhere for alpha within [1e-18, 1e18]. */
 #include "sampler/ggx.h"
 
 #include <math.h>
@@ -22,7 +28,7 @@
 #include "math/vector.h"
 #include "sampler/facing.h"
 
-static const float inverse_pi = 0.318309886f;
+static const double inverse_pi = 0.31830988618379067;
 
 /* At v = 0 and phi = -pi the sum is (0, 0, 0): a corner of the unit square where the normal turns by a finite
  * angle. A v that is never quite 0 (far below 2^-24, the least that a float u2 < 1 gives) picks the limit. */
@@ -45,15 +51,27 @@ float vndf_ggx_area(float s, float c)
     return c < 0.0f ? 0.5f * s * (s / (1.0f - c)) : 0.5f * (1.0f + c);
 }
 
-float vndf_ggx_p22(float r2)
+double vndf_ggx_p22(double r2)
 {
-    float q = 1.0f / (1.0f + r2);
-    return inverse_pi * q * q;
+    double q = 1.0 + r2;
+    return inverse_pi / (q * q);
 }
 
-float vndf_ggx_ndf(vndf_vec3 n)
+double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_vec3 wm)
 {
-    return n.z >= 0.0f ? inverse_pi : 0.0f;
+    double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z;
+    double q = x * x + y * y + z * z;
+    return inverse_pi * (a * a * a) / (q * q);
+}
+
+/* In double s^2 does not underflow, so the area stands in full at every angle below 180 degrees. */
+double vndf_ggx_visible(const vndf_view *view, vndf_vec3 wm, double facing)
+{
+    double s = view->s, c = view->c;
+    double per_area = c < 0.0 ? 2.0 * (1.0 - c) / (s * s) : 2.0 / (1.0 + c);
+    if (!(view->s > 0.0f) && c < 0.0)
+        return 0.0;
+    return vndf_ggx_ndf(view->alpha_x, view->alpha_y, wm) * (facing * view->per_length * per_area);
 }
 
 /* The factor sqrt(2) in S and C is in T and the sum too, and leaves with the normalisation. */
@@ -74,15 +92,16 @@ vndf_vec3 vndf_ggx_sample(float s, float c, float u1, float u2)
 }
 
 /* The length of the sum, sqrt(2) included, is mu = 2 (w . wm)/C; then T and phi are polar coordinates of
- * mu (wm.x, wm.y) about (S, 0), and u2 = T^2/(S^2 + v C^2) with v C = mu wm.z. */
+ * mu (wm.x, wm.y) about (S, 0), and v C = mu wm.z: no differences but those of w . wm, which is exact in double,
+ * and of x. u2 = T^2/(S^2 + v C^2) keeps the digits of a small u2, 1 - v those of a small 1 - u2, where one
+ * step of 2^-24 moves the normals of the far tail by 1e-3 and more. */
 void vndf_ggx_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2)
 {
     half_angle h = half_angle_of(s, c);
-    float below = h.cosine > 0.0f ? c / h.cosine * wm.z : 0.0f;
-    float mu = 2.0f * (h.sine * wm.x + below);
-    float x = mu * wm.x - h.sine, y = mu * wm.y;
-    float whole = h.sine * h.sine + mu * wm.z * h.cosine;
-    /* whole = 0: normal incidence and a normal on the horizon, where u2 tends to 1. */
-    *u2 = whole > 0.0f ? vndf_clamp_unit((x * x + y * y) / whole) : 1.0f;
-    *u1 = vndf_clamp_unit(0.5f + 0.5f * inverse_pi * atan2f(y, x));
+    float per_cosine = h.cosine > 0.0f ? 1.0f / h.cosine : 0.0f;
+    float mu = 2.0f * (float)((double)s * wm.x + (double)c * wm.z) * per_cosine;
+    float x = mu * wm.x - h.sine, y = mu * wm.y, v = mu * wm.z * per_cosine;
+    float from_top = (x * x + y * y) / (h.sine * h.sine + v * h.cosine * h.cosine);
+    *u2 = vndf_clamp_unit(v < 0.5f ? 1.0f - v : from_top);
+    *u1 = vndf_clamp_unit(0.5f + 0.5f * (float)inverse_pi * atan2f(y, x));
 }

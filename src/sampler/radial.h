@@ -178,23 +178,33 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t from
     return count;
 }
 
-/* The cell of a mass: first its block, then within; a knot outside the visible part counts as its end. */
-VNDF_INLINE uint32_t vndf_radial_search(const vndf_radial_law *law, float target)
+/* The cell of a mass below the horizon: first its block, then within; a knot that is not visible counts as the cut. */
+VNDF_INLINE uint32_t vndf_radial_search_below(const vndf_radial_law *law, float target)
 {
     const vndf_distribution *d = law->table;
-    uint32_t last = d->radial_count - 1, j;
-    if (law->c < 0.0f) {
-        uint32_t block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law, target);
-        block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-        j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law, target);
-        j = j > 0 ? j - 1 : 0;
-        return j < law->cut ? law->cut : (j < last ? j : last);
-    }
-    uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, law, target);
+    uint32_t last = d->radial_count - 1, block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law, target);
     block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-    j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, law, target);
+    uint32_t j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law, target);
     j = j > 0 ? j - 1 : 0;
-    last = law->cut < last ? law->cut : last;
+    j = j > law->cut ? j : law->cut;
+    return j < last ? j : last;
+}
+
+/* Above: in the window that u has without a cut, or as below. */
+VNDF_INLINE uint32_t vndf_radial_search_above(const vndf_radial_law *law, float u, float target)
+{
+    const vndf_distribution *d = law->table;
+    uint32_t last = d->radial_count - 1, j, range = (uint32_t)(u * VNDF_STARTS);
+    uint32_t start = d->start[range < VNDF_STARTS ? range : VNDF_STARTS - 1];
+    if (law->cut > last && start != VNDF_NO_START)
+        j = start + vndf_radial_count_before(&d->knots, start, VNDF_WINDOW, law, target);
+    else {
+        uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, law, target);
+        block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+        j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, law, target);
+        last = law->cut < last ? law->cut : last;
+    }
+    j = j > 0 ? j - 1 : 0;
     return j < last ? j : last;
 }
 
@@ -243,7 +253,7 @@ VNDF_INLINE vndf_radial_draw_result vndf_radial_draw(const vndf_radial_law *law,
 {
     int below = law->c < 0.0f;
     float target = (below ? 1.0f - u : u) * law->total;
-    uint32_t j = vndf_radial_search(law, target);
+    uint32_t j = below ? vndf_radial_search_below(law, target) : vndf_radial_search_above(law, u, target);
     vndf_radial_draw_result r;
     r.piece = vndf_radial_piece_of(law, j);
     float rest = target - (below ? vndf_radial_beyond(law, j + 1) : vndf_radial_before(law, j));

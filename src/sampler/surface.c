@@ -1,8 +1,6 @@
 /* The public calls on a surface: D, P22, projected area, Lambda, G1, G2. */
 #include "sampler/surface.h"
 
-#include <float.h>
-
 #include "math/vector.h"
 #include "sampler/beckmann.h"
 #include "sampler/engine.h"
@@ -18,19 +16,11 @@ int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay)
     return *ax >= 1e-18f && *ax <= 1e18f && *ay >= 1e-18f && *ay <= 1e18f;
 }
 
-/* D at roughness 1 in unit direction n. */
-static float ndf_closed(const vndf_distribution *d, vndf_vec3 n)
-{
-    return d->kind == VNDF_KIND_GGX ? vndf_ggx_ndf(n) : vndf_beckmann_ndf(n);
-}
-
 float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 wm)
 {
+    if (d->kind != VNDF_KIND_TABLE)
+        return vndf_density_from(d->kind == VNDF_KIND_GGX ? vndf_ggx_ndf(ax, ay, wm) : vndf_beckmann_ndf(ax, ay, wm));
     vndf_vec3 n = {wm.x / ax, wm.y / ay, wm.z};
-    if (d->kind != VNDF_KIND_TABLE) { /* D(wm) = D1(n/|n|) / (ax ay |n|^4) */
-        float length = vndf_length2(vndf_length2(n.x, n.y), n.z), per = 1.0f / length;
-        return ndf_closed(d, vndf_scale(n, per)) * (per / ax) * (per / ay) * per * per;
-    }
     float x = vndf_length2(n.x, n.y), per = 1.0f / (x + n.z); /* D(wm) = P22/Z^4 at X + Z = 1, times per^4 / (ax ay) */
     return vndf_engine_p22_over_z4(d, x * per, n.z * per) * (per / ax) * (per / ay) * per * per;
 }
@@ -49,11 +39,12 @@ float vndf_p22(const vndf_surface *surface, float x, float y)
     if (!vndf_surface_scaled(surface, &ax, &ay) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
         return 0.0f;
     const vndf_distribution *d = surface->distribution;
+    if (d->kind != VNDF_KIND_TABLE) {
+        double sx = (double)x / ax, sy = (double)y / ay, r2 = sx * sx + sy * sy;
+        double p22 = d->kind == VNDF_KIND_GGX ? vndf_ggx_p22(r2) : vndf_beckmann_p22(r2);
+        return vndf_density_from(p22 / ((double)ax * ay));
+    }
     float r = vndf_length2(x / ax, y / ay), z = 1.0f / (1.0f + r);
-    if (d->kind == VNDF_KIND_GGX)
-        return vndf_ggx_p22(r * r) / ax / ay;
-    if (d->kind == VNDF_KIND_BECKMANN)
-        return vndf_beckmann_p22(r * r) / ax / ay;
     return vndf_engine_p22_over_z4(d, r < HUGE_VALF ? r * z : 1.0f, z) * (z * z) * (z * z) / ax / ay;
 }
 

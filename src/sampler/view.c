@@ -60,6 +60,21 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
+/* wi . wm: products of floats are exact in double, so that it holds its digits and its sign at the terminator. */
+VNDF_INLINE double facing_of(const vndf_view *view, vndf_vec3 wm)
+{
+    return (double)view->wi.x * wm.x + (double)view->wi.y * wm.y + (double)view->wi.z * wm.z;
+}
+
+VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
+{
+    double facing = facing_of(view, wm);
+    if (!(wm.z >= 0.0f) || !(facing > 0.0))
+        return 0.0f;
+    return vndf_density_from(view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_visible(view, wm, facing)
+                                                                       : vndf_beckmann_visible(view, wm, facing));
+}
+
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(view->s, view->c, u1, u2)
@@ -68,7 +83,7 @@ static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float 
     if (!(vndf_dot(view->wi, wm) > 0.0f))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
-        *pdf = vndf_visible(view, wm);
+        *pdf = visible_closed(view, wm);
     return wm;
 }
 
@@ -89,9 +104,11 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
+    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
+        return visible_closed(view, wm);
     if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_dot(view->wi, wm) > 0.0f))
         return 0.0f;
-    return view->distribution->kind == VNDF_KIND_TABLE ? vndf_engine_pdf(view, wm) : vndf_visible(view, wm);
+    return vndf_engine_pdf(view, wm);
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
@@ -112,6 +129,8 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 
 float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
+    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
+        return visible_closed(view, wm);
     float facing_cos = view->distribution ? vndf_dot(view->wi, wm) : 0.0f;
     if (!(wm.z >= 0.0f) || !(facing_cos > 0.0f) || !(view->area > 0.0f))
         return 0.0f;

@@ -9,7 +9,7 @@
 /* The six arrays in one block. */
 static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
 {
-    uint32_t padded = (count + multiple - 1) / multiple * multiple;
+    uint32_t padded = (count + VNDF_WINDOW + multiple - 1) / multiple * multiple;
     float *block = calloc((size_t)6 * padded, sizeof *block);
     knots->count = padded;
     knots->x = block;
@@ -154,9 +154,10 @@ static void derive_blocks(vndf_distribution *table)
 {
     const vndf_knots *k = &table->knots;
     vndf_knots *b = &table->blocks;
-    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1;
+    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1, lanes = (blocks + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     pad_knots(&table->knots, table->radial_count + 1);
     pad_knots(b, blocks);
+    b->count = lanes; /* as far as a search goes */
     for (uint32_t i = 0; i < blocks; i++) {
         uint32_t j = i * VNDF_BLOCK;
         b->x[i] = k->x[j];
@@ -165,6 +166,29 @@ static void derive_blocks(vndf_distribution *table)
         b->g[i] = k->g[j];
         b->s[i] = k->s[j];
         b->t[i] = k->t[j];
+    }
+}
+
+/* The cell of the mass u in the law of all normals (k = 0) or at grazing incidence (c = 0). */
+static uint32_t cell_of(const vndf_distribution *table, double u, int grazing)
+{
+    const vndf_knots *k = &table->knots;
+    double total = grazing ? table->f1_total : table->f0_total;
+    uint32_t j = 0;
+    while (j + 1 < table->radial_count &&
+           (grazing ? (double)k->x[j + 1] * k->g[j + 1] : (double)k->e[j + 1] + (double)k->z[j + 1] * k->g[j + 1]) <= u * total)
+        j++;
+    return j;
+}
+
+/* Where the law without a cut has its cell for a range of u: quantiles grow with u and with k/c, so the cell lies between
+ * those of the two extreme laws, with a cell to spare on either side for rounding. */
+static void derive_starts(vndf_distribution *table)
+{
+    for (uint32_t i = 0; i < VNDF_STARTS; i++) {
+        uint32_t first = cell_of(table, (double)i / VNDF_STARTS, 0), last = cell_of(table, (i + 1.0) / VNDF_STARTS, 1);
+        first = first > 0 ? first - 1 : 0;
+        table->start[i] = (uint16_t)(last + 2 - first <= VNDF_WINDOW ? first : VNDF_NO_START);
     }
 }
 
@@ -214,6 +238,7 @@ int vndf_table_derive(vndf_distribution *table)
     derive_pole(table);
     derive_tail(table);
     derive_blocks(table);
+    derive_starts(table);
     for (uint32_t j = 0; j <= table->radial_count; j++)
         table->slope[j] = table->knots.z[j] > 0.0f ? table->knots.x[j] / table->knots.z[j] : HUGE_VALF;
     return vndf_guide_make(&table->slope_guide, table->slope, table->radial_count + 1) &&

@@ -26,6 +26,9 @@ enum {
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16, /* radial knots are searched by blocks */
+    VNDF_WINDOW = 32, /* or by a window of knots, where one is known to hold the cell */
+    VNDF_STARTS = 64, /* for this many ranges of u */
+    VNDF_NO_START = 0xffff,
     VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
     VNDF_BEZIER = 5
 };
@@ -77,6 +80,7 @@ struct vndf_distribution {
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_knots knots;          /* radial_count + 1 and padding */
     vndf_knots blocks;         /* the first knot of each block, padded likewise */
+    uint16_t start[VNDF_STARTS]; /* window of the laws without a cut (c, k >= 0) for u in [i, i + 1]/VNDF_STARTS, or VNDF_NO_START */
     float *slope;              /* X/Z of the knots, ascending, last is infinite */
     vndf_radial_cell *cells;   /* radial_count */
     vndf_guide slope_guide;
