@@ -13,7 +13,8 @@ static const double PI = 3.14159265358979323846;
 static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
 static const double MASS_LEFT_OUT = 1e-6;
 
-enum { SLOPE_POINTS = VNDF_GAUSS_COARSE };
+/* f of a cell changes by more than this: it takes the finer rule. */
+static const double STEEP = 1.3;
 
 /* One Gauss point of a direction. */
 typedef struct sample {
@@ -56,13 +57,15 @@ static double drawn_density(const vndf_view *view, double r, double a)
 }
 
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
-static void add_slopes(survey *v, const vndf_view *view, double a, double w, double r0, double r1, double area)
+static void add_slopes(survey *v, const vndf_view *view, double a, double w, double r0, double r1, double area, int steep)
 {
+    const double *node = steep ? vndf_gauss_node : vndf_gauss_coarse_node, *weight = steep ? vndf_gauss_weight : vndf_gauss_coarse_weight;
+    int points = steep ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
     double s = view->s, c = view->c, x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
     double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
-    for (int i = 0; i < SLOPE_POINTS && v->count < v->capacity; i++) {
-        double xi = vndf_gauss_coarse_node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
-        double measure = w * vndf_gauss_coarse_weight[i] * width * r / (z * z);
+    for (int i = 0; i < points && v->count < v->capacity; i++) {
+        double xi = node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
+        double measure = w * weight[i] * width * r / (z * z);
         double mask = c + s * cos(a) * r, truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / area : 0.0;
         sample one = {truth * measure, drawn_density(view, r, a) * measure};
         v->samples[v->count++] = one;
@@ -75,13 +78,13 @@ static void add_azimuth(survey *v, const vndf_view *view, double a, double w, do
     double k = view->s * cos(a), c = view->c, cut = c * k < 0 ? -c / k : 0.0;
     const vndf_distribution *d = v->table;
     for (uint32_t j = 0; j < d->radial_count; j++) {
-        double r0 = d->slope[j], r1 = d->slope[j + 1];
+        double r0 = d->slope[j], r1 = d->slope[j + 1], f0 = d->cells[j].f0, f1 = d->cells[j].f1;
         if (c > 0 && cut > 0)
             r1 = fmin(r1, cut);
         else if (c < 0)
             r0 = fmax(r0, cut > 0 ? cut : HUGE_VAL);
         if (r1 > r0)
-            add_slopes(v, view, a, w, r0, r1, area);
+            add_slopes(v, view, a, w, r0, r1, area, f0 > STEEP * f1 || f1 > STEEP * f0);
     }
 }
 
@@ -196,7 +199,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
 {
     survey v = {table, profile, NULL, 0, 0};
     vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
-    v.capacity = (size_t)(table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS) * VNDF_GAUSS_COARSE * table->radial_count * SLOPE_POINTS;
+    v.capacity = (size_t)(table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS) * VNDF_GAUSS_COARSE * table->radial_count * VNDF_GAUSS;
     v.samples = malloc(v.capacity * sizeof *v.samples);
     if (!v.samples)
         return 0;

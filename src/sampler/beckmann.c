@@ -94,14 +94,14 @@ static double density(double a, double r, double exponent)
     return exponent < largest_exponent ? inverse_pi * exp(-exponent) * (a * a * a) * (r * r) : 0.0;
 }
 
-double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_vec3 wm)
+double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal wm)
 {
     double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z, r = 1.0 / (z * z);
     return density(a, r, r * (x * x + y * y));
 }
 
 /* D exp(K^2) at a normal whose f is `facing`. */
-static double ndf_below(const vndf_view *view, vndf_vec3 wm, double facing)
+static double ndf_below(const vndf_view *view, vndf_normal wm, double facing)
 {
     double ax = view->alpha_x, ay = view->alpha_y, a = ax * ay, z = a * wm.z, r = 1.0 / (z * z);
     double p = ax * view->wi.x, q = ay * view->wi.y, across = ax * p * wm.y - ay * q * wm.x;
@@ -109,7 +109,7 @@ static double ndf_below(const vndf_view *view, vndf_vec3 wm, double facing)
     return density(a, r, (across * across + along) / (p * p + q * q) * r);
 }
 
-double vndf_beckmann_visible(const vndf_view *view, vndf_vec3 wm, double facing)
+double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double weight = facing * view->per_length;
     if (view->c >= 0.0f)
@@ -214,15 +214,14 @@ vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
     return vndf_face(s, c, n);
 }
 
-/* d = (w . wm)/(s wm.z): products of floats are exact in double, so it keeps digits that K - x would lose. */
-void vndf_beckmann_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2)
+/* d = (w . n)/(s n.z) keeps digits that K - x would lose. */
+void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
     marginal g = marginal_of(bound_of(s, c));
-    double z = wm.z > 1e-30f ? (double)wm.z : 1e-30;
-    double front = ((double)s * wm.x + (double)c * wm.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
-    slope p = {-wm.x / z, front > 0.0 ? front : 0.0};
-    double n = vndf_erfc_remainder(fabs(p.x)), gauss = exp(-exponent(&g, p));
-    double mass = (p.x > 0.0 ? n - p.d : n + p.d) / (n + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
+    double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
+    slope p = {-n.x / z, front > 0.0 ? front : 0.0};
+    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = exp(-exponent(&g, p));
+    double mass = (p.x > 0.0 ? rest - p.d : rest + p.d) / (rest + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
     *u1 = vndf_clamp_unit((float)(mass / g.whole));
-    *u2 = (float)(0.5 * erfc(wm.y / z));
+    *u2 = (float)(0.5 * erfc(n.y / z));
 }

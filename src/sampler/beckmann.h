@@ -3,7 +3,7 @@
 #ifndef VNDF_SAMPLER_BECKMANN_H
 #define VNDF_SAMPLER_BECKMANN_H
 
-#include "vndf.h"
+#include "sampler/closed.h"
 
 /* A1 = c (1 + erf(c/s))/2 + s exp(-(c/s)^2)/(2 sqrt(pi)), relative error below 2e-7 on the whole sphere as
  * long as the result is a normal float; it underflows to 0 beyond c/s = -9 (174 degrees). */
@@ -14,12 +14,12 @@ double vndf_beckmann_p22(double r2);
 
 /* D(wm) for a unit wm, wm.z >= 0, and alpha within [1e-18, 1e18]: exp(-tan^2)/(pi cos^4) at roughness 1; 0 at the
  * horizon. Relative error below 1e-15 (1 + R^2), R the length of the slope over alpha. */
-double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_vec3 wm);
+double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal wm);
 
 /* Dv(wm) where facing = wi . wm > 0, in double; right where D and the projected area underflow, down to 180 degrees
  * (there 0). Below the horizon Dv falls by exp(-1) within some 1/(2 (c/s)^2) of wm: it is the density of wm as it
  * is rounded to float, 0 if that is a hundred such lengths away. May be larger than the largest float. */
-double vndf_beckmann_visible(const vndf_view *view, vndf_vec3 wm, double facing);
+double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing);
 
 /* A visible normal: unit, z >= 0, s x + c z >= 0. Slopes are (-x/z, -y/z): u1 moves the first from -infinity
  * (normals leaning towards the incident direction) up to c/s, u2 moves the second, on its own, from -infinity
@@ -32,7 +32,7 @@ vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2);
 /* The inversion alone: d = c/s - x for the slope x that u1 stands for, before anything is rounded to float. */
 double vndf_beckmann_slope_distance(float s, float c, float u1);
 
-/* The uniform numbers that vndf_beckmann_sample turns into wm. */
-void vndf_beckmann_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2);
+/* The uniform numbers that vndf_beckmann_sample turns into n, of any length. */
+void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2);
 
 #endif

@@ -32,16 +32,18 @@ static const double inverse_pi = 0.31830988618379067;
 
 /* At v = 0 and phi = -pi the sum is (0, 0, 0): a corner of the unit square where the normal turns by a finite
  * angle. A v that is never quite 0 (far below 2^-24, the least that a float u2 < 1 gives) picks the limit. */
-static const float least_v = 1e-15f;
+static const double least_v = 1e-15;
 
 typedef struct half_angle {
-    float sine, cosine;
+    double sine, cosine;
 } half_angle;
 
-/* sin and cos of theta/2 times sqrt(2): the larger by the sum, the smaller by s, so that both keep their digits. */
+/* sin and cos of theta/2 times sqrt(2): the larger by the sum, the smaller by s, so that both keep their digits.
+ * In double, as all from here to the normal: near a corner of the square below the horizon, u1 = 0 or 1 and u2 = 1,
+ * roundings of float would come to a dozen steps of u2. */
 static half_angle half_angle_of(float s, float c)
 {
-    float root = sqrtf(1.0f + fabsf(c)), other = s / root;
+    double root = sqrt(1.0 + fabsf(c)), other = s / root;
     half_angle h = {c < 0.0f ? root : other, c < 0.0f ? other : root};
     return h;
 }
@@ -57,7 +59,7 @@ double vndf_ggx_p22(double r2)
     return inverse_pi / (q * q);
 }
 
-double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_vec3 wm)
+double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_normal wm)
 {
     double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z;
     double q = x * x + y * y + z * z;
@@ -65,7 +67,7 @@ double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_vec3 wm)
 }
 
 /* In double s^2 does not underflow, so the area stands in full at every angle below 180 degrees. */
-double vndf_ggx_visible(const vndf_view *view, vndf_vec3 wm, double facing)
+double vndf_ggx_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double s = view->s, c = view->c;
     double per_area = c < 0.0 ? 2.0 * (1.0 - c) / (s * s) : 2.0 / (1.0 + c);
@@ -74,34 +76,32 @@ double vndf_ggx_visible(const vndf_view *view, vndf_vec3 wm, double facing)
     return vndf_ggx_ndf(view->alpha_x, view->alpha_y, wm) * (facing * view->per_length * per_area);
 }
 
-/* The factor sqrt(2) in S and C is in T and the sum too, and leaves with the normalisation. */
+/* The factor sqrt(2) in S and C is in T and the sum too, and does not matter. */
 vndf_vec3 vndf_ggx_sample(float s, float c, float u1, float u2)
 {
     half_angle h = half_angle_of(s, c);
     vndf_turn turn = vndf_half_turn(u1);
-    float v = u2 < 1.0f ? 1.0f - u2 : least_v;
-    float s2 = h.sine * h.sine, c2 = h.cosine * h.cosine;
-    float t = sqrtf(u2 * (s2 + v * c2));
-    float twice = 2.0f * t * turn.sine;
+    double v = u2 < 1.0f ? 1.0 - u2 : least_v;
+    double s2 = h.sine * h.sine, c2 = h.cosine * h.cosine;
+    double t = sqrt(u2 * (s2 + v * c2)), twice = 2.0 * t * turn.sine;
     /* The small term keeps normal incidence with u2 = 0 from being 0/0; the numerator is 0 there. */
-    float x = v * (s2 - u2 * c2) / (h.sine + t + 1e-30f) + twice * turn.sine;
-    float y = -twice * turn.cosine, z = v * h.cosine;
-    float inverse = 1.0f / sqrtf(x * x + y * y + z * z);
-    vndf_vec3 n = {x * inverse, y * inverse, z * inverse};
+    double x = v * (s2 - u2 * c2) / (h.sine + t + 1e-30) + twice * turn.sine;
+    vndf_vec3 n = {(float)x, (float)(-twice * turn.cosine), (float)(v * h.cosine)};
     return vndf_face(s, c, n);
 }
 
-/* The length of the sum, sqrt(2) included, is mu = 2 (w . wm)/C; then T and phi are polar coordinates of
- * mu (wm.x, wm.y) about (S, 0), and v C = mu wm.z: no differences but those of w . wm, which is exact in double,
- * and of x. u2 = T^2/(S^2 + v C^2) keeps the digits of a small u2, 1 - v those of a small 1 - u2, where one
- * step of 2^-24 moves the normals of the far tail by 1e-3 and more. */
-void vndf_ggx_invert(float s, float c, vndf_vec3 wm, float *u1, float *u2)
+/* The sum, sqrt(2) included, is mu wm with mu = 2 (w . wm)/C; then T and phi are polar coordinates of its first two
+ * components about (S, 0), and the third is v C. u2 = T^2/(S^2 + v C^2) keeps the digits of a small u2, and 1 - v
+ * those of a small 1 - u2, where one step of 2^-24 moves the normals of the far tail by 1e-3 and more. */
+void vndf_ggx_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
     half_angle h = half_angle_of(s, c);
-    float per_cosine = h.cosine > 0.0f ? 1.0f / h.cosine : 0.0f;
-    float mu = 2.0f * (float)((double)s * wm.x + (double)c * wm.z) * per_cosine;
-    float x = mu * wm.x - h.sine, y = mu * wm.y, v = mu * wm.z * per_cosine;
-    float from_top = (x * x + y * y) / (h.sine * h.sine + v * h.cosine * h.cosine);
-    *u2 = vndf_clamp_unit(v < 0.5f ? 1.0f - v : from_top);
-    *u1 = vndf_clamp_unit(0.5f + 0.5f * (float)inverse_pi * atan2f(y, x));
+    double s2 = h.sine * h.sine, c2 = h.cosine * h.cosine;
+    double per_cosine = h.cosine > 0.0 ? 1.0 / h.cosine : 0.0;
+    double facing = h.sine * h.cosine * n.x + 0.5 * (c2 - s2) * n.z; /* the w that the sampler uses */
+    double scale = 2.0 * facing * per_cosine / (n.x * n.x + n.y * n.y + n.z * n.z);
+    double across = scale * n.x - h.sine, aside = scale * n.y, v = scale * n.z * per_cosine;
+    double from_top = (across * across + aside * aside) / (s2 + v * c2);
+    *u2 = vndf_clamp_unit((float)(v < 0.5 ? 1.0 - v : from_top));
+    *u1 = vndf_clamp_unit((float)(0.5 + 0.5 * inverse_pi * atan2(aside, across)));
 }

@@ -19,7 +19,8 @@ int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay)
 float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 wm)
 {
     if (d->kind != VNDF_KIND_TABLE)
-        return vndf_density_from(d->kind == VNDF_KIND_GGX ? vndf_ggx_ndf(ax, ay, wm) : vndf_beckmann_ndf(ax, ay, wm));
+        return vndf_density_from(d->kind == VNDF_KIND_GGX ? vndf_ggx_ndf(ax, ay, vndf_normal_of(wm))
+                                                          : vndf_beckmann_ndf(ax, ay, vndf_normal_of(wm)));
     vndf_vec3 n = {wm.x / ax, wm.y / ay, wm.z};
     float x = vndf_length2(n.x, n.y), per = 1.0f / (x + n.z); /* D(wm) = P22/Z^4 at X + Z = 1, times per^4 / (ax ay) */
     return vndf_engine_p22_over_z4(d, x * per, n.z * per) * (per / ax) * (per / ay) * per * per;

@@ -60,19 +60,14 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
-/* wi . wm: products of floats are exact in double, so that it holds its digits and its sign at the terminator. */
-VNDF_INLINE double facing_of(const vndf_view *view, vndf_vec3 wm)
-{
-    return (double)view->wi.x * wm.x + (double)view->wi.y * wm.y + (double)view->wi.z * wm.z;
-}
-
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
 {
-    double facing = facing_of(view, wm);
+    vndf_normal n = vndf_normal_of(wm);
+    double facing = vndf_facing(view, n);
     if (!(wm.z >= 0.0f) || !(facing > 0.0))
         return 0.0f;
-    return vndf_density_from(view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_visible(view, wm, facing)
-                                                                       : vndf_beckmann_visible(view, wm, facing));
+    return vndf_density_from(view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_visible(view, n, facing)
+                                                                       : vndf_beckmann_visible(view, n, facing));
 }
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
@@ -116,13 +111,12 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
     *u1 = *u2 = 0.0f;
     if (!view->distribution || !(wm.z >= 0.0f) || !is_usable_direction(wm))
         return;
-    vndf_vec3 n = vndf_to_unit(view, wm);
     if (view->distribution->kind == VNDF_KIND_GGX)
-        vndf_ggx_invert(view->s, view->c, vndf_normalize(n), u1, u2);
+        vndf_ggx_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        vndf_beckmann_invert(view->s, view->c, vndf_normalize(n), u1, u2);
+        vndf_beckmann_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else
-        vndf_engine_invert(view, n, u1, u2);
+        vndf_engine_invert(view, vndf_to_unit(view, wm), u1, u2);
     *u1 = vndf_clamp_unit(*u1);
     *u2 = vndf_clamp_unit(*u2);
 }
