@@ -149,16 +149,18 @@ typedef struct vndf_view {
     unsigned row;                  /* first of the two rows */
 } vndf_view;
 
-/* wi need not be exactly unit. Invalid input - NULL, a direction that is zero or not finite, alpha not
- * in (0, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1) with density 0, and every
+/* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
+ * distribution's scale (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1) with density 0, and every
  * other function 0. Some views are valid and see nothing: wi = (0, 0, -1) exactly, where every normal
  * is turned away; samples are then horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length,
  * wm.z >= 0, wi.wm >= 0. *pdf, if not NULL, receives the density per steradian with which it was really
- * drawn; it is what vndf_pdf returns for that normal. The map is continuous; u1 turns the azimuth
- * of the stretched normal about z from one side of wi to the other, u2 moves the normal away from z, and each is monotone. */
+ * drawn; it is what vndf_pdf returns for that normal, to 1e-5. The map is continuous and monotone in each
+ * number. Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
+ * wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi mirrored at the normal.
+ * Beckmann: u1 moves the slope along wi, u2 the slope across. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0.
@@ -183,8 +185,8 @@ VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
 /* A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere; in [0, inf). */
 VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
 
-/* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, in [-1, 0] side: Lambda(-w) = -1 -
- * Lambda(w) below; +-infinity is never returned: at cos(theta) = 0 the largest float with the sign of the limit. */
+/* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). Infinity is
+ * never returned: at cos(theta) = 0 it is the largest float, with the sign of the side. */
 VNDF_API float vndf_lambda(const vndf_surface *surface, vndf_vec3 w);
 
 /* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w) in [0, 1] above the horizon; below it,

@@ -69,17 +69,20 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, row_cells, 2 * plan->finest) ||
         !vndf_wedge_fit_from(&plan->below_fit, profile, 1, row_cells, 2 * plan->finest))
         return 0;
-    if (report(options, 0.1, "radial cells"))
-        return -1;
-    if (!refine_radial(plan, most_cells < 4000 ? most_cells : 4000) || report(options, 0.2, "azimuth rows above the horizon") ||
-        !refine_rows(&plan->above_rows, &plan->above_fit, most_rows < 1000 ? most_rows : 1000, plan->finest) ||
-        report(options, 0.4, "azimuth rows below the horizon") ||
-        !refine_rows(&plan->below_rows, &plan->below_fit, most_rows < 1000 ? most_rows : 1000, plan->finest) ||
-        report(options, 0.6, "projected area") ||
-        !refine_area(&plan->above_area, &plan->above_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan, plan->finest)) ||
-        !refine_area(&plan->below_area, &plan->below_fit, most_knots < 1000 ? most_knots : 1000, area_error(plan, plan->finest)))
-        return plan->below_area.error ? 1 : -1;
-    return 1;
+    size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
+    size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
+    double area = area_error(plan, plan->finest);
+    int stopped = 0;
+    int good = !(stopped = report(options, 0.1, "radial cells")) && refine_radial(plan, cell_limit) &&
+               !(stopped = report(options, 0.2, "azimuth rows above the horizon")) &&
+               refine_rows(&plan->above_rows, &plan->above_fit, row_limit, plan->finest) &&
+               !(stopped = report(options, 0.4, "azimuth rows below the horizon")) &&
+               refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest) &&
+               !(stopped = report(options, 0.6, "projected area")) &&
+               refine_area(&plan->above_area, &plan->above_fit, knot_limit, area) &&
+               refine_area(&plan->below_area, &plan->below_fit, knot_limit, area) &&
+               !(stopped = report(options, 0.8, "certificate"));
+    return stopped ? -1 : good;
 }
 
 void vndf_plan_free(vndf_plan *plan)

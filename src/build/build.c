@@ -1,5 +1,4 @@
 /* vndf_build: resolve the source, refine the fits once, cut the table that meets the target, measure it. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,11 +58,15 @@ static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
     vndf_distribution *draft = vndf_plan_assemble(plan, vndf_plan_size(plan, error)), *table = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0;
+    vndf_error inner = {VNDF_OK, ""};
     if (draft && (draft->source = copy(source)) && (draft->tool = copy(TOOL)))
         bytes = malloc(size = vndf_table_encode(draft, NULL, 0));
     if (bytes) {
         vndf_table_encode(draft, bytes, size);
-        table = vndf_load_memory(bytes, size, why);
+        table = vndf_load_memory(bytes, size, &inner);
+        if (!table)
+            vndf_fail(why, inner.status == VNDF_ERROR_MEMORY ? inner.status : VNDF_ERROR_DISTRIBUTION,
+                      "the distribution cannot be held in a table of floats: %s", inner.message);
     } else
         vndf_fail(why, VNDF_ERROR_MEMORY, "no memory to build the table");
     free(bytes);
@@ -89,7 +92,8 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     }
     for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
         double middle = (low + high) / 2;
-        vndf_distribution *smaller = finish(plan, exp(middle), error);
+        vndf_error ignored;
+        vndf_distribution *smaller = finish(plan, exp(middle), &ignored); /* if it fails, the larger one stays */
         if (smaller && smaller->certificate.tv <= max_tv) {
             vndf_free(table);
             table = smaller;
@@ -158,6 +162,13 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
     vndf_profile *profile = vndf_profile_from(source, error);
     if (!profile)
         return error ? error->status : VNDF_ERROR_DISTRIBUTION;
+    double scale = profile->scale / distribution->scale_exact, normalization = profile->normalization / distribution->normalization;
+    if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
+        vndf_status other = vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the table is of another distribution: scale %.9g and normalization %.9g, the source has %.9g and %.9g",
+                                      distribution->scale_exact, distribution->normalization, profile->scale, profile->normalization);
+        vndf_profile_free(profile);
+        return other;
+    }
     int done = vndf_certificate_measure(certificate, distribution, profile);
     vndf_profile_free(profile);
     return done ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to measure the table");

@@ -10,6 +10,8 @@
 enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40, PANELS_MAX = 60000 };
 
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
+static const double UNEVEN = 0.43; /* a jump in the middle would be half of either rule, and pass for smooth */
+
 
 static double floor_at(const vndf_profile *profile, double r)
 {
@@ -42,10 +44,10 @@ static vndf_moments rule(vndf_profile *profile, double u0, double u1)
     double r0 = exp(u0);
     vndf_moments sum = {0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
-        double r = exp(u0 + (u1 - u0) * vndf_gauss_node[i]);
+        double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond; /* panels get as narrow as 1e-13 r */
         double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * density(profile, r);
         sum.m0 += w;
-        sum.m1 += w * (r - r0);
+        sum.m1 += w * beyond;
     }
     return sum;
 }
@@ -81,7 +83,7 @@ static int agree(double a, double b, double least)
 
 static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
 {
-    double middle = u0 + (u1 - u0) / 2, gap = exp(middle) - exp(u0);
+    double middle = u0 + (u1 - u0) * UNEVEN, gap = exp(u0) * expm1(middle - u0);
     vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1), sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
     if (profile->bad || profile->rough)
         return;
@@ -140,7 +142,7 @@ static double *make_edges(const vndf_profile *profile, size_t *count)
 static int fill_panels(vndf_profile *profile)
 {
     size_t edges;
-    double least = 1e-45 * peak(profile), *edge = make_edges(profile, &edges);
+    double least = fmax(1e-45 * peak(profile), 1e-290), *edge = make_edges(profile, &edges);
     profile->count = 0;
     for (size_t i = 0; edge && i + 1 < edges; i++)
         if (edge[i + 1] - edge[i] > 1e-12)
@@ -155,12 +157,33 @@ static int fill_panels(vndf_profile *profile)
     return 1;
 }
 
+/* -d log P / d log r between two slopes; infinite if P vanishes there. */
+static double exponent(vndf_profile *profile, double r0, double r1)
+{
+    double p0 = density(profile, r0), p1 = density(profile, r1);
+    return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
+}
+
+/* What lies beyond the panels, by the power that P falls with there. */
+static void measure_tail(vndf_profile *profile)
+{
+    double end = profile->panel[profile->count].r, p = density(profile, end), n = exponent(profile, end / 4, end);
+    profile->tail_m0 = profile->tail_m1 = 0.0;
+    if (p > 0.0 && n > 3.0 + 1e-6 && n < HUGE_VAL) {
+        profile->tail_m0 = p * end * end / (n - 2);
+        profile->tail_m1 = p * end * end * end / (n - 3) - end * profile->tail_m0;
+    }
+}
+
 /* Sums from both ends; every term is positive. */
 static void sum_panels(vndf_profile *profile)
 {
     vndf_panel *p = profile->panel;
     size_t n = profile->count;
-    p[0].f0 = p[0].f1 = p[0].e = p[n].t0 = p[n].s = 0.0;
+    measure_tail(profile);
+    p[0].f0 = p[0].f1 = p[0].e = 0.0;
+    p[n].t0 = profile->tail_m0;
+    p[n].s = profile->tail_m1;
     for (size_t i = 0; i < n; i++) {
         double a = p[i].r, b = p[i + 1].r;
         p[i + 1].f0 = p[i].f0 + p[i].m0;
@@ -171,8 +194,8 @@ static void sum_panels(vndf_profile *profile)
         p[i].t0 = p[i + 1].t0 + p[i].m0;
         p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
     }
-    profile->f0 = p[n].f0;
-    profile->f1 = p[n].f1;
+    profile->f0 = p[n].f0 + profile->tail_m0;
+    profile->f1 = p[n].f1 + profile->tail_m1 + p[n].r * profile->tail_m0;
 }
 
 /* The Gauss points of all panels, for integrals with other kernels. */
@@ -210,13 +233,6 @@ static vndf_status check_values(const vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-/* -d log P / d log r between two slopes of the source; 0 if P vanishes there. */
-static double exponent(vndf_profile *profile, double r0, double r1)
-{
-    double p0 = density(profile, r0 / profile->scale), p1 = density(profile, r1 / profile->scale);
-    return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
-}
-
 /* Both ends are integrable, and what lies beyond the panels is little. */
 static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
 {
@@ -231,10 +247,9 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
                          "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
     if (tail <= 3.0 + 1e-6)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "infinite projected area: P22 falls as r^-%.4g for large r, must fall faster than r^-3 "
-                         "(D slower than 1/cos(theta_m) towards 90 degrees)", tail);
-    double last = profile->f1 - p[n].f1 + p[n - 1].m1 + p[n - 1].r * p[n - 1].m0;
-    if (tail < HUGE_VAL && last / (exp2(tail - 3.0) - 1.0) > 1e-3 * profile->f1)
+                         "infinite projected area: P22 falls as r^%.4g for large r, must fall faster than r^-3 "
+                         "(D slower than 1/cos(theta_m) towards 90 degrees)", 0.0 - tail);
+    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > 1e-3 * profile->f1)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.1%% of the projected area at grazing "
                          "incidence lies beyond slope 1e30, where no single-precision normal can lie", tail);
@@ -260,23 +275,30 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
     return check_values(profile, error);
 }
 
-/* Pass 1 in the source's own unit, pass 2 at canonical scale with the floor. */
+/* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
+ * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
 static vndf_status make(vndf_profile *profile, vndf_error *error)
 {
+    enum { PASSES = 4 };
+    double most = peak(profile); /* first to a size that neither overflows nor vanishes */
+    if (most > 0.0 && 1.0 / most < HUGE_VAL)
+        profile->normalization = 1.0 / most;
     vndf_status status = measure(profile, error);
     if (status == VNDF_OK)
         status = check_ends(profile, error);
-    if (status != VNDF_OK)
-        return status;
-    profile->normalization = 1.0 / (2 * 3.14159265358979323846 * profile->f0);
-    profile->scale = median(profile);
-    profile->floor = FLOOR;
-    if (!(profile->scale > 1e-17 && profile->scale < 1e17))
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
-    status = measure(profile, error);
-    if (status == VNDF_OK && !fill_points(profile))
-        status = vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
-    return status;
+    for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
+        double mass = 2 * 3.14159265358979323846 * profile->f0;
+        if (pass > 0 && fabs(mass - 1.0) < 1e-7)
+            return fill_points(profile) ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+        profile->normalization /= mass;
+        profile->scale *= median(profile);
+        profile->floor = FLOOR;
+        if (!(profile->scale > 1e-17 && profile->scale < 1e17))
+            return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
+        status = measure(profile, error);
+    }
+    return status != VNDF_OK ? status : vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+        "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last one at a median slope of %g", profile->scale);
 }
 
 vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error)

@@ -35,6 +35,7 @@ typedef struct vndf_profile {
     vndf_panel *panel;
     vndf_profile_point *point;      /* VNDF_GAUSS per panel */
     double f0, f1;                  /* totals */
+    double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     double bad_r, bad_value;        /* where the source is no density */
     int bad, rough;                 /* it is so; it needs more panels than there are */
 } vndf_profile;

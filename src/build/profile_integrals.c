@@ -50,7 +50,9 @@ vndf_moments vndf_profile_moments(const vndf_profile *profile, double a, double 
 {
     const vndf_panel *p = profile->panel;
     double first = p[0].r, last = p[profile->count].r, from = a > first ? a : first, to = b < last ? b : last;
-    vndf_moments sum = {0.0, 0.0};
+    vndf_moments sum = {0.0, 0.0}, tail = {profile->tail_m0, profile->tail_m1};
+    if (b > last)
+        add(&sum, a, tail, last);
     if (!(to > from))
         return sum;
     size_t i = panel_of(profile, from), end = panel_of(profile, to);
@@ -83,7 +85,7 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
     size_t i = panel_of(profile, rho);
     const vndf_panel *p = &profile->panel[i];
     if (rho >= profile->panel[profile->count].r)
-        return 0.0;
+        return profile->tail_m1 * profile->panel[profile->count].r / rho; /* or a little more: nothing is held of it */
     double from = rho > p->r ? rho : p->r;
     return p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1 + (from > rho ? (p->t0) * (from - rho) : 0.0);
 }
@@ -154,7 +156,13 @@ vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y)
         value.slope = profile->f1 + profile->f0 * HALF_PI;
         return value;
     }
-    kernel sum = beyond(profile, (1.0 - y) / y, kernel_below);
+    double k = (1.0 - y) / y, end = profile->panel[profile->count].r;
+    kernel sum = beyond(profile, k, kernel_below);
+    if (k < end) { /* R beyond the panels: y - atan y is R/k - pi/2 there */
+        double far = profile->tail_m1 + end * profile->tail_m0;
+        sum.mass += fmax(far - k * HALF_PI * profile->tail_m0, 0.0);
+        sum.slope += far + HALF_PI * profile->tail_m0;
+    }
     value.mass = y * sum.mass;
     value.slope = sum.slope;
     return value;

@@ -10,6 +10,7 @@
 
 enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 
+static const double SLOPE_MOST = 1e29; /* 1/R remains a normal float */
 static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi keeps a hundred steps in float */
 
 /* ---- knots ---- */
@@ -185,8 +186,8 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_fit_knot a = vndf_fit_knot_at(fit, ra), b = vndf_fit_knot_at(fit, rb);
     vndf_interval_miss found = {0.0, 0.0};
     double s0 = fit->profile->f1;
-    if (!(b.r - a.r > WIDTH_LEAST * b.r) && b.z > 0.0f)
-        return found; /* as narrow as a cell can be */
+    if ((!(b.r - a.r > WIDTH_LEAST * b.r) && b.z > 0.0f) || a.r > SLOPE_MOST)
+        return found; /* as narrow as a cell can be, or as far out */
     vndf_radial_cell cell = vndf_fit_cell(fit, a, b);
     law_error e = measure(fit, a, b, &cell, 1 + (int)panels_between(fit->profile, a.r, b.r));
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);

@@ -46,8 +46,8 @@ VNDF_INLINE float vndf_rational_invert(const vndf_rational_cell *cell, float t)
     float middle = cell->e0 - t * cell->k, b = middle + 2.0f * t;
     float square = middle * middle + 4.0f * t * (cell->mass - t);
     float root = sqrtf(square > 0.0f ? square : 0.0f); /* below 0 only by rounding of t beyond m */
-    float xi = b >= 0.0f ? 2.0f * t / (b + root) : (root - b) / (2.0f * (cell->mass - b)); /* no difference of equals */
-    return xi < 1.0f ? xi : 1.0f; /* also for 0/0 in a cell without mass */
+    float xi = b >= 0.0f ? (t > 0.0f ? 2.0f * t / (b + root) : 0.0f) : (root - b) / (2.0f * (cell->mass - b)); /* no difference of equals */
+    return xi < 1.0f ? xi : 1.0f;
 }
 
 #endif

@@ -38,6 +38,7 @@ VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
     float square = vndf_dot(v, v);
     if (!vndf_is_plain(square)) {
+        v = vndf_max_abs(v) < 1e-30f ? vndf_scale(v, 0x1p100f) : v; /* the reciprocal of a denormal is infinite */
         v = vndf_scale(v, 1.0f / vndf_max_abs(v));
         square = vndf_dot(v, v);
     }
@@ -50,8 +51,17 @@ VNDF_INLINE float vndf_length2(float x, float y)
     float square = x * x + y * y, ax = fabsf(x), ay = fabsf(y);
     if (vndf_is_plain(square))
         return sqrtf(square);
-    float big = ax > ay ? ax : ay, ratio = (ax > ay ? ay : ax) / big;
+    float big = ax > ay ? ax : ay;
+    if (!(big < HUGE_VALF))
+        return big;
+    float ratio = (ax > ay ? ay : ax) / big;
     return big > 0.0f ? big * sqrtf(1.0f + ratio * ratio) : 0.0f;
+}
+
+/* A density that is a number: the largest float for infinity, 0 for the NaN of 0/0 or 0 times infinity. */
+VNDF_INLINE float vndf_finite(float x)
+{
+    return x < 3.402823466e38f ? x : (x > 0.0f ? 3.402823466e38f : 0.0f);
 }
 
 /* u in [0, 1]; NaN becomes 0. */

@@ -19,17 +19,7 @@
  * d = rho exactly. K <= 0: exponents compared, d^2 - 2 K d = rho^2 - 2 K m rho/(1 + b rho), where b is nearly
  * constant in rho. 0 < K < 5/4: d = rho m (1 + b rho)/(1 + b m rho), b = 0.8. Above: the shift by
  * h = 1/(2K) that Taylor's formula gives, q = erfinv(2 u1 F(K)/c - 1) - h and x = q/(1 + h^2), damped in the tail where that
- * goes too far; except close to the end, where m rho = d exp(2 K d/3).
- *
- * Densities of the real problem. With a = alpha_x alpha_y and r = 1/(a wm.z)^2, the squared slope length is
- * R^2 = r ((alpha_y wm.x)^2 + (alpha_x wm.y)^2) and D(wm) = a^3 r^2 exp(-R^2)/pi. Below the horizon D and the area
- * both hold exp(-K^2), where both underflow; what is left of R^2 is y^2 + d (d - 2 K), of one sign again, and with
- * (p, q) = (alpha_x wi.x, alpha_y wi.y), whose length is that of the stretched wi times s, and f = wi . wm
- *
- *     R^2 - K^2 = r/(p^2 + q^2) ((alpha_x p wm.y - alpha_y q wm.x)^2 + a^2 f (f - 2 wi.z wm.z)),
- *     A1 exp(K^2) = s N/(N + |K|)/(2 sqrt(pi)).
- *
- * Both are evaluated in double from wi itself: the exponent is a difference of numbers of the size of K^2. */
+ * goes too far; except close to the end, where m rho = d exp(2 K d/3). */
 #include "sampler/beckmann.h"
 
 #include <math.h>
@@ -38,9 +28,6 @@
 #include "math/erfc_remainder.h"
 #include "math/vector.h"
 #include "sampler/facing.h"
-
-static const double inverse_pi = 0.31830988618379067;
-static const double root_pi = 1.7724538509055160;
 
 /* One incident direction. For K < 5/4 the members are divided by exp(-K^2), so that nothing underflows below the
  * horizon; above that they are not, so that nothing overflows. */
@@ -66,10 +53,10 @@ static marginal marginal_of(double bound)
     double z = fabs(bound), n = vndf_erfc_remainder(z), part = n / (n + z);
     marginal g = {bound, part, 0.0};
     if (bound >= 1.25) {
-        g.line = 2.0 * root_pi * bound;
+        g.line = 2.0 * vndf_root_pi * bound;
         g.whole = g.line + exp(-bound * bound) * part;
     } else if (bound > 0.0) {
-        g.line = 2.0 * root_pi * bound * exp(bound * bound);
+        g.line = 2.0 * vndf_root_pi * bound * exp(bound * bound);
         g.whole = g.line + part;
     }
     return g;
@@ -78,46 +65,7 @@ static marginal marginal_of(double bound)
 float vndf_beckmann_area(float s, float c)
 {
     double k = bound_of(s, c), z = fabs(k), n = vndf_erfc_remainder(z);
-    return (float)(fmax(c, 0.0) + s * exp(-k * k) * (n / (n + z)) / (2.0 * root_pi));
-}
-
-double vndf_beckmann_p22(double r2)
-{
-    return inverse_pi * exp(-r2);
-}
-
-/* exp is 0 beyond, and r may be infinite there. */
-static const double largest_exponent = 745.0;
-
-static double density(double a, double r, double exponent)
-{
-    return exponent < largest_exponent ? inverse_pi * exp(-exponent) * (a * a * a) * (r * r) : 0.0;
-}
-
-double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal wm)
-{
-    double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z, r = 1.0 / (z * z);
-    return density(a, r, r * (x * x + y * y));
-}
-
-/* D exp(K^2) at a normal whose f is `facing`. */
-static double ndf_below(const vndf_view *view, vndf_normal wm, double facing)
-{
-    double ax = view->alpha_x, ay = view->alpha_y, a = ax * ay, z = a * wm.z, r = 1.0 / (z * z);
-    double p = ax * view->wi.x, q = ay * view->wi.y, across = ax * p * wm.y - ay * q * wm.x;
-    double along = a * a * facing * (facing - 2.0 * view->wi.z * wm.z);
-    return density(a, r, (across * across + along) / (p * p + q * q) * r);
-}
-
-double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing)
-{
-    double weight = facing * view->per_length;
-    if (view->c >= 0.0f)
-        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
-    if (!(view->s > 0.0f))
-        return 0.0;
-    double z = -(double)view->c / view->s, n = vndf_erfc_remainder(z);
-    return ndf_below(view, wm, facing) * (weight * 2.0 * root_pi * (n + z) / (view->s * n));
+    return (float)(fmax(c, 0.0) + s * exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
 }
 
 /* m rho = d exp(2 K d/3) solved for d by an approximation of Lambert's function, good to 2%. */

@@ -22,13 +22,13 @@ float vndf_unit_area(const vndf_distribution *d, float s, float c)
 VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, float scale)
 {
     double dot = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y + (double)view->wi.z * wm.z; /* near the cut it cancels */
-    return (float)dot * scale * view->per_length;
+    return dot > 0.0 ? (float)dot * scale * view->per_length : 0.0f;
 }
 
 /* Per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
 VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scale)
 {
-    return density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale;
+    return vndf_finite(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
 }
 
 /* ---- sampling ---- */

@@ -23,7 +23,7 @@ float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 
                                                           : vndf_beckmann_ndf(ax, ay, vndf_normal_of(wm)));
     vndf_vec3 n = {wm.x / ax, wm.y / ay, wm.z};
     float x = vndf_length2(n.x, n.y), per = 1.0f / (x + n.z); /* D(wm) = P22/Z^4 at X + Z = 1, times per^4 / (ax ay) */
-    return vndf_engine_p22_over_z4(d, x * per, n.z * per) * (per / ax) * (per / ay) * per * per;
+    return vndf_finite(vndf_engine_p22_over_z4(d, x * per, n.z * per) * (per / ax) * (per / ay) * per * per);
 }
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
@@ -46,7 +46,7 @@ float vndf_p22(const vndf_surface *surface, float x, float y)
         return vndf_density_from(p22 / ((double)ax * ay));
     }
     float r = vndf_length2(x / ax, y / ay), z = 1.0f / (1.0f + r);
-    return vndf_engine_p22_over_z4(d, r < HUGE_VALF ? r * z : 1.0f, z) * (z * z) * (z * z) / ax / ay;
+    return vndf_finite(vndf_engine_p22_over_z4(d, r < HUGE_VALF ? r * z : 1.0f, z) * (z * z) * (z * z) / ax / ay);
 }
 
 /* The stretched direction of a surface: length 0 if anything is invalid. */

@@ -128,5 +128,5 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     float facing_cos = view->distribution ? vndf_dot(view->wi, wm) : 0.0f;
     if (!(wm.z >= 0.0f) || !(facing_cos > 0.0f) || !(view->area > 0.0f))
         return 0.0f;
-    return vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos * view->per_length / view->area);
+    return vndf_finite(vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos * view->per_length) / view->area);
 }
