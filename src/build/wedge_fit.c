@@ -17,7 +17,7 @@ struct vndf_row_cache {
     entry *bucket[BUCKETS];
 };
 
-static const double AREA_LEAST = 1e-11; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
+static const double AREA_LEAST = 1e-12; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
 static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
 
 /* ---- the azimuth density ---- */

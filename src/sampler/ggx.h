@@ -52,9 +52,9 @@ VNDF_INLINE vndf_half_angle vndf_half_angle_of(float s, float c)
     return h;
 }
 
-/* A visible normal, its length from 1e-15 to 3: z >= 0, s x + c z >= 0. u2 lowers and u1 turns, once about z from azimuth -pi to pi,
- * the direction that mirrors (s, 0, c) in the normal; the map is continuous, and u1 = 0 and 1 coincide. The factor sqrt(2) in S and C
- * is in T and the sum too, and does not matter. */
+/* A visible normal, its length from 1e-15 to 3: z >= 0, s x + c z >= 0. u2 lowers and u1 turns, once about z from
+ * azimuth -pi to pi, the direction that mirrors (s, 0, c) in the normal; the map is continuous, and u1 = 0 and 1
+ * coincide. The factor sqrt(2) in S and C is in T and the sum too, and does not matter. */
 VNDF_INLINE vndf_vec3 vndf_ggx_sample(float s, float c, float u1, float u2)
 {
     vndf_half_angle h = vndf_half_angle_of(s, c);

@@ -70,13 +70,23 @@ VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
                                                                        : vndf_beckmann_visible(view, n, facing));
 }
 
+/* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding: a
+ * step that is small only beside 1 would leave the lobe of a Beckmann. */
+static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
+{
+    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, highest = level / -(double)view->wi.z;
+    if (view->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))
+        wm.z = fminf(wm.z, (float)(highest * (1.0 - 0x1p-23)));
+    return vndf_facing(view, vndf_normal_of(wm)) > 0.0 ? wm : vndf_turn_to_face(view, wm);
+}
+
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(view->s, view->c, u1, u2)
                                                              : vndf_beckmann_sample(view->s, view->c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(view, n));
-    if (!(vndf_dot(view->wi, wm) > 0.0f))
-        wm = vndf_turn_to_face(view, wm);
+    if (!(vndf_facing(view, vndf_normal_of(wm)) > 0.0))
+        wm = turn_closed(view, wm);
     if (pdf)
         *pdf = visible_closed(view, wm);
     return wm;
