@@ -129,6 +129,8 @@ static double true_area(const vndf_profile *profile, double s, double c)
 static finding survey_direction(survey *v, double s, double c)
 {
     finding f = {0, 0, 0, 0, 0};
+    s = (float)s; /* the direction that the run time is given */
+    c = (float)c;
     double area = true_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
     if (!(area > AREA_LEAST * v->profile->f1))

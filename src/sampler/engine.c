@@ -7,13 +7,23 @@
 #include "sampler/radial.h"
 #include "sampler/wedge.h"
 
+/* Where D falls fast the area changes by more than a rounding of y does: in double up to the cell. */
+static float area_below(const vndf_wedge *wedge, double y)
+{
+    uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, (float)y);
+    const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
+    float t = (float)((y - wedge->knot_y[i]) * b[4]);
+    return vndf_wedge_bezier(b, t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f);
+}
+
 float vndf_unit_area(const vndf_distribution *d, float s, float c)
 {
     if (d->kind == VNDF_KIND_GGX)
         return vndf_ggx_area(s, c);
     if (d->kind == VNDF_KIND_BECKMANN)
         return vndf_beckmann_area(s, c);
-    float sum = s + fabsf(c), below = 2.0f * sum * vndf_wedge_mass(&d->below, s / sum);
+    double sum = (double)s + fabs((double)c);
+    float below = 2.0f * (float)sum * area_below(&d->below, s / sum);
     return below + (c > 0.0f ? c : 0.0f); /* A(w) = cos + A(-w) */
 }
 

@@ -19,13 +19,18 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, float c)
     return c >= 0.0f ? &d->above : &d->below;
 }
 
+VNDF_INLINE float vndf_wedge_bezier(const float *b, float t)
+{
+    float u = 1.0f - t;
+    return u * u * (u * b[0] + 3.0f * t * b[1]) + t * t * (3.0f * u * b[2] + t * b[3]);
+}
+
 /* Mass of half a wedge at y, per (s + |c|). */
 VNDF_INLINE float vndf_wedge_mass(const vndf_wedge *wedge, float y)
 {
     uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    float t = (y - wedge->knot_y[i]) * b[4], u = 1.0f - t;
-    return u * u * (u * b[0] + 3.0f * t * b[1]) + t * t * (3.0f * u * b[2] + t * b[3]);
+    return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[4]);
 }
 
 /* For s + |c| = 1. */
