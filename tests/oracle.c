@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -130,7 +131,8 @@ static double seen_between(const direction *d, double r0, double r1)
     double sum = 0, u = log(r0), end = log(r1);
     while (u < end) {
         double r = exp(u), here = d->o->shape(r), there = d->o->shape(r * 1.001);
-        double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0, next = u + 0.35 / (1 + 0.1 * steep);
+        double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0,
+            next = u + 0.35 / (1 + 0.1 * steep);
         next = next < end ? next : end;
         sum += oracle_integrate(seen_at, d, u, next);
         u = next;
@@ -196,4 +198,10 @@ vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certific
         fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
     vndf_source_free(source);
     return table;
+}
+
+int oracle_quick(void)
+{
+    const char *quick = getenv("VNDF_TEST_QUICK");
+    return quick && *quick;
 }

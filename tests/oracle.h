@@ -22,7 +22,8 @@ typedef struct oracle {
 } oracle;
 
 /* In the order of oracle_get. */
-enum { ORACLE_GGX, ORACLE_BECKMANN, ORACLE_STUDENT, ORACLE_LAPLACE, ORACLE_MEASURED, ORACLE_HAZE, ORACLE_RING, ORACLE_DISC, ORACLE_COUNT };
+enum { ORACLE_GGX, ORACLE_BECKMANN, ORACLE_STUDENT, ORACLE_LAPLACE, ORACLE_MEASURED, ORACLE_HAZE, ORACLE_RING,
+      ORACLE_DISC, ORACLE_COUNT };
 
 oracle oracle_get(size_t index);
 const char *oracle_name(const oracle *o);
@@ -35,6 +36,9 @@ double oracle_p22(const oracle *o, double r);
 
 /* integral over slopes of P22 max(0, c + s r cos a): relative error below 1e-9 where it exceeds 1e-200. */
 double oracle_area(const oracle *o, double s, double c);
+
+/* VNDF_TEST_QUICK is set: a fifth of the work is enough, since a sanitizer watches. */
+int oracle_quick(void);
 
 /* integral of f over [a, b], smooth inside but for the ends; relative error about 1e-12. */
 typedef double oracle_function(double x, const void *user);

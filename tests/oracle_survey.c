@@ -19,6 +19,7 @@ typedef struct grid {
     int edges;
     oracle_visitor *visit;
     void *user;
+    int sides; /* 2: both halves of the turn; 1: now one, now the other, for what is alike on both */
     unsigned long count;
 } grid;
 
@@ -70,7 +71,8 @@ static void make_edges(grid *g)
 static void visit_slope(grid *g, double r, double cos_a, double sin_a, double p22, double weight)
 {
     double ax = g->surface->alpha_x, ay = g->surface->alpha_y;
-    double x = ax * r * (g->cos_phi * cos_a - g->sin_phi * sin_a), y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
+    double x = ax * r * (g->cos_phi * cos_a - g->sin_phi * sin_a),
+        y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
     double z = 1 / sqrt(1 + x * x + y * y), mask = g->c + g->s * r * cos_a;
     oracle_point point = {{(float)(x * z), (float)(y * z), (float)z}, 0, 0};
     point.truth = mask > 0 ? p22 * mask / g->area / (ax * ay * z * z * z) : 0;
@@ -78,11 +80,10 @@ static void visit_slope(grid *g, double r, double cos_a, double sin_a, double p2
     g->visit(&point, g->user);
 }
 
-/* One azimuth: the panels as far as they face wi. Sides alternate, as both halves of the turn are alike. */
-static void visit_azimuth(grid *g, double a, double weight)
+/* One azimuth: the panels as far as they face wi. */
+static void visit_side(grid *g, double cos_a, double sin_a, double weight)
 {
-    double cos_a = cos(a), sin_a = g->count++ % 2 ? sin(a) : -sin(a), k = g->s * cos_a;
-    double cut = g->c * k < 0 ? -g->c / k : 0;
+    double k = g->s * cos_a, cut = g->c * k < 0 ? -g->c / k : 0;
     for (int i = 0; i + 1 < g->edges; i++) {
         double r0 = g->edge[i], r1 = g->edge[i + 1];
         if (g->c > 0 && k < 0)
@@ -94,6 +95,15 @@ static void visit_azimuth(grid *g, double a, double weight)
             visit_slope(g, r, cos_a, sin_a, oracle_p22(g->o, r), weight * WEIGHT[j] * (r1 - r0));
         }
     }
+}
+
+static void visit_azimuth(grid *g, double a, double weight)
+{
+    int left = g->count++ % 2 == 0;
+    if (g->sides == 2 || left)
+        visit_side(g, cos(a), -sin(a), weight / g->sides);
+    if (g->sides == 2 || !left)
+        visit_side(g, cos(a), sin(a), weight / g->sides);
 }
 
 /* Panels from the middle of a range of azimuth to one end: of three degrees at most, and of a third of what is
@@ -116,12 +126,14 @@ static void visit_range(grid *g, double from, double to)
     visit_towards(g, (from + to) / 2, to);
 }
 
-void oracle_visit(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, oracle_visitor *visit, void *user)
+static void visit_all(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, oracle_visitor *visit,
+                      void *user, int sides)
 {
-    grid g = {o, surface, 0, 0, 0, 0, 0, 0, {0}, 0, visit, user, 0};
+    grid g = {o, surface, 0, 0, 0, 0, 0, 0, {0}, 0, visit, user, sides, 0};
     stretch(&g, wi);
     make_edges(&g);
-    double end = g.c > 0 ? PI : PI / 2, from = 0, turn = -g.c / (g.s * o->breaks[0]); /* there the cut meets the break */
+    double end = g.c > 0 ? PI : PI / 2, from = 0, turn = -g.c / (g.s * o->breaks[0]);
+        /* there the cut meets the break */
     double edge[3] = {PI / 2, fabs(turn) < 1 ? acos(turn) : end, end};
     if (edge[1] < edge[0]) {
         edge[0] = edge[1];
@@ -134,9 +146,14 @@ void oracle_visit(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, or
     }
 }
 
+void oracle_visit(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, oracle_visitor *visit, void *user)
+{
+    visit_all(o, surface, wi, visit, user, 2);
+}
+
 double oracle_surface_area(const oracle *o, const vndf_surface *surface, vndf_vec3 wi)
 {
-    grid g = {o, surface, 0, 0, 0, 0, 0, 0, {0}, 0, NULL, NULL, 0};
+    grid g = {o, surface, 0, 0, 0, 0, 0, 0, {0}, 0, NULL, NULL, 1, 0};
     stretch(&g, wi);
     return g.area;
 }
@@ -170,7 +187,7 @@ oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_
     survey v = {vndf_view_from(surface, wi), {0, 0, 0, 0}};
     double area = oracle_surface_area(o, surface, wi);
     v.finding.area_error = fabs((double)vndf_projected_area(surface, wi) / area - 1);
-    oracle_visit(o, surface, wi, measure, &v);
+    visit_all(o, surface, wi, measure, &v, 1); /* pdf and truth are even in the azimuth */
     return v.finding;
 }
 

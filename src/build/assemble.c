@@ -8,7 +8,7 @@
  * by a part of it, and by no more than what is promised of a default table. */
 static double area_error(const vndf_plan *plan, double error)
 {
-    double most = plan->max_bytes < 8192 ? 1.0 : 6e-7;
+    double most = plan->max_bytes < 8192 ? 1.0 : 1e-6;
     return fmin(fmax(error / 60, 2e-7), most);
 }
 

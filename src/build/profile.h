@@ -25,8 +25,8 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
-/* Below the horizon an error counts by this power of the area that is seen: a tenth where 1e-8 of it is left. */
-#define VNDF_FADE 0.125
+/* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 of it is left. */
+#define VNDF_FADE 0.05
 
 typedef struct vndf_profile {
     const vndf_source *source;
