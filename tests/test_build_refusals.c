@@ -1,0 +1,94 @@
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not. */
+#include "test.h"
+#include "vndf_build.h"
+
+typedef struct refusal {
+    const char *slope, *reason;
+} refusal;
+
+static const refusal refusals[] = {
+    {"1-r", "negative"},                        /* negative beyond slope 1 */
+    {"exp(-r)-0.001", "negative"},
+    {"exp(-r)*sqrt(3-r)", "not a number"},
+    {"exp(-r)/abs(r-1)", "infinite at slope 1"},
+    {"0", "zero"},
+    {"step(-1-r)", "zero"},
+    {"1", "infinite projected area"},
+    {"1/(1+r^3)", "infinite projected area"},   /* r^-3: the first moment diverges like a logarithm */
+    {"(1+r*r)^-1", "infinite projected area"},
+    {"r^-2*exp(-r)", "at the pole"},
+    {"r^-3*exp(-r)", "at the pole"},
+    {"(1+r*r)^-1.55", "tail"},                  /* integrable, but in slopes that no float normal has */
+    {"r^-1.9*exp(-r)", "below slope 1e-30"},    /* the same at the pole */
+};
+
+static const char *const accepted[] = {
+    "r^-1.7*exp(-r)", "(1+r*r)^-1.65", "step(1-r)", "exp(-((r-1)/0.02)^2)", "step(r-1)*exp(-r)",
+        "exp(-r*r)+1e4*exp(-1e4*r*r)",
+    "1e-30*exp(-r*r)", "1e30*exp(-r*r)",
+};
+
+static vndf_distribution *build(const char *slope, vndf_error *error)
+{
+    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
+    vndf_build_options options = {4096, 0, NULL, NULL};
+    vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
+    vndf_source_free(source);
+    return table;
+}
+
+static void test_refusals(void)
+{
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        vndf_distribution *table = build(refusals[i].slope, &error);
+        if (!(TEST(!table) & TEST(error.status == VNDF_ERROR_DISTRIBUTION) &
+              TEST_HAS(error.message, refusals[i].reason)))
+            fprintf(stderr, "  %s: %s\n", refusals[i].slope, error.message);
+        vndf_free(table);
+    }
+}
+
+static void test_accepted(void)
+{
+    for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        vndf_distribution *table = build(accepted[i], &error);
+        if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
+            fprintf(stderr, "  %s: %s\n", accepted[i], error.message);
+        vndf_free(table);
+    }
+}
+
+static double bad_callback(double r, void *user)
+{
+    const double *value = user;
+    return r < 2 ? exp(-r * r) : *value;
+}
+
+/* The place is named: the slope of the first bad value. */
+static void test_where(void)
+{
+    const double values[] = {-1, NAN, INFINITY};
+    const char *const words[] = {"negative", "not a number", "infinite"};
+    for (int i = 0; i < 3; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        double value = values[i];
+        vndf_source *source = vndf_source_slope_callback(bad_callback, &value, "bad", &error);
+        TEST(source && !vndf_build(source, NULL, NULL, &error));
+        TEST(error.status == VNDF_ERROR_DISTRIBUTION);
+        TEST_HAS(error.message, words[i]);
+        const char *at = strstr(error.message, "slope ");
+        double slope = 0;
+        TEST(at && sscanf(at, "slope %lf", &slope) == 1 && slope >= 2 && slope < 2.2);
+        vndf_source_free(source);
+    }
+}
+
+int main(void)
+{
+    test_refusals();
+    test_accepted();
+    test_where();
+    return test_done();
+}
