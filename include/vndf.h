@@ -182,7 +182,8 @@ VNDF_API float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm);
 /* P22 at the slope (x, y), per unit of slope area. */
 VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
 
-/* A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere; in [0, inf). */
+/* A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere; in [0, inf). Far below the horizon
+ * it may underflow to 0 although the view is valid and vndf_sample and vndf_pdf are right there. */
 VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
 
 /* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). Infinity is

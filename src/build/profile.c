@@ -256,14 +256,21 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-static double median(const vndf_profile *profile)
+static double median(vndf_profile *profile)
 {
     size_t i = 0;
     while (i + 1 < profile->count && profile->panel[i + 1].f0 < profile->f0 / 2)
         i++;
     const vndf_panel *p = &profile->panel[i];
-    double part = p->m0 > 0.0 ? (profile->f0 / 2 - p->f0) / p->m0 : 0.5;
-    return p->r + part * (p[1].r - p->r);
+    double u0 = log(p->r), low = u0, high = log(p[1].r);
+    for (int step = 0; step < 30; step++) {
+        double middle = (low + high) / 2;
+        if (p->f0 + rule(profile, u0, middle).m0 < profile->f0 / 2)
+            low = middle;
+        else
+            high = middle;
+    }
+    return exp(low);
 }
 
 static vndf_status measure(vndf_profile *profile, vndf_error *error)
@@ -290,8 +297,9 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
         double mass = 2 * 3.14159265358979323846 * profile->f0;
         if (pass > 0 && fabs(mass - 1.0) < 1e-7)
             return fill_points(profile) ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+        double middle = median(profile);
         profile->normalization /= mass;
-        profile->scale *= median(profile);
+        profile->scale *= middle;
         profile->floor = FLOOR;
         if (!(profile->scale > 1e-17 && profile->scale < 1e17))
             return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);

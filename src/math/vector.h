@@ -14,6 +14,12 @@ VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* a . b where it may cancel: whether a normal faces a direction, and by how much. */
+VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
+{
+    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+}
+
 VNDF_INLINE vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
 {
     vndf_vec3 r = {v.x * factor, v.y * factor, v.z * factor};

@@ -5,14 +5,15 @@
  *
  *     GGX: D = a^3/(pi Q^2),    Beckmann: D = a^3 r^2 exp(-R^2)/pi,  R^2 = r Q - 1 the squared slope length.
  *
- * Beckmann below the horizon: D and the area both hold exp(-K^2), K = c/s, and both underflow. What is left of R^2 is
- * y^2 + d (d - 2 K) (beckmann.c), of one sign; with (p, q) = (alpha_x wi.x, alpha_y wi.y) and f = wi . wm
+ * Beckmann below the horizon: D and the area both hold exp(-K^2), K = c/s, and both underflow. What is left of
+ * R^2 is y^2 + d (d - 2 K) (beckmann.c), of one sign; with (p, q) = (alpha_x wi.x, alpha_y wi.y) and f = wi . wm
  *
  *     R^2 - K^2 = r/(p^2 + q^2) ((alpha_x p wm.y - alpha_y q wm.x)^2 + a^2 f (f - 2 wi.z wm.z)),
  *     A1 exp(K^2) = s N/(N + |K|)/(2 sqrt(pi))          (N: math/erfc_remainder.h)
  *
- * from wi itself, since the left side is a difference of numbers of the size of K^2. Dv falls by exp(-1) over
- * some 1/(2 K^2) of a radian there: it is the density of wm as it was rounded, 0 a few hundred such lengths off. */
+ * from wi itself, since the left side is a difference of numbers of the size of K^2. Dv falls by exp(-1) where the
+ * slope moves by 1/(2 K^2) of itself: it is the density of wm as it was rounded, and where that is a hundred such
+ * steps (|K| above some 3e4) it may be 0. */
 #ifndef VNDF_SAMPLER_CLOSED_H
 #define VNDF_SAMPLER_CLOSED_H
 
@@ -35,7 +36,7 @@ VNDF_INLINE vndf_normal vndf_normal_of(vndf_vec3 wm)
     return n;
 }
 
-/* wm taken back to the unit problem, in the turned frame, as if cos_phi^2 + sin_phi^2 were 1: not of unit length. */
+/* wm taken back to the unit problem, in the turned frame, as if cos_phi^2 + sin_phi^2 were 1: not unit. */
 VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_view *view, vndf_vec3 wm)
 {
     double a = view->cos_phi, b = view->sin_phi, per = 1.0 / (a * a + b * b);
@@ -67,7 +68,7 @@ VNDF_INLINE double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_normal wm)
     return vndf_inverse_pi * (a * a * a) / (q * q);
 }
 
-/* Where facing = wi . wm > 0; relative error below 5e-7, that of the view, at every angle. 0 where s underflowed. */
+/* Where facing = wi . wm > 0; relative error below 1e-6, that of the view, at every angle. 0 where s is 0. */
 VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double s = view->s, c = view->c;
@@ -106,7 +107,7 @@ VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm
     return vndf_beckmann_scaled(a, r, (across * across + along) / (p * p + q * q) * r);
 }
 
-/* Where facing = wi . wm > 0; relative error below 5e-7, that of the view, at every angle. 0 where s underflowed. */
+/* Where facing = wi . wm > 0; relative error below 1e-6, that of the view, at every angle. 0 where s is 0. */
 VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double weight = facing * view->per_length, s = view->s;

@@ -27,12 +27,17 @@ float vndf_unit_area(const vndf_distribution *d, float s, float c)
     return below + (c > 0.0f ? c : 0.0f); /* A(w) = cos + A(-w) */
 }
 
-/* W = (direction . normal) of the unit problem for the unit normal wm, where `scale` brings its image there to
- * X + Z = 1. It comes from wm as it was rounded, so that sample and pdf agree up to the very cut. */
-VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, float scale)
+/* W = (direction . normal) of the unit problem for the unit normal wm and its image n, where `scale` brings n to
+ * X + Z = 1. It comes from wm as it was rounded, so that sample and pdf agree up to the very cut, and from the
+ * direction that the masses of the view were made for; where that leaves nothing, from wi. */
+VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, vndf_vec3 n, float scale)
 {
-    double dot = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y + (double)view->wi.z * wm.z; /* near the cut it cancels */
-    return dot > 0.0 ? (float)dot * scale * view->per_length : 0.0f;
+    double w = (double)view->s * n.x + (double)view->c * n.z;
+    if (!(w > 0.0)) {
+        double dot = vndf_exact_dot(view->wi, wm);
+        return dot > 0.0 ? (float)dot * scale * view->per_length : 0.0f;
+    }
+    return (float)w * scale;
 }
 
 /* Per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
@@ -57,8 +62,10 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
         float rest = (target - view->front) / view->wedge;
         at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
         at.c = -at.c;
-    } else
+    } else {
         at = vndf_azimuth_draw(&row, half);
+        at.c = at.c > 1e-7f * at.n ? at.c : 1e-7f * at.n; /* at a right angle from wi nothing is visible */
+    }
     at.density *= view->wedge;
     return at;
 }
@@ -79,12 +86,12 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     z = z > 0.0f ? z : 0.0f;
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length, across = x * per; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {across * level.x, across * level.y, z * per};
-    float w = weight(view, wm, length);
+    float w = weight(view, wm, vndf_to_unit(view, wm), length);
     if (!(w > 0.0f))
         wm = vndf_turn_to_face(view, wm);
     if (!pdf)
         return wm;
-    if (!(w > 0.0f) || view->c < 0.0f || vndf_radial_is_steep(&law, &r.piece, j))
+    if (!(w > 0.0f) || view->c < (a.c < 0.05f * a.n ? 0.1f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at))
         *pdf = vndf_pdf(view, wm); /* rounding of the normal would show */
     else
         *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
@@ -149,7 +156,7 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     vndf_vec3 n = vndf_to_unit(view, wm);
     float scale = 1.0f / (vndf_length2(n.x, n.y) + n.z);
-    return per_steradian(view, vndf_engine_density(view, n, weight(view, wm, scale)), scale);
+    return per_steradian(view, vndf_engine_density(view, n, weight(view, wm, n, scale)), scale);
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */

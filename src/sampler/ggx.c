@@ -8,9 +8,9 @@ float vndf_ggx_area(float s, float c)
     return c < 0.0f ? 0.5f * s * (s / (1.0f - c)) : 0.5f * (1.0f + c);
 }
 
-/* The sum, with the factor of S and C, is mu wm with mu = 2 (w . wm)/C; then T and phi are polar coordinates of its first two
- * components about (S, 0), and the third is v C. u2 = T^2/(S^2 + v C^2) keeps the digits of a small u2, and 1 - v
- * those of a small 1 - u2, where one step of 2^-24 moves the normals of the far tail by 1e-3 and more. */
+/* The sum, with the factor of S and C, is mu wm with mu = 2 (w . wm)/C; then T and phi are polar coordinates of
+ * its first two components about (S, 0), and the third is v C. u2 = T^2/(S^2 + v C^2) keeps the digits of a small
+ * u2, and 1 - v those of a small 1 - u2, where one step of 2^-24 moves the normals of the far tail by 1e-4. */
 void vndf_ggx_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
     vndf_half_angle h = vndf_half_angle_of(s, c);

@@ -1,10 +1,10 @@
-/* GGX (Trowbridge-Reitz) in the unit problem, by spherical caps (Dupuy & Benyoub, "Sampling Visible GGX Normals with
- * Spherical Caps", HPG 2023) in half angles. Densities: closed.h.
+/* GGX (Trowbridge-Reitz) in the unit problem, by spherical caps (Dupuy & Benyoub, "Sampling Visible GGX Normals
+ * with Spherical Caps", HPG 2023) in half angles. Densities: closed.h.
  *
  * The unit problem is what remains of any roughness and direction after the stretch and the rotation about z
- * (design: w = (alpha_x wi.x, alpha_y wi.y, wi.z) / length): roughness 1, incident direction (s, 0, c), s >= 0. s and c
- * are sine and cosine within rounding, c of either sign; each must carry its own relative precision, which is where
- * the precision near c = 0 and c = -1 comes from. Uniform numbers lie in [0, 1].
+ * (design: w = (alpha_x wi.x, alpha_y wi.y, wi.z) / length): roughness 1, incident direction (s, 0, c), s >= 0.
+ * s and c are sine and cosine within rounding, c of either sign; each must carry its own relative precision,
+ * which is where the precision near c = 0 and c = -1 comes from. Uniform numbers lie in [0, 1].
  *
  * At roughness 1 D is the constant 1/pi, and a visible normal bisects w = (s, 0, c) and a direction that is
  * uniform on the cap z >= -c: with v = 1 - u2 the cap direction has height z = v (1 + c) - c, azimuth phi,
@@ -36,16 +36,16 @@ void vndf_ggx_invert(float s, float c, vndf_normal n, float *u1, float *u2);
 
 /* At v = 0 and phi = -pi the sum is (0, 0, 0): a corner of the unit square where the normal turns by a finite
  * angle. A v that is never quite 0 (far below 2^-24, the least that a float u2 < 1 gives) picks the limit. */
-static const double vndf_ggx_least_v = 1e-9;
+static const double vndf_ggx_least_v = 1e-15;
 
 typedef struct vndf_half_angle {
     double sine, cosine;
 } vndf_half_angle;
 
-/* sin and cos of theta/2 times sqrt(2) 2^30: the larger by the sum, the smaller by s, so that both keep their digits. The
- * factor is in T and the sum too, where it keeps v C from being a denormal float; otherwise it does not matter.
- * In double, as all from here to the normal: near a corner of the square below the horizon, u1 = 0 or 1 and u2 = 1,
- * roundings of float would come to a dozen steps of u2. */
+/* sin and cos of theta/2 times sqrt(2) 2^30: the larger by the sum, the smaller by s, so that both keep their
+ * digits. The factor is in T and the sum too, where it keeps v C from being a denormal float; otherwise it does not
+ * matter. In double, as all from here to the normal: near a corner of the square below the horizon, u1 = 0 or 1 and
+ * u2 = 1, roundings of float would come to a dozen steps of u2. */
 VNDF_INLINE vndf_half_angle vndf_half_angle_of(float s, float c)
 {
     double root = sqrt(0x1p60 + 0x1p60 * fabsf(c)), other = 0x1p60 * s / root;
@@ -53,7 +53,7 @@ VNDF_INLINE vndf_half_angle vndf_half_angle_of(float s, float c)
     return h;
 }
 
-/* A visible normal, its length from 1/2 to 4e9: z >= 0, s x + c z >= 0. u2 lowers and u1 turns, once about z from
+/* A visible normal, its length from 5e-7 to 4e9: z >= 0, s x + c z >= 0. u2 lowers and u1 turns, once about z from
  * azimuth -pi to pi, the direction that mirrors (s, 0, c) in the normal; the map is continuous, and u1 = 0 and 1
  * coincide. */
 VNDF_INLINE vndf_vec3 vndf_ggx_sample(float s, float c, float u1, float u2)

@@ -232,13 +232,13 @@ VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_rad
     return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
 }
 
-/* Whether the density changes by more than a factor e^8 per e-fold of the slope, so that a normal and its rounded
- * self differ in density by more than a millionth. */
-VNDF_INLINE int vndf_radial_is_steep(const vndf_radial_law *law, const vndf_radial_piece *piece, uint32_t j)
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
+ * changes by more than a factor e^16 per e-fold of the slope, and beside a knot, which may be a jump of D. */
+VNDF_INLINE int vndf_radial_is_delicate(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at)
 {
     const vndf_knots *k = &law->table->knots;
-    float change = fabsf(piece->cell.e1 - piece->cell.e0) * k->x[j + 1] * k->z[j];
-    return change > 8.0f * piece->cell.mass * law->table->cells[j].width;
+    float change = fabsf(piece->cell.e1 - piece->cell.e0) * k->x[at.cell + 1] * k->z[at.cell];
+    return change > 16.0f * piece->cell.mass * law->table->cells[at.cell].width || at.xi > 0.999f || at.xi < 0.001f;
 }
 
 /* A drawn place, its piece and where that stands. */
@@ -263,7 +263,7 @@ VNDF_INLINE vndf_radial_draw_result vndf_radial_draw(const vndf_radial_law *law,
     if (r.piece.weighted)
         xi = r.piece.begin + r.piece.length * vndf_weighted_xi(r.piece.w0, r.piece.w1, xi);
     r.at.cell = j;
-    r.at.xi = xi < 1.0f ? xi : 1.0f;
+    r.at.xi = xi < 1.0f && law->total > 0.0f ? xi : 1.0f; /* where nothing is visible the horizon stands for it */
     return r;
 }
 

@@ -29,8 +29,8 @@ float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
     float ax, ay;
-    if (!vndf_surface_scaled(surface, &ax, &ay) || !(wm.z >= 0.0f) || !(vndf_max_abs(wm) > 0.0f) || !(vndf_max_abs(wm) < HUGE_VALF))
-        return 0.0f;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !(wm.z >= 0.0f) || !(vndf_dot(wm, wm) > 0.0f) || !(vndf_dot(wm, wm) < HUGE_VALF))
+        return 0.0f; /* also for NaN */
     return vndf_ndf_scaled(surface->distribution, ax, ay, wm);
 }
 

@@ -111,7 +111,7 @@ float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
         return visible_closed(view, wm);
-    if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_dot(view->wi, wm) > 0.0f))
+    if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
         return 0.0f;
     return vndf_engine_pdf(view, wm);
 }
@@ -135,7 +135,7 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
     if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
         return visible_closed(view, wm);
-    float facing_cos = view->distribution ? vndf_dot(view->wi, wm) : 0.0f;
+    float facing_cos = view->distribution ? (float)vndf_exact_dot(view->wi, wm) : 0.0f;
     if (!(wm.z >= 0.0f) || !(facing_cos > 0.0f) || !(view->area > 0.0f))
         return 0.0f;
     return vndf_finite(vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos * view->per_length) / view->area);
