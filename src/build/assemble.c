@@ -55,7 +55,7 @@ static int refine_area(vndf_refinement *area, vndf_wedge_fit *fit, size_t limit,
 /* Cells of an azimuth row: at most a few per cent of the bytes each. */
 static uint32_t most_cells_for(size_t max_bytes)
 {
-    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 48;
+    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 32;
 }
 
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options)
@@ -115,7 +115,7 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     size.above_cells = plan->above_fit.cells;
     size.below_cells = plan->below_fit.cells;
     size.above_rows = (uint32_t)plan->above_rows.start + needed(&plan->above_rows, error);
-    size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, 2 * error);
+    size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, error);
     size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(plan, error));
     size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(plan, error));
     return size;

@@ -87,11 +87,12 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length, across = x * per; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {across * level.x, across * level.y, z * per};
     float w = weight(view, wm, vndf_to_unit(view, wm), length);
-    if (!(w > 0.0f))
+    int facing = w > 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
+    if (!facing)
         wm = vndf_turn_to_face(view, wm);
     if (!pdf)
         return wm;
-    if (!(w > 0.0f) || view->c < (a.c < 0.05f * a.n ? 0.1f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at))
+    if (!facing || view->c < (a.c < 0.05f * a.n ? 0.1f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at))
         *pdf = vndf_pdf(view, wm); /* rounding of the normal would show */
     else
         *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
