@@ -54,7 +54,7 @@ static int is_density(float pdf)
 /* Inside the unit square, by a step of what renderers draw, where there is something to see. */
 static int must_be_positive(float u1, float u2, float area, float facing)
 {
-    return area > 1e-28f && facing > 1e-30f && u1 >= 0x1p-24f && u1 < 1 && u2 >= 0x1p-24f && u2 < 1;
+    return area > 1e-20f && facing > 1e-30f && u1 >= 0x1p-24f && u1 < 1 && u2 >= 0x1p-24f && u2 < 1;
 }
 
 static void test_one(tally *t, const vndf_surface *surface, const vndf_view *view, vndf_vec3 wi, float u1, float u2)
