@@ -249,9 +249,9 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "infinite projected area: P22 falls as r^%.4g for large r, must fall faster than r^-3 "
                          "(D slower than 1/cos(theta_m) towards 90 degrees)", 0.0 - tail);
-    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > 1e-3 * profile->f1)
+    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > 2e-3 * profile->f1)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.1%% of the projected area at grazing "
+                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area at grazing "
                          "incidence lies beyond slope 1e30, where no single-precision normal can lie", tail);
     return VNDF_OK;
 }
