@@ -72,7 +72,7 @@ static void test_one(tally *t, const vndf_surface *surface, const vndf_view *vie
     double off = pdf > 0 ? fabs((double)again / pdf - 1) : 0;
     int blind = !(area > 1e-28f); /* all that is left is the floor of the table */
     int good = TEST(is_density(pdf) && is_density(again)) & TEST(blind ? wm.z >= 0 : is_normal(wi, wm)) &
-               TEST(pdf > 0 || !must_be_positive(u1, u2, area, dot(wi, wm))) & TEST(blind || off <= 1e-5 || is_known(t->name, u1));
+               TEST(pdf > 0 || wm.z < 1e-20f || !must_be_positive(u1, u2, area, dot(wi, wm))) & TEST(blind || off <= 1e-5 || is_known(t->name, u1));
     t->samples++;
     t->blind += blind ? 1 : 0;
     t->worst_pdf = blind ? t->worst_pdf : fmax(t->worst_pdf, off);
