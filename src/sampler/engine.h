@@ -22,10 +22,10 @@
  * math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
  * density is known whatever the size of the table, only its distance to (1) shrinks with it.
  *
- * Why this and not the other orders (measured, see the closing notes in the history): slope x first, then y
- * given x needs a 2D table of D itself, in which rings and jumps never converge well; radius first needs a
- * kernel of two variables (angle and radius) approximated by sums of powers, which stops at 1e-4 above the
- * horizon and has no relative precision below it. */
+ * Why this and not the other orders, both measured on prototypes of 16 KiB: slope x first, then y given x, needs a
+ * 2D table of D itself and leaves a total variation of 5e-2 on a ring and 1e-1 on a disc; radius first needs
+ * a kernel of angle and radius approximated by sums of powers, which stops at 1e-3 below the horizon, whatever
+ * the size, and takes twice the time. */
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 

@@ -49,22 +49,16 @@ float vndf_p22(const vndf_surface *surface, float x, float y)
     return vndf_finite(vndf_engine_p22_over_z4(d, r < HUGE_VALF ? r * z : 1.0f, z) * (z * z) * (z * z) / ax / ay);
 }
 
-/* The stretched direction of a surface: length 0 if anything is invalid. */
-static vndf_view stretched(const vndf_surface *surface, vndf_vec3 w)
-{
-    return vndf_view_from(surface, w);
-}
-
 float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_view view = stretched(surface, w);
+    vndf_view view = vndf_view_from(surface, w);
     return view.distribution ? vndf_unit_area(view.distribution, view.s, view.c) / view.per_length : 0.0f;
 }
 
 /* Lambda(w) = A(-w)/cos(theta) above the horizon, without a difference; -1 - Lambda(-w) below. */
 float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_view view = stretched(surface, w);
+    vndf_view view = vndf_view_from(surface, w);
     if (!view.distribution)
         return 0.0f;
     float up = fabsf(view.c), lambda = vndf_unit_area(view.distribution, view.s, -up) / up;
@@ -74,7 +68,7 @@ float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_view view = stretched(surface, w);
+    vndf_view view = vndf_view_from(surface, w);
     float g1 = view.distribution && view.c > 0.0f ? view.c / vndf_unit_area(view.distribution, view.s, view.c) : 0.0f;
     return g1 < 1.0f ? g1 : 1.0f;
 }
