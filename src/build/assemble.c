@@ -42,7 +42,7 @@ static int refine_radial(vndf_plan *plan, size_t limit)
 
 static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
 {
-    static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    static const double start[] = {0.0, 0.5, 1.0};
     return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_row_error, fit);
 }
 
@@ -114,8 +114,8 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     size.radial = (uint32_t)plan->radial.start - 1 + needed(&plan->radial, error);
     size.above_cells = plan->above_fit.cells;
     size.below_cells = plan->below_fit.cells;
-    size.above_rows = (uint32_t)plan->above_rows.start + needed(&plan->above_rows, error);
-    size.below_rows = (uint32_t)plan->below_rows.start + needed(&plan->below_rows, error);
+    size.above_rows = 2 * ((uint32_t)plan->above_rows.start + needed(&plan->above_rows, error)) - 1;
+    size.below_rows = 2 * ((uint32_t)plan->below_rows.start + needed(&plan->below_rows, error)) - 1;
     size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(plan, error));
     size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(plan, error));
     return size;
@@ -137,20 +137,33 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
     table->knots.z[n] = a.z;
 }
 
+static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
+{
+    wedge->aspect_p[i] = (float)row->p;
+    wedge->aspect_r[i] = (float)row->r;
+    memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, cells * sizeof *row->mass);
+    memcpy(wedge->density + (size_t)i * (cells + 1), row->density, (cells + 1) * sizeof *row->density);
+}
+
 static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
 {
-    vndf_refinement_knots(rows, wedge->row_count - rows->start, knots);
+    uint32_t count = vndf_row_knots(wedge->row_count);
+    vndf_refinement_knots(rows, count - rows->start, knots);
     memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
-    for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
-        if (!row)
+    for (uint32_t i = 0; i < count; i++) {
+        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]), *next = i + 1 < count ? vndf_wedge_fit_row(fit, knots[i + 1]) : row;
+        vndf_row middle;
+        if (!row || !next)
             return 0;
         wedge->row_y[i] = (float)row->y;
-        wedge->aspect_p[i] = !fit->below && i == 0 ? 0.0f : (float)row->p;
-        wedge->aspect_r[i] = (float)row->r;
-        memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, fit->cells * sizeof *row->mass);
-        memcpy(wedge->density + (size_t)i * (fit->cells + 1), row->density, (fit->cells + 1) * sizeof *row->density);
+        put_row(wedge, 2 * i, row, fit->cells);
+        if (i + 1 < count) {
+            vndf_wedge_fit_middle(fit, row, next, &middle);
+            put_row(wedge, 2 * i + 1, &middle, fit->cells);
+        }
     }
+    if (!fit->below) /* at the horizon the wedge has no width */
+        wedge->aspect_p[0] = 0.0f;
     return 1;
 }
 

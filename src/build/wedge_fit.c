@@ -28,7 +28,7 @@ typedef struct direction {
 
 static direction direction_at(const vndf_wedge_fit *fit, double y)
 {
-    double at = y > 1e-9 ? y : 1e-9, up = fit->below ? 1 - at : at, across = fit->below ? at : 1 - at;
+    double at = y > 1e-6 ? y : 1e-6, up = fit->below ? 1 - at : at, across = fit->below ? at : 1 - at;
     direction d = {across, up, across > 0 ? up / across : HUGE_VAL};
     return d;
 }
@@ -83,6 +83,13 @@ static void fill_row(const vndf_wedge_fit *fit, vndf_row *row)
         if (j < fit->cells)
             row->mass[j] = (float)((1 - UNIFORM) * mass[j] / total + UNIFORM / fit->cells);
     }
+}
+
+static void set_aspect(const vndf_wedge_fit *fit, vndf_row *row)
+{
+    double t = median_tangent(fit, direction_at(fit, row->y)), n = sqrt(1 + t * t);
+    row->p = (float)(1 / n);
+    row->r = (float)(t / n);
 }
 
 /* ---- cells of q ---- */
@@ -192,14 +199,40 @@ const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
     entry *e = calloc(1, sizeof *e);
     if (!e)
         return NULL;
-    double t = median_tangent(fit, direction_at(fit, y)), n = sqrt(1 + t * t);
     e->row.y = y;
-    e->row.p = (float)(1 / n);
-    e->row.r = (float)(t / n);
+    set_aspect(fit, &e->row);
     fill_row(fit, &e->row);
     e->next = *bucket;
     *bucket = e;
     return &e->row;
+}
+
+/* The middle control point of a quadratic Bezier curve from a to b that passes through `halfway`, kept positive. */
+static double control(double a, double halfway, double b, double least)
+{
+    return fmax(2 * halfway - (a + b) / 2, least);
+}
+
+void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, vndf_row *middle)
+{
+    vndf_row truth;
+    double total = 0.0;
+    middle->y = truth.y = a->y + (b->y - a->y) / 2;
+    set_aspect(fit, &truth);
+    middle->p = (float)control(a->p, truth.p, b->p, truth.p / 8);
+    middle->r = (float)control(a->r, truth.r, b->r, truth.r / 8);
+    truth.p = (a->p + 2 * middle->p + b->p) / 4;
+    truth.r = (a->r + 2 * middle->r + b->r) / 4;
+    fill_row(fit, &truth);
+    for (uint32_t j = 0; j < fit->cells; j++) {
+        middle->mass[j] = (float)control(a->mass[j], truth.mass[j], b->mass[j], UNIFORM / fit->cells);
+        total += middle->mass[j];
+    }
+    for (uint32_t j = 0; j <= fit->cells; j++) {
+        middle->density[j] = (float)(control(a->density[j], truth.density[j], b->density[j], UNIFORM) / total);
+        if (j < fit->cells)
+            middle->mass[j] = (float)(middle->mass[j] / total);
+    }
 }
 
 /* ---- errors ---- */
@@ -213,23 +246,37 @@ static double share(const vndf_wedge_fit *fit, double y)
     return pow(mass / fit->profile->f1, VNDF_FADE);
 }
 
-/* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
- * by the densities at their ends for what masses do not see. What the cells themselves cannot show is not counted, more rows do not mend it. */
-static double row_miss(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, double mix)
+typedef struct rows {
+    const vndf_row *first, *middle, *last;
+} rows;
+
+static double blend(double a, double b, double c, double mix)
 {
+    return (1 - mix) * (1 - mix) * a + 2 * mix * (1 - mix) * b + mix * mix * c;
+}
+
+/* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
+ * by the densities at their ends for what masses do not see. What the cells themselves cannot show is not counted,
+ * more rows do not mend it. */
+static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
+{
+    const vndf_row *a = r.first, *b = r.middle, *c = r.last;
     vndf_row truth;
     double by_mass = 0.0, by_density = 0.0;
-    truth.y = a->y + mix * (b->y - a->y);
-    truth.p = a->p + mix * (b->p - a->p);
-    truth.r = a->r + mix * (b->r - a->r);
+    truth.y = a->y + mix * (c->y - a->y);
+    truth.p = blend(a->p, b->p, c->p, mix);
+    truth.r = blend(a->r, b->r, c->r, mix);
     fill_row(fit, &truth);
     for (uint32_t j = 0; j <= fit->cells; j++) {
         double width = (double)fit->node[j < fit->cells ? j + 1 : j] - fit->node[j ? j - 1 : 0];
-        by_mass += j < fit->cells ? fabs((1 - mix) * a->mass[j] + mix * b->mass[j] - truth.mass[j]) : 0.0;
-        by_density += width / 2 * fabs((1 - mix) * a->density[j] + mix * b->density[j] - truth.density[j]);
+        by_mass += j < fit->cells ? fabs(blend(a->mass[j], b->mass[j], c->mass[j], mix) - truth.mass[j]) : 0.0;
+        by_density += width / 2 * fabs(blend(a->density[j], b->density[j], c->density[j], mix) - truth.density[j]);
     }
     return fmax(by_mass, by_density) / 2;
 }
+
+/* Where a quadratic through both ends and the middle misses most, and a place for what was cut to stay positive. */
+static const double PROBES[] = {0.22, 0.6, 0.8};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
 {
@@ -238,9 +285,11 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
     vndf_interval_miss found = {0.0, 0.0};
     if (!first || !second || b - a < 1e-6)
         return found;
-    found.alone = row_miss(fit, first, second, 0.5) * share(fit, (a + b) / 2);
-    if (fit->below) /* where masses fall off towards a, nothing may be left of them halfway */
-        found.alone = fmax(found.alone, row_miss(fit, first, second, 0.85) * share(fit, a + 0.85 * (b - a)));
+    vndf_row middle;
+    vndf_wedge_fit_middle(fit, first, second, &middle);
+    rows three = {first, &middle, second};
+    for (unsigned i = 0; i < sizeof PROBES / sizeof *PROBES; i++)
+        found.alone = fmax(found.alone, row_miss(fit, three, PROBES[i]) * share(fit, a + PROBES[i] * (b - a)));
     return found;
 }
 

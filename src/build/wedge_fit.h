@@ -31,7 +31,10 @@ void vndf_wedge_fit_free(vndf_wedge_fit *fit);
 /* The row at y; NULL if there is no memory. Belongs to the fit. */
 const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y);
 
-/* Total variation of azimuth halfway between the rows at a and b, times the wedge's share of what is seen
+/* The row between two others with which they are mixed as a quadratic Bezier curve: exact halfway. */
+void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, vndf_row *middle);
+
+/* Largest total variation of azimuth between the rows at a and b, times the wedge's share of what is seen
  * there: a vndf_interval_error with a vndf_wedge_fit. */
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *fit);
 

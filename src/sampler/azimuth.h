@@ -1,4 +1,4 @@
-/* Stage 1 of the engine: an azimuth p in [0, pi/2] from a mix of two rows of cells.
+/* Stage 1 of the engine: an azimuth p in [0, pi/2] from a mix of two or three rows of cells.
  *
  * The row's variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
  * the density:  (cos, sin) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
@@ -18,9 +18,10 @@ typedef struct vndf_azimuth_part {
     float weight;
 } vndf_azimuth_part;
 
-/* a.weight a + b.weight b, cell by cell. */
+/* The weighted sum of its parts, cell by cell. */
 typedef struct vndf_azimuth_row {
-    vndf_azimuth_part a, b;
+    vndf_azimuth_part a, b, c;
+    int parts;              /* 2 or 3 */
     const float *q;         /* cells + 1 */
     uint32_t cells, stride;
     float p, r;
@@ -32,20 +33,25 @@ typedef struct vndf_azimuth {
     float c, s, n, density;
 } vndf_azimuth;
 
+VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c, uint32_t j)
+{
+    float two = row->a.weight * a[j] + row->b.weight * b[j];
+    return row->parts == 2 ? two : two + row->c.weight * c[j];
+}
+
 VNDF_INLINE float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
 {
-    return row->a.weight * row->a.cdf[j] + row->b.weight * row->b.cdf[j];
+    return vndf_azimuth_mix(row, row->a.cdf, row->b.cdf, row->c.cdf, j);
 }
 
 /* A cell of the mix, and its width in q. */
 VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j, float *width)
 {
-    const vndf_azimuth_part *a = &row->a, *b = &row->b;
+    const float *a = row->a.density, *b = row->b.density, *c = row->c.density;
     float h = row->q[j + 1] - row->q[j];
     *width = h;
-    return vndf_rational_cell_from((a->weight * a->density[j] + b->weight * b->density[j]) * h,
-                                   (a->weight * a->density[j + 1] + b->weight * b->density[j + 1]) * h,
-                                   a->weight * a->mass[j] + b->weight * b->mass[j]);
+    return vndf_rational_cell_from(vndf_azimuth_mix(row, a, b, c, j) * h, vndf_azimuth_mix(row, a, b, c, j + 1) * h,
+                                   vndf_azimuth_mix(row, row->a.mass, row->b.mass, row->c.mass, j));
 }
 
 /* The azimuth at q, where the mass per unit of q is per_q. */
@@ -62,7 +68,7 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float ta
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < row->stride; i++)
-        count += row->a.weight * row->a.cdf[i] + row->b.weight * row->b.cdf[i] <= target;
+        count += vndf_azimuth_before(row, i) <= target;
     uint32_t j = count > 0 ? count - 1 : 0;
     float width;
     vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);

@@ -14,6 +14,18 @@ typedef struct vndf_wedge_view {
     uint32_t row;
 } vndf_wedge_view;
 
+/* Shares of three neighbouring rows `mix` of the way from the first to the last. */
+typedef struct vndf_row_weights {
+    float first, middle, last;
+} vndf_row_weights;
+
+VNDF_INLINE vndf_row_weights vndf_row_weights_at(float mix)
+{
+    float rest = 1.0f - mix;
+    vndf_row_weights w = {rest * rest, 2.0f * rest * mix, mix * mix};
+    return w;
+}
+
 VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, float c)
 {
     return c >= 0.0f ? &d->above : &d->below;
@@ -39,11 +51,12 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float
     const vndf_wedge *wedge = vndf_wedge_of(d, c);
     float y = c >= 0.0f ? c : s, mass = vndf_wedge_mass(wedge, y);
     float front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
-    uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count, y);
+    uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count / 2 + 1, y);
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
-    vndf_wedge_view view = {2.0f * (front + mass), front, mass, mix,
-                            (1.0f - mix) * wedge->aspect_p[i] + mix * wedge->aspect_p[i + 1],
-                            (1.0f - mix) * wedge->aspect_r[i] + mix * wedge->aspect_r[i + 1], i};
+    vndf_row_weights w = vndf_row_weights_at(mix);
+    const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;
+    vndf_wedge_view view = {2.0f * (front + mass), front, mass, mix, w.first * p[0] + w.middle * p[1] + w.last * p[2],
+                            w.first * r[0] + w.middle * r[1] + w.last * r[2], 2 * i};
     return view;
 }
 
@@ -54,7 +67,7 @@ VNDF_INLINE vndf_azimuth_row vndf_front_row(const vndf_view *view)
     vndf_azimuth_row row = {
         {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
         {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
-        vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f, 1};
+        {NULL, NULL, NULL, 0.0f}, 2, vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f, 1};
     return row;
 }
 
@@ -62,10 +75,12 @@ VNDF_INLINE vndf_azimuth_row vndf_front_row(const vndf_view *view)
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    size_t a = (size_t)view->row * w->stride, b = a + w->stride, end = (size_t)view->row * (w->cell_count + 1);
-    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, 1.0f - view->mix},
-                            {w->cdf + b, w->cell_mass + b, w->density + end + w->cell_count + 1, view->mix},
-                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r, 0};
+    vndf_row_weights share = vndf_row_weights_at(view->mix);
+    size_t cells = w->stride, ends = w->cell_count + 1, a = (size_t)view->row * cells, end = (size_t)view->row * ends;
+    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
+                            {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
+                            {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends, share.last},
+                            3, w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r, 0};
     return row;
 }
 

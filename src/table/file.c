@@ -12,7 +12,7 @@
 #include "table/validate.h"
 
 static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
-enum { VERSION = 1, TEXT_MAX = 16384, FILE_MAX = 1 << 26 };
+enum { VERSION = 2, TEXT_MAX = 16384, FILE_MAX = 1 << 26 };
 
 /* ---- writing ---- */
 
@@ -44,7 +44,7 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 {
     size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     write_array(w, wedge->q, cells + 1, 1);
-    write_array(w, wedge->row_y, rows, 1);
+    write_array(w, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
     write_array(w, wedge->aspect_p, rows, 1);
     write_array(w, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
@@ -129,7 +129,7 @@ static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
 {
     size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     read_array(r, wedge->q, cells + 1, 1);
-    read_array(r, wedge->row_y, rows, 1);
+    read_array(r, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
     read_array(r, wedge->aspect_p, rows, 1);
     read_array(r, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
@@ -163,7 +163,8 @@ static int counts_valid(vndf_table_size s)
 {
     return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.above_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
            within(s.below_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
-           within(s.above_rows, 2, VNDF_WEDGE_ROWS_MAX) && within(s.below_rows, 2, VNDF_WEDGE_ROWS_MAX) &&
+           within(s.above_rows, 3, VNDF_WEDGE_ROWS_MAX) && within(s.below_rows, 3, VNDF_WEDGE_ROWS_MAX) &&
+           s.above_rows % 2 == 1 && s.below_rows % 2 == 1 &&
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
 

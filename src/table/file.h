@@ -1,4 +1,4 @@
-/* The table on disk, version 1. All little-endian; strings without terminator; floats are IEEE single.
+/* The table on disk, version 2. All little-endian; strings without terminator; floats are IEEE single.
  *
  *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
  *     f64 normalization           f64 scale
@@ -6,8 +6,8 @@
  *     7 f32 certificate (order of vndf_certificate)
  *     u32 n, n bytes source       u32 n, n bytes tool
  *     radial  f32 x[n+1], z[n+1], f0[n], f1[n], mu0[n], mu1[n]
- *     wedge above, then below: f32 q[cells+1], row_y[], aspect_p[], aspect_r[], mass[rows][cells],
- *             density[rows][cells+1], knot_y[], mass[], slope[]
+ *     wedge above, then below: f32 q[cells+1], row_y[(rows+1)/2], aspect_p[rows], aspect_r[rows],
+ *             mass[rows][cells], density[rows][cells+1], knot_y[], mass[], slope[]; rows is odd
  *     u32 CRC-32 of all bytes before it
  *
  * A reader checks the size, the checksum, every count against its limit, and every array against what the

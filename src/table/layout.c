@@ -26,8 +26,8 @@ static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
 static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
     uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
-    size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1);
-    float *block = calloc(2 * row_floats + ends + (size_t)3 * rows + (3 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
+    size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
+    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + (3 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
@@ -38,7 +38,7 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
     wedge->row_y = wedge->density + ends;
-    wedge->aspect_p = wedge->row_y + rows;
+    wedge->aspect_p = wedge->row_y + row_knots;
     wedge->aspect_r = wedge->aspect_p + rows;
     wedge->knot_y = wedge->aspect_r + rows;
     wedge->mass = wedge->knot_y + knots;
@@ -228,7 +228,7 @@ static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
     derive_area(wedge);
-    return vndf_guide_make(&wedge->row_guide, wedge->row_y, wedge->row_count) &&
+    return vndf_guide_make(&wedge->row_guide, wedge->row_y, vndf_row_knots(wedge->row_count)) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);
 }
 

@@ -10,6 +10,12 @@ typedef struct vndf_table_size {
     uint32_t below_cells, below_rows, below_knots;
 } vndf_table_size;
 
+/* Knots of `rows` azimuth rows: every second row stands at one. */
+static inline uint32_t vndf_row_knots(uint32_t rows)
+{
+    return rows / 2 + 1;
+}
+
 /* An empty table with room for everything, zeroed; NULL if there is no memory. */
 vndf_distribution *vndf_table_allocate(vndf_table_size size);
 

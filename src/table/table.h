@@ -57,12 +57,15 @@ typedef struct vndf_guide {
 } vndf_guide;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
- * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r), and the wedge's mass divided by
- * (s+|c|) as a cubic Hermite spline on knots of its own. */
+ * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
+ * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
+ * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|) is a
+ * cubic Hermite spline on knots of its own. */
 typedef struct vndf_wedge {
-    uint32_t cell_count, row_count, knot_count;
+    uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     float *q;                            /* cell_count + 1, from 0 to 1 */
-    float *row_y, *aspect_p, *aspect_r;  /* row_count */
+    float *row_y;                        /* (row_count + 1)/2: where rows 0, 2, 4, ... stand */
+    float *aspect_p, *aspect_r;          /* row_count */
     uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_LANES */
     float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
     float *density;                      /* at the ends of the cells, cell_count + 1 to a row */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "table/layout.h"
+
 /* In [least, most]; false for NaN. */
 static int in_range(float value, float least, float most)
 {
@@ -51,10 +53,10 @@ static const char *rows_invalid(const vndf_wedge *wedge)
         }
         if (!(fabs(total - 1.0) < 1e-4))
             return "the masses of an azimuth row do not add up to 1";
-        if (!in_range(wedge->aspect_p[i], i ? 1e-12f : 0.0f, 1.0f) || !in_range(wedge->aspect_r[i], 1e-12f, 1.0f))
+        if (!in_range(wedge->aspect_p[i], i ? 1e-12f : 0.0f, 2.0f) || !in_range(wedge->aspect_r[i], 1e-12f, 2.0f))
             return "the aspect of an azimuth row is out of range";
     }
-    return ascending(wedge->row_y, wedge->row_count) ? NULL : "the azimuth rows do not ascend from 0 to 1";
+    return ascending(wedge->row_y, vndf_row_knots(wedge->row_count)) ? NULL : "the azimuth rows do not ascend from 0 to 1";
 }
 
 /* Knots from 0 to 1, and a cubic between them that stays >= 0. */
