@@ -167,23 +167,35 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
     return 1;
 }
 
-/* Knots whose mass is no normal float are left out; slopes are cut to what keeps the spline positive. */
+/* Knots whose mass is no normal float are left out, but for the first. */
+static uint32_t keep_normal(const vndf_wedge_fit *fit, double *knots, uint32_t count)
+{
+    uint32_t n = 1;
+    for (uint32_t i = 1; i < count; i++)
+        if (vndf_wedge_fit_area(fit, knots[i]).mass >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
+            knots[n++] = knots[i];
+    return n;
+}
+
+static void put_knot(vndf_wedge *wedge, uint32_t i, double y, vndf_area_knot knot)
+{
+    wedge->knot_y[i] = (float)y;
+    wedge->mass[i] = (float)knot.mass;
+    wedge->slope[i] = (float)knot.slope;
+    wedge->curve[i] = (float)knot.curve;
+}
+
 static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf_wedge_fit *fit, double *knots)
 {
-    uint32_t n = 0;
+    vndf_area_knot from, to;
     vndf_refinement_knots(area, wedge->knot_count - area->start, knots);
-    for (uint32_t i = 0; i < wedge->knot_count; i++) {
-        vndf_area_value value = vndf_wedge_fit_area(fit, knots[i]);
-        if (i > 0 && (value.mass < 1e-36 || (float)knots[i] == wedge->knot_y[n - 1]))
-            continue;
-        wedge->knot_y[n] = (float)knots[i];
-        wedge->mass[n] = (float)value.mass;
-        wedge->slope[n] = (float)value.slope;
-        if (n > 0 && wedge->slope[n] * (wedge->knot_y[n] - wedge->knot_y[n - 1]) > 3 * wedge->mass[n])
-            wedge->slope[n] = 2.99999f * wedge->mass[n] / (wedge->knot_y[n] - wedge->knot_y[n - 1]);
-        n++;
+    wedge->knot_count = keep_normal(fit, knots, wedge->knot_count);
+    for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
+        vndf_wedge_fit_area_piece(fit, knots[i], knots[i + 1], &from, &to);
+        if (i == 0)
+            put_knot(wedge, 0, knots[0], from);
+        put_knot(wedge, i + 1, knots[i + 1], to);
     }
-    wedge->knot_count = n;
 }
 
 vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)

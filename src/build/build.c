@@ -25,7 +25,7 @@ static size_t file_bytes(vndf_table_size s, const char *source)
     size_t floats = 7 + 2 * ((size_t)s.radial + 1) + 4 * (size_t)s.radial;
     floats += (size_t)s.above_rows * (2 * s.above_cells + 3) + vndf_row_knots(s.above_rows) + s.above_cells + 1;
     floats += (size_t)s.below_rows * (2 * s.below_cells + 3) + vndf_row_knots(s.below_rows) + s.below_cells + 1;
-    floats += 3 * ((size_t)s.above_knots + s.below_knots);
+    floats += 4 * ((size_t)s.above_knots + s.below_knots);
     return 16 + 16 + 28 + 4 * floats + 8 + strlen(source) + strlen(TOOL) + 4;
 }
 

@@ -59,9 +59,9 @@ double vndf_profile_s(const vndf_profile *profile, double rho);
 
 /* Half of what a direction sees: the area of half a turn. Coordinate y in [0, 1] as in vndf_wedge: above,
  * the part beyond a right angle from wi for (s, c) = (1-y, y); below, all for (y, -(1-y)). With the
- * derivative by y. */
+ * derivatives by y, the second of which may be infinite at the ends; there it is given as 0. */
 typedef struct vndf_area_value {
-    double mass, slope;
+    double mass, slope, curve;
 } vndf_area_value;
 vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y);
 vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y);

@@ -90,23 +90,23 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
     return p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1 + (from > rho ? (p->t0) * (from - rho) : 0.0);
 }
 
-/* Kernels of the two areas by s, and of their derivatives by y (see profile.h), at R > k. */
+/* Kernels of the two areas by s, of their derivatives by y (see profile.h) and of s^3 times the second, at R > k. */
 typedef struct kernel {
-    double mass, slope;
+    double mass, slope, curve;
 } kernel;
 
 static kernel kernel_below(double r, double k)
 {
     double q = r / k, y = sqrt((q - 1.0) * (q + 1.0)), angle = atan(y);
     double beyond = y < 0.05 ? y * y * y * (1.0 / 3 - y * y * (1.0 / 5 - y * y * (1.0 / 7 - y * y / 9))) : y - angle;
-    kernel value = {k * beyond, angle + k * y};
+    kernel value = {k * beyond, angle + k * y, 1.0 / (k * y)};
     return value;
 }
 
 static kernel kernel_above(double r, double k)
 {
     double q = r / k, y = sqrt((q - 1.0) * (q + 1.0)), angle = atan2(1.0, y), rest = 1.0 / (q + y);
-    kernel value = {k * (angle - rest), angle + k * rest};
+    kernel value = {k * (angle - rest), angle + k * rest, 1.0 / (k * y)};
     return value;
 }
 
@@ -114,13 +114,14 @@ static kernel kernel_above(double r, double k)
 static kernel near_panel(const vndf_profile *profile, double k, double from, double to, kernel (*at)(double, double))
 {
     double t0 = sqrt(from - k), dt = sqrt(to - k) - t0;
-    kernel sum = {0.0, 0.0};
+    kernel sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
         double t = t0 + dt * vndf_gauss_node[i], r = k + t * t;
         double w = vndf_gauss_weight[i] * 2 * t * dt * r * vndf_profile_p22(profile, r);
         kernel value = at(r, k);
         sum.mass += w * value.mass;
         sum.slope += w * value.slope;
+        sum.curve += w * value.curve;
     }
     return sum;
 }
@@ -129,13 +130,14 @@ static void add_kernel(kernel *sum, kernel more, double weight)
 {
     sum->mass += weight * more.mass;
     sum->slope += weight * more.slope;
+    sum->curve += weight * more.curve;
 }
 
 /* integral from k outwards. Up to 3 k the root of the kernel is felt, and the panels are integrated anew. */
 static kernel beyond(const vndf_profile *profile, double k, kernel (*at)(double, double))
 {
     size_t i = panel_of(profile, k), count = profile->count;
-    kernel sum = {0.0, 0.0};
+    kernel sum = {0.0, 0.0, 0.0};
     for (; i < count && profile->panel[i].r < 3 * k; i++) {
         double from = profile->panel[i].r > k ? profile->panel[i].r : k;
         if (profile->panel[i + 1].r > from)
@@ -148,7 +150,7 @@ static kernel beyond(const vndf_profile *profile, double k, kernel (*at)(double,
 
 vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y)
 {
-    vndf_area_value value = {0.0, 0.0};
+    vndf_area_value value = {0.0, 0.0, 0.0};
     if (y <= 0.0)
         return value;
     if (y >= 1.0) { /* the horizon: integral of cos a over a quarter is 1 */
@@ -165,12 +167,13 @@ vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y)
     }
     value.mass = y * sum.mass;
     value.slope = sum.slope;
+    value.curve = sum.curve / (y * y * y);
     return value;
 }
 
 vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
 {
-    vndf_area_value value = {0.0, 0.0};
+    vndf_area_value value = {0.0, 0.0, 0.0};
     if (y <= 0.0)
         return value;
     if (y >= 1.0) {
@@ -180,7 +183,7 @@ vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
     }
     double s = 1.0 - y, k = y / s;
     const vndf_panel *p = &profile->panel[panel_of(profile, k)];
-    kernel sum = {0.0, 0.0};
+    kernel sum = {0.0, 0.0, 0.0};
     if (k > p->r && k < profile->panel[profile->count].r) {
         vndf_moments in = part(profile, p->r, k);
         double f0 = p->f0 + in.m0, f1 = p->f1 + in.m1 + p->r * in.m0;
@@ -194,5 +197,6 @@ vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
         sum = beyond(profile, k, kernel_above);
     value.mass = s * sum.mass;
     value.slope = sum.slope;
+    value.curve = sum.curve / (s * s * s);
     return value;
 }

@@ -18,6 +18,7 @@ struct vndf_row_cache {
 };
 
 static const double AREA_LEAST = 1e-12; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
+static const double CURVE_MOST = 1e11; /* of an area: beyond it no knot helps */
 static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
 
 /* ---- the azimuth density ---- */
@@ -298,17 +299,47 @@ vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y)
     return fit->below ? vndf_profile_area_below(fit->profile, y) : vndf_profile_area_above(fit->profile, y);
 }
 
+static vndf_area_knot area_knot(const vndf_wedge_fit *fit, double y)
+{
+    vndf_area_value v = vndf_wedge_fit_area(fit, y);
+    vndf_area_knot knot = {v.mass, v.slope, fmin(v.curve, CURVE_MOST)};
+    return knot;
+}
+
+static double area_at(const double piece[VNDF_AREA_ORDER], double t)
+{
+    double sum = piece[0];
+    for (int i = 1; i < VNDF_AREA_ORDER; i++)
+        sum = sum * (1 - t) + piece[i] * pow(t, i);
+    return sum;
+}
+
+/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for it. */
+void vndf_wedge_fit_area_piece(const vndf_wedge_fit *fit, double a, double b, vndf_area_knot *from, vndf_area_knot *to)
+{
+    *from = area_knot(fit, a);
+    *to = area_knot(fit, b);
+    vndf_area_knot *free_end = a <= 0 ? from : b >= 1 ? to : NULL;
+    if (!free_end)
+        return;
+    double h = b - a, piece[VNDF_AREA_ORDER];
+    free_end->curve = 0.0;
+    vndf_area_piece(h, *from, *to, piece);
+    double missing = 32 * (vndf_wedge_fit_area(fit, a + h / 2).mass - area_at(piece, 0.5));
+    free_end->curve = fmin(fmax(missing * 2 / (h * h), 0.0), CURVE_MOST);
+}
+
 vndf_interval_miss vndf_wedge_area_error(double a, double b, void *user)
 {
+    static const double at[] = {0.2, 0.45, 0.7, 0.85};
     const vndf_wedge_fit *fit = user;
-    vndf_area_value va = vndf_wedge_fit_area(fit, a), vb = vndf_wedge_fit_area(fit, b);
-    double h = b - a, worst = 0.0;
-    for (int i = 1; i <= 3; i++) {
-        double t = i / 4.0, u = 1 - t, y = a + t * h, truth = vndf_wedge_fit_area(fit, y).mass;
-        double b1 = va.mass + h * va.slope / 3, b2 = vb.mass - h * vb.slope / 3;
-        double spline = u * u * (u * va.mass + 3 * t * b1) + t * t * (3 * u * (b2 > 0 ? b2 : 0) + t * vb.mass);
-        double error = fabs(spline - truth) / (fit->below ? truth + AREA_LEAST * fit->profile->f1 : truth / share(fit, y));
-        worst = fmax(worst, error);
+    vndf_area_knot from, to;
+    double h = b - a, worst = 0.0, piece[VNDF_AREA_ORDER];
+    vndf_wedge_fit_area_piece(fit, a, b, &from, &to);
+    vndf_area_piece(h, from, to, piece);
+    for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
+        double y = a + at[i] * h, truth = vndf_wedge_fit_area(fit, y).mass, error = fabs(area_at(piece, at[i]) - truth);
+        worst = fmax(worst, error / (fit->below ? truth + AREA_LEAST * fit->profile->f1 : truth / share(fit, y)));
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
     return found;

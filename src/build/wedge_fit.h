@@ -5,6 +5,7 @@
 
 #include "build/profile.h"
 #include "build/refine.h"
+#include "table/area_piece.h"
 #include "table/table.h"
 
 typedef struct vndf_row_cache vndf_row_cache;
@@ -40,6 +41,9 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *fit);
 
 /* Mass of the wedge per (s + |c|), and its slope. */
 vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y);
+
+/* The ends of the spline's piece from a to b. */
+void vndf_wedge_fit_area_piece(const vndf_wedge_fit *fit, double a, double b, vndf_area_knot *from, vndf_area_knot *to);
 
 /* Relative error of the area, or its share of it above, between knots at a and b: a vndf_interval_error. */
 vndf_interval_miss vndf_wedge_area_error(double a, double b, void *fit);

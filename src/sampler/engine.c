@@ -12,7 +12,7 @@ static float area_below(const vndf_wedge *wedge, double y)
 {
     uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, (float)y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    float t = (float)((y - wedge->knot_y[i]) * b[4]);
+    float t = (float)((y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
     return vndf_wedge_bezier(b, t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f);
 }
 

@@ -6,6 +6,7 @@
 
 #include "sampler/azimuth.h"
 #include "sampler/front.h"
+#include "table/area_piece.h"
 #include "table/guide.h"
 
 /* The members of a view that belong to the engine; vndf.h says what they are. */
@@ -31,10 +32,11 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, float c)
     return c >= 0.0f ? &d->above : &d->below;
 }
 
+/* One piece of the mass at t in [0, 1] (table/area_piece.h). */
 VNDF_INLINE float vndf_wedge_bezier(const float *b, float t)
 {
-    float u = 1.0f - t;
-    return u * u * (u * b[0] + 3.0f * t * b[1]) + t * t * (3.0f * u * b[2] + t * b[3]);
+    float u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
+    return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
 /* Mass of half a wedge at y, per (s + |c|). */
@@ -42,7 +44,7 @@ VNDF_INLINE float vndf_wedge_mass(const vndf_wedge *wedge, float y)
 {
     uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[4]);
+    return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
 }
 
 /* For s + |c| = 1. */

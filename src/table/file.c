@@ -54,6 +54,7 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
     write_array(w, wedge->knot_y, knots, 1);
     write_array(w, wedge->mass, knots, 1);
     write_array(w, wedge->slope, knots, 1);
+    write_array(w, wedge->curve, knots, 1);
 }
 
 static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
@@ -139,6 +140,7 @@ static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
     read_array(r, wedge->knot_y, knots, 1);
     read_array(r, wedge->mass, knots, 1);
     read_array(r, wedge->slope, knots, 1);
+    read_array(r, wedge->curve, knots, 1);
 }
 
 static vndf_table_size read_counts(vndf_reader *r)

@@ -7,12 +7,12 @@
  *     u32 n, n bytes source       u32 n, n bytes tool
  *     radial  f32 x[n+1], z[n+1], f0[n], f1[n], mu0[n], mu1[n]
  *     wedge above, then below: f32 q[cells+1], row_y[(rows+1)/2], aspect_p[rows], aspect_r[rows],
- *             mass[rows][cells], density[rows][cells+1], knot_y[], mass[], slope[]; rows is odd
+ *             mass[rows][cells], density[rows][cells+1], knot_y[], mass[], slope[], curve[]; rows is odd
  *     u32 CRC-32 of all bytes before it
  *
  * A reader checks the size, the checksum, every count against its limit, and every array against what the
- * sampler relies on: ascending knots that begin and end where they must, positive masses, a cubic that
- * stays positive. */
+ * sampler relies on: ascending knots that begin and end where they must, positive masses, cubics that
+ * stay positive. */
 #ifndef VNDF_TABLE_FILE_H
 #define VNDF_TABLE_FILE_H
 

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "table/area_piece.h"
 #include "table/guide.h"
 
 /* The six arrays in one block. */
@@ -27,7 +28,7 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
 {
     uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
-    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + (3 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
+    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + (4 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
@@ -43,7 +44,8 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->knot_y = wedge->aspect_r + rows;
     wedge->mass = wedge->knot_y + knots;
     wedge->slope = wedge->mass + knots;
-    wedge->bezier = wedge->slope + knots;
+    wedge->curve = wedge->slope + knots;
+    wedge->bezier = wedge->curve + knots;
     wedge->q = wedge->bezier + VNDF_BEZIER * (size_t)knots;
     return 1;
 }
@@ -211,16 +213,18 @@ static void derive_rows(vndf_wedge *wedge)
     }
 }
 
-/* The Hermite spline of a wedge's mass as Bezier pieces: no coefficient is below 0, so nothing cancels. */
+/* The spline of a wedge's mass, piece by piece. */
 static void derive_area(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
         float *b = wedge->bezier + (size_t)VNDF_BEZIER * i, h = wedge->knot_y[i + 1] - wedge->knot_y[i];
-        b[0] = wedge->mass[i];
-        b[1] = wedge->mass[i] + h * wedge->slope[i] / 3.0f;
-        b[2] = wedge->mass[i + 1] - h * wedge->slope[i + 1] / 3.0f;
-        b[3] = wedge->mass[i + 1];
-        b[4] = 1.0f / h;
+        vndf_area_knot from = {wedge->mass[i], wedge->slope[i], wedge->curve[i]};
+        vndf_area_knot to = {wedge->mass[i + 1], wedge->slope[i + 1], wedge->curve[i + 1]};
+        double piece[VNDF_AREA_ORDER];
+        vndf_area_piece(h, from, to, piece);
+        for (int n = 0; n < VNDF_AREA_ORDER; n++)
+            b[n] = (float)piece[n];
+        b[VNDF_AREA_ORDER] = 1.0f / h;
     }
 }
 

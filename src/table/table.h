@@ -30,7 +30,7 @@ enum {
     VNDF_STARTS = 64, /* for this many ranges of u */
     VNDF_NO_START = 0xffff,
     VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
-    VNDF_BEZIER = 5
+    VNDF_BEZIER = 8
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -60,7 +60,7 @@ typedef struct vndf_guide {
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
  * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|) is a
- * cubic Hermite spline on knots of its own. */
+ * quintic spline on knots of its own (table/area_piece.h). */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     float *q;                            /* cell_count + 1, from 0 to 1 */
@@ -69,8 +69,8 @@ typedef struct vndf_wedge {
     uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_LANES */
     float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
     float *density;                      /* at the ends of the cells, cell_count + 1 to a row */
-    float *knot_y, *mass, *slope;        /* knot_count */
-    float *bezier;                       /* the spline once more: 4 coefficients and 1/width to a piece */
+    float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
+    float *bezier;                       /* the spline once more: 6 coefficients and 1/width to a piece */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 

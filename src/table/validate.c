@@ -59,18 +59,19 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     return ascending(wedge->row_y, vndf_row_knots(wedge->row_count)) ? NULL : "the azimuth rows do not ascend from 0 to 1";
 }
 
-/* Knots from 0 to 1, and a cubic between them that stays >= 0. */
+/* Knots from 0 to 1, and masses that grow. */
 static const char *area_invalid(const vndf_wedge *wedge)
 {
-    const float *y = wedge->knot_y, *m = wedge->mass, *d = wedge->slope;
-    if (!ascending(y, wedge->knot_count))
+    const float *m = wedge->mass;
+    if (!ascending(wedge->knot_y, wedge->knot_count))
         return "the area knots do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->knot_count; i++)
-        if (!in_range(m[i], 0.0f, 1e6f) || !in_range(d[i], 0.0f, 1e6f) || (m[i] > 0.0f) != (i > 0))
+        if (!in_range(m[i], 0.0f, 1e6f) || !in_range(wedge->slope[i], 0.0f, 1e6f) ||
+            !in_range(wedge->curve[i], 0.0f, 1e12f) || (m[i] > 0.0f) != (i > 0))
             return "a wedge mass is out of range";
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++)
-        if (m[i + 1] < m[i] || m[i + 1] - d[i + 1] * (y[i + 1] - y[i]) / 3.0f < 0.0f)
-            return "the area spline falls below zero";
+        if (m[i + 1] < m[i])
+            return "the wedge masses do not ascend";
     return NULL;
 }
 
