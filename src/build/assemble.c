@@ -99,21 +99,17 @@ void vndf_plan_free(vndf_plan *plan)
 
 /* ---- cutting a table ---- */
 
-/* Points to add until the recorded error is within bounds. */
 static uint32_t needed(const vndf_refinement *r, double error)
 {
-    size_t n = 0;
-    while (n < r->count && r->error[n] > error)
-        n++;
-    return (uint32_t)n;
+    return (uint32_t)vndf_refinement_needed(r, error);
 }
 
 vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
     vndf_table_size size;
     size.radial = (uint32_t)plan->radial.start - 1 + needed(&plan->radial, error);
-    size.above_cells = plan->above_fit.cells;
-    size.below_cells = plan->below_fit.cells;
+    size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
+    size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
     size.above_rows = 2 * ((uint32_t)plan->above_rows.start + needed(&plan->above_rows, error)) - 1;
     size.below_rows = 2 * ((uint32_t)plan->below_rows.start + needed(&plan->below_rows, error)) - 1;
     size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(plan, error));
@@ -148,6 +144,7 @@ static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t
 static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
 {
     uint32_t count = vndf_row_knots(wedge->row_count);
+    vndf_wedge_fit_use(fit, wedge->cell_count);
     vndf_refinement_knots(rows, count - rows->start, knots);
     memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
     for (uint32_t i = 0; i < count; i++) {

@@ -97,6 +97,14 @@ int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, siz
     return 1;
 }
 
+size_t vndf_refinement_needed(const vndf_refinement *r, double error)
+{
+    size_t n = 0;
+    while (n < r->count && r->error[n] > error)
+        n++;
+    return n;
+}
+
 static int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;

@@ -27,6 +27,9 @@ typedef struct vndf_refinement {
 int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
                 vndf_interval_middle *middle, vndf_interval_error *error, void *user);
 
+/* Points to add until the recorded error is within bounds. */
+size_t vndf_refinement_needed(const vndf_refinement *refinement, double error);
+
 /* The first `added` points with the start, ascending, into knots[start + added]. */
 void vndf_refinement_knots(const vndf_refinement *refinement, size_t added, double *knots);
 

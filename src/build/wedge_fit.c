@@ -148,20 +148,38 @@ static int place_cells(vndf_wedge_fit *fit, uint32_t most_cells, double enough)
 {
     static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
     enum { START = sizeof start / sizeof *start };
-    vndf_refinement cells;
-    double knots[VNDF_WEDGE_CELLS_MAX + 1];
     bench judges = {fit, {{{0, 0, 0}, 0, 0, 0}}};
     for (int i = 0; i < JUDGE_COUNT; i++)
         judges.judges[i] = judge_at(fit, JUDGES[i]);
-    int good = vndf_refine(&cells, start, START, most_cells + 1 - START, enough, NULL, worst_miss, &judges);
-    if (good) {
-        fit->cells = (uint32_t)cells.count + START - 1;
-        vndf_refinement_knots(&cells, cells.count, knots);
-        for (uint32_t j = 0; j <= fit->cells; j++)
-            fit->node[j] = (float)knots[j];
+    return vndf_refine(&fit->q, start, START, most_cells + 1 - START, enough, NULL, worst_miss, &judges);
+}
+
+static void forget_rows(vndf_wedge_fit *fit)
+{
+    for (int i = 0; i < BUCKETS; i++) {
+        for (entry *e = fit->cache->bucket[i], *next; e; e = next) {
+            next = e->next;
+            free(e);
+        }
+        fit->cache->bucket[i] = NULL;
     }
-    vndf_refinement_free(&cells);
-    return good;
+}
+
+uint32_t vndf_wedge_fit_cells(const vndf_wedge_fit *fit, double error)
+{
+    return (uint32_t)(fit->q.start - 1 + vndf_refinement_needed(&fit->q, error));
+}
+
+void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells)
+{
+    double knots[VNDF_WEDGE_CELLS_MAX + 1];
+    if (cells == fit->cells)
+        return;
+    vndf_refinement_knots(&fit->q, cells + 1 - fit->q.start, knots);
+    for (uint32_t j = 0; j <= cells; j++)
+        fit->node[j] = (float)knots[j];
+    fit->cells = cells;
+    forget_rows(fit);
 }
 
 /* ---- rows ---- */
@@ -172,18 +190,19 @@ int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int be
     fit->below = below;
     fit->cells = 0;
     fit->cache = calloc(1, sizeof *fit->cache);
-    return fit->cache && place_cells(fit, most_cells, enough);
+    if (!fit->cache || !place_cells(fit, most_cells, enough))
+        return 0;
+    vndf_wedge_fit_use(fit, vndf_wedge_fit_cells(fit, enough));
+    return 1;
 }
 
 void vndf_wedge_fit_free(vndf_wedge_fit *fit)
 {
-    for (int i = 0; fit->cache && i < BUCKETS; i++)
-        for (entry *e = fit->cache->bucket[i], *next; e; e = next) {
-            next = e->next;
-            free(e);
-        }
+    if (fit->cache)
+        forget_rows(fit);
     free(fit->cache);
     fit->cache = NULL;
+    vndf_refinement_free(&fit->q);
 }
 
 static unsigned hash(double y)
@@ -238,13 +257,15 @@ void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const v
 
 /* ---- errors ---- */
 
-/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen. */
+/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen, and hardly
+ * where nothing is claimed any more. */
 static double share(const vndf_wedge_fit *fit, double y)
 {
     double mass = vndf_wedge_fit_area(fit, y).mass;
     if (!fit->below)
         return mass / (mass + y * fit->profile->f0 * 1.57079632679489661923 + (1 - y) * fit->profile->f1);
-    return pow(mass / fit->profile->f1, VNDF_FADE);
+    double seen = mass / fit->profile->f1;
+    return pow(seen, VNDF_FADE) * fmin(1.0, seen / AREA_LEAST);
 }
 
 typedef struct rows {
@@ -276,8 +297,8 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
     return fmax(by_mass, by_density) / 2;
 }
 
-/* Where a quadratic through both ends and the middle misses most, and a place for what was cut to stay positive. */
-static const double PROBES[] = {0.22, 0.6, 0.8};
+/* Where a quadratic through both ends and the middle misses most, and where what is seen fades out between them. */
+static const double PROBES[] = {0.22, 0.6, 0.8, 0.95};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
 {

@@ -13,7 +13,8 @@ typedef struct vndf_row_cache vndf_row_cache;
 typedef struct vndf_wedge_fit {
     const vndf_profile *profile;
     int below;                /* the side */
-    uint32_t cells;           /* of a row */
+    vndf_refinement q;        /* where cells of q begin, in order of need */
+    uint32_t cells;           /* of a row, now */
     float node[VNDF_WEDGE_CELLS_MAX + 1]; /* their ends in q */
     vndf_row_cache *cache;    /* rows made so far */
 } vndf_wedge_fit;
@@ -24,9 +25,12 @@ typedef struct vndf_row {
     float mass[VNDF_WEDGE_CELLS_MAX], density[VNDF_WEDGE_CELLS_MAX + 1];
 } vndf_row;
 
-/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row,
- * from 6 to most_cells. 0 if there is no memory. */
+/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row, but not more
+ * than most_cells; and uses them all. 0 if there is no memory. */
 int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t most_cells, double enough);
+/* How many cells miss no more than `error`; and from now on, rows of the first `cells`: rows made before are gone. */
+uint32_t vndf_wedge_fit_cells(const vndf_wedge_fit *fit, double error);
+void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells);
 void vndf_wedge_fit_free(vndf_wedge_fit *fit);
 
 /* The row at y; NULL if there is no memory. Belongs to the fit. */
