@@ -1,0 +1,25 @@
+/* One piece of the spline of a wedge's mass: the quintic with given values, slopes and second derivatives at its ends,
+ * as Bernstein coefficients times their binomials, none below 0, so that nothing cancels where the mass
+ * falls by orders of magnitude within a piece. The mass is twice an integral of D along lines: its second derivative
+ * is a plain integral of D, and known. */
+#ifndef VNDF_TABLE_AREA_PIECE_H
+#define VNDF_TABLE_AREA_PIECE_H
+
+#include "core/inline.h"
+
+enum { VNDF_AREA_ORDER = 6 };
+
+typedef struct vndf_area_knot {
+    double mass, slope, curve;
+} vndf_area_knot;
+
+VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot b, double coefficient[VNDF_AREA_ORDER])
+{
+    double a1 = a.mass + width * a.slope / 5, b1 = b.mass - width * b.slope / 5;
+    double a2 = 2 * a1 - a.mass + width * width * a.curve / 20, b2 = 2 * b1 - b.mass + width * width * b.curve / 20;
+    double made[VNDF_AREA_ORDER] = {a.mass, 5 * a1, 10 * a2, 10 * b2, 5 * b1, b.mass};
+    for (int i = 0; i < VNDF_AREA_ORDER; i++)
+        coefficient[i] = made[i] > 0 ? made[i] : 0;
+}
+
+#endif
