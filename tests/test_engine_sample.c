@@ -34,16 +34,16 @@ static double length_of(vndf_vec3 w)
     return sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
 }
 
-static float dot(vndf_vec3 a, vndf_vec3 b)
+static double dot(vndf_vec3 a, vndf_vec3 b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
 }
 
 /* Facing within the rounding of the product: its sign at the terminator depends on the order of the sum and on the
  * rounding of wi to unit length. */
 static int is_normal(vndf_vec3 wi, vndf_vec3 wm)
 {
-    return fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && dot(wi, wm) >= -0x1p-22f;
+    return fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && dot(wi, wm) >= -0x1p-22;
 }
 
 static int is_density(float pdf)
@@ -51,10 +51,11 @@ static int is_density(float pdf)
     return isfinite(pdf) && pdf >= 0;
 }
 
-/* Inside the unit square, by a step of what renderers draw, where there is something to see. */
-static int must_be_positive(float u1, float u2, float area, float facing)
+/* Inside the unit square, by a step of what renderers draw, where the certificate claims something and the normal faces wi by
+ * more than its rounding. */
+static int must_be_positive(float u1, float u2, float area, double facing)
 {
-    return area > 1e-20f && facing > 1e-30f && u1 >= 0x1p-24f && u1 < 1 && u2 >= 0x1p-24f && u2 < 1;
+    return area > 1e-10f && facing > 1e-9 && u1 >= 0x1p-24f && u1 < 1 && u2 >= 0x1p-24f && u2 < 1;
 }
 
 /* Open: below the horizon's right angle and beside a hole in D, rounding of the normal still shows in some twenty of five

@@ -194,7 +194,8 @@ static void derive_starts(vndf_distribution *table)
     }
 }
 
-/* Running sums of each row, and each row scaled to mass 1; padding is beyond every target. */
+/* Running sums of each row, and each row scaled to mass 1 - but for rounding, so that a table saved and read again keeps its
+ * bits; padding is beyond every target. */
 static void derive_rows(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < wedge->row_count; i++) {
@@ -203,6 +204,8 @@ static void derive_rows(vndf_wedge *wedge)
         double total = 0.0, sum = 0.0;
         for (uint32_t j = 0; j < wedge->cell_count; j++)
             total += mass[j];
+        if (fabs(total - 1.0) < 3e-7)
+            total = 1.0;
         for (uint32_t j = 0; j < wedge->stride; j++) {
             cdf[j] = j < wedge->cell_count ? (float)(sum / total) : 2.0f;
             sum += mass[j];
