@@ -17,7 +17,7 @@
  * (2) is Kepler's equation with two numbers of D. (3) and (4) are integrals of D over a half plane's strip,
  * twice smoother than D: here, and only here, a 2D table stands (vndf_wedge): rows over the angle of
  * incidence of mass and density on cells of a half-angle tangent q, mixed by quadratic Bezier weights.
- * Linear mixing took four times the rows for 1e-4, and cubic mixing may leave the positive numbers.
+ * Linear mixing left twice the error at 64 KiB; higher orders may leave the positive numbers.
  *
  * Both stages draw from piecewise densities that are *defined* by the numbers of the table (cells of
  * math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
