@@ -1,7 +1,8 @@
-/* What one visible normal costs: view, sample and density of one sample for one direction, in nanoseconds, side by side
- * with the closed forms and with a plain sampler by spherical caps written out here (Dupuy & Benyoub 2023, with
- * its density and nothing guarded). Not a test: run it by hand, `time_sample TABLE...`. Random directions of the
- * upper hemisphere, random roughness per sample; the methods take turns, medians and quartiles are printed. */
+/* What one visible normal costs, in nanoseconds, side by side with the closed forms and with a plain sampler by
+ * spherical caps written out here (Dupuy & Benyoub 2023, with its density and nothing guarded): view, sample and
+ * density for a direction each; sample and density where 64 samples share a view; vndf_pdf alone on such a view.
+ * Not a test: run it by hand, `time_sample TABLE...`. Random directions of the upper hemisphere, random roughness;
+ * the methods take turns, medians are printed, and quartiles of the first. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <time.h>
@@ -9,12 +10,22 @@
 #include "test.h"
 #include "vndf.h"
 
-enum { SAMPLES = 4096, LOOPS = 20, TURNS = 31, METHODS_MAX = 16 };
+enum { SAMPLES = 4096, SHARED = 64, LOOPS = 20, TURNS = 31, METHODS_MAX = 24 };
+
+typedef enum kind { WHOLE, SHARED_VIEW, PDF, KINDS } kind;
 
 typedef struct input {
     vndf_vec3 wi;
     float alpha, u1, u2;
 } input;
+
+/* A sampler, the normals that it draws where views are shared, and its times. */
+typedef struct method {
+    const char *name;
+    const vndf_distribution *d; /* NULL stands for plain_caps, timed as a whole alone */
+    vndf_vec3 wm[SAMPLES];
+    double time[KINDS][TURNS];
+} method;
 
 static double now(void)
 {
@@ -41,36 +52,72 @@ static vndf_vec3 plain_caps(const input *in, float *pdf)
     return m;
 }
 
-/* Mean time of a sample in one turn; d NULL stands for plain_caps. */
-static double turn(const vndf_distribution *d, const input *inputs, float *sum)
+static vndf_view view_of(const vndf_distribution *d, const input *in)
+{
+    vndf_surface surface = {d, in->alpha, in->alpha};
+    return vndf_view_from(&surface, in->wi);
+}
+
+static float whole(const method *m, const input *inputs)
+{
+    float sum = 0.0f, pdf;
+    for (int i = 0; i < SAMPLES; i++) {
+        vndf_view view = view_of(m->d, &inputs[i]);
+        sum += vndf_sample(&view, inputs[i].u1, inputs[i].u2, &pdf).x + pdf;
+    }
+    return sum;
+}
+
+static float plain(const input *inputs)
+{
+    float sum = 0.0f, pdf;
+    for (int i = 0; i < SAMPLES; i++)
+        sum += plain_caps(&inputs[i], &pdf).x + pdf;
+    return sum;
+}
+
+static float shared_view(const method *m, const input *inputs)
+{
+    float sum = 0.0f, pdf;
+    for (int i = 0; i < SAMPLES; i += SHARED) {
+        vndf_view view = view_of(m->d, &inputs[i]);
+        for (int j = i; j < i + SHARED; j++)
+            sum += vndf_sample(&view, inputs[j].u1, inputs[j].u2, &pdf).x + pdf;
+    }
+    return sum;
+}
+
+static float pdf_alone(const method *m, const input *inputs)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < SAMPLES; i += SHARED) {
+        vndf_view view = view_of(m->d, &inputs[i]);
+        for (int j = i; j < i + SHARED; j++)
+            sum += vndf_pdf(&view, m->wm[j]);
+    }
+    return sum;
+}
+
+/* Mean time of a sample in one turn. */
+static double turn(const method *m, kind k, const input *inputs, float *sum)
 {
     double start = now();
     for (int loop = 0; loop < LOOPS; loop++)
-        for (int i = 0; i < SAMPLES; i++) {
-            float pdf;
-            vndf_vec3 wm;
-            if (d) {
-                vndf_surface surface = {d, inputs[i].alpha, inputs[i].alpha};
-                vndf_view view = vndf_view_from(&surface, inputs[i].wi);
-                wm = vndf_sample(&view, inputs[i].u1, inputs[i].u2, &pdf);
-            } else
-                wm = plain_caps(&inputs[i], &pdf);
-            *sum += wm.x + pdf;
-        }
+        *sum += !m->d ? plain(inputs) : k == WHOLE ? whole(m, inputs) : k == PDF ? pdf_alone(m, inputs) : shared_view(m, inputs);
     return (now() - start) / (LOOPS * SAMPLES);
 }
 
-/* Whether the results are worth timing: normals are unit and face wi, densities are positive. */
-static int valid(const vndf_distribution *d, const input *inputs)
+/* Draws the normals of pdf_alone; whether all results are worth timing: unit, facing wi, of positive density. */
+static int prepare(method *m, const input *inputs)
 {
     for (int i = 0; i < SAMPLES; i++) {
-        vndf_surface surface = {d, inputs[i].alpha, inputs[i].alpha};
-        vndf_view view = vndf_view_from(&surface, inputs[i].wi);
+        const vndf_vec3 wi = inputs[i].wi;
+        vndf_view view = view_of(m->d, &inputs[i]), first = view_of(m->d, &inputs[i / SHARED * SHARED]);
         float pdf;
-        vndf_vec3 m = vndf_sample(&view, inputs[i].u1, inputs[i].u2, &pdf);
-        float dot = m.x * inputs[i].wi.x + m.y * inputs[i].wi.y + m.z * inputs[i].wi.z;
-        if (fabsf(m.x * m.x + m.y * m.y + m.z * m.z - 1.0f) > 1e-6f || !(dot >= 0.0f) || !(pdf > 0.0f))
+        vndf_vec3 n = vndf_sample(&view, inputs[i].u1, inputs[i].u2, &pdf);
+        if (fabsf(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) > 1e-6f || !(n.x * wi.x + n.y * wi.y + n.z * wi.z >= 0.0f) || !(pdf > 0.0f))
             return 0;
+        m->wm[i] = vndf_sample(&first, inputs[i].u1, inputs[i].u2, NULL);
     }
     return 1;
 }
@@ -81,37 +128,51 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-int main(int count, char **paths)
+static void print(method *m, double reference)
 {
-    static input inputs[SAMPLES];
-    static double time[METHODS_MAX][TURNS];
-    const vndf_distribution *d[METHODS_MAX] = {NULL, vndf_ggx(), vndf_beckmann()};
-    const char *name[METHODS_MAX] = {"plain spherical caps", "vndf_ggx()", "vndf_beckmann()"};
+    for (int k = 0; k < (m->d ? KINDS : 1); k++)
+        qsort(m->time[k], TURNS, sizeof m->time[k][0], ascending);
+    const double *t = m->time[WHOLE];
+    printf("%-44s %7.1f %7.1f %7.1f %7.2f", m->name, t[TURNS / 2], t[TURNS / 4], t[3 * TURNS / 4],
+           t[TURNS / 2] / (reference > 0 ? reference : t[TURNS / 2]));
+    if (m->d)
+        printf(" %11.1f %7.1f", m->time[SHARED_VIEW][TURNS / 2], m->time[PDF][TURNS / 2]);
+    printf("\n");
+}
+
+static void fill(input *inputs)
+{
     unsigned long long state = 20231;
-    int methods = 3;
-    float sum = 0.0f;
     for (int i = 0; i < SAMPLES; i++) {
         float z = test_uniform(&state), phi = 6.28318531f * test_uniform(&state), s = sqrtf(1.0f - z * z);
         inputs[i] = (input){{s * cosf(phi), s * sinf(phi), z}, 0.05f + 0.9f * test_uniform(&state), test_uniform(&state), test_uniform(&state)};
     }
-    for (int i = 1; i < count && methods < METHODS_MAX; i++) {
+}
+
+int main(int count, char **paths)
+{
+    static input inputs[SAMPLES];
+    static method methods[METHODS_MAX] = {{.name = "plain spherical caps"}, {.name = "vndf_ggx()"}, {.name = "vndf_beckmann()"}};
+    int n = 3;
+    float sum = 0.0f;
+    methods[1].d = vndf_ggx();
+    methods[2].d = vndf_beckmann();
+    fill(inputs);
+    for (int i = 1; i < count && n < METHODS_MAX; i++, n++) {
         vndf_error error;
-        name[methods] = paths[i];
-        if (!(d[methods] = vndf_load(paths[i], &error)))
+        methods[n].name = paths[i];
+        if (!(methods[n].d = vndf_load(paths[i], &error)))
             return fprintf(stderr, "time_sample: %s\n", error.message), 2;
-        methods++;
     }
-    for (int m = 1; m < methods; m++)
-        if (!valid(d[m], inputs))
-            return fprintf(stderr, "time_sample: %s draws invalid normals\n", name[m]), 1;
+    for (int m = 1; m < n; m++)
+        if (!prepare(&methods[m], inputs))
+            return fprintf(stderr, "time_sample: %s draws invalid normals\n", methods[m].name), 1;
     for (int t = 0; t < TURNS; t++)
-        for (int m = 0; m < methods; m++)
-            time[m][t] = turn(d[m], inputs, &sum);
-    for (int m = 0; m < methods; m++)
-        qsort(time[m], TURNS, sizeof time[m][0], ascending);
-    printf("%-44s %8s %8s %8s %8s\n", "view + sample + density", "ns", "25%", "75%", "ratio");
-    for (int m = 0; m < methods; m++)
-        printf("%-44s %8.1f %8.1f %8.1f %8.2f\n", name[m], time[m][TURNS / 2], time[m][TURNS / 4], time[m][3 * TURNS / 4],
-               time[m][TURNS / 2] / time[0][TURNS / 2]);
+        for (int m = 0; m < n; m++)
+            for (int k = 0; k < (methods[m].d ? KINDS : 1); k++)
+                methods[m].time[k][t] = turn(&methods[m], (kind)k, inputs, &sum);
+    printf("%-44s %7s %7s %7s %7s %11s %7s\n", "view + sample + density", "ns", "25%", "75%", "ratio", "shared view", "pdf");
+    for (int m = 0; m < n; m++)
+        print(&methods[m], m ? methods[0].time[WHOLE][TURNS / 2] : 0);
     return sum == 12345.0f; /* keeps the loops alive */
 }

@@ -4,13 +4,13 @@
 #include "sampler/beckmann.h"
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
-#include "sampler/radial.h"
+#include "sampler/radial_draw.h"
 #include "sampler/wedge.h"
 
 /* Where D falls fast the area changes by more than a rounding of y does: in double up to the cell. */
 static float area_below(const vndf_wedge *wedge, double y)
 {
-    uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, (float)y);
+    uint32_t i = vndf_guide_find(&wedge->knot_guide, (float)y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
     float t = (float)((y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
     return vndf_wedge_bezier(b, t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f);
@@ -70,33 +70,50 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
     return at;
 }
 
+/* The slope length for an azimuth, from n times the direction. */
+VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
+{
+    const vndf_distribution *d = view->distribution;
+    float c = view->c * a->n, k = view->s * a->c;
+    if (c < 0.0f)
+        return vndf_radial_draw_below(d, c, k, u);
+    return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
+}
+
+/* A normal whose rounding shows in its density, or turns it away: the density is that of the rounded normal. */
+static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf)
+{
+    vndf_vec3 n = vndf_to_unit(view, wm);
+    if (!(weight(view, wm, n, 1.0f) > 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
+        wm = vndf_turn_to_face(view, wm);
+    if (pdf)
+        *pdf = vndf_pdf(view, wm);
+    return wm;
+}
+
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    const vndf_knots *k = &view->distribution->knots;
+    const vndf_distribution *d = view->distribution;
+    const vndf_knots *k = &d->knots;
     float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
-    float per_n = 1.0f / a.n;
-    vndf_vec3 level = {a.c * per_n, (half < 0.0f ? -a.s : a.s) * per_n, 0.0f}; /* stretched back while the radius is drawn */
+    float per_n = 1.0f / a.n, cos_phi = a.c * per_n;
+    vndf_vec3 level = {cos_phi, copysignf(a.s, half) * per_n, 0.0f}; /* stretched back while the radius is drawn */
     level = vndf_from_unit(view, level);
     float level2 = level.x * level.x + level.y * level.y;
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c * a.n, view->s * a.c); /* n times the direction */
-    vndf_radial_draw_result r = vndf_radial_draw(&law, u2);
+    vndf_radial_drawn r = draw_radius(view, &a, u2);
     uint32_t j = r.at.cell;
     float x = k->x[j] + r.at.xi * (k->x[j + 1] - k->x[j]), z = k->z[j] + r.at.xi * (k->z[j + 1] - k->z[j]);
     z = z > 0.0f ? z : 0.0f;
-    float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length, across = x * per; /* from 1e-18 to 1e18 */
-    vndf_vec3 wm = {across * level.x, across * level.y, z * per};
-    float w = weight(view, wm, vndf_to_unit(view, wm), length);
-    int facing = w > 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
-    if (!facing)
-        wm = vndf_turn_to_face(view, wm);
-    if (!pdf)
-        return wm;
-    if (!facing || fabsf(u2 - 0.5f) > 0.4999f || view->c < (a.c < 0.05f * a.n ? 0.1f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at))
-        *pdf = vndf_pdf(view, wm); /* rounding of the normal would show */
-    else
+    float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
+    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
+    float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
+    int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f && !r.piece.weighted;
+    if (!plain || vndf_radial_is_delicate(d, &r))
+        return sample_delicate(view, wm, pdf);
+    if (pdf)
         *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
-                                   vndf_radial_density(&law, &r.piece, r.at, r.inside, a.n * w), length);
+                                   (vndf_rational_density(&r.piece.cell, r.inside) / (x * d->cells[j].width)), length);
     return wm;
 }
 
@@ -112,7 +129,7 @@ static vndf_radius radius_of(const vndf_distribution *d, float x, float z)
 {
     const vndf_knots *k = &d->knots;
     float slope = z > 0.0f ? x / z : HUGE_VALF;
-    uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, slope);
+    uint32_t j = vndf_guide_find(&d->slope_guide, slope);
     float inner = x * k->z[j] - z * k->x[j], outer = z * k->x[j + 1] - x * k->z[j + 1];
     float xi = inner + outer > 0.0f ? inner / (inner + outer) : 0.0f;
     vndf_radius at = {j, xi > 0.0f ? (xi < 1.0f ? xi : 1.0f) : 0.0f};
@@ -179,7 +196,7 @@ void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, floa
     vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
-    *u2 = law.total > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
+    *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }
 
 /* ---- the distribution ---- */

@@ -1,5 +1,5 @@
 /* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
- * cell of the radial table, where c Z + k X > 0.
+ * cell of the radial table, where c Z + k X > 0. Drawing from it is in radial_draw.h.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
  * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the
@@ -12,12 +12,12 @@
 #include "table/guide.h"
 #include "table/table.h"
 
-/* The law of R: everything that does not depend on the uniform number. */
+/* The law of R: everything that does not depend on the uniform number. Its mass is 1, so no square of a mass
+ * vanishes where next to nothing is visible. */
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
-    float scale;              /* by which they were multiplied */
-    float total;              /* mass of the law */
+    float scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon stands for it */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi */
     float part_mass;          /* its mass */
@@ -43,6 +43,12 @@ VNDF_INLINE float vndf_radial_before(const vndf_radial_law *law, uint32_t j)
     return law->c * law->table->knots.e[j] + vndf_radial_weight(law, j) * law->table->knots.g[j];
 }
 
+/* The same where c, k >= 0. */
+VNDF_INLINE float vndf_radial_before_whole(const vndf_radial_law *law, uint32_t j)
+{
+    return law->c * law->table->knots.f0[j] + law->k * law->table->knots.f1[j];
+}
+
 /* Mass beyond knot j (k > 0). */
 VNDF_INLINE float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
 {
@@ -60,66 +66,78 @@ VNDF_INLINE float vndf_radial_f(const vndf_radial_cell *cell, float xi)
  * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
 VNDF_INLINE float vndf_radial_part(float f0, float f1, float a, float b, float h)
 {
+    const float sixth = 1.0f / 6.0f;
     float slope = f1 - f0;
-    float cubic = f0 / 2.0f + h * ((slope + a) / 6.0f + h * ((b - a) / 12.0f - h * b / 20.0f));
-    float least = 1e-3f * (f0 / 2.0f + h * slope / 6.0f);
+    float cubic = 0.5f * f0 + h * (sixth * (slope + a) + h * (0.5f * sixth * (b - a) - h * (0.05f * b)));
+    float least = 1e-3f * (0.5f * f0 + h * (sixth * slope));
     return cubic > least ? cubic : least;
 }
 
-VNDF_INLINE void vndf_radial_cut_above(vndf_radial_law *law)
+/* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
+VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
 {
-    const vndf_distribution *d = law->table;
-    uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, law->c / -law->k);
-    float w0 = vndf_radial_weight(law, j), w1 = law->c * d->knots.z[j + 1] + law->k * d->knots.x[j + 1];
-    const vndf_radial_cell *cell = &d->cells[j];
-    law->cut = j;
-    law->part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
-    law->part_mass = w0 * law->part * vndf_radial_part(cell->f0, cell->f1, cell->a, cell->b, law->part);
-    law->part_f0 = cell->f0 * law->part;
-    law->part_f1 = vndf_radial_f(cell, law->part) * law->part;
-    law->part_w0 = w0;
-    law->total = vndf_radial_before(law, j) + law->part_mass;
-}
-
-VNDF_INLINE void vndf_radial_cut_below(vndf_radial_law *law)
-{
-    const vndf_distribution *d = law->table;
-    uint32_t j = vndf_guide_find(&d->slope_guide, d->slope, d->radial_count + 1, -law->c / law->k);
-    float w0 = law->c * d->knots.z[j] + law->k * d->knots.x[j], w1 = vndf_radial_weight(law, j + 1);
-    const vndf_radial_cell *cell = &d->cells[j];
-    law->cut = j;
-    law->part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
-    law->part_mass = w1 * law->part * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law->part);
-    law->part_f0 = vndf_radial_f(cell, 1.0f - law->part) * law->part;
-    law->part_f1 = cell->f1 * law->part;
-    law->part_w1 = w1;
-    law->total = vndf_radial_beyond(law, j + 1) + law->part_mass;
-}
-
-VNDF_INLINE vndf_radial_law vndf_radial_law_unscaled(const vndf_distribution *table, float c, float k)
-{
-    vndf_radial_law law = {table, c, k, 1.0f, 0.0f, table->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    if (c > 0.0f && k < 0.0f)
-        vndf_radial_cut_above(&law);
-    else if (c < 0.0f && k > 0.0f)
-        vndf_radial_cut_below(&law);
-    else if (c >= 0.0f && k >= 0.0f)
-        law.total = vndf_radial_before(&law, table->radial_count);
-    else
-        law.cut = table->radial_count - 1; /* nothing is visible: the horizon stands for it */
+    float scale = total > 1e-36f ? 1.0f / total : 0.0f;
+    law.c *= scale;
+    law.k *= scale;
+    law.scale = scale;
+    law.part_mass *= scale;
+    law.part_w0 *= scale;
+    law.part_w1 *= scale;
     return law;
 }
 
-/* The law for the weights (c, k). Where next to nothing is visible they are scaled up, so that no square of a mass vanishes. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *table, float c, float k)
+/* c, k >= 0. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, float c, float k)
 {
-    vndf_radial_law law = vndf_radial_law_unscaled(table, c, k);
-    if (law.total < 1e-10f && law.total > 1e-36f) {
-        float scale = 1.0f / law.total;
-        law = vndf_radial_law_unscaled(table, c * scale, k * scale);
-        law.scale = scale;
+    vndf_radial_law law = {d, c, k, 1.0f, d->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    return vndf_radial_scaled(law, c * d->f0_total + k * d->f1_total);
+}
+
+/* c > 0 > k; not scaled yet, *total is its mass. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, float c, float k, float *total)
+{
+    uint32_t j = vndf_guide_find(&d->slope_guide, c / -k);
+    vndf_radial_law law = {d, c, k, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const vndf_radial_cell *cell = &d->cells[j];
+    float w0 = vndf_radial_weight(&law, j), w1 = c * d->knots.z[j + 1] + k * d->knots.x[j + 1];
+    law.part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
+    law.part_mass = w0 * law.part * vndf_radial_part(cell->f0, cell->f1, cell->a, cell->b, law.part);
+    law.part_f0 = cell->f0 * law.part;
+    law.part_f1 = vndf_radial_f(cell, law.part) * law.part;
+    law.part_w0 = w0;
+    *total = vndf_radial_before(&law, j) + law.part_mass;
+    return law;
+}
+
+/* c < 0 < k. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, float c, float k)
+{
+    uint32_t j = vndf_guide_find(&d->slope_guide, -c / k);
+    vndf_radial_law law = {d, c, k, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const vndf_radial_cell *cell = &d->cells[j];
+    float w0 = c * d->knots.z[j] + k * d->knots.x[j], w1 = vndf_radial_weight(&law, j + 1);
+    law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
+    law.part_mass = w1 * law.part * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law.part);
+    law.part_f0 = vndf_radial_f(cell, 1.0f - law.part) * law.part;
+    law.part_f1 = cell->f1 * law.part;
+    law.part_w1 = w1;
+    return vndf_radial_scaled(law, vndf_radial_beyond(&law, j + 1) + law.part_mass);
+}
+
+/* The law for any weights (c, k). */
+VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, float c, float k)
+{
+    if (c > 0.0f && k < 0.0f) {
+        float total;
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+        return vndf_radial_scaled(law, total);
     }
-    return law;
+    if (c < 0.0f && k > 0.0f)
+        return vndf_radial_law_below(d, c, k);
+    if (c >= 0.0f && k >= 0.0f)
+        return vndf_radial_law_whole(d, c, k);
+    vndf_radial_law nothing = {d, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    return nothing;
 }
 
 /* A cell as far as it is visible: where that part begins in xi and how long it is. */
@@ -129,17 +147,24 @@ typedef struct vndf_radial_piece {
     float w0, w1, begin, length;
 } vndf_radial_piece;
 
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
+/* Away from the cut. */
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
-    vndf_radial_piece piece;
-    float f0 = cell->f0, f1 = cell->f1, mass;
-    piece.w0 = vndf_radial_weight(law, j);
-    piece.w1 = vndf_radial_weight(law, j + 1);
-    mass = piece.w0 * cell->mu0 + piece.w1 * cell->mu1;
-    piece.begin = 0.0f;
-    piece.length = 1.0f;
-    piece.weighted = j + 1 >= law->cut && j <= law->cut + 1;
+    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
+    vndf_radial_piece piece = {vndf_rational_cell_from(cell->f0 * w0, cell->f1 * w1, w0 * cell->mu0 + w1 * cell->mu1),
+                               0, w0, w1, 0.0f, 1.0f};
+    return piece;
+}
+
+/* Any cell; without a cut the last one, where W may vanish, is weighted. */
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
+{
+    vndf_radial_piece piece = vndf_radial_piece_plain(law, j);
+    if (j + 1 < law->cut || j > law->cut + 1)
+        return piece;
+    float f0 = law->table->cells[j].f0, f1 = law->table->cells[j].f1, mass = piece.cell.mass;
+    piece.weighted = 1;
     if (j == law->cut) {
         f0 = law->part_f0;
         f1 = law->part_f1;
@@ -150,62 +175,8 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, u
         piece.begin = law->c < 0.0f ? 1.0f - law->part : 0.0f;
     }
     float half = 0.5f * (piece.w0 + piece.w1);
-    piece.cell = vndf_rational_cell_from(f0 * (piece.weighted ? half : piece.w0), f1 * (piece.weighted ? half : piece.w1), mass);
+    piece.cell = vndf_rational_cell_from(f0 * half, f1 * half, mass);
     return piece;
-}
-
-/* How many of the knots k[from .. from + n) have no more than `target` before them (c >= 0). */
-VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
-{
-    uint32_t count = 0;
-    float c = law->c, kx = law->k;
-    for (uint32_t i = from; i < from + n; i++) {
-        float w = c * k->z[i] + kx * k->x[i];
-        count += c * k->e[i] + (w > 0.0f ? w : 0.0f) * k->g[i] <= target;
-    }
-    return count;
-}
-
-/* How many have more than `target` beyond them (c < 0). */
-VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *k, uint32_t from, uint32_t n, const vndf_radial_law *law, float target)
-{
-    uint32_t count = 0;
-    float c = law->c, kx = law->k;
-    for (uint32_t i = from; i < from + n; i++) {
-        float w = c * k->z[i] + kx * k->x[i];
-        count += kx * k->s[i] + (w > 0.0f ? w : 0.0f) * k->t[i] > target;
-    }
-    return count;
-}
-
-/* The cell of a mass below the horizon: first its block, then within; a knot that is not visible counts as the cut. */
-VNDF_INLINE uint32_t vndf_radial_search_below(const vndf_radial_law *law, float target)
-{
-    const vndf_distribution *d = law->table;
-    uint32_t last = d->radial_count - 1, block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law, target);
-    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-    uint32_t j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law, target);
-    j = j > 0 ? j - 1 : 0;
-    j = j > law->cut ? j : law->cut;
-    return j < last ? j : last;
-}
-
-/* Above: in the window that u has without a cut, or as below. */
-VNDF_INLINE uint32_t vndf_radial_search_above(const vndf_radial_law *law, float u, float target)
-{
-    const vndf_distribution *d = law->table;
-    uint32_t last = d->radial_count - 1, j, range = (uint32_t)(u * VNDF_STARTS);
-    uint32_t start = d->start[range < VNDF_STARTS ? range : VNDF_STARTS - 1];
-    if (law->cut > last && start != VNDF_NO_START)
-        j = start + vndf_radial_count_before(&d->knots, start, VNDF_WINDOW, law, target);
-    else {
-        uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, law, target);
-        block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-        j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, law, target);
-        last = law->cut < last ? law->cut : last;
-    }
-    j = j > 0 ? j - 1 : 0;
-    return j < last ? j : last;
 }
 
 /* Where the piece's rational cell stands at xi of the whole cell. */
@@ -228,43 +199,8 @@ VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_rad
     }
     float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
     float own_w = piece->weighted ? 0.5f * (piece->w0 + piece->w1) : piece->w0 + at.xi * (piece->w1 - piece->w0);
-    float below = law->total * piece->length * x * d->cells[at.cell].width * own_w;
+    float below = piece->length * x * d->cells[at.cell].width * own_w;
     return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
-}
-
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
- * changes by more than a factor e^10 per e-fold of the slope, and beside a knot, which may be a jump of D. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at)
-{
-    const vndf_knots *k = &law->table->knots;
-    float change = fabsf(piece->cell.e1 - piece->cell.e0) * k->x[at.cell + 1] * k->z[at.cell];
-    return change > 10.0f * piece->cell.mass * law->table->cells[at.cell].width || at.xi > 0.999f || at.xi < 0.001f;
-}
-
-/* A drawn place, its piece and where that stands. */
-typedef struct vndf_radial_draw_result {
-    vndf_radius at;
-    vndf_radial_piece piece;
-    float inside;
-} vndf_radial_draw_result;
-
-/* The place with a part u of the mass before it. Below the horizon mass is counted from infinity inwards. */
-VNDF_INLINE vndf_radial_draw_result vndf_radial_draw(const vndf_radial_law *law, float u)
-{
-    int below = law->c < 0.0f;
-    float target = (below ? 1.0f - u : u) * law->total;
-    uint32_t j = below ? vndf_radial_search_below(law, target) : vndf_radial_search_above(law, u, target);
-    vndf_radial_draw_result r;
-    r.piece = vndf_radial_piece_of(law, j);
-    float rest = target - (below ? vndf_radial_beyond(law, j + 1) : vndf_radial_before(law, j));
-    rest = below ? r.piece.cell.mass - rest : rest;
-    r.inside = vndf_rational_invert(&r.piece.cell, rest > 0.0f ? rest : 0.0f);
-    float xi = r.inside;
-    if (r.piece.weighted)
-        xi = r.piece.begin + r.piece.length * vndf_weighted_xi(r.piece.w0, r.piece.w1, xi);
-    r.at.cell = j;
-    r.at.xi = xi < 1.0f && law->total > 0.0f ? xi : 1.0f; /* where nothing is visible the horizon stands for it */
-    return r;
 }
 
 /* Part of the mass before a place. */
@@ -273,8 +209,8 @@ VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
     float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at.xi));
     if (law->c < 0.0f)
-        return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside)) / law->total;
-    return (vndf_radial_before(law, at.cell) + inside) / law->total;
+        return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
+    return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;
 }
 
 #endif

@@ -7,15 +7,6 @@
 #include "sampler/ggx.h"
 #include "table/table.h"
 
-int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay)
-{
-    if (!surface || !surface->distribution)
-        return 0;
-    *ax = surface->alpha_x * surface->distribution->scale;
-    *ay = surface->alpha_y * surface->distribution->scale;
-    return *ax >= 1e-18f && *ax <= 1e18f && *ay >= 1e-18f && *ay <= 1e18f;
-}
-
 float vndf_ndf_scaled(const vndf_distribution *d, float ax, float ay, vndf_vec3 wm)
 {
     if (d->kind != VNDF_KIND_TABLE)

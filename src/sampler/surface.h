@@ -5,10 +5,18 @@
 #include <float.h>
 
 #include "core/inline.h"
+#include "table/table.h"
 #include "vndf.h"
 
 /* Roughness times the table's scale; 0 unless both are within [1e-18, 1e18] and there is a distribution. */
-int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay);
+VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, float *ax, float *ay)
+{
+    if (!surface || !surface->distribution)
+        return 0;
+    *ax = surface->alpha_x * surface->distribution->scale;
+    *ay = surface->alpha_y * surface->distribution->scale;
+    return *ax >= 1e-18f && *ax <= 1e18f && *ay >= 1e-18f && *ay <= 1e18f;
+}
 
 /* A density as a float: the largest one for what is larger, 0 for NaN. */
 VNDF_INLINE float vndf_density_from(double density)

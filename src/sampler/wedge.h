@@ -42,7 +42,7 @@ VNDF_INLINE float vndf_wedge_bezier(const float *b, float t)
 /* Mass of half a wedge at y, per (s + |c|). */
 VNDF_INLINE float vndf_wedge_mass(const vndf_wedge *wedge, float y)
 {
-    uint32_t i = vndf_guide_find(&wedge->knot_guide, wedge->knot_y, wedge->knot_count, y);
+    uint32_t i = vndf_guide_find(&wedge->knot_guide, y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
     return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
 }
@@ -53,7 +53,7 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float
     const vndf_wedge *wedge = vndf_wedge_of(d, c);
     float y = c >= 0.0f ? c : s, mass = vndf_wedge_mass(wedge, y);
     float front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
-    uint32_t i = vndf_guide_find(&wedge->row_guide, wedge->row_y, wedge->row_count / 2 + 1, y);
+    uint32_t i = vndf_guide_find(&wedge->row_guide, y);
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
     vndf_row_weights w = vndf_row_weights_at(mix);
     const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;

@@ -22,14 +22,22 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
         high = guide->low;
     guide->shift = shift_for(high - guide->low, count);
     guide->last = (high - guide->low) >> guide->shift;
-    guide->first = malloc((guide->last + 1) * sizeof *guide->first);
-    if (!guide->first)
+    guide->next = malloc(count * sizeof *guide->next + (guide->last + 1) * sizeof *guide->first);
+    if (!guide->next)
         return 0;
+    guide->first = (uint16_t *)(guide->next + count);
+    for (uint32_t j = 0; j < count; j++)
+        guide->next[j] = j + 2 < count ? vndf_float_bits(knots[j + 1]) : UINT32_MAX;
     for (uint32_t b = 0; b <= guide->last; b++) {
         uint32_t start = guide->low + (b << guide->shift);
-        while (i + 2 < count && vndf_float_bits(knots[i + 1]) <= start)
+        while (guide->next[i] <= start)
             i++;
         guide->first[b] = (uint16_t)(b == 0 ? 0 : i);
     }
     return 1;
+}
+
+void vndf_guide_free(vndf_guide *guide)
+{
+    free(guide->next);
 }

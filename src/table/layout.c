@@ -6,12 +6,13 @@
 
 #include "table/area_piece.h"
 #include "table/guide.h"
+#include "table/window.h"
 
-/* The six arrays in one block. */
+/* The eight arrays in one block. */
 static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
 {
     uint32_t padded = (count + VNDF_WINDOW + multiple - 1) / multiple * multiple;
-    float *block = calloc((size_t)6 * padded, sizeof *block);
+    float *block = calloc((size_t)8 * padded, sizeof *block);
     knots->count = padded;
     knots->x = block;
     if (!block)
@@ -21,6 +22,8 @@ static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
     knots->g = block + 3 * (size_t)padded;
     knots->s = block + 4 * (size_t)padded;
     knots->t = block + 5 * (size_t)padded;
+    knots->f0 = block + 6 * (size_t)padded;
+    knots->f1 = block + 7 * (size_t)padded;
     return 1;
 }
 
@@ -53,8 +56,8 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
 static void free_wedge(vndf_wedge *wedge)
 {
     free(wedge->cdf);
-    free(wedge->row_guide.first);
-    free(wedge->knot_guide.first);
+    vndf_guide_free(&wedge->row_guide);
+    vndf_guide_free(&wedge->knot_guide);
 }
 
 vndf_distribution *vndf_table_allocate(vndf_table_size size)
@@ -84,7 +87,7 @@ void vndf_free(vndf_distribution *table)
     free(table->blocks.x);
     free(table->slope);
     free(table->cells);
-    free(table->slope_guide.first);
+    vndf_guide_free(&table->slope_guide);
     free_wedge(&table->above);
     free_wedge(&table->below);
     free((char *)table->source);
@@ -123,6 +126,8 @@ static void derive_pole(vndf_distribution *table)
         f1 += k->x[j] * mu0 + x1 * mu1;
         k->e[j + 1] = (float)e;
         k->g[j + 1] = (float)(f1 / x1);
+        k->f0[j + 1] = (float)f0;
+        k->f1[j + 1] = (float)f1;
     }
     table->f0_total = (float)f0;
     table->f1_total = (float)f1;
@@ -148,7 +153,7 @@ static void pad_knots(vndf_knots *k, uint32_t from)
     for (uint32_t j = from; j < k->count; j++) {
         k->x[j] = 1.0f;
         k->z[j] = k->s[j] = k->t[j] = 0.0f;
-        k->e[j] = k->g[j] = 1e30f;
+        k->e[j] = k->g[j] = k->f0[j] = k->f1[j] = 1e30f;
     }
 }
 
@@ -171,31 +176,8 @@ static void derive_blocks(vndf_distribution *table)
     }
 }
 
-/* The cell of the mass u in the law of all normals (k = 0) or at grazing incidence (c = 0). */
-static uint32_t cell_of(const vndf_distribution *table, double u, int grazing)
-{
-    const vndf_knots *k = &table->knots;
-    double total = grazing ? table->f1_total : table->f0_total;
-    uint32_t j = 0;
-    while (j + 1 < table->radial_count &&
-           (grazing ? (double)k->x[j + 1] * k->g[j + 1] : (double)k->e[j + 1] + (double)k->z[j + 1] * k->g[j + 1]) <= u * total)
-        j++;
-    return j;
-}
-
-/* Where the law without a cut has its cell for a range of u: quantiles grow with u and with k/c, so the cell lies between
- * those of the two extreme laws, with a cell to spare on either side for rounding. */
-static void derive_starts(vndf_distribution *table)
-{
-    for (uint32_t i = 0; i < VNDF_STARTS; i++) {
-        uint32_t first = cell_of(table, (double)i / VNDF_STARTS, 0), last = cell_of(table, (i + 1.0) / VNDF_STARTS, 1);
-        first = first > 0 ? first - 1 : 0;
-        table->start[i] = (uint16_t)(last + 2 - first <= VNDF_WINDOW ? first : VNDF_NO_START);
-    }
-}
-
-/* Running sums of each row, and each row scaled to mass 1 - but for rounding, so that a table saved and read again keeps its
- * bits; padding is beyond every target. */
+/* Running sums of each row, and each row scaled to mass 1 - but for rounding, so that a table saved and read again
+ * keeps its bits; padding is beyond every target. */
 static void derive_rows(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < wedge->row_count; i++) {
@@ -245,7 +227,7 @@ int vndf_table_derive(vndf_distribution *table)
     derive_pole(table);
     derive_tail(table);
     derive_blocks(table);
-    derive_starts(table);
+    vndf_windows_make(table);
     for (uint32_t j = 0; j <= table->radial_count; j++)
         table->slope[j] = table->knots.z[j] > 0.0f ? table->knots.x[j] / table->knots.z[j] : HUGE_VALF;
     return vndf_guide_make(&table->slope_guide, table->slope, table->radial_count + 1) &&

@@ -26,9 +26,10 @@ enum {
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16, /* radial knots are searched by blocks */
-    VNDF_WINDOW = 32, /* or by a window of knots, where one is known to hold the cell */
-    VNDF_STARTS = 64, /* for this many ranges of u */
-    VNDF_NO_START = 0xffff,
+    VNDF_WINDOW = 8, /* or by a window of knots, where one is known to hold the cell (table/window.h): */
+    VNDF_RANGES = 64, /* for this many ranges of u */
+    VNDF_RATIOS = 18, /* and of k/c */
+    VNDF_NO_WINDOW = 0xffff,
     VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
     VNDF_BEZIER = 8
 };
@@ -37,11 +38,11 @@ enum {
  *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
- * T_n the rest. Arrays, so that a search can count through sixteen knots at once; `count` includes padding: what
+ * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count through sixteen knots at once; `count` includes padding: what
  * lies beyond the last knot has sums that no search reaches. */
 typedef struct vndf_knots {
     uint32_t count;
-    float *x, *z, *e, *g, *s, *t;
+    float *x, *z, *e, *g, *s, *t, *f0, *f1;
 } vndf_knots;
 
 /* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. */
@@ -50,10 +51,11 @@ typedef struct vndf_radial_cell {
     float unused; /* 32 bytes */
 } vndf_radial_cell;
 
-/* index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps. */
+/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
     uint16_t *first;
+    uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
 } vndf_guide;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
@@ -83,7 +85,6 @@ struct vndf_distribution {
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_knots knots;          /* radial_count + 1 and padding */
     vndf_knots blocks;         /* the first knot of each block, padded likewise */
-    uint16_t start[VNDF_STARTS]; /* window of the laws without a cut (c, k >= 0) for u in [i, i + 1]/VNDF_STARTS, or VNDF_NO_START */
     float *slope;              /* X/Z of the knots, ascending, last is infinite */
     vndf_radial_cell *cells;   /* radial_count */
     vndf_guide slope_guide;
@@ -92,6 +93,7 @@ struct vndf_distribution {
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
+    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* first cells; the second half for k < 0 */
 };
 
 #endif

@@ -1,0 +1,129 @@
+/* Drawing the slope length: search for the cell, then its inverse. One function for each of the three kinds of laws
+ * (radial.h); they take the weights before scaling, so that the search need not wait for the division by the mass. */
+#ifndef VNDF_SAMPLER_RADIAL_DRAW_H
+#define VNDF_SAMPLER_RADIAL_DRAW_H
+
+#include "sampler/radial.h"
+#include "table/window.h"
+
+/* A drawn place, its piece and where that stands. */
+typedef struct vndf_radial_drawn {
+    vndf_radius at;
+    vndf_radial_piece piece;
+    float inside;
+} vndf_radial_drawn;
+
+/* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
+VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k, float target)
+{
+    const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        float w = c * z[i] + k * x[i];
+        count += c * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= target;
+    }
+    return count;
+}
+
+/* The same in a window, for c, k >= 0. */
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
+{
+    const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < VNDF_WINDOW; i++)
+        count += c * f0[i] + k * f1[i] <= target;
+    return count;
+}
+
+/* How many have more than `target` beyond them (c < 0). */
+VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k, float target)
+{
+    const float *z = knots->z + from, *x = knots->x + from, *s = knots->s + from, *t = knots->t + from;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        float w = c * z[i] + k * x[i];
+        count += k * s[i] + (w > 0.0f ? w : 0.0f) * t[i] > target;
+    }
+    return count;
+}
+
+/* Where no window is known: first the block, then within. Returns the last knot with no more than target before it. */
+static inline uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
+{
+    uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
+    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+    uint32_t j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, c, k, target);
+    return j > 0 ? j - 1 : 0;
+}
+
+/* The cell of a mass below the horizon, counted from infinity inwards; a knot that is not visible counts as the cut. */
+VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float target)
+{
+    const vndf_distribution *d = law->table;
+    uint32_t last = d->radial_count - 1, block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law->c, law->k, target);
+    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+    uint32_t j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law->c, law->k, target);
+    j = j > 0 ? j - 1 : 0;
+    j = j > law->cut ? j : law->cut;
+    return j < last ? j : last;
+}
+
+/* The place with a mass `rest` of cell j before it. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece, float rest)
+{
+    vndf_radial_drawn r = {{j, 1.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
+    float xi = r.inside;
+    if (piece.weighted)
+        xi = piece.begin + piece.length * vndf_weighted_xi(piece.w0, piece.w1, xi);
+    r.at.xi = xi < 1.0f && law->scale > 0.0f ? xi : 1.0f; /* where nothing is visible the horizon stands for it */
+    return r;
+}
+
+/* The place with a part u of the mass before it; c, k >= 0. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u)
+{
+    uint32_t start = vndf_window_of(d, c, k, u), last = d->radial_count - 1, j;
+    float target = u * (c * d->f0_total + k * d->f1_total);
+    if (start != VNDF_NO_WINDOW)
+        j = start + vndf_radial_count_whole(&d->knots, start + 1, c, k, target);
+    else
+        j = vndf_radial_search_before(d, c, k, target);
+    j = j < last ? j : last;
+    vndf_radial_law law = vndf_radial_law_whole(d, c, k);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before_whole(&law, j));
+}
+
+/* c > 0 > k. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d, float c, float k, float u)
+{
+    float total;
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+    uint32_t start = vndf_window_of(d, c, k, u), j;
+    if (start != VNDF_NO_WINDOW)
+        j = start + vndf_radial_count_before(&d->knots, start + 1, VNDF_WINDOW, c, k, u * total);
+    else
+        j = vndf_radial_search_before(d, c, k, u * total);
+    j = j < law.cut ? j : law.cut;
+    law = vndf_radial_scaled(law, total);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before(&law, j));
+}
+
+/* c < 0, k > 0; or k = 0 and nothing is visible. Mass is counted from infinity inwards. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
+{
+    vndf_radial_law law = vndf_radial_law_for(d, c, k);
+    uint32_t j = vndf_radial_search_beyond(&law, 1.0f - u);
+    vndf_radial_piece piece = vndf_radial_piece_of(&law, j);
+    return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - vndf_radial_beyond(&law, j + 1)));
+}
+
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
+ * changes by more than a factor e^10 per e-fold of the slope, and beside a knot, which may be a jump of D. */
+VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r)
+{
+    const vndf_knots *k = &d->knots;
+    float change = fabsf(r->piece.cell.e1 - r->piece.cell.e0) * k->x[r->at.cell + 1] * k->z[r->at.cell];
+    return change > 10.0f * r->piece.cell.mass * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
+}
+
+#endif
