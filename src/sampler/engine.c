@@ -40,10 +40,10 @@ VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, vndf_vec3 n, float
     return (float)w * scale;
 }
 
-/* Per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
+/* Per steradian, of a normal that faces wi: dwm = ax ay X Z^2 dR da / scale^3. */
 VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scale)
 {
-    return vndf_finite(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
+    return vndf_positive(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
 }
 
 /* ---- sampling ---- */
