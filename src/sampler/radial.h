@@ -232,13 +232,15 @@ VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_rad
     return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
 }
 
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
- * changes by more than a factor e^10 per e-fold of the slope, and beside a knot, which may be a jump of D. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at)
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density changes
+ * by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what it has about `inside` -
+ * and beside a knot, which may be a jump of D. */
+VNDF_INLINE int vndf_radial_is_delicate(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside)
 {
     const vndf_knots *k = &law->table->knots;
-    float change = fabsf(piece->cell.e1 - piece->cell.e0) * k->x[at.cell + 1] * k->z[at.cell];
-    return change > 10.0f * piece->cell.mass * law->table->cells[at.cell].width || at.xi > 0.999f || at.xi < 0.001f;
+    float rise = piece->cell.e1 - piece->cell.e0, here = piece->cell.e0 + rise * inside, mass = piece->cell.mass;
+    float change = fabsf(rise) * k->x[at.cell + 1] * k->z[at.cell];
+    return change > 10.0f * (here < mass ? here : mass) * law->table->cells[at.cell].width || at.xi > 0.999f || at.xi < 0.001f;
 }
 
 /* A drawn place, its piece and where that stands. */
