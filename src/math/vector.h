@@ -70,6 +70,13 @@ VNDF_INLINE float vndf_finite(float x)
     return x < 3.402823466e38f ? x : (x > 0.0f ? 3.402823466e38f : 0.0f);
 }
 
+/* The density of a normal that is drawn: as above, but at least the least normal float, so that no sample comes with
+ * density 0 and no quotient by it is infinite. What is smaller is the rim of a lobe, or lost to single precision. */
+VNDF_INLINE float vndf_positive(float x)
+{
+    return x > 1.17549435e-38f ? vndf_finite(x) : 1.17549435e-38f;
+}
+
 /* u in [0, 1]; NaN becomes 0. */
 VNDF_INLINE float vndf_clamp_unit(float u)
 {

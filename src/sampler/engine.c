@@ -40,10 +40,10 @@ VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, vndf_vec3 n, float
     return (float)w * scale;
 }
 
-/* Per steradian: dwm = ax ay X Z^2 dR da / scale^3. */
+/* Per steradian, of a normal that faces wi: dwm = ax ay X Z^2 dR da / scale^3. */
 VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scale)
 {
-    return vndf_finite(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
+    return vndf_positive(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
 }
 
 /* ---- sampling ---- */
@@ -108,7 +108,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
     float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
-    int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f && !r.piece.weighted;
+    int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
+                fabsf(half) < 0.9999f && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)

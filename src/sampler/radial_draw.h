@@ -118,12 +118,14 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d,
 }
 
 /* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
- * changes by more than a factor e^10 per e-fold of the slope, and beside a knot, which may be a jump of D. */
+ * changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what it has at the
+ * place, about - and beside a knot, which may be a jump of D. */
 VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
     const vndf_knots *k = &d->knots;
-    float change = fabsf(r->piece.cell.e1 - r->piece.cell.e0) * k->x[r->at.cell + 1] * k->z[r->at.cell];
-    return change > 10.0f * r->piece.cell.mass * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
+    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside;
+    float change = fabsf(rise) * k->x[r->at.cell + 1] * k->z[r->at.cell], least = here < r->piece.cell.mass ? here : r->piece.cell.mass;
+    return change > 10.0f * least * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
 }
 
 #endif

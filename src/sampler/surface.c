@@ -64,10 +64,13 @@ float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
     return g1 < 1.0f ? g1 : 1.0f;
 }
 
+/* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1: the smaller G1 times a factor that is 1/2 at least, since a
+ * product of two small ones would underflow. */
 float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
 {
     float gi = vndf_g1(surface, wi), go = vndf_g1(surface, wo);
-    if (model == VNDF_G2_SEPARABLE || gi == 0.0f || go == 0.0f)
+    float least = gi < go ? gi : go, most = gi < go ? go : gi;
+    if (model == VNDF_G2_SEPARABLE || least == 0.0f)
         return gi * go;
-    return gi * go / (gi + go - gi * go); /* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1 */
+    return least * (most / (most + least * (1.0f - most)));
 }

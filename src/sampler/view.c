@@ -66,8 +66,9 @@ VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
     double facing = vndf_facing(view, n);
     if (!(wm.z >= 0.0f) || !(facing > 0.0))
         return 0.0f;
-    return vndf_density_from(view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_visible(view, n, facing)
-                                                                       : vndf_beckmann_visible(view, n, facing));
+    return vndf_positive(vndf_density_from(view->distribution->kind == VNDF_KIND_GGX
+                                               ? vndf_ggx_visible(view, n, facing)
+                                               : vndf_beckmann_visible(view, n, facing)));
 }
 
 /* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding: a
