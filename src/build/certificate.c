@@ -16,6 +16,23 @@ static const double MASS_LEFT_OUT = 1e-6;
 /* f of a cell changes by more than this: it takes the finer rule. */
 static const double STEEP = 1.3;
 
+/* Cells of small tables are integrated in parts, at least so many in all: what is measured is the table, not the rule. */
+enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20 };
+
+static uint32_t parts_for(uint32_t cells, uint32_t least)
+{
+    return (least + cells - 1) / cells;
+}
+
+/* Slope at part/parts of a radial cell in xi. */
+static double part_of(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
+{
+    double xi = (double)part / parts, x0 = d->knots.x[cell], z0 = d->knots.z[cell];
+    if (part == 0 || part == parts)
+        return d->slope[cell + (part > 0)];
+    return (x0 + xi * (d->knots.x[cell + 1] - x0)) / (z0 + xi * (d->knots.z[cell + 1] - z0));
+}
+
 /* One Gauss point of a direction. */
 typedef struct sample {
     double truth, drawn; /* density in slope area, times its share of the area: parts of the two masses */
@@ -24,6 +41,7 @@ typedef struct sample {
 typedef struct survey {
     const vndf_distribution *table;
     const vndf_profile *profile;
+    uint32_t radial_parts; /* of each radial cell */
     sample *samples;
     size_t count, capacity;
 } survey;
@@ -33,13 +51,6 @@ typedef struct finding {
     int measured;
 } finding;
 
-static vndf_vec3 normal_at(double r, double a)
-{
-    double z = 1 / (1 + r), x = r < HUGE_VAL ? r * z : 1.0;
-    vndf_vec3 n = {(float)(x * cos(a)), (float)(x * sin(a)), (float)z};
-    return n;
-}
-
 /* The view of the unit problem: isotropic, so that it may be made from s and c alone. */
 static vndf_view view_of(const vndf_distribution *table, double s, double c)
 {
@@ -48,74 +59,120 @@ static vndf_view view_of(const vndf_distribution *table, double s, double c)
     return vndf_view_from(&surface, wi);
 }
 
-/* pdf per unit of slope area of the unit problem at R, a: the engine's density is per X Z^2 dR da. */
-static double drawn_density(const vndf_view *view, double r, double a)
+/* One azimuth of a direction, with the weight that it has in the sum. */
+typedef struct ray {
+    vndf_engine_ray drawn;
+    double s, c, cos_phi, weight, area;
+} ray;
+
+/* pdf per unit of slope area of the unit problem at R: the engine's density is per X Z^2 dR da. */
+static double drawn_density(const ray *at, double r)
 {
-    vndf_vec3 n = normal_at(r, a);
-    double z = n.z, w = view->s * n.x + view->c * z;
-    return w > 0 ? (double)vndf_engine_density(view, n, (float)w) * z * z * z : 0.0;
+    double unit = 1 / (1 + r);
+    float x = (float)(r < HUGE_VAL ? r * unit : 1.0), z = (float)unit;
+    double w = at->s * at->cos_phi * x + at->c * z;
+    return w > 0 ? (double)vndf_engine_ray_density(&at->drawn, x, z, (float)w) * z * z * z : 0.0;
 }
 
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
-static void add_slopes(survey *v, const vndf_view *view, double a, double w, double r0, double r1, double area, int steep)
+static void add_slopes(survey *v, const ray *at, double r0, double r1, int steep)
 {
     const double *node = steep ? vndf_gauss_node : vndf_gauss_coarse_node, *weight = steep ? vndf_gauss_weight : vndf_gauss_coarse_weight;
     int points = steep ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
-    double s = view->s, c = view->c, x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
+    double x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
     double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
     for (int i = 0; i < points && v->count < v->capacity; i++) {
         double xi = node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
-        double measure = w * weight[i] * width * r / (z * z);
-        double mask = c + s * cos(a) * r, truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / area : 0.0;
-        sample one = {truth * measure, drawn_density(view, r, a) * measure};
+        double measure = at->weight * weight[i] * width * r / (z * z), mask = at->c + at->s * at->cos_phi * r;
+        sample one = {mask > 0 ? vndf_profile_p22(v->profile, r) * mask / at->area * measure : 0.0, drawn_density(at, r) * measure};
         v->samples[v->count++] = one;
     }
 }
 
-/* One azimuth: every radial cell that is seen, the one at the cut up to the cut. */
-static void add_azimuth(survey *v, const vndf_view *view, double a, double w, double area)
+/* One azimuth: every radial cell that is seen, in parts where there are few, the one at the cut up to the cut. */
+static void add_azimuth(survey *v, const ray *at)
 {
-    double k = view->s * cos(a), c = view->c, cut = c * k < 0 ? -c / k : 0.0;
+    double k = at->s * at->cos_phi, c = at->c, cut = c * k < 0 ? -c / k : 0.0;
     const vndf_distribution *d = v->table;
-    for (uint32_t j = 0; j < d->radial_count; j++) {
-        double r0 = d->slope[j], r1 = d->slope[j + 1], f0 = d->cells[j].f0, f1 = d->cells[j].f1;
+    for (uint32_t i = 0; i < d->radial_count * v->radial_parts; i++) {
+        uint32_t j = i / v->radial_parts;
+        double r0 = part_of(d, j, i % v->radial_parts, v->radial_parts), r1 = part_of(d, j, i % v->radial_parts + 1, v->radial_parts);
+        double f0 = d->cells[j].f0, f1 = d->cells[j].f1;
         if (c > 0 && cut > 0)
             r1 = fmin(r1, cut);
         else if (c < 0)
             r0 = fmax(r0, cut > 0 ? cut : HUGE_VAL);
         if (r1 > r0)
-            add_slopes(v, view, a, w, r0, r1, area, f0 > STEEP * f1 || f1 > STEEP * f0);
+            add_slopes(v, at, r0, r1, v->radial_parts > 1 || f0 > STEEP * f1 || f1 > STEEP * f0);
     }
 }
 
 /* A quarter turn on the cells of a row with an aspect. */
 static void add_quarter(survey *v, const vndf_view *view, const float *node, uint32_t cells, double p, double r, int away, double area)
 {
-    for (uint32_t i = 0; i < cells * VNDF_GAUSS_COARSE; i++) {
-        double q0 = node[i / VNDF_GAUSS_COARSE], q1 = node[i / VNDF_GAUSS_COARSE + 1];
-        double q = q0 + (q1 - q0) * vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE];
-        double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, a = atan2(y, x);
-        double w = vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] * (q1 - q0) * 2 * p * r * (1 + q * q) / n2;
-        add_azimuth(v, view, away ? PI - a : a, 2 * w, area);
+    uint32_t parts = parts_for(cells, AZIMUTH_PARTS_LEAST);
+    for (uint32_t i = 0; i < cells * parts * VNDF_GAUSS_COARSE; i++) {
+        uint32_t cell = i / VNDF_GAUSS_COARSE / parts, part = i / VNDF_GAUSS_COARSE % parts;
+        double width = ((double)node[cell + 1] - node[cell]) / parts, q = node[cell] + width * (part + vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE]);
+        double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
+        ray at = {{{0}, 0}, view->s, view->c, (away ? -x : x) / n,
+                  2 * vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] * width * 2 * p * r * (1 + q * q) / n2, area};
+        at.drawn = vndf_engine_ray_at(view, (float)at.cos_phi, (float)(y / n));
+        add_azimuth(v, &at);
     }
 }
 
-static int by_weight(const void *a, const void *b)
+static double ratio_of(sample a)
 {
-    const sample *x = a, *y = b;
-    double p = x->truth * y->drawn, q = y->truth * x->drawn;
-    return (p < q) - (p > q);
+    return a.drawn > 0 ? a.truth / a.drawn : a.truth > 0 ? HUGE_VAL : 0.0;
 }
 
-/* Largest truth/drawn when the points with the largest, that together hold MASS_LEFT_OUT, are left out. */
+/* Moves samples with a ratio of `pivot` or more to the front; their count. */
+static size_t split_at(sample *samples, size_t count, double pivot, double *mass)
+{
+    size_t n = 0;
+    *mass = 0.0;
+    for (size_t i = 0; i < count; i++)
+        if (ratio_of(samples[i]) >= pivot) {
+            sample swap = samples[n];
+            *mass += samples[i].truth;
+            samples[n++] = samples[i];
+            samples[i] = swap;
+        }
+    return n;
+}
+
+static double middle_of_three(double a, double b, double c)
+{
+    return fmax(fmin(a, b), fmin(fmax(a, b), c));
+}
+
+/* Largest truth/drawn when the points with the largest, that together hold MASS_LEFT_OUT, are left out: what is left is
+ * split until it is one value. */
 static double weight_of(survey *v)
 {
-    double left = MASS_LEFT_OUT;
-    qsort(v->samples, v->count, sizeof *v->samples, by_weight);
-    for (size_t i = 0; i < v->count; i++) {
-        left -= v->samples[i].truth;
-        if (left < 0)
-            return v->samples[i].drawn > 0 ? v->samples[i].truth / v->samples[i].drawn : HUGE_VAL;
+    double left = MASS_LEFT_OUT, mass;
+    sample *from = v->samples;
+    size_t count = v->count;
+    while (count > 0) {
+        double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
+        size_t larger = 0;
+        mass = 0.0;
+        if (pivot < HUGE_VAL)
+            larger = split_at(from, count, nextafter(pivot, HUGE_VAL), &mass);
+        if (mass > left) {
+            count = larger;
+            continue;
+        }
+        left -= mass;
+        from += larger;
+        count -= larger;
+        size_t equal = split_at(from, count, pivot, &mass);
+        if (mass > left)
+            return pivot;
+        left -= mass;
+        from += equal;
+        count -= equal;
     }
     return 1.0;
 }
@@ -199,9 +256,10 @@ static int is_bounded(const vndf_profile *profile)
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
 {
-    survey v = {table, profile, NULL, 0, 0};
+    survey v = {table, profile, parts_for(table->radial_count, RADIAL_PARTS_LEAST), NULL, 0, 0};
     vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
-    v.capacity = (size_t)(table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS) * VNDF_GAUSS_COARSE * table->radial_count * VNDF_GAUSS;
+    uint32_t cells = table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS + 3 * AZIMUTH_PARTS_LEAST;
+    v.capacity = (size_t)cells * VNDF_GAUSS_COARSE * table->radial_count * v.radial_parts * VNDF_GAUSS;
     v.samples = malloc(v.capacity * sizeof *v.samples);
     if (!v.samples)
         return 0;

@@ -6,12 +6,16 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "math/ascending.h"
 
 enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40, PANELS_MAX = 60000 };
 
+static const double PI = 3.14159265358979323846, DEGREES = 57.295779513082323; /* to a radian */
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 static const double UNEVEN = 0.43; /* a jump in the middle would be half of either rule, and pass for smooth */
-
+static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
+static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
+static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
 
 static double floor_at(const vndf_profile *profile, double r)
 {
@@ -34,7 +38,8 @@ static double density(vndf_profile *profile, double r)
 double vndf_profile_p22(const vndf_profile *profile, double r)
 {
     double scale = profile->scale;
-    return profile->normalization * scale * scale * profile->source->p22(profile->source, r * scale) + floor_at(profile, r);
+    double given = profile->source->p22(profile->source, r * scale);
+    return profile->normalization * scale * scale * given + floor_at(profile, r);
 }
 
 /* ---- panels ---- */
@@ -44,7 +49,8 @@ static vndf_moments rule(vndf_profile *profile, double u0, double u1)
     double r0 = exp(u0);
     vndf_moments sum = {0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
-        double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond; /* panels get as narrow as 1e-13 r */
+        /* not as a difference: panels get as narrow as 1e-13 r */
+        double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
         double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * density(profile, r);
         sum.m0 += w;
         sum.m1 += w * beyond;
@@ -52,15 +58,17 @@ static vndf_moments rule(vndf_profile *profile, double u0, double u1)
     return sum;
 }
 
-/* Room for one more panel; 0 when there is none. */
+/* Room for one more panel and the outer end; 0, and a note, if there is no memory. */
 static int grow(vndf_profile *profile)
 {
     if (profile->count + 1 < profile->capacity)
         return 1;
     size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
-    vndf_panel *panel = capacity <= 4 * PANELS_MAX ? realloc(profile->panel, capacity * sizeof *panel) : NULL;
-    if (!panel)
+    vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
+    if (!panel) {
+        profile->starved = 1;
         return 0;
+    }
     profile->panel = panel;
     profile->capacity = capacity;
     return 1;
@@ -68,10 +76,10 @@ static int grow(vndf_profile *profile)
 
 static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
 {
-    if (profile->count >= PANELS_MAX || !grow(profile)) {
+    if (profile->count >= PANELS_MAX)
         profile->rough = 1;
+    if (profile->rough || !grow(profile))
         return;
-    }
     vndf_panel panel = {exp(u0), sum.m0, sum.m1, 0, 0, 0, 0, 0, jump};
     profile->panel[profile->count++] = panel;
 }
@@ -81,11 +89,17 @@ static int agree(double a, double b, double least)
     return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
 }
 
+static int stopped(const vndf_profile *profile)
+{
+    return profile->bad || profile->rough || profile->starved;
+}
+
 static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
 {
     double middle = u0 + (u1 - u0) * UNEVEN, gap = exp(u0) * expm1(middle - u0);
-    vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1), sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
-    if (profile->bad || profile->rough)
+    vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1);
+    vndf_moments sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
+    if (stopped(profile))
         return;
     int good = agree(sum.m0, whole.m0, least) && agree(sum.m1, whole.m1, least * gap);
     if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
@@ -95,7 +109,7 @@ static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments wh
     size_t first = profile->count;
     resolve(profile, u0, middle, l, depth + 1, least);
     resolve(profile, middle, u1, r, depth + 1, least);
-    if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !profile->bad && !profile->rough) {
+    if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !stopped(profile)) {
         profile->count = first; /* neither half needed more: the whole will do */
         push(profile, u0, sum, 0);
     }
@@ -110,12 +124,6 @@ static double peak(vndf_profile *profile)
         most = p > most ? p : most;
     }
     return most;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* Octave edges and the known breaks of the source, ascending, as logarithms of canonical R. */
@@ -133,28 +141,26 @@ static double *make_edges(const vndf_profile *profile, size_t *count)
             edge[n++] = u - shift;
     }
     if (edge)
-        qsort(edge, n, sizeof *edge, by_value);
+        qsort(edge, n, sizeof *edge, vndf_ascending);
     *count = n;
     return edge;
 }
 
-/* Fills panels from r = 2^-100 to 2^100 of the source's own unit; 0 without memory. */
-static int fill_panels(vndf_profile *profile)
+/* Fills panels from r = 2^-OCTAVES to 2^OCTAVES of the source's own unit, unless something stops it. */
+static void fill_panels(vndf_profile *profile)
 {
     size_t edges;
-    double least = fmax(1e-45 * peak(profile), 1e-290), *edge = make_edges(profile, &edges);
+    double least = fmax(NEGLIGIBLE * peak(profile), LEAST), *edge = make_edges(profile, &edges);
     profile->count = 0;
-    for (size_t i = 0; edge && i + 1 < edges; i++)
-        if (edge[i + 1] - edge[i] > 1e-12)
+    profile->starved = !edge;
+    for (size_t i = 0; i + 1 < edges && !stopped(profile); i++)
+        if (edge[i + 1] - edge[i] > SAME_EDGE)
             resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
-    if (!edge || !grow(profile)) {
-        free(edge);
-        return 0;
+    if (!stopped(profile) && grow(profile)) {
+        vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
+        profile->panel[profile->count] = end;
     }
-    vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
-    profile->panel[profile->count] = end;
     free(edge);
-    return 1;
 }
 
 /* -d log P / d log r between two slopes; infinite if P vanishes there. */
@@ -215,33 +221,44 @@ static int fill_points(vndf_profile *profile)
 
 /* ---- what a microsurface must be ---- */
 
+static vndf_status no_memory(vndf_error *error)
+{
+    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+}
+
 static vndf_status check_values(const vndf_profile *profile, vndf_error *error)
 {
     if (profile->bad && profile->bad_value < 0.0)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)",
-                         profile->bad_value, profile->bad_r, atan(profile->bad_r) * 57.295779513082323);
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)", profile->bad_value,
+                         profile->bad_r, atan(profile->bad_r) * DEGREES);
     if (profile->bad)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is %s at slope %g (theta_m = %.9g degrees)",
                          isnan(profile->bad_value) ? "not a number" : "infinite", profile->bad_r,
-                         atan(profile->bad_r) * 57.295779513082323);
+                         atan(profile->bad_r) * DEGREES);
+    if (profile->starved)
+        return no_memory(error);
     if (profile->rough)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 is too rough: not resolved by %d panels; the last one began at slope %g", PANELS_MAX,
                          profile->count ? profile->panel[profile->count - 1].r * profile->scale : 0.0);
     if (!(profile->f0 > 0.0))
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
     return VNDF_OK;
 }
 
 /* Both ends are integrable, and what lies beyond the panels is little. */
 static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
 {
-    double tail = exponent(profile, exp2(OCTAVES - 2), exp2(OCTAVES)), pole = exponent(profile, exp2(-OCTAVES), exp2(2 - OCTAVES));
+    double tail = exponent(profile, exp2(OCTAVES - 2), exp2(OCTAVES));
+    double pole = exponent(profile, exp2(-OCTAVES), exp2(2 - OCTAVES));
     const vndf_panel *p = profile->panel;
     size_t n = profile->count;
     if (pole < HUGE_VAL && pole >= 2.0 - 1e-6)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower than r^-2", pole);
+                         "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower "
+                         "than r^-2", pole);
     if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > 1e-6 * profile->f0)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
@@ -251,8 +268,9 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
                          "(D slower than 1/cos(theta_m) towards 90 degrees)", 0.0 - tail);
     if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > 2e-3 * profile->f1)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area at grazing "
-                         "incidence lies beyond slope 1e30, where no single-precision normal can lie", tail);
+                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area "
+                         "at grazing incidence lies beyond slope 1e30, where no single-precision normal can lie",
+                         tail);
     return VNDF_OK;
 }
 
@@ -275,9 +293,8 @@ static double median(vndf_profile *profile)
 
 static vndf_status measure(vndf_profile *profile, vndf_error *error)
 {
-    if (!fill_panels(profile) && !profile->rough && !profile->bad)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
-    if (!profile->bad && !profile->rough)
+    fill_panels(profile);
+    if (!stopped(profile))
         sum_panels(profile);
     return check_values(profile, error);
 }
@@ -294,26 +311,31 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     if (status == VNDF_OK)
         status = check_ends(profile, error);
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
-        double mass = 2 * 3.14159265358979323846 * profile->f0;
+        double mass = 2 * PI * profile->f0;
         if (pass > 0 && fabs(mass - 1.0) < 1e-7)
-            return fill_points(profile) ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
+            return fill_points(profile) ? VNDF_OK : no_memory(error);
         double middle = median(profile);
         profile->normalization /= mass;
         profile->scale *= middle;
         profile->floor = FLOOR;
         if (!(profile->scale > 1e-17 && profile->scale < 1e17))
-            return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
+            return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                             "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
         status = measure(profile, error);
     }
-    return status != VNDF_OK ? status : vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-        "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last one at a median slope of %g", profile->scale);
+    if (status != VNDF_OK)
+        return status;
+    return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                     "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last "
+                     "one at a median slope of %g", profile->scale);
 }
 
 vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error)
 {
     vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
     if (!profile) {
-        vndf_fail(error, source ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT, source ? "no memory" : "no source: NULL was given");
+        vndf_fail(error, source ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
+                  source ? "no memory to resolve the distribution" : "no source: NULL was given");
         return NULL;
     }
     profile->source = source;

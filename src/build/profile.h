@@ -2,8 +2,8 @@
  *
  * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1
  * and median R = 1. The floor, 1e-26/(1 + R^2)^2, is too small for any measurement and keeps a density
- * positive on the whole hemisphere. Panels are even in log R at most an octave wide, halved until ten Gauss points agree with
- * twice ten to 1e-10 of the panel, or until the panel is 1e-12 of R wide: then there is a jump. All
+ * positive on the whole hemisphere. Panels are even in log R, at most an octave wide, cut in two until ten Gauss
+ * points agree with twice ten to 1e-10 of the panel, or until that was done forty times: then there is a jump. All
  * integrals below are sums over panels, with relative precision near the pole (E) and in the tail (S). */
 #ifndef VNDF_BUILD_PROFILE_H
 #define VNDF_BUILD_PROFILE_H
@@ -25,7 +25,7 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
-/* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 of it is left. */
+/* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 is left. */
 #define VNDF_FADE 0.05
 
 typedef struct vndf_profile {
@@ -37,7 +37,7 @@ typedef struct vndf_profile {
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     double bad_r, bad_value;        /* where the source is no density */
-    int bad, rough;                 /* it is so; it needs more panels than there are */
+    int bad, rough, starved;        /* it is so; more panels are needed than there may be, than there is memory */
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. */
@@ -65,5 +65,8 @@ typedef struct vndf_area_value {
 } vndf_area_value;
 vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y);
 vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y);
+
+/* Projected area of the unit problem for the direction (s, 0, c), s >= 0, of any length. */
+double vndf_profile_area(const vndf_profile *profile, double s, double c);
 
 #endif

@@ -11,6 +11,9 @@
 
 static const double HALF_PI = 1.57079632679489661923;
 
+/* y - atan y: here the series errs by 1e-11 of it, the difference by 1e-13. */
+static const double SERIES_MOST = 0.05;
+
 /* The panel of R: r_i <= R < r_(i+1), the ends extended. */
 static size_t panel_of(const vndf_profile *profile, double r)
 {
@@ -33,7 +36,8 @@ static vndf_moments part(const vndf_profile *profile, double a, double b)
     if (!(b > a))
         return sum;
     for (int i = 0; i < VNDF_GAUSS; i++) {
-        double r = exp(u0 + du * vndf_gauss_node[i]), w = vndf_gauss_weight[i] * du * r * r * vndf_profile_p22(profile, r);
+        double r = exp(u0 + du * vndf_gauss_node[i]);
+        double w = vndf_gauss_weight[i] * du * r * r * vndf_profile_p22(profile, r);
         sum.m0 += w;
         sum.m1 += w * (r - a);
     }
@@ -82,12 +86,12 @@ double vndf_profile_e(const vndf_profile *profile, double rho)
 
 double vndf_profile_s(const vndf_profile *profile, double rho)
 {
-    size_t i = panel_of(profile, rho);
-    const vndf_panel *p = &profile->panel[i];
-    if (rho >= profile->panel[profile->count].r)
-        return profile->tail_m1 * profile->panel[profile->count].r / rho; /* or a little more: nothing is held of it */
+    const vndf_panel *p = &profile->panel[panel_of(profile, rho)], *end = &profile->panel[profile->count];
+    if (rho >= end->r)
+        return profile->tail_m1 * end->r / rho; /* or a little more: nothing is held of it */
     double from = rho > p->r ? rho : p->r;
-    return p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1 + (from > rho ? (p->t0) * (from - rho) : 0.0);
+    double inside = p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1;
+    return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
 }
 
 /* Kernels of the two areas by s, of their derivatives by y (see profile.h) and of s^3 times the second, at R > k. */
@@ -95,11 +99,13 @@ typedef struct kernel {
     double mass, slope, curve;
 } kernel;
 
+typedef kernel kernel_function(double r, double k);
+
 static kernel kernel_below(double r, double k)
 {
     double q = r / k, y = sqrt((q - 1.0) * (q + 1.0)), angle = atan(y);
-    double beyond = y < 0.05 ? y * y * y * (1.0 / 3 - y * y * (1.0 / 5 - y * y * (1.0 / 7 - y * y / 9))) : y - angle;
-    kernel value = {k * beyond, angle + k * y, 1.0 / (k * y)};
+    double series = y * y * y * (1.0 / 3 - y * y * (1.0 / 5 - y * y * (1.0 / 7 - y * y / 9)));
+    kernel value = {k * (y < SERIES_MOST ? series : y - angle), angle + k * y, 1.0 / (k * y)};
     return value;
 }
 
@@ -111,7 +117,7 @@ static kernel kernel_above(double r, double k)
 }
 
 /* integral over R in [from, to] of a kernel times P R dR, k <= from < to within one panel: R = k + t^2. */
-static kernel near_panel(const vndf_profile *profile, double k, double from, double to, kernel (*at)(double, double))
+static kernel near_panel(const vndf_profile *profile, double k, double from, double to, kernel_function *at)
 {
     double t0 = sqrt(from - k), dt = sqrt(to - k) - t0;
     kernel sum = {0.0, 0.0, 0.0};
@@ -134,7 +140,7 @@ static void add_kernel(kernel *sum, kernel more, double weight)
 }
 
 /* integral from k outwards. Up to 3 k the root of the kernel is felt, and the panels are integrated anew. */
-static kernel beyond(const vndf_profile *profile, double k, kernel (*at)(double, double))
+static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
 {
     size_t i = panel_of(profile, k), count = profile->count;
     kernel sum = {0.0, 0.0, 0.0};
@@ -199,4 +205,11 @@ vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
     value.slope = sum.slope;
     value.curve = sum.curve / (s * s * s);
     return value;
+}
+
+/* A(w) - A(-w) = c: area_below has the one of the two that is below the horizon. */
+double vndf_profile_area(const vndf_profile *profile, double s, double c)
+{
+    double sum = s + fabs(c);
+    return 2 * sum * vndf_profile_area_below(profile, s / sum).mass + (c > 0 ? c : 0);
 }

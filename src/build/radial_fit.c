@@ -13,12 +13,25 @@ enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 static const double SLOPE_MOST = 1e29; /* 1/R remains a normal float */
 static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi keeps a hundred steps in float */
 
+/* A jump is seen by its values this far on either side, relative to its slope: beyond its narrow panel. */
+static const double BESIDE = 1e-9;
+static const double JUMP_LEAST = 1e-4;  /* of the higher side: less is no more than what cells err by */
+static const double JUMP_MASS = 1e-25;  /* P r^2 at a jump that is worth a knot: well above the floor's */
+static const double SAME_JUMP = 1.0001; /* ratio of slopes within which panels have narrowed to one jump */
+static const double INSIDE_JUMP = 4e-7; /* of the slope: four floats into the cell, for knots are rounded */
+static const double NEAR_HORIZON = 1e-6; /* of the last cell: x/z is finite there */
+
+/* An end of f this many times above the mean is a pole of D: the cell is kept bounded. */
+static const double END_MOST = 50;
+static const double MASS_LEAST = 1e-36; /* of a cell: a normal float with some room for products */
+static const double INSIDE = 0.999;     /* the cubic stays off 0 when its moments are rounded to float */
+
 /* ---- knots ---- */
 
 static int jumps_at(const vndf_profile *profile, double r)
 {
-    double here = vndf_profile_p22(profile, r * (1 - 1e-9)), there = vndf_profile_p22(profile, r * (1 + 1e-9));
-    return fabs(here - there) > 1e-4 * fmax(here, there) && fmax(here, there) * r * r > 1e-25;
+    double here = vndf_profile_p22(profile, r * (1 - BESIDE)), there = vndf_profile_p22(profile, r * (1 + BESIDE));
+    return fabs(here - there) > JUMP_LEAST * fmax(here, there) && fmax(here, there) * r * r > JUMP_MASS;
 }
 
 int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
@@ -29,7 +42,7 @@ int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
     fit->jump = malloc(JUMPS_MAX * sizeof *fit->jump);
     for (size_t i = 1; fit->jump && i < profile->count && fit->jump_count < JUMPS_MAX; i++) {
         double r = profile->panel[i].r;
-        if (r > last * 1.0001 && jumps_at(profile, r))
+        if (r > last * SAME_JUMP && jumps_at(profile, r))
             fit->jump[fit->jump_count++] = last = r;
     }
     return fit->jump != NULL;
@@ -54,7 +67,8 @@ vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r)
     int infinite = r == HUGE_VAL;
     vndf_fit_knot knot = {infinite ? 1.0f : (float)(r / (1 + r)), (float)(1 / (1 + r)), r, is_jump(fit, r)};
     if (knot.jump) { /* the side with more normals keeps its edge inside its own cell */
-        int down = vndf_profile_p22(fit->profile, r * (1 - 1e-9)) > vndf_profile_p22(fit->profile, r * (1 + 1e-9));
+        double before = vndf_profile_p22(fit->profile, r * (1 - BESIDE));
+        int down = before > vndf_profile_p22(fit->profile, r * (1 + BESIDE));
         knot.x = nextafterf(knot.x, down ? 2.0f : 0.0f);
         knot.z = nextafterf(knot.z, down ? 0.0f : 2.0f);
     }
@@ -86,9 +100,9 @@ static double f_at(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b,
 /* f at an end: seen from inside the cell where P jumps, and at the horizon as the limit. */
 static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, int outer)
 {
-    double inside = 4e-7 * (outer ? b.r : a.r) / (b.r - a.r);
+    double inside = INSIDE_JUMP * (outer ? b.r : a.r) / (b.r - a.r);
     if (outer && b.z == 0.0f)
-        return f_at(fit, a, b, 1 - 1e-6);
+        return f_at(fit, a, b, 1 - NEAR_HORIZON);
     if (!(outer ? b.jump : a.jump))
         return f_at(fit, a, b, outer ? 1.0 : 0.0);
     inside = inside < 0.25 ? inside : 0.25;
@@ -98,16 +112,17 @@ static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b
 /* The straight line's moments, of which a part is taken when the true ones would make the cubic negative. */
 static void keep_positive(vndf_radial_cell *cell)
 {
-    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3, e0 = cell->mu0 - l0, e1 = cell->mu1 - l1;
-    double first = (36 * e0 - 24 * e1) / 3, second = (36 * e1 - 24 * e0) / 3, line0 = (2 * f0 + f1) / 3, line1 = (f0 + 2 * f1) / 3;
-    double part = 1.0;
+    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3;
+    double e0 = cell->mu0 - l0, e1 = cell->mu1 - l1, part = 1.0;
+    double first = (36 * e0 - 24 * e1) / 3, second = (36 * e1 - 24 * e0) / 3;
+    double line0 = (2 * f0 + f1) / 3, line1 = (f0 + 2 * f1) / 3;
     if (line0 + first < 0)
         part = line0 / -first;
     if (line1 + second < 0 && line1 / -second < part)
         part = line1 / -second;
     if (part < 1.0) {
-        cell->mu0 = (float)(l0 + 0.999 * part * e0);
-        cell->mu1 = (float)(l1 + 0.999 * part * e1);
+        cell->mu0 = (float)(l0 + INSIDE * part * e0);
+        cell->mu1 = (float)(l1 + INSIDE * part * e1);
     }
 }
 
@@ -115,12 +130,13 @@ vndf_radial_cell vndf_fit_cell(const vndf_radial_fit *fit, vndf_fit_knot a, vndf
 {
     vndf_radial_cell cell = {0};
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
-    double mu0 = b.z > 0.0f ? (m.m0 - m.m1 / (b.r - a.r)) / a.z : m.m0 / a.z, mu1 = b.z > 0.0f ? m.m1 / (b.r - a.r) / b.z : m.m1;
-    double f1 = f_end(fit, a, b, 1), f0 = a.x > 0.0f ? f_end(fit, a, b, 0) : 0.0, most = 50 * (mu0 + mu1);
-    cell.f0 = (float)(f0 < most ? f0 : most); /* an end far above the mean is a pole of D: the cell stays bounded */
+    double mu0 = b.z > 0.0f ? (m.m0 - m.m1 / (b.r - a.r)) / a.z : m.m0 / a.z;
+    double mu1 = b.z > 0.0f ? m.m1 / (b.r - a.r) / b.z : m.m1, most = END_MOST * (mu0 + mu1);
+    double f1 = f_end(fit, a, b, 1), f0 = a.x > 0.0f ? f_end(fit, a, b, 0) : 0.0;
+    cell.f0 = (float)(f0 < most ? f0 : most);
     cell.f1 = (float)(f1 < most ? f1 : most);
-    cell.mu0 = (float)(mu0 > 1e-36 ? mu0 : 1e-36);
-    cell.mu1 = (float)(mu1 > 1e-36 ? mu1 : 1e-36);
+    cell.mu0 = (float)(mu0 > MASS_LEAST ? mu0 : MASS_LEAST);
+    cell.mu1 = (float)(mu1 > MASS_LEAST ? mu1 : MASS_LEAST);
     cell.width = (float)width_of(a, b);
     keep_positive(&cell);
     return cell;
@@ -151,7 +167,8 @@ static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)
 }
 
 /* Half integrals over the cell in `pieces` Gauss rules, and what the rules say the cell lacks. */
-static law_error measure(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, const vndf_radial_cell *cell, int pieces)
+static law_error measure(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b,
+                         const vndf_radial_cell *cell, int pieces)
 {
     law_error e = {0, 0, 0, 0, 0};
     double mass = 0.0, lack;

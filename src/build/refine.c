@@ -1,100 +1,115 @@
+/* The intervals stand in a tournament: it knows the next one to halve and the error of all at any time. */
 #include "build/refine.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/ascending.h"
+
+/* ---- the tournament ---- */
+
+/* What is known of some intervals together. */
+typedef struct summary {
+    double share, alone; /* sum of the shares, largest alone */
+    double urgency;      /* of the one to be halved next */
+    size_t next;         /* which that is */
+} summary;
+
 typedef struct interval {
-    double a, b, urgency;
-    vndf_interval_miss miss;
+    double a, b;
 } interval;
 
-/* A share is one of some fifty. */
-static interval make_interval(double a, double b, vndf_interval_error *error, void *user)
+/* A complete binary tree over the intervals: node i sums up nodes 2i and 2i + 1, node leaves + i is interval i. A
+ * change costs one path to the root, and no sum is ever diminished, so that none loses digits. */
+typedef struct tournament {
+    size_t count, leaves;
+    summary *node; /* 2 leaves; node 1 is the root */
+    interval *interval;
+} tournament;
+
+static summary together(summary l, summary r)
 {
-    interval made = {a, b, 0.0, error(a, b, user)};
-    made.urgency = 50 * made.miss.share > made.miss.alone ? 50 * made.miss.share : made.miss.alone;
-    return made;
+    const summary *first = r.urgency > l.urgency ? &r : &l;
+    summary both = {l.share + r.share, l.alone > r.alone ? l.alone : r.alone, first->urgency, first->next};
+    return both;
 }
 
-static void sift_down(interval *heap, size_t count, size_t i)
+static int tournament_from(tournament *t, size_t most)
 {
-    for (;;) {
-        size_t largest = i, left = 2 * i + 1, right = left + 1;
-        if (left < count && heap[left].urgency > heap[largest].urgency)
-            largest = left;
-        if (right < count && heap[right].urgency > heap[largest].urgency)
-            largest = right;
-        if (largest == i)
-            return;
-        interval swap = heap[i];
-        heap[i] = heap[largest];
-        heap[largest] = swap;
-        i = largest;
-    }
+    t->count = 0;
+    for (t->leaves = 1; t->leaves < most;)
+        t->leaves *= 2;
+    t->node = calloc(2 * t->leaves, sizeof *t->node);
+    t->interval = malloc(most * sizeof *t->interval);
+    return t->node && t->interval;
 }
 
-static void sift_up(interval *heap, size_t i)
+static void tournament_free(tournament *t)
 {
-    while (i > 0 && heap[(i - 1) / 2].urgency < heap[i].urgency) {
-        interval swap = heap[i];
-        heap[i] = heap[(i - 1) / 2];
-        heap[(i - 1) / 2] = swap;
-        i = (i - 1) / 2;
-    }
+    free(t->node);
+    free(t->interval);
 }
 
-static double total(const interval *heap, size_t count)
+/* A share is one of some fifty that are of any size in a default table; to be met alone is worth as many. */
+static const double SHARERS = 50;
+
+static void put(tournament *t, size_t place, interval at, vndf_interval_error *error, void *user)
 {
-    double sum = 0.0, most = 0.0;
-    for (size_t i = 0; i < count; i++) {
-        sum += heap[i].miss.share;
-        most = heap[i].miss.alone > most ? heap[i].miss.alone : most;
-    }
-    return sum + most;
+    vndf_interval_miss miss = error(at.a, at.b, user);
+    double shared = SHARERS * miss.share;
+    summary leaf = {miss.share, miss.alone, shared > miss.alone ? shared : miss.alone, place};
+    size_t i = t->leaves + place;
+    t->interval[place] = at;
+    t->node[i] = leaf;
+    while (i /= 2)
+        t->node[i] = together(t->node[2 * i], t->node[2 * i + 1]);
 }
+
+/* ---- halving ---- */
 
 static double arithmetic_middle(double a, double b)
 {
     return a + (b - a) / 2;
 }
 
-static void split(vndf_refinement *r, interval *heap, size_t intervals, double at, vndf_interval_error *error, void *user)
+/* Halves intervals until one of the reasons to stop. */
+static void halve_the_worst(vndf_refinement *r, tournament *t, size_t limit, double enough,
+                            vndf_interval_middle *middle, vndf_interval_error *error, void *user)
 {
-    interval whole = heap[0];
-    interval left = make_interval(whole.a, at, error, user), right = make_interval(at, whole.b, error, user);
-    r->knot[r->start + r->count++] = at;
-    heap[0] = left;
-    sift_down(heap, intervals, 0);
-    heap[intervals] = right;
-    sift_up(heap, intervals);
+    for (;;) {
+        summary all = t->node[1];
+        r->error[r->count] = all.share + all.alone;
+        if (r->count == limit || r->error[r->count] <= enough || all.urgency <= 0.0)
+            return;
+        interval whole = t->interval[all.next];
+        double at = middle(whole.a, whole.b);
+        interval left = {whole.a, at}, right = {at, whole.b};
+        r->knot[r->start + r->count++] = at;
+        put(t, all.next, left, error, user);
+        put(t, t->count++, right, error, user);
+    }
 }
 
 int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, size_t limit, double enough,
                 vndf_interval_middle *middle, vndf_interval_error *error, void *user)
 {
-    size_t intervals = start_count - 1;
-    interval *heap = malloc((intervals + limit + 1) * sizeof *heap);
+    tournament t;
+    int good = tournament_from(&t, start_count - 1 + limit);
     r->start = start_count;
     r->count = 0;
     r->knot = malloc((start_count + limit) * sizeof *r->knot);
     r->error = malloc((limit + 1) * sizeof *r->error);
-    if (!heap || !r->knot || !r->error) {
-        free(heap);
-        return 0;
-    }
-    memcpy(r->knot, start, start_count * sizeof *start);
-    for (size_t i = 0; i < intervals; i++) {
-        heap[i] = make_interval(start[i], start[i + 1], error, user);
-        sift_up(heap, i);
-    }
-    for (;;) {
-        r->error[r->count] = total(heap, intervals + r->count);
-        if (r->count == limit || r->error[r->count] <= enough || heap[0].urgency <= 0.0)
-            break;
-        split(r, heap, intervals + r->count, (middle ? middle : arithmetic_middle)(heap[0].a, heap[0].b), error, user);
-    }
-    free(heap);
-    return 1;
+    if (good && r->knot && r->error) {
+        memcpy(r->knot, start, start_count * sizeof *start);
+        while (t.count + 1 < start_count) {
+            interval given = {start[t.count], start[t.count + 1]};
+            put(&t, t.count++, given, error, user);
+        }
+        halve_the_worst(r, &t, limit, enough, middle ? middle : arithmetic_middle, error, user);
+    } else
+        good = 0;
+    tournament_free(&t);
+    return good;
 }
 
 size_t vndf_refinement_needed(const vndf_refinement *r, double error)
@@ -105,16 +120,10 @@ size_t vndf_refinement_needed(const vndf_refinement *r, double error)
     return n;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 void vndf_refinement_knots(const vndf_refinement *r, size_t added, double *knots)
 {
     memcpy(knots, r->knot, (r->start + added) * sizeof *knots);
-    qsort(knots, r->start + added, sizeof *knots, by_value);
+    qsort(knots, r->start + added, sizeof *knots, vndf_ascending);
 }
 
 void vndf_refinement_free(vndf_refinement *r)

@@ -33,7 +33,8 @@ static int write_whole(FILE *file, const unsigned char *bytes, size_t size)
 {
     int good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0;
 #ifdef VNDF_HAS_POSIX
-    good = good && (fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS); /* not every file can be synced */
+    /* not every file can be synced */
+    good = good && (fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS);
 #endif
     int reason = errno, closed = fclose(file) == 0;
     if (!good)
@@ -61,7 +62,8 @@ static vndf_status write_file(const char *path, const unsigned char *bytes, size
 vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error)
 {
     if (!distribution || !path || distribution->kind != VNDF_KIND_TABLE)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a path are needed to save; closed forms have no file");
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "a table and a path are needed to save; closed forms have no file");
     size_t size = vndf_table_encode(distribution, NULL, 0);
     unsigned char *bytes = malloc(size);
     if (!bytes)

@@ -17,7 +17,7 @@ vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error)
         truth->profile = profile;
     else if (profile) {
         vndf_profile_free(profile);
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory");
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for the truth of a distribution");
     }
     return truth;
 }
@@ -29,8 +29,7 @@ double vndf_truth_p22(const vndf_truth *truth, double r)
 
 double vndf_truth_area(const vndf_truth *truth, double theta)
 {
-    double s = sin(theta) * truth->profile->scale, c = cos(theta), sum = s + fabs(c);
-    return 2 * sum * vndf_profile_area_below(truth->profile, s / sum).mass + (c > 0 ? c : 0);
+    return vndf_profile_area(truth->profile, sin(theta) * truth->profile->scale, cos(theta));
 }
 
 void vndf_truth_free(vndf_truth *truth)

@@ -7,10 +7,10 @@
 #include "vndf_build.h"
 
 struct vndf_source {
-    double (*p22)(const vndf_source *self, double r); /* P22 at slope length r >= 0; any scale; may give NaN or inf */
+    double (*p22)(const vndf_source *self, double r); /* at slope length r >= 0; any scale; may give NaN or inf */
     void (*destroy)(vndf_source *self);               /* frees self and all it owns */
     char *description;                                /* arguments of `vndf build`, owned */
-    const double *breaks;                             /* ascending slopes where P22 has kinks or jumps that are known, or NULL */
+    const double *breaks;                             /* ascending slopes of known kinks and jumps, or NULL */
     size_t break_count;
     int rebuildable;                                  /* description alone makes the same source again */
 };

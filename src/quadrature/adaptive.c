@@ -12,7 +12,8 @@ static double rule(vndf_integrand *f, void *user, double a, double b)
     return sum * (b - a);
 }
 
-static vndf_integral refine(vndf_integrand *f, void *user, double a, double b, double whole, double tolerance, int depth)
+static vndf_integral refine(vndf_integrand *f, void *user, double a, double b, double whole, double tolerance,
+                            int depth)
 {
     double middle = a + (b - a) / 2, left = rule(f, user, a, middle), right = rule(f, user, middle, b);
     double error = fabs(left + right - whole);

@@ -58,8 +58,12 @@ VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, ui
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
 {
     float even = 1.0f + q * q; /* n if p = r = 1 */
-    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = row->plain ? even * even : c * c + s * s;
-    vndf_azimuth at = {c, s, row->plain ? even : sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * even)};
+    if (row->plain) {
+        vndf_azimuth at = {1.0f - q * q, 2.0f * q, even, per_q * (0.5f * even)};
+        return at;
+    }
+    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
+    vndf_azimuth at = {c, s, sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * even)};
     return at;
 }
 

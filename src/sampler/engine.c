@@ -156,19 +156,42 @@ static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
     return above != toward && view->wedge > 0.0f && row->p > 0.0f;
 }
 
+VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float sin_phi)
+{
+    vndf_engine_ray ray;
+    vndf_azimuth_row row;
+    ray.azimuth = 0.0f;
+    ray.law = vndf_radial_law_for(view->distribution, view->c, view->s * cos_phi);
+    if (!row_of(view, cos_phi, &row))
+        return ray;
+    float azimuth = vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi);
+    if (row.q != vndf_front_q)
+        azimuth *= view->wedge;
+    ray.azimuth = 0.5f * azimuth / (view->front + view->wedge);
+    return ray;
+}
+
+VNDF_INLINE float ray_density(const vndf_engine_ray *ray, vndf_radius at, float w)
+{
+    vndf_radial_piece piece = vndf_radial_piece_of(&ray->law, at.cell);
+    return ray->azimuth * vndf_radial_density(&ray->law, &piece, at, vndf_radial_inside(&piece, at.xi), w);
+}
+
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, float cos_phi, float sin_phi)
+{
+    return ray_at(view, cos_phi, sin_phi);
+}
+
+float vndf_engine_ray_density(const vndf_engine_ray *ray, float x, float z, float w)
+{
+    return ray_density(ray, radius_of(ray->law.table, x, z), w);
+}
+
 float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w)
 {
     place p = place_of(view, normal);
-    vndf_azimuth_row row;
-    if (!row_of(view, p.cos_phi, &row))
-        return 0.0f;
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
-    vndf_radial_piece piece = vndf_radial_piece_of(&law, p.at.cell);
-    float azimuth = vndf_azimuth_density(&row, fabsf(p.cos_phi), p.sin_phi);
-    if (row.q != vndf_front_q)
-        azimuth *= view->wedge;
-    float radial = vndf_radial_density(&law, &piece, p.at, vndf_radial_inside(&piece, p.at.xi), w);
-    return 0.5f * azimuth / (view->front + view->wedge) * radial;
+    vndf_engine_ray ray = ray_at(view, p.cos_phi, p.sin_phi);
+    return ray_density(&ray, p.at, w);
 }
 
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)

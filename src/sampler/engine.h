@@ -30,7 +30,7 @@
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 
-#include "vndf.h"
+#include "sampler/radial.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 float vndf_unit_area(const vndf_distribution *d, float s, float c);
@@ -42,8 +42,18 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
 /* Normals of the unit problem, (X cos a, X sin a, Z) in the turned frame, need not be scaled: their density per
- * X Z^2 dR da at X + Z = 1, where w = s X cos a + c Z > 0; and the uniform numbers that give them. */
+ * X Z^2 dR da at X + Z = 1, where w = s X cos a + c Z > 0. */
 float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w);
+
+/* The same for many normals of one azimuth: (cos_phi, sin_phi), sin_phi >= 0, then slope lengths X/Z. */
+typedef struct vndf_engine_ray {
+    vndf_radial_law law;
+    float azimuth; /* density of the azimuth, per radian */
+} vndf_engine_ray;
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, float cos_phi, float sin_phi);
+float vndf_engine_ray_density(const vndf_engine_ray *ray, float x, float z, float w);
+
+/* ... and the uniform numbers that give a normal. */
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
