@@ -103,8 +103,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float level2 = level.x * level.x + level.y * level.y;
     vndf_radial_drawn r = draw_radius(view, &a, u2);
     uint32_t j = r.at.cell;
-    float x = k->x[j] + r.at.xi * (k->x[j + 1] - k->x[j]), z = k->z[j] + r.at.xi * (k->z[j + 1] - k->z[j]);
-    z = z > 0.0f ? z : 0.0f;
+    float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
     float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
@@ -132,8 +131,10 @@ static vndf_radius radius_of(const vndf_distribution *d, float x, float z)
     float slope = z > 0.0f ? x / z : HUGE_VALF;
     uint32_t j = vndf_guide_find(&d->slope_guide, slope);
     float inner = x * k->z[j] - z * k->x[j], outer = z * k->x[j + 1] - x * k->z[j + 1];
-    float xi = inner + outer > 0.0f ? inner / (inner + outer) : 0.0f;
-    vndf_radius at = {j, xi > 0.0f ? (xi < 1.0f ? xi : 1.0f) : 0.0f};
+    inner = inner > 0.0f ? inner : 0.0f;
+    outer = outer > 0.0f ? outer : 0.0f;
+    float sum = inner + outer;
+    vndf_radius at = {j, sum > 0.0f ? inner / sum : 0.0f, sum > 0.0f ? outer / sum : 1.0f};
     return at;
 }
 
@@ -174,7 +175,7 @@ VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float s
 VNDF_INLINE float ray_density(const vndf_engine_ray *ray, vndf_radius at, float w)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(&ray->law, at.cell);
-    return ray->azimuth * vndf_radial_density(&ray->law, &piece, at, vndf_radial_inside(&piece, at.xi), w);
+    return ray->azimuth * vndf_radial_density(&ray->law, &piece, at, vndf_radial_inside(&piece, at), w);
 }
 
 vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, float cos_phi, float sin_phi)

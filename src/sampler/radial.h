@@ -28,7 +28,7 @@ typedef struct vndf_radial_law {
 /* A place in the table. */
 typedef struct vndf_radius {
     uint32_t cell;
-    float xi;
+    float xi, eta; /* from the inner knot and from the outer: their sum is 1, each is exact where it is small */
 } vndf_radius;
 
 VNDF_INLINE float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
@@ -179,10 +179,10 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, u
     return piece;
 }
 
-/* Where the piece's rational cell stands at xi of the whole cell. */
-VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, float xi)
+/* Where the piece's rational cell stands at a place of the whole cell. */
+VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, vndf_radius at)
 {
-    float inside = (xi - piece->begin) / piece->length;
+    float inside = piece->begin > 0.0f ? 1.0f - at.eta / piece->length : at.xi / piece->length;
     inside = inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f;
     return piece->weighted ? vndf_weighted_zeta(piece->w0, piece->w1, inside) : inside;
 }
@@ -195,7 +195,7 @@ VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_rad
     const vndf_distribution *d = law->table;
     if (at.cell == 0 && at.xi < 1e-6f) {
         at.xi = 1e-6f;
-        inside = vndf_radial_inside(piece, at.xi);
+        inside = vndf_radial_inside(piece, at);
     }
     float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
     float own_w = piece->weighted ? 0.5f * (piece->w0 + piece->w1) : piece->w0 + at.xi * (piece->w1 - piece->w0);
@@ -207,7 +207,7 @@ VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_rad
 VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
-    float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at.xi));
+    float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at));
     if (law->c < 0.0f)
         return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
     return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;

@@ -71,11 +71,17 @@ VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float
 /* The place with a mass `rest` of cell j before it. */
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece, float rest)
 {
-    vndf_radial_drawn r = {{j, 1.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
-    float xi = r.inside;
-    if (piece.weighted)
-        xi = piece.begin + piece.length * vndf_weighted_xi(piece.w0, piece.w1, xi);
-    r.at.xi = xi < 1.0f && law->scale > 0.0f ? xi : 1.0f; /* where nothing is visible the horizon stands for it */
+    vndf_radial_drawn r = {{j, 1.0f, 0.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
+    float xi = r.inside, eta = 1.0f - xi;
+    if (piece.weighted) {
+        float within = vndf_weighted_xi(piece.w0, piece.w1, xi);
+        xi = piece.begin + piece.length * within;
+        eta = piece.begin > 0.0f ? piece.length * (1.0f - within) : 1.0f - xi;
+    }
+    if (!(xi < 1.0f && law->scale > 0.0f))
+        return r; /* where nothing is visible the horizon stands for it */
+    r.at.xi = xi;
+    r.at.eta = eta;
     return r;
 }
 
