@@ -92,7 +92,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
         wm = vndf_turn_to_face(view, wm);
     if (!pdf)
         return wm;
-    if (!facing || fabsf(u2 - 0.5f) > 0.4999f || fabsf(half) > 0.9999f || view->c < (a.c < 0.05f * a.n ? 0.1f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at, r.inside))
+    if (!facing || fabsf(u2 - 0.5f) > 0.4999f || fabsf(half) > 0.9999f || view->c < (a.c < 0.05f * a.n ? 0.25f : 0.0f) || vndf_radial_is_delicate(&law, &r.piece, r.at, r.inside))
         *pdf = vndf_pdf(view, wm); /* rounding of the normal would show */
     else
         *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
