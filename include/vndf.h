@@ -151,27 +151,32 @@ typedef struct vndf_view {
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
  * distribution's scale (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1) with density 0, and every
- * other function 0. Some views are valid and see nothing: wi = (0, 0, -1) exactly, where every normal
- * is turned away; samples are then horizontal normals with density 0. */
+ * other function 0. One valid view sees nothing: wi = (0, 0, -1) exactly, where every normal is turned away; samples are
+ * then horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
-/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length,
- * wm.z >= 0, wi.wm >= 0. *pdf, if not NULL, receives the density per steradian with which it was really
- * drawn; it is what vndf_pdf returns for that normal, to 1e-5. The map is continuous and monotone in each
+/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of 2^-23,
+ * wm.z >= 0, wi.wm > 0 for wi as it is rounded to unit length. *pdf, if not NULL, receives the density per steradian
+ * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN, FLT_MAX]:
+ * what would underflow, on the rim of a lobe or where less than 1e-28 of the surface is visible, is FLT_MIN. The
+ * map is continuous, but for what rows and cells of a small table leave (1e-3 of u2), and monotone in each
  * number. Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
  * wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi mirrored at the normal.
  * Beckmann: u1 moves the slope along wi, u2 the slope across. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0.
+/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0, elsewhere >= FLT_MIN.
  * For a table this is close to, not equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the
  * weight that makes an estimator exact, and its maximum stands in the certificate. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm. */
+/* The uniform numbers that vndf_sample turns into wm, or into a normal within some roundings of it. Three places give
+ * no more than numbers in [0, 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at u2 = 0; where
+ * u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of the normal), directions below the
+ * horizon that see less than 1e-10 of what they would at grazing incidence, and the view that sees nothing. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
-/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. */
+/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. For the closed forms this is vndf_pdf, FLT_MIN included. */
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* ---- the distribution itself ------------------------------------------------------------------- */

@@ -1,8 +1,9 @@
-/* vndf check: is a distribution what it claims to be? Three parts, each printing lines that end with
- * good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three parts, and a fourth on demand, each printing lines that
+ * end with good or FAILED:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
- *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views. */
+ *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
+ *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -14,13 +15,15 @@
 #include "command.h"
 #include "consistency.h"
 #include "distribution.h"
+#include "hard.h"
 #include "statistics.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf check";
 
 static const char help[] =
-    "usage: vndf check FILE|ggx|beckmann [--samples N] [--csv FILE] [--seed S]\n"
+    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S]\n"
+    "       vndf check FILE|ggx|beckmann --at WIX,WIY,WIZ,AX,AY,U1,U2[,WOX,WOY,WOZ]\n"
     "\n"
     "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
     "\n"
@@ -35,15 +38,21 @@ static const char help[] =
     "               hemisphere stretched to the lobe, half of their borders evenly, half at quantiles; bins\n"
     "               of expected count < 5 are pooled. Significance 0.01 for all tests together (Sidak); and\n"
     "               the density has to integrate to 1 within 1e-5.\n"
+    "  hard         (with --hard) some 1.9 million samples: directions at, beside and below the normal, the\n"
+    "               horizon and straight down; roughness 1e-8 to 1e4, ratios up to 1e8; uniform numbers 0, the\n"
+    "               least float, 1/2 and its neighbours, 1 - 2^-24, 1. For each property the worst value, its\n"
+    "               limit, and the input that gave it, as words for --at.\n"
     "\n"
+    "  --hard       adds the hard cases\n"
+    "  --at ...     one input alone: what the calls return there, and the properties of --hard\n"
     "  --samples N  samples per chi-square test (default 1000000)\n"
     "  --csv FILE   the CSV that the table was built from; without it such a certificate is not measured again\n"
     "  --seed S     the stream of random numbers, a whole number (default 1)\n"
     "\n"
-    "example: vndf check wavy.vndf --samples 4000000\n";
+    "example: vndf check wavy.vndf --hard --samples 4000000\n";
 
 typedef struct check_words {
-    words samples, csv, seed;
+    words samples, csv, seed, hard, at;
 } check_words;
 
 static const char *verdict(int good)
@@ -227,7 +236,8 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     int follows = check_chi_square(chosen->distribution, (size_t)samples, seed);
     if (follows == STATUS_USE)
         return STATUS_USE;
-    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD;
+    int hard = given->hard.count ? hard_check(chosen->distribution, seed) : STATUS_GOOD;
+    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD && hard == STATUS_GOOD;
     printf("result %s\n", verdict(good));
     return good ? STATUS_GOOD : STATUS_NO;
 }
@@ -238,7 +248,8 @@ int command_check(int argc, char **argv)
     words positional = {{NULL}, 0};
     chosen_distribution chosen;
     const option_form options[] = {
-        {"--samples", 1, 1, &given.samples}, {"--csv", 1, 1, &given.csv}, {"--seed", 1, 1, &given.seed}};
+        {"--samples", 1, 1, &given.samples}, {"--csv", 1, 1, &given.csv}, {"--seed", 1, 1, &given.seed},
+        {"--hard", 0, 1, &given.hard}, {"--at", 1, 1, &given.at}};
     const command_form form = {
         name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
@@ -246,7 +257,8 @@ int command_check(int argc, char **argv)
         return parsed;
     if (!distribution_open(&chosen, name, only_word(&positional)))
         return STATUS_USE;
-    int status = check_all(&chosen, &given);
+    int status = given.at.count ? hard_check_at(chosen.distribution, name, only_word(&given.at))
+                                : check_all(&chosen, &given);
     distribution_close(&chosen);
     return status;
 }

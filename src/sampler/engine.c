@@ -108,7 +108,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
     float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
     int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
-                fabsf(half) < 0.9999f && !r.piece.weighted;
+                fabsf(half) < 0.9999f && view->c >= (a.c < 0.05f * a.n ? 0.25f : 0.0f) && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)
