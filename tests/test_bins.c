@@ -1,5 +1,5 @@
-/* The bins of the chi-square test hold the whole density: their sum is 1 within 2e-6 where a lobe has parts of very
- * different width, an unbounded peak, a tail that barely has an area, a ring, or a jump, up to grazing incidence. */
+/* The bins of the chi-square test hold the whole density: their sum is 1 within 2e-6 where a lobe has parts of
+ * very different width, an unbounded peak, a tail that barely has an area, a ring, or a jump, up to grazing. */
 #include "bins.h"
 #include "oracle_survey.h"
 #include "test.h"
