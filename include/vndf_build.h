@@ -24,8 +24,8 @@ typedef struct vndf_parameter {
 
 /* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses,
  * numbers, pi, parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma
- * abs min max pow step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that points at
- * the column if it cannot be read. The text and parameters are copied. */
+ * abs min max pow step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an
+ * error that points at the column if it cannot be read. The text and parameters are copied. */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters,
                                                  size_t count, vndf_error *error);
 
@@ -79,7 +79,7 @@ typedef int vndf_progress(double done, const char *what, void *user);
 /* Zeroed options are the defaults. */
 typedef struct vndf_build_options {
     size_t max_bytes;         /* size of the file at most; 0: 16384; from 2048 to 1 MiB */
-    double max_tv;            /* a total variation to reach, then the smallest table that does; 0: the best that fits */
+    double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
     vndf_progress *progress;  /* may be NULL */
     void *progress_user;
 } vndf_build_options;
@@ -94,8 +94,8 @@ VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_bui
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
-/* The truth by adaptive quadrature of the source, in double: normalised P22 and the projected area of
- * the unit problem at the angle theta (radians, 0 to pi). An oracle for tools and tests; slow. */
+/* The truth by adaptive quadrature of the source, in double: normalised P22 and the projected area of the unit
+ * problem at the angle theta (radians, 0 to pi), to 1e-8 of it where P22 is smooth. An oracle; slow. */
 typedef struct vndf_truth vndf_truth;
 VNDF_API vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error);
 VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);

@@ -4,12 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas
- * by a part of it, and by no more than what is promised of a default table. */
-static double area_error(const vndf_plan *plan, double error)
+/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by less,
+ * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table of half the
+ * default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
+static const double AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
+enum { PROMISE_BYTES = 8192 };
+
+static double area_error(size_t max_bytes, double error)
 {
-    double most = plan->max_bytes < 8192 ? 1.0 : 1e-6;
-    return fmin(fmax(error / 60, 2e-7), most);
+    double most = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
+    return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
 }
 
 /* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
@@ -35,7 +39,8 @@ static int refine_radial(vndf_plan *plan, size_t limit)
     for (size_t i = 0; i < fit->jump_count; i++)
         start[n++] = fit->jump[i];
     start[n++] = HUGE_VAL;
-    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_middle, vndf_fit_cell_error, &plan->radial_fit);
+    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_middle, vndf_fit_cell_error,
+                           &plan->radial_fit);
     free(start);
     return good;
 }
@@ -46,10 +51,10 @@ static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit,
     return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_row_error, fit);
 }
 
-static int refine_area(vndf_refinement *area, vndf_wedge_fit *fit, size_t limit, double enough)
+static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, double enough)
 {
     static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_area_error, fit);
+    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_area_fit_error, side);
 }
 
 /* Cells of an azimuth row: at most a few per cent of the bytes each. */
@@ -58,20 +63,23 @@ static uint32_t most_cells_for(size_t max_bytes)
     return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 32;
 }
 
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options)
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes,
+                   const vndf_build_options *options)
 {
     uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
+    vndf_side above = {profile, 0}, below = {profile, 1};
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
     plan->max_bytes = max_bytes;
     plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
-    if (!vndf_radial_fit_from(&plan->radial_fit, profile) || !vndf_wedge_fit_from(&plan->above_fit, profile, 0, row_cells, 2 * plan->finest) ||
-        !vndf_wedge_fit_from(&plan->below_fit, profile, 1, row_cells, 2 * plan->finest))
+    if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
+        !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
+        !vndf_wedge_fit_from(&plan->below_fit, below, row_cells, 2 * plan->finest))
         return 0;
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
-    double area = area_error(plan, plan->finest);
+    double area = area_error(max_bytes, plan->finest);
     int stopped = 0;
     int good = !(stopped = report(options, 0.1, "radial cells")) && refine_radial(plan, cell_limit) &&
                !(stopped = report(options, 0.2, "azimuth rows above the horizon")) &&
@@ -79,8 +87,8 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
                !(stopped = report(options, 0.4, "azimuth rows below the horizon")) &&
                refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest) &&
                !(stopped = report(options, 0.6, "projected area")) &&
-               refine_area(&plan->above_area, &plan->above_fit, knot_limit, area) &&
-               refine_area(&plan->below_area, &plan->below_fit, knot_limit, area) &&
+               refine_area(&plan->above_area, &plan->above_fit.side, knot_limit, area) &&
+               refine_area(&plan->below_area, &plan->below_fit.side, knot_limit, area) &&
                !(stopped = report(options, 0.8, "certificate"));
     return stopped ? -1 : good;
 }
@@ -99,28 +107,24 @@ void vndf_plan_free(vndf_plan *plan)
 
 /* ---- cutting a table ---- */
 
-static uint32_t needed(const vndf_refinement *r, double error)
-{
-    return (uint32_t)vndf_refinement_needed(r, error);
-}
-
 vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
+    double area = area_error(plan->max_bytes, error);
     vndf_table_size size;
-    size.radial = (uint32_t)plan->radial.start - 1 + needed(&plan->radial, error);
+    size.radial = vndf_refinement_needed(&plan->radial, error) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
-    size.above_rows = 2 * ((uint32_t)plan->above_rows.start + needed(&plan->above_rows, error)) - 1;
-    size.below_rows = 2 * ((uint32_t)plan->below_rows.start + needed(&plan->below_rows, error)) - 1;
-    size.above_knots = (uint32_t)plan->above_area.start + needed(&plan->above_area, area_error(plan, error));
-    size.below_knots = (uint32_t)plan->below_area.start + needed(&plan->below_area, area_error(plan, error));
+    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
+    size.below_rows = vndf_row_count(vndf_refinement_needed(&plan->below_rows, error));
+    size.above_knots = vndf_refinement_needed(&plan->above_area, area);
+    size.below_knots = vndf_refinement_needed(&plan->below_area, area);
     return size;
 }
 
 static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
 {
     uint32_t n = table->radial_count;
-    vndf_refinement_knots(&plan->radial, n + 1 - plan->radial.start, knots);
+    vndf_refinement_knots(&plan->radial, n + 1, knots);
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
@@ -145,10 +149,11 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
 {
     uint32_t count = vndf_row_knots(wedge->row_count);
     vndf_wedge_fit_use(fit, wedge->cell_count);
-    vndf_refinement_knots(rows, count - rows->start, knots);
+    vndf_refinement_knots(rows, count, knots);
     memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
     for (uint32_t i = 0; i < count; i++) {
-        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]), *next = i + 1 < count ? vndf_wedge_fit_row(fit, knots[i + 1]) : row;
+        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
+        const vndf_row *next = i + 1 < count ? vndf_wedge_fit_row(fit, knots[i + 1]) : row;
         vndf_row middle;
         if (!row || !next)
             return 0;
@@ -159,17 +164,17 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
             put_row(wedge, 2 * i + 1, &middle, fit->cells);
         }
     }
-    if (!fit->below) /* at the horizon the wedge has no width */
+    if (!fit->side.below) /* at the horizon the wedge has no width */
         wedge->aspect_p[0] = 0.0f;
     return 1;
 }
 
 /* Knots whose mass is no normal float are left out, but for the first. */
-static uint32_t keep_normal(const vndf_wedge_fit *fit, double *knots, uint32_t count)
+static uint32_t keep_normal(const vndf_side *side, double *knots, uint32_t count)
 {
     uint32_t n = 1;
     for (uint32_t i = 1; i < count; i++)
-        if (vndf_wedge_fit_area(fit, knots[i]).mass >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
+        if (vndf_side_area(side, knots[i]).mass >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
             knots[n++] = knots[i];
     return n;
 }
@@ -182,13 +187,13 @@ static void put_knot(vndf_wedge *wedge, uint32_t i, double y, vndf_area_knot kno
     wedge->curve[i] = (float)knot.curve;
 }
 
-static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf_wedge_fit *fit, double *knots)
+static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf_side *side, double *knots)
 {
     vndf_area_knot from, to;
-    vndf_refinement_knots(area, wedge->knot_count - area->start, knots);
-    wedge->knot_count = keep_normal(fit, knots, wedge->knot_count);
+    vndf_refinement_knots(area, wedge->knot_count, knots);
+    wedge->knot_count = keep_normal(side, knots, wedge->knot_count);
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
-        vndf_wedge_fit_area_piece(fit, knots[i], knots[i + 1], &from, &to);
+        vndf_area_fit_piece(side, knots[i], knots[i + 1], &from, &to);
         if (i == 0)
             put_knot(wedge, 0, knots[0], from);
         put_knot(wedge, i + 1, knots[i + 1], to);
@@ -204,8 +209,8 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
                fill_rows(&table->below, &plan->below_rows, &plan->below_fit, knots);
     if (good) {
         fill_radial(plan, table, knots);
-        fill_area(&table->above, &plan->above_area, &plan->above_fit, knots);
-        fill_area(&table->below, &plan->below_area, &plan->below_fit, knots);
+        fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
+        fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;
         table->scale_exact = plan->profile->scale;
         table->scale = (float)plan->profile->scale;

@@ -17,7 +17,8 @@ typedef struct vndf_plan {
 } vndf_plan;
 
 /* Refines all fits as far as max_bytes may ever need; progress may stop it. 0 without memory, -1 if stopped. */
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, const vndf_build_options *options);
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes,
+                   const vndf_build_options *options);
 void vndf_plan_free(vndf_plan *plan);
 
 /* Counts of the table whose parts each stay below `error`. */

@@ -86,8 +86,9 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     double low = log(best), high = log(fmax(fmin(2 * max_tv, 0.5), best));
     vndf_distribution *table = finish(plan, best, error);
     if (table && table->certificate.tv > max_tv) {
-        vndf_fail(error, VNDF_ERROR_TARGET, "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees",
-                  max_tv, (unsigned long)table->bytes, (double)table->certificate.tv, (double)table->certificate.tv_theta);
+        vndf_fail(error, VNDF_ERROR_TARGET,
+                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees", max_tv,
+                  (unsigned long)table->bytes, (double)table->certificate.tv, (double)table->certificate.tv_theta);
         vndf_free(table);
         return NULL;
     }
@@ -124,10 +125,11 @@ static vndf_status check_options(const vndf_source *source, size_t max_bytes, do
     if (!source)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no source: NULL was given");
     if (max_bytes < BYTES_LEAST || max_bytes > BYTES_MOST)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible", (unsigned long)max_bytes,
-                         BYTES_LEAST, BYTES_MOST);
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible",
+                         (unsigned long)max_bytes, BYTES_LEAST, BYTES_MOST);
     if (!(max_tv >= 0.0 && max_tv < 1.0))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
     return VNDF_OK;
 }
 
@@ -147,7 +149,8 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     if (made == 1)
         table = build_planned(&plan, max_bytes, max_tv, error);
     else
-        vndf_fail(error, made < 0 ? VNDF_ERROR_ARGUMENT : VNDF_ERROR_MEMORY, made < 0 ? "interrupted" : "no memory to fit the table");
+        vndf_fail(error, made < 0 ? VNDF_ERROR_ARGUMENT : VNDF_ERROR_MEMORY,
+                  made < 0 ? "interrupted" : "no memory to fit the table");
     if (table && certificate)
         *certificate = table->certificate;
     vndf_plan_free(&plan);
@@ -155,18 +158,21 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     return table;
 }
 
-vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source, vndf_certificate *certificate,
-                         vndf_error *error)
+vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
+                         vndf_certificate *certificate, vndf_error *error)
 {
     if (!distribution || distribution->kind != VNDF_KIND_TABLE || !certificate)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a place for its certificate are needed");
     vndf_profile *profile = vndf_profile_from(source, error);
     if (!profile)
         return error ? error->status : VNDF_ERROR_DISTRIBUTION;
-    double scale = profile->scale / distribution->scale_exact, normalization = profile->normalization / distribution->normalization;
+    double scale = profile->scale / distribution->scale_exact;
+    double normalization = profile->normalization / distribution->normalization;
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
-        vndf_status other = vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "the table is of another distribution: scale %.9g and normalization %.9g, the source has %.9g and %.9g",
-                                      distribution->scale_exact, distribution->normalization, profile->scale, profile->normalization);
+        vndf_status other = vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                                      "the table is of another distribution: scale %.9g and normalization %.9g, "
+                                      "the source has %.9g and %.9g", distribution->scale_exact,
+                                      distribution->normalization, profile->scale, profile->normalization);
         vndf_profile_free(profile);
         return other;
     }

@@ -16,7 +16,7 @@ static const double MASS_LEFT_OUT = 1e-6;
 /* f of a cell changes by more than this: it takes the finer rule. */
 static const double STEEP = 1.3;
 
-/* Cells of small tables are integrated in parts, at least so many in all: what is measured is the table, not the rule. */
+/* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
 enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20 };
 
 static uint32_t parts_for(uint32_t cells, uint32_t least)
@@ -77,14 +77,16 @@ static double drawn_density(const ray *at, double r)
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
 static void add_slopes(survey *v, const ray *at, double r0, double r1, int steep)
 {
-    const double *node = steep ? vndf_gauss_node : vndf_gauss_coarse_node, *weight = steep ? vndf_gauss_weight : vndf_gauss_coarse_weight;
+    const double *node = steep ? vndf_gauss_node : vndf_gauss_coarse_node;
+    const double *weight = steep ? vndf_gauss_weight : vndf_gauss_coarse_weight;
     int points = steep ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
     double x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
     double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
     for (int i = 0; i < points && v->count < v->capacity; i++) {
         double xi = node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
         double measure = at->weight * weight[i] * width * r / (z * z), mask = at->c + at->s * at->cos_phi * r;
-        sample one = {mask > 0 ? vndf_profile_p22(v->profile, r) * mask / at->area * measure : 0.0, drawn_density(at, r) * measure};
+        double truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / at->area : 0.0;
+        sample one = {truth * measure, drawn_density(at, r) * measure};
         v->samples[v->count++] = one;
     }
 }
@@ -95,8 +97,8 @@ static void add_azimuth(survey *v, const ray *at)
     double k = at->s * at->cos_phi, c = at->c, cut = c * k < 0 ? -c / k : 0.0;
     const vndf_distribution *d = v->table;
     for (uint32_t i = 0; i < d->radial_count * v->radial_parts; i++) {
-        uint32_t j = i / v->radial_parts;
-        double r0 = part_of(d, j, i % v->radial_parts, v->radial_parts), r1 = part_of(d, j, i % v->radial_parts + 1, v->radial_parts);
+        uint32_t j = i / v->radial_parts, part = i % v->radial_parts;
+        double r0 = part_of(d, j, part, v->radial_parts), r1 = part_of(d, j, part + 1, v->radial_parts);
         double f0 = d->cells[j].f0, f1 = d->cells[j].f1;
         if (c > 0 && cut > 0)
             r1 = fmin(r1, cut);
@@ -108,15 +110,17 @@ static void add_azimuth(survey *v, const ray *at)
 }
 
 /* A quarter turn on the cells of a row with an aspect. */
-static void add_quarter(survey *v, const vndf_view *view, const float *node, uint32_t cells, double p, double r, int away, double area)
+static void add_quarter(survey *v, const vndf_view *view, const float *node, uint32_t cells, double p, double r,
+                        int away, double area)
 {
     uint32_t parts = parts_for(cells, AZIMUTH_PARTS_LEAST);
     for (uint32_t i = 0; i < cells * parts * VNDF_GAUSS_COARSE; i++) {
-        uint32_t cell = i / VNDF_GAUSS_COARSE / parts, part = i / VNDF_GAUSS_COARSE % parts;
-        double width = ((double)node[cell + 1] - node[cell]) / parts, q = node[cell] + width * (part + vndf_gauss_coarse_node[i % VNDF_GAUSS_COARSE]);
+        uint32_t cell = i / VNDF_GAUSS_COARSE / parts, part = i / VNDF_GAUSS_COARSE % parts, g = i % VNDF_GAUSS_COARSE;
+        double width = ((double)node[cell + 1] - node[cell]) / parts;
+        double q = node[cell] + width * (part + vndf_gauss_coarse_node[g]);
         double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
-        ray at = {{{0}, 0}, view->s, view->c, (away ? -x : x) / n,
-                  2 * vndf_gauss_coarse_weight[i % VNDF_GAUSS_COARSE] * width * 2 * p * r * (1 + q * q) / n2, area};
+        double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
+        ray at = {{{0}, 0}, view->s, view->c, (away ? -x : x) / n, weight, area};
         at.drawn = vndf_engine_ray_at(view, (float)at.cos_phi, (float)(y / n));
         add_azimuth(v, &at);
     }
@@ -147,8 +151,8 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-/* Largest truth/drawn when the points with the largest, that together hold MASS_LEFT_OUT, are left out: what is left is
- * split until it is one value. */
+/* Largest truth/drawn when the points with the largest, that together hold MASS_LEFT_OUT, are left out: what is
+ * left is split until it is one value. */
 static double weight_of(survey *v)
 {
     double left = MASS_LEFT_OUT, mass;
@@ -177,18 +181,12 @@ static double weight_of(survey *v)
     return 1.0;
 }
 
-static double true_area(const vndf_profile *profile, double s, double c)
-{
-    double sum = s + fabs(c);
-    return 2 * sum * vndf_profile_area_below(profile, s / sum).mass + (c > 0 ? c : 0);
-}
-
 static finding survey_direction(survey *v, double s, double c)
 {
     finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction that the run time is given */
     c = (float)c;
-    double area = true_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
+    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
     if (!(area > AREA_LEAST * v->profile->f1))
         return f;
@@ -229,7 +227,8 @@ static double ndf_error(const vndf_distribution *d, const vndf_profile *profile)
 }
 
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
-static const double ANGLES[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 85, 89, 89.9, 90, 90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
+static const double ANGLES[] = {0,    10, 20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9, 90,
+                                90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
 static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
 
 static void take(vndf_certificate *c, finding f, double theta)
@@ -265,7 +264,8 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
         return 0;
     *c = none;
     for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i++) {
-        double theta = ANGLES[i] * PI / 180, x = sin(theta) * profile->scale, y = ANGLES[i] == 90 ? 0 : cos(theta), l = hypot(x, y);
+        double theta = ANGLES[i] * PI / 180, x = sin(theta) * profile->scale, y = ANGLES[i] == 90 ? 0 : cos(theta);
+        double l = hypot(x, y);
         take(c, survey_direction(&v, x / l, y / l), ANGLES[i]);
     }
     for (size_t i = 0; i < 2 * (sizeof ELEVATIONS / sizeof *ELEVATIONS); i++) {

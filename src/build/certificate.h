@@ -7,6 +7,7 @@
 #include "table/table.h"
 
 /* 0 if there is no memory. */
-int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table, const vndf_profile *profile);
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
+                             const vndf_profile *profile);
 
 #endif

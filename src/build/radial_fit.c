@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "math/weighted_cell.h"
+#include "table/moment_cubic.h"
 
 enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 
@@ -109,20 +110,21 @@ static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b
     return f_at(fit, a, b, outer ? 1 - inside : inside);
 }
 
-/* The straight line's moments, of which a part is taken when the true ones would make the cubic negative. */
+/* Where the cubic would be negative - one of its inner Bernstein coefficients is - its moments go towards the straight
+ * line's, as far as it takes. */
 static void keep_positive(vndf_radial_cell *cell)
 {
-    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3;
-    double e0 = cell->mu0 - l0, e1 = cell->mu1 - l1, part = 1.0;
-    double first = (36 * e0 - 24 * e1) / 3, second = (36 * e1 - 24 * e0) / 3;
+    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3, part = 1.0;
+    vndf_moment_cubic cubic = vndf_moment_cubic_from(f0, f1, cell->mu0, cell->mu1);
     double line0 = (2 * f0 + f1) / 3, line1 = (f0 + 2 * f1) / 3;
+    double first = cubic.a / 3, second = (cubic.a + cubic.b) / 3;
     if (line0 + first < 0)
         part = line0 / -first;
     if (line1 + second < 0 && line1 / -second < part)
         part = line1 / -second;
     if (part < 1.0) {
-        cell->mu0 = (float)(l0 + INSIDE * part * e0);
-        cell->mu1 = (float)(l1 + INSIDE * part * e1);
+        cell->mu0 = (float)(l0 + INSIDE * part * (cell->mu0 - l0));
+        cell->mu1 = (float)(l1 + INSIDE * part * (cell->mu1 - l1));
     }
 }
 
@@ -161,9 +163,9 @@ static double miss(const vndf_radial_cell *cell, double w0, double w1, double f,
 
 static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)
 {
-    double f0 = cell->f0, f1 = cell->f1, e0 = cell->mu0 - f0 / 3 - f1 / 6, e1 = cell->mu1 - f0 / 6 - f1 / 3;
-    double cubic = f0 * (1 - xi) + f1 * xi + xi * (1 - xi) * (36 * e0 - 24 * e1 + 60 * (e1 - e0) * xi);
-    return fabs(cubic - f) / (cell->mu0 + cell->mu1);
+    vndf_moment_cubic cubic = vndf_moment_cubic_from(cell->f0, cell->f1, cell->mu0, cell->mu1);
+    double drawn = cell->f0 * (1 - xi) + cell->f1 * xi + xi * (1 - xi) * (cubic.a + cubic.b * xi);
+    return fabs(drawn - f) / (cell->mu0 + cell->mu1);
 }
 
 /* Half integrals over the cell in `pieces` Gauss rules, and what the rules say the cell lacks. */

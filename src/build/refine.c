@@ -112,18 +112,18 @@ int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, siz
     return good;
 }
 
-size_t vndf_refinement_needed(const vndf_refinement *r, double error)
+uint32_t vndf_refinement_needed(const vndf_refinement *r, double error)
 {
     size_t n = 0;
     while (n < r->count && r->error[n] > error)
         n++;
-    return n;
+    return (uint32_t)(r->start + n);
 }
 
-void vndf_refinement_knots(const vndf_refinement *r, size_t added, double *knots)
+void vndf_refinement_knots(const vndf_refinement *r, size_t count, double *knots)
 {
-    memcpy(knots, r->knot, (r->start + added) * sizeof *knots);
-    qsort(knots, r->start + added, sizeof *knots, vndf_ascending);
+    memcpy(knots, r->knot, count * sizeof *knots);
+    qsort(knots, count, sizeof *knots, vndf_ascending);
 }
 
 void vndf_refinement_free(vndf_refinement *r)

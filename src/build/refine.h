@@ -1,10 +1,11 @@
 /* Knots where the error is: intervals halved one at a time, the worst first, with the error after each
- * step on record. The order is nested, so one run serves every size of table: its first n points are
- * the knots of the table with n more knots than at the start. */
+ * step on record. The order is nested, so one run serves every size of table: the first n knots of the
+ * list are those of a table with n. */
 #ifndef VNDF_BUILD_REFINE_H
 #define VNDF_BUILD_REFINE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Error of what a table would hold between neighbouring knots a < b. */
 typedef struct vndf_interval_miss {
@@ -27,11 +28,11 @@ typedef struct vndf_refinement {
 int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
                 vndf_interval_middle *middle, vndf_interval_error *error, void *user);
 
-/* Points to add until the recorded error is within bounds. */
-size_t vndf_refinement_needed(const vndf_refinement *refinement, double error);
+/* How many knots bring the recorded error within bounds, those of the start included; all, if none do. */
+uint32_t vndf_refinement_needed(const vndf_refinement *refinement, double error);
 
-/* The first `added` points with the start, ascending, into knots[start + added]. */
-void vndf_refinement_knots(const vndf_refinement *refinement, size_t added, double *knots);
+/* The first `count` knots, ascending, into knots[count]; count is no less than `start`. */
+void vndf_refinement_knots(const vndf_refinement *refinement, size_t count, double *knots);
 
 void vndf_refinement_free(vndf_refinement *refinement);
 

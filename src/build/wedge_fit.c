@@ -17,8 +17,6 @@ struct vndf_row_cache {
     entry *bucket[BUCKETS];
 };
 
-static const double AREA_LEAST = 1e-12; /* area below the horizon, of that at grazing incidence, down to which relative precision is asked */
-static const double CURVE_MOST = 1e11; /* of an area: beyond it no knot helps */
 static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
 
 /* ---- the azimuth density ---- */
@@ -29,7 +27,7 @@ typedef struct direction {
 
 static direction direction_at(const vndf_wedge_fit *fit, double y)
 {
-    double at = y > 1e-6 ? y : 1e-6, up = fit->below ? 1 - at : at, across = fit->below ? at : 1 - at;
+    double at = y > 1e-6 ? y : 1e-6, up = fit->side.below ? 1 - at : at, across = fit->side.below ? at : 1 - at;
     direction d = {across, up, across > 0 ? up / across : HUGE_VAL};
     return d;
 }
@@ -38,9 +36,9 @@ static direction direction_at(const vndf_wedge_fit *fit, double y)
 static double wedge_density(const vndf_wedge_fit *fit, direction d, double cos_phi)
 {
     double rho = cos_phi > 0 ? d.k / cos_phi : HUGE_VAL;
-    if (fit->below)
-        return cos_phi * vndf_profile_s(fit->profile, rho);
-    return d.k < HUGE_VAL ? vndf_profile_e(fit->profile, rho) : fit->profile->f0;
+    if (fit->side.below)
+        return cos_phi * vndf_profile_s(fit->side.profile, rho);
+    return d.k < HUGE_VAL ? vndf_profile_e(fit->side.profile, rho) : fit->side.profile->f0;
 }
 
 /* tan of the azimuth with half of the mass on either side, by a sum over a logarithmic grid. */
@@ -75,7 +73,8 @@ static void fill_row(const vndf_wedge_fit *fit, vndf_row *row)
         double from = fit->node[j], width = fit->node[j + 1] - from;
         mass[j] = 0.0;
         for (int i = 0; i < VNDF_GAUSS; i++)
-            mass[j] += vndf_gauss_weight[i] * width * density_in_q(fit, d, row->p, row->r, from + vndf_gauss_node[i] * width);
+            mass[j] += vndf_gauss_weight[i] * width *
+                       density_in_q(fit, d, row->p, row->r, from + vndf_gauss_node[i] * width);
         total += mass[j];
     }
     for (uint32_t j = 0; j <= fit->cells; j++) {
@@ -109,14 +108,12 @@ typedef struct bench {
     judge judges[JUDGE_COUNT];
 } bench;
 
-static double share(const vndf_wedge_fit *fit, double y);
-
 static judge judge_at(const vndf_wedge_fit *fit, double y)
 {
     direction d = direction_at(fit, y);
     double t = median_tangent(fit, d), n = sqrt(1 + t * t);
-    double mass = vndf_wedge_fit_area(fit, y).mass / (fit->below ? d.s : d.c);
-    judge made = {d, 1 / n, t / n, mass > 0 ? share(fit, y) / mass : 0.0};
+    double mass = vndf_side_area(&fit->side, y).mass / (fit->side.below ? d.s : d.c);
+    judge made = {d, 1 / n, t / n, mass > 0 ? vndf_side_share(&fit->side, y) / mass : 0.0};
     return made;
 }
 
@@ -128,8 +125,9 @@ static double cell_miss(const vndf_wedge_fit *fit, const judge *j, double a, dou
         f[i] = density_in_q(fit, j->d, j->p, j->r, a + h * vndf_gauss_node[i]);
         mass += vndf_gauss_weight[i] * h * f[i];
     }
-    vndf_rational_cell cell = vndf_rational_cell_from((float)(density_in_q(fit, j->d, j->p, j->r, a) * h),
-                                                      (float)(density_in_q(fit, j->d, j->p, j->r, b) * h), (float)mass);
+    float e0 = (float)(density_in_q(fit, j->d, j->p, j->r, a) * h);
+    float e1 = (float)(density_in_q(fit, j->d, j->p, j->r, b) * h);
+    vndf_rational_cell cell = vndf_rational_cell_from(e0, e1, (float)mass);
     for (int i = 0; i < VNDF_GAUSS; i++)
         miss += vndf_gauss_weight[i] * fabs((double)vndf_rational_density(&cell, (float)vndf_gauss_node[i]) / h - f[i]);
     return miss * h / 2 * j->scale;
@@ -167,7 +165,7 @@ static void forget_rows(vndf_wedge_fit *fit)
 
 uint32_t vndf_wedge_fit_cells(const vndf_wedge_fit *fit, double error)
 {
-    return (uint32_t)(fit->q.start - 1 + vndf_refinement_needed(&fit->q, error));
+    return vndf_refinement_needed(&fit->q, error) - 1;
 }
 
 void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells)
@@ -175,7 +173,7 @@ void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells)
     double knots[VNDF_WEDGE_CELLS_MAX + 1];
     if (cells == fit->cells)
         return;
-    vndf_refinement_knots(&fit->q, cells + 1 - fit->q.start, knots);
+    vndf_refinement_knots(&fit->q, cells + 1, knots);
     for (uint32_t j = 0; j <= cells; j++)
         fit->node[j] = (float)knots[j];
     fit->cells = cells;
@@ -184,10 +182,9 @@ void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells)
 
 /* ---- rows ---- */
 
-int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t most_cells, double enough)
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, vndf_side side, uint32_t most_cells, double enough)
 {
-    fit->profile = profile;
-    fit->below = below;
+    fit->side = side;
     fit->cells = 0;
     fit->cache = calloc(1, sizeof *fit->cache);
     if (!fit->cache || !place_cells(fit, most_cells, enough))
@@ -257,17 +254,6 @@ void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const v
 
 /* ---- errors ---- */
 
-/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen, and hardly
- * where nothing is claimed any more. */
-static double share(const vndf_wedge_fit *fit, double y)
-{
-    double mass = vndf_wedge_fit_area(fit, y).mass;
-    if (!fit->below)
-        return mass / (mass + y * fit->profile->f0 * 1.57079632679489661923 + (1 - y) * fit->profile->f1);
-    double seen = mass / fit->profile->f1;
-    return pow(seen, VNDF_FADE) * fmin(1.0, seen / AREA_LEAST);
-}
-
 typedef struct rows {
     const vndf_row *first, *middle, *last;
 } rows;
@@ -310,58 +296,9 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
     vndf_row middle;
     vndf_wedge_fit_middle(fit, first, second, &middle);
     rows three = {first, &middle, second};
-    for (unsigned i = 0; i < sizeof PROBES / sizeof *PROBES; i++)
-        found.alone = fmax(found.alone, row_miss(fit, three, PROBES[i]) * share(fit, a + PROBES[i] * (b - a)));
-    return found;
-}
-
-vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y)
-{
-    return fit->below ? vndf_profile_area_below(fit->profile, y) : vndf_profile_area_above(fit->profile, y);
-}
-
-static vndf_area_knot area_knot(const vndf_wedge_fit *fit, double y)
-{
-    vndf_area_value v = vndf_wedge_fit_area(fit, y);
-    vndf_area_knot knot = {v.mass, v.slope, fmin(v.curve, CURVE_MOST)};
-    return knot;
-}
-
-static double area_at(const double piece[VNDF_AREA_ORDER], double t)
-{
-    double sum = piece[0];
-    for (int i = 1; i < VNDF_AREA_ORDER; i++)
-        sum = sum * (1 - t) + piece[i] * pow(t, i);
-    return sum;
-}
-
-/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for it. */
-void vndf_wedge_fit_area_piece(const vndf_wedge_fit *fit, double a, double b, vndf_area_knot *from, vndf_area_knot *to)
-{
-    *from = area_knot(fit, a);
-    *to = area_knot(fit, b);
-    vndf_area_knot *free_end = a <= 0 ? from : b >= 1 ? to : NULL;
-    if (!free_end)
-        return;
-    double h = b - a, piece[VNDF_AREA_ORDER];
-    free_end->curve = 0.0;
-    vndf_area_piece(h, *from, *to, piece);
-    double missing = 32 * (vndf_wedge_fit_area(fit, a + h / 2).mass - area_at(piece, 0.5));
-    free_end->curve = fmin(fmax(missing * 2 / (h * h), 0.0), CURVE_MOST);
-}
-
-vndf_interval_miss vndf_wedge_area_error(double a, double b, void *user)
-{
-    static const double at[] = {0.2, 0.45, 0.7, 0.85};
-    const vndf_wedge_fit *fit = user;
-    vndf_area_knot from, to;
-    double h = b - a, worst = 0.0, piece[VNDF_AREA_ORDER];
-    vndf_wedge_fit_area_piece(fit, a, b, &from, &to);
-    vndf_area_piece(h, from, to, piece);
-    for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
-        double y = a + at[i] * h, truth = vndf_wedge_fit_area(fit, y).mass, error = fabs(area_at(piece, at[i]) - truth);
-        worst = fmax(worst, error / (fit->below ? truth + AREA_LEAST * fit->profile->f1 : truth / share(fit, y)));
+    for (unsigned i = 0; i < sizeof PROBES / sizeof *PROBES; i++) {
+        double share = vndf_side_share(&fit->side, a + PROBES[i] * (b - a));
+        found.alone = fmax(found.alone, row_miss(fit, three, PROBES[i]) * share);
     }
-    vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
     return found;
 }

@@ -1,18 +1,16 @@
-/* Azimuth rows and area knots of one side of the horizon, for a profile. The coordinate y in [0, 1] is
+/* Azimuth rows of one side of the horizon, for a profile. The coordinate y in [0, 1] is
  * that of vndf_wedge. */
 #ifndef VNDF_BUILD_WEDGE_FIT_H
 #define VNDF_BUILD_WEDGE_FIT_H
 
-#include "build/profile.h"
+#include "build/area_fit.h"
 #include "build/refine.h"
-#include "table/area_piece.h"
 #include "table/table.h"
 
 typedef struct vndf_row_cache vndf_row_cache;
 
 typedef struct vndf_wedge_fit {
-    const vndf_profile *profile;
-    int below;                /* the side */
+    vndf_side side;
     vndf_refinement q;        /* where cells of q begin, in order of need */
     uint32_t cells;           /* of a row, now */
     float node[VNDF_WEDGE_CELLS_MAX + 1]; /* their ends in q */
@@ -25,11 +23,14 @@ typedef struct vndf_row {
     float mass[VNDF_WEDGE_CELLS_MAX], density[VNDF_WEDGE_CELLS_MAX + 1];
 } vndf_row;
 
-/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row, but not more
- * than most_cells; and uses them all. 0 if there is no memory. */
-int vndf_wedge_fit_from(vndf_wedge_fit *fit, const vndf_profile *profile, int below, uint32_t most_cells, double enough);
-/* How many cells miss no more than `error`; and from now on, rows of the first `cells`: rows made before are gone. */
+/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row, but not
+ * more than most_cells; and uses them all. 0 if there is no memory. */
+int vndf_wedge_fit_from(vndf_wedge_fit *fit, vndf_side side, uint32_t most_cells, double enough);
+
+/* How many cells miss no more than `error`. */
 uint32_t vndf_wedge_fit_cells(const vndf_wedge_fit *fit, double error);
+
+/* From now on, rows of the first `cells` that were placed: rows made before are gone. */
 void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells);
 void vndf_wedge_fit_free(vndf_wedge_fit *fit);
 
@@ -42,14 +43,5 @@ void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const v
 /* Largest total variation of azimuth between the rows at a and b, times the wedge's share of what is seen
  * there: a vndf_interval_error with a vndf_wedge_fit. */
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *fit);
-
-/* Mass of the wedge per (s + |c|), and its slope. */
-vndf_area_value vndf_wedge_fit_area(const vndf_wedge_fit *fit, double y);
-
-/* The ends of the spline's piece from a to b. */
-void vndf_wedge_fit_area_piece(const vndf_wedge_fit *fit, double a, double b, vndf_area_knot *from, vndf_area_knot *to);
-
-/* Relative error of the area, or its share of it above, between knots at a and b: a vndf_interval_error. */
-vndf_interval_miss vndf_wedge_area_error(double a, double b, void *fit);
 
 #endif

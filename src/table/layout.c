@@ -1,11 +1,11 @@
 #include "table/layout.h"
 
 #include <math.h>
-
 #include <stdlib.h>
 
 #include "table/area_piece.h"
 #include "table/guide.h"
+#include "table/moment_cubic.h"
 #include "table/window.h"
 
 /* The eight arrays in one block. */
@@ -31,7 +31,8 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
 {
     uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
-    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + (4 + VNDF_BEZIER) * (size_t)knots + cells + 1, sizeof *block);
+    size_t area_floats = (4 + VNDF_BEZIER) * (size_t)knots;
+    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + area_floats + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
@@ -101,15 +102,13 @@ static double width_of(const vndf_knots *k, uint32_t j)
     return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
 }
 
-/* The cubic through f0, f1 with the moments mu0, mu1. */
 static void derive_cells(vndf_distribution *table)
 {
     for (uint32_t j = 0; j < table->radial_count; j++) {
         vndf_radial_cell *cell = &table->cells[j];
-        double f0 = cell->f0, f1 = cell->f1;
-        double e0 = cell->mu0 - f0 / 3 - f1 / 6, e1 = cell->mu1 - f0 / 6 - f1 / 3;
-        cell->a = (float)(36 * e0 - 24 * e1);
-        cell->b = (float)(60 * (e1 - e0));
+        vndf_moment_cubic cubic = vndf_moment_cubic_from(cell->f0, cell->f1, cell->mu0, cell->mu1);
+        cell->a = (float)cubic.a;
+        cell->b = (float)cubic.b;
         cell->width = (float)width_of(&table->knots, j);
     }
 }
@@ -139,7 +138,8 @@ static void derive_tail(vndf_distribution *table)
     vndf_knots *k = &table->knots;
     double s = 0.0, t0 = 0.0;
     for (uint32_t j = table->radial_count; j-- > 0;) {
-        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, z0 = k->z[j], z1 = k->z[j + 1], width = width_of(k, j);
+        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1;
+        double z0 = k->z[j], z1 = k->z[j + 1], width = width_of(k, j);
         s += (z1 > 0 ? t0 * width / (z0 * z1) : 0.0) + mu1 * width / z0;
         t0 += z0 * mu0 + z1 * mu1;
         k->s[j] = (float)s;
@@ -161,10 +161,10 @@ static void derive_blocks(vndf_distribution *table)
 {
     const vndf_knots *k = &table->knots;
     vndf_knots *b = &table->blocks;
-    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1, lanes = (blocks + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1;
     pad_knots(&table->knots, table->radial_count + 1);
     pad_knots(b, blocks);
-    b->count = lanes; /* as far as a search goes */
+    b->count = (blocks + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES; /* as far as a search goes */
     for (uint32_t i = 0; i < blocks; i++) {
         uint32_t j = i * VNDF_BLOCK;
         b->x[i] = k->x[j];

@@ -10,7 +10,12 @@ typedef struct vndf_table_size {
     uint32_t below_cells, below_rows, below_knots;
 } vndf_table_size;
 
-/* Knots of `rows` azimuth rows: every second row stands at one. */
+/* Azimuth rows for so many knots, and back: every second row stands at a knot, the others between two. */
+static inline uint32_t vndf_row_count(uint32_t knots)
+{
+    return 2 * knots - 1;
+}
+
 static inline uint32_t vndf_row_knots(uint32_t rows)
 {
     return rows / 2 + 1;
