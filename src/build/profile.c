@@ -16,6 +16,10 @@ static const double UNEVEN = 0.43; /* a jump in the middle would be half of eith
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
 static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
+static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
+static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
+static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: it draws as one cell */
+static const double SAME_MASS = 1e-7;   /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)
 {
@@ -175,7 +179,7 @@ static void measure_tail(vndf_profile *profile)
 {
     double end = profile->panel[profile->count].r, p = density(profile, end), n = exponent(profile, end / 4, end);
     profile->tail_m0 = profile->tail_m1 = 0.0;
-    if (p > 0.0 && n > 3.0 + 1e-6 && n < HUGE_VAL) {
+    if (p > 0.0 && n > 3.0 + POWER_MARGIN && n < HUGE_VAL) {
         profile->tail_m0 = p * end * end / (n - 2);
         profile->tail_m1 = p * end * end * end / (n - 3) - end * profile->tail_m0;
     }
@@ -255,18 +259,18 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
     double pole = exponent(profile, exp2(-OCTAVES), exp2(2 - OCTAVES));
     const vndf_panel *p = profile->panel;
     size_t n = profile->count;
-    if (pole < HUGE_VAL && pole >= 2.0 - 1e-6)
+    if (pole < HUGE_VAL && pole >= 2.0 - POWER_MARGIN)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower "
                          "than r^-2", pole);
-    if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > 1e-6 * profile->f0)
+    if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > POLE_LOST * profile->f0)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
-    if (tail <= 3.0 + 1e-6)
+    if (tail <= 3.0 + POWER_MARGIN)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "infinite projected area: P22 falls as r^%.4g for large r, must fall faster than r^-3 "
                          "(D slower than 1/cos(theta_m) towards 90 degrees)", 0.0 - tail);
-    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > 2e-3 * profile->f1)
+    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > TAIL_LOST * profile->f1)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area "
                          "at grazing incidence lies beyond slope 1e30, where no single-precision normal can lie",
@@ -312,7 +316,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
         status = check_ends(profile, error);
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
         double mass = 2 * PI * profile->f0;
-        if (pass > 0 && fabs(mass - 1.0) < 1e-7)
+        if (pass > 0 && fabs(mass - 1.0) < SAME_MASS)
             return fill_points(profile) ? VNDF_OK : no_memory(error);
         double middle = median(profile);
         profile->normalization /= mass;
