@@ -25,7 +25,8 @@ static const double NEAR_HORIZON = 1e-6; /* of the last cell: x/z is finite ther
 /* An end of f this many times above the mean is a pole of D: the cell is kept bounded. */
 static const double END_MOST = 50;
 static const double MASS_LEAST = 1e-36; /* of a cell: a normal float with some room for products */
-static const double INSIDE = 0.999;     /* the cubic stays off 0 when its moments are rounded to float */
+static const double ENDS_MOST = 3;      /* both ends of a bent cubic together, of its mass: at 4 none is left inside */
+static const double INSIDE = 1e-3;      /* the cubic stays off 0 when its moments are rounded to float */
 
 /* ---- knots ---- */
 
@@ -110,22 +111,22 @@ static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b
     return f_at(fit, a, b, outer ? 1 - inside : inside);
 }
 
-/* Where the cubic would be negative - one of its inner Bernstein coefficients is - its moments go towards the straight
- * line's, as far as it takes. */
+/* Where the cubic would be negative, one of its inner Bernstein coefficients is: it is raised to (almost) 0 at the
+ * cost of the other, which leaves the mass as it is. Ends that would need more than all mass are lowered first. */
 static void keep_positive(vndf_radial_cell *cell)
 {
-    double f0 = cell->f0, f1 = cell->f1, l0 = f0 / 3 + f1 / 6, l1 = f0 / 6 + f1 / 3, part = 1.0;
+    double mass = (double)cell->mu0 + cell->mu1, f0 = cell->f0, f1 = cell->f1;
     vndf_moment_cubic cubic = vndf_moment_cubic_from(f0, f1, cell->mu0, cell->mu1);
-    double line0 = (2 * f0 + f1) / 3, line1 = (f0 + 2 * f1) / 3;
-    double first = cubic.a / 3, second = (cubic.a + cubic.b) / 3;
-    if (line0 + first < 0)
-        part = line0 / -first;
-    if (line1 + second < 0 && line1 / -second < part)
-        part = line1 / -second;
-    if (part < 1.0) {
-        cell->mu0 = (float)(l0 + INSIDE * part * (cell->mu0 - l0));
-        cell->mu1 = (float)(l1 + INSIDE * part * (cell->mu1 - l1));
-    }
+    double first = (2 * f0 + f1 + cubic.a) / 3, second = (f0 + 2 * f1 + cubic.a + cubic.b) / 3;
+    if (first >= 0 && second >= 0)
+        return;
+    double lower = fmin(1.0, ENDS_MOST * mass / (f0 + f1)), inner = 4 * mass - lower * (f0 + f1);
+    first = fmin(fmax(lower * first, INSIDE * inner), (1 - INSIDE) * inner);
+    second = inner - first;
+    cell->f0 = (float)(f0 *= lower);
+    cell->f1 = (float)(f1 *= lower);
+    cell->mu0 = (float)((4 * f0 + 3 * first + 2 * second + f1) / 20);
+    cell->mu1 = (float)((f0 + 2 * first + 3 * second + 4 * f1) / 20);
 }
 
 vndf_radial_cell vndf_fit_cell(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b)
