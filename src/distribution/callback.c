@@ -6,6 +6,8 @@
 #include "distribution/source.h"
 #include "distribution/words.h"
 
+enum { OPERATIONS = 8 }; /* of a call, whatever it does: a guess */
+
 typedef struct callback_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
     vndf_density_function *density;
@@ -50,7 +52,7 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0 };
+    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS };
     source->density = density;
     source->user = user;
     return &source->base;
