@@ -91,8 +91,9 @@ enum {
 
 /* ---- building ---------------------------------------------------------------------------------- */
 
-/* Called now and then during a build with the part done in [0, 1] and what is being done; returns 0 to
- * go on, anything else to stop the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
+/* Called when a build begins something else, and at least every 2^18 operations (see limits), some milliseconds, with the
+ * part done in [0, 1] and what is being done; returns 0 to go on, anything else to stop the build (VNDF_ERROR_ARGUMENT,
+ * "interrupted"). */
 typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults. */
@@ -121,7 +122,9 @@ VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it, then renamed over path. */
+/* Writes the table to a file: to a temporary beside it (path.PROCESS.tmp), flushed to the disk, then renamed over path.
+ * If that fails the old file is whole and no temporary is left. A signal that ends the process meanwhile may leave one:
+ * block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 #ifdef __cplusplus
