@@ -82,6 +82,7 @@ enum {
     VNDF_LIMIT_PARAMETERS = 64,              /* of an expression */
     VNDF_LIMIT_PARAMETER_NAME = 64,          /* characters */
     VNDF_LIMIT_FAMILY_LENGTH = 4096,         /* characters of a family's specification */
+    VNDF_LIMIT_NAME_LENGTH = 4096,           /* characters of the name of a CSV or a callback */
     VNDF_LIMIT_CSV_ROWS = 1000000,
     VNDF_LIMIT_CSV_LINE = 4096,              /* characters of a line */
     VNDF_LIMIT_CSV_BYTES = 1 << 26,          /* of a file */

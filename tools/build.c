@@ -52,7 +52,7 @@ static int print_list(void)
 
 /* ---- the source ---------------------------------------------------------------------------------- */
 
-enum { NAME_MAX_LENGTH = 64 };
+enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
 
 /* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
 static int read_parameter(const char *text, char storage[NAME_MAX_LENGTH], vndf_parameter *parameter)

@@ -1,6 +1,7 @@
 /* Distributions given by a C function: P22(r), or D(cos theta) with P22(r) = D(c) c^4, c = 1/sqrt(1 + r^2). */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/error.h"
 #include "distribution/source.h"
@@ -40,6 +41,11 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
     vndf_text words = { NULL, 0, 0, 0 };
     if (!density) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
+        return NULL;
+    }
+    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback's name has %zu characters; at most %d are possible",
+                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
         return NULL;
     }
     vndf_text_add_word(&words, option);

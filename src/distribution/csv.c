@@ -152,6 +152,11 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
         return NULL;
     }
+    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the name of the CSV has %zu characters; at most %d are possible",
+                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
     if (vndf_csv_read(text, size, &rows, &inner) != VNDF_OK) {
         vndf_fail(error, inner.status, "%s: %s", name ? name : "unnamed", inner.message);
         return NULL;
