@@ -80,6 +80,9 @@ typedef struct vndf_vec3 {
 /* A distribution of normals: a loaded or built table, or a closed form. Immutable, shared freely. */
 typedef struct vndf_distribution vndf_distribution;
 
+/* A larger file is no table; those that vndf_build makes have 1 MiB at most. */
+enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
+
 /* Reads a table file. NULL and an error if it cannot be read or is not a whole, consistent table. The
  * bytes are not trusted: no file crashes the loader. Free the result with vndf_free. */
 VNDF_API vndf_distribution *vndf_load(const char *path, vndf_error *error);

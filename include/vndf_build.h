@@ -70,10 +70,31 @@ VNDF_API const char *vndf_source_description(const vndf_source *source);
 
 VNDF_API void vndf_source_free(vndf_source *source);
 
+/* ---- limits ------------------------------------------------------------------------------------ */
+
+/* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they take, not by
+ * seconds, so that the same input gives the same result on every machine: an evaluation of P22 counts as 8 operations
+ * (16 for a mix), for a formula as 4 and one for each number, name, operator and call in it. An operation takes some
+ * 6 to 30 ns; the time of a callback is its own. */
+enum {
+    VNDF_LIMIT_EXPRESSION_LENGTH = 4096,     /* characters */
+    VNDF_LIMIT_EXPRESSION_DEPTH = 64,        /* parentheses, calls, signs and powers inside each other */
+    VNDF_LIMIT_PARAMETERS = 64,              /* of an expression */
+    VNDF_LIMIT_PARAMETER_NAME = 64,          /* characters */
+    VNDF_LIMIT_FAMILY_LENGTH = 4096,         /* characters of a family's specification */
+    VNDF_LIMIT_NAME_LENGTH = 4096,           /* characters of the name of a CSV or a callback */
+    VNDF_LIMIT_CSV_ROWS = 1000000,
+    VNDF_LIMIT_CSV_LINE = 4096,              /* characters of a line */
+    VNDF_LIMIT_CSV_BYTES = 1 << 26,          /* of a file */
+    VNDF_LIMIT_BUILD_PANELS = 60000          /* pieces in which P22 is smooth to 1e-10 */
+};
+#define VNDF_LIMIT_BUILD_OPERATIONS 1e10
+
 /* ---- building ---------------------------------------------------------------------------------- */
 
-/* Called now and then during a build with the part done in [0, 1] and what is being done; returns 0 to
- * go on, anything else to stop the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
+/* Called when a build begins something else, and at least every 2^18 operations (see limits), some milliseconds, with the
+ * part done in [0, 1] and what is being done; returns 0 to go on, anything else to stop the build (VNDF_ERROR_ARGUMENT,
+ * "interrupted"). */
 typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults. */
@@ -102,7 +123,9 @@ VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it, then renamed over path. */
+/* Writes the table to a file: to a temporary beside it (path.PROCESS.tmp), flushed to the disk, then renamed over path.
+ * If that fails the old file is whole and no temporary is left. A signal that ends the process meanwhile may leave one:
+ * block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 #ifdef __cplusplus

@@ -52,7 +52,7 @@ static int print_list(void)
 
 /* ---- the source ---------------------------------------------------------------------------------- */
 
-enum { NAME_MAX_LENGTH = 64 };
+enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
 
 /* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
 static int read_parameter(const char *text, char storage[NAME_MAX_LENGTH], vndf_parameter *parameter)
@@ -98,29 +98,41 @@ static vndf_source *source_from_words(const build_words *given)
 
 /* ---- building ------------------------------------------------------------------------------------ */
 
+typedef struct watch {
+    unsigned held;     /* signals that wait until the build has stopped, so that it can say so */
+    int shows;         /* stderr is a terminal */
+    const char *shown; /* the last stage that was printed */
+} watch;
+
 static int show_progress(double done, const char *what, void *user)
 {
-    (void)user;
-    fprintf(stderr, "\r\033[Kbuilding: %3.0f%% %s", 100 * done, what);
-    fflush(stderr);
-    return 0;
+    watch *w = user;
+    if (w->shows && what != w->shown) {
+        fprintf(stderr, "\r\033[Kbuilding: %3.0f%% %s", 100 * done, what);
+        fflush(stderr);
+        w->shown = what;
+    }
+    return output_stopping(w->held);
 }
 
-static vndf_distribution *build_table(const vndf_source *source, const build_words *given)
+static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
 {
     vndf_build_options options = {0};
     vndf_error error = {VNDF_OK, ""};
     unsigned long long bytes = 0;
-    int shows = isatty(STDERR_FILENO);
+    watch at = {held, isatty(STDERR_FILENO), NULL};
     if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
         !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv))
         return NULL;
     options.max_bytes = (size_t)bytes;
-    options.progress = shows ? show_progress : NULL;
+    options.progress = show_progress;
+    options.progress_user = &at;
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
-    if (shows)
+    if (at.shows)
         fputs("\r\033[K", stderr);
-    if (!table)
+    if (!table && output_stopping(held))
+        complain(name, "%s; '%s' was not touched", error.message, only_word(&given->output));
+    else if (!table)
         complain(name, "%s", error.message);
     return table;
 }
@@ -128,17 +140,15 @@ static vndf_distribution *build_table(const vndf_source *source, const build_wor
 static int save_table(const vndf_distribution *table, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
-    if (!output_replaceable(name, path))
-        return STATUS_USE;
-    unsigned held = output_hold_signals();
     vndf_status status = vndf_save(table, path, &error);
-    output_release_signals(held);
     return status == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
 }
 
-static int build_and_save(const vndf_source *source, const build_words *given)
+static int build_and_save(const vndf_source *source, const build_words *given, unsigned held)
 {
-    vndf_distribution *table = build_table(source, given);
+    if (!output_replaceable(name, only_word(&given->output)))
+        return STATUS_USE;
+    vndf_distribution *table = build_table(source, given, held);
     if (!table)
         return STATUS_USE;
     int status = save_table(table, only_word(&given->output));
@@ -184,7 +194,9 @@ int command_build(int argc, char **argv)
     vndf_source *source = source_from_words(&given);
     if (!source)
         return STATUS_USE;
-    int status = build_and_save(source, &given);
+    unsigned held = output_hold_signals();
+    int status = build_and_save(source, &given, held);
     vndf_source_free(source);
+    output_release_signals(held);
     return status;
 }

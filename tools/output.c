@@ -52,15 +52,27 @@ void output_release_signals(unsigned held)
     sigprocmask(SIG_UNBLOCK, &set, NULL);
 }
 
-int output_interrupted(const output_file *output)
+int output_stopping(unsigned held)
 {
     sigset_t pending;
-    if (!output->temporary || sigpending(&pending) != 0)
+    if (sigpending(&pending) != 0)
         return 0;
     for (unsigned i = 0; i < STOPPING_COUNT; i++)
-        if ((output->held >> i & 1u) && sigismember(&pending, stopping[i]))
+        if ((held >> i & 1u) && sigismember(&pending, stopping[i]))
             return 1;
     return 0;
+}
+
+int output_interrupted(const output_file *output)
+{
+    return output->temporary && output_stopping(output->held);
+}
+
+void output_ignore_size_signal(void)
+{
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
 }
 
 /* ---- opening ------------------------------------------------------------------------------------- */
@@ -128,12 +140,23 @@ int output_open(output_file *output, const char *command, const char *path)
 
 /* ---- closing ------------------------------------------------------------------------------------- */
 
+/* Flushes; 0 and errno if that or any write before failed. Of a write before, the reason may be lost: another one, of a
+ * byte that nobody will read, shows it. */
+static int flush(FILE *file)
+{
+    int failed_before = ferror(file);
+    errno = 0;
+    if (fflush(file) == 0 && !failed_before)
+        return 1;
+    if (errno == 0 && write(fileno(file), "", 1) >= 0)
+        errno = 0; /* it would work by now */
+    return 0;
+}
+
 /* The error is cleared once it is told, so that it is told once. */
 int output_finish_stdout(const char *command)
 {
-    int failed_before = ferror(stdout);
-    errno = 0;
-    if (fflush(stdout) == 0 && !failed_before)
+    if (flush(stdout))
         return STATUS_GOOD;
     clearerr(stdout);
     if (errno != EPIPE)
@@ -148,36 +171,43 @@ static void close_file(output_file *output)
     output_release_signals(output->held);
 }
 
-/* Full disks show at fclose, not before. */
+/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be synced. */
 static int close_and_rename(output_file *output)
 {
-    int failed_before = ferror(output->file);
-    if (fclose(output->file) != 0 || failed_before)
-        return 0;
-    return rename(output->temporary, output->path) == 0;
+    int good = flush(output->file) && (fsync(fileno(output->file)) == 0 || errno == EINVAL || errno == EROFS);
+    int reason = errno, closed = fclose(output->file) == 0;
+    if (!good)
+        errno = reason;
+    return good && closed && rename(output->temporary, output->path) == 0;
 }
 
 int output_commit(output_file *output)
 {
     if (!output->temporary)
         return output_finish_stdout(output->command);
-    errno = 0;
-    int good = close_and_rename(output);
-    if (!good) {
-        complain(output->command, "cannot write '%s': %s", output->path, errno ? strerror(errno) : "write failed");
-        remove(output->temporary);
+    if (close_and_rename(output)) {
+        close_file(output);
+        return STATUS_GOOD;
     }
+    int reason = errno;
+    remove(output->temporary);
+    complain(output->command, "cannot write '%s': %s", output->path, reason ? strerror(reason) : "write failed");
     close_file(output);
-    return good ? STATUS_GOOD : STATUS_USE;
+    return STATUS_USE;
 }
 
-void output_discard(output_file *output)
+/* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited are let
+ * through last, when all is said. */
+int output_give_up(output_file *output, const char *why)
 {
-    if (!output->temporary)
-        return;
-    fclose(output->file);
-    remove(output->temporary);
-    close_file(output);
+    if (output->temporary) {
+        fclose(output->file);
+        remove(output->temporary);
+    }
+    complain(output->command, "%s", why);
+    if (output->temporary)
+        close_file(output);
+    return STATUS_USE;
 }
 
 const char *output_extension(const char *path)

@@ -18,14 +18,20 @@ typedef struct output_file {
 /* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
-/* 1 if the user asked to stop; close with output_discard then. */
+/* 1 if one of the signals that wait has come: for work between output_hold_signals and output_release_signals. */
+int output_stopping(unsigned held);
+
+/* A file that outgrows a limit of the shell then fails to be written, as on a full disk, instead of ending the program. */
+void output_ignore_size_signal(void);
+
+/* 1 if the user asked to stop; close with output_give_up then. */
 int output_interrupted(const output_file *output);
 
 /* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
 int output_commit(output_file *output);
 
-/* Closes and leaves nothing behind. */
-void output_discard(output_file *output);
+/* Closes, leaves nothing behind, and complains; an exit status. */
+int output_give_up(output_file *output, const char *why);
 
 /* Refuses a path that a rename would damage: a device, a pipe, a folder. 1 if it is free or a file. */
 int output_replaceable(const char *command, const char *path);

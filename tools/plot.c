@@ -101,9 +101,7 @@ static int plot_to_file(const figure_plan *figure, const char *path)
         return STATUS_USE;
     if (draw_figure(output.file, figure) && !output_interrupted(&output))
         return output_commit(&output);
-    int interrupted = output_interrupted(&output);
-    output_discard(&output);
-    return complain(name, interrupted ? "interrupted" : "no memory");
+    return output_give_up(&output, output_interrupted(&output) ? "interrupted" : "no memory");
 }
 
 int command_plot(int argc, char **argv)

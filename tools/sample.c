@@ -79,10 +79,8 @@ static int write_samples(output_file *output, write_normal *write, const vndf_vi
             continue;
         if (ferror(output->file))
             break;
-        if (output_interrupted(output)) {
-            output_discard(output);
-            return complain(name, "interrupted");
-        }
+        if (output_interrupted(output))
+            return output_give_up(output, "interrupted");
     }
     return output_commit(output);
 }

@@ -21,11 +21,6 @@ static const double POLE_CELL = 1.0 / 512;
 
 /* ---- refining ---- */
 
-static int report(const vndf_build_options *options, double done, const char *what)
-{
-    return options && options->progress ? options->progress(done, what, options->progress_user) : 0;
-}
-
 static int refine_radial(vndf_plan *plan, size_t limit)
 {
     const vndf_radial_fit *fit = &plan->radial_fit;
@@ -63,8 +58,7 @@ static uint32_t most_cells_for(size_t max_bytes)
     return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 32;
 }
 
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes,
-                   const vndf_build_options *options)
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)
 {
     uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
@@ -80,17 +74,17 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
     double area = area_error(max_bytes, plan->finest);
-    int stopped = 0;
-    int good = !(stopped = report(options, 0.1, "radial cells")) && refine_radial(plan, cell_limit) &&
-               !(stopped = report(options, 0.2, "azimuth rows above the horizon")) &&
-               refine_rows(&plan->above_rows, &plan->above_fit, row_limit, plan->finest) &&
-               !(stopped = report(options, 0.4, "azimuth rows below the horizon")) &&
-               refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest) &&
-               !(stopped = report(options, 0.6, "projected area")) &&
-               refine_area(&plan->above_area, &plan->above_fit.side, knot_limit, area) &&
-               refine_area(&plan->below_area, &plan->below_fit.side, knot_limit, area) &&
-               !(stopped = report(options, 0.8, "certificate"));
-    return stopped ? -1 : good;
+    vndf_guard_stage(profile->guard, 0.1, "radial cells");
+    int good = refine_radial(plan, cell_limit);
+    vndf_guard_stage(profile->guard, 0.2, "azimuth rows above the horizon");
+    good = good && refine_rows(&plan->above_rows, &plan->above_fit, row_limit, plan->finest);
+    vndf_guard_stage(profile->guard, 0.4, "azimuth rows below the horizon");
+    good = good && refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest);
+    vndf_guard_stage(profile->guard, 0.6, "projected area");
+    good = good && refine_area(&plan->above_area, &plan->above_fit.side, knot_limit, area) &&
+           refine_area(&plan->below_area, &plan->below_fit.side, knot_limit, area);
+    vndf_guard_stage(profile->guard, 0.8, "certificate");
+    return good && !vndf_guard_stopped(profile->guard);
 }
 
 void vndf_plan_free(vndf_plan *plan)

@@ -16,9 +16,8 @@ typedef struct vndf_plan {
     double finest;  /* the error down to which the fits were refined */
 } vndf_plan;
 
-/* Refines all fits as far as max_bytes may ever need; progress may stop it. 0 without memory, -1 if stopped. */
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes,
-                   const vndf_build_options *options);
+/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped it. */
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
 void vndf_plan_free(vndf_plan *plan);
 
 /* Counts of the table whose parts each stay below `error`. */

@@ -66,18 +66,19 @@ static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
         vndf_table_encode(draft, bytes, size);
         table = vndf_load_memory(bytes, size, &inner);
         if (!table)
-            vndf_fail(why, inner.status == VNDF_ERROR_MEMORY ? inner.status : VNDF_ERROR_DISTRIBUTION,
-                      "the distribution cannot be held in a table of floats: %s", inner.message);
-    } else
-        vndf_fail(why, VNDF_ERROR_MEMORY, "no memory to build the table");
+            vndf_fail(why, VNDF_ERROR_DISTRIBUTION, "the distribution cannot be held in a table of floats: %s",
+                      inner.message);
+    }
     free(bytes);
     vndf_free(draft);
-    if (table && !vndf_certificate_measure(&table->certificate, table, plan->profile)) {
-        vndf_fail(why, VNDF_ERROR_MEMORY, "no memory to measure the table");
-        vndf_free(table);
-        return NULL;
-    }
-    return table;
+    if (!bytes || inner.status == VNDF_ERROR_MEMORY ||
+        (table && !vndf_certificate_measure(&table->certificate, table, plan->profile)))
+        plan->profile->guard->starved = 1;
+    if (!vndf_guard_stopped(plan->profile->guard))
+        return table;
+    vndf_guard_status(plan->profile->guard, why);
+    vndf_free(table);
+    return NULL;
 }
 
 /* The smallest table with a measured TV of at most max_tv, or NULL and what was reached. */
@@ -95,7 +96,7 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
         double middle = (low + high) / 2;
         vndf_error ignored;
-        vndf_distribution *smaller = finish(plan, exp(middle), &ignored); /* if it fails, the larger one stays */
+        vndf_distribution *smaller = finish(plan, exp(middle), &ignored); /* if floats cannot hold it, the larger one stays */
         if (smaller && smaller->certificate.tv <= max_tv) {
             vndf_free(table);
             table = smaller;
@@ -140,17 +141,21 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     double max_tv = options ? options->max_tv : 0.0;
     if (check_options(source, max_bytes, max_tv, error) != VNDF_OK)
         return NULL;
-    vndf_profile *profile = vndf_profile_from(source, error);
+    vndf_guard guard = vndf_guard_from(options ? options->progress : NULL, options ? options->progress_user : NULL);
+    vndf_guard_stage(&guard, 0, "the source");
+    vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)
         return NULL;
     vndf_plan plan;
     vndf_distribution *table = NULL;
-    int made = vndf_plan_make(&plan, profile, max_bytes, options);
-    if (made == 1)
+    if (vndf_plan_make(&plan, profile, max_bytes))
         table = build_planned(&plan, max_bytes, max_tv, error);
-    else
-        vndf_fail(error, made < 0 ? VNDF_ERROR_ARGUMENT : VNDF_ERROR_MEMORY,
-                  made < 0 ? "interrupted" : "no memory to fit the table");
+    else if (!vndf_guard_stopped(&guard))
+        guard.starved = 1;
+    if (vndf_guard_status(&guard, error) != VNDF_OK) {
+        vndf_free(table);
+        table = NULL;
+    }
     if (table && certificate)
         *certificate = table->certificate;
     vndf_plan_free(&plan);
@@ -163,9 +168,11 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
 {
     if (!distribution || distribution->kind != VNDF_KIND_TABLE || !certificate)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a place for its certificate are needed");
-    vndf_profile *profile = vndf_profile_from(source, error);
+    vndf_guard guard = vndf_guard_from(NULL, NULL);
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_profile *profile = vndf_profile_from(source, &guard, &inner);
     if (!profile)
-        return error ? error->status : VNDF_ERROR_DISTRIBUTION;
+        return vndf_fail(error, inner.status, "%s", inner.message);
     double scale = profile->scale / distribution->scale_exact;
     double normalization = profile->normalization / distribution->normalization;
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
@@ -178,5 +185,7 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
     }
     int done = vndf_certificate_measure(certificate, distribution, profile);
     vndf_profile_free(profile);
-    return done ? VNDF_OK : vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to measure the table");
+    if (!done)
+        guard.starved = 1;
+    return vndf_guard_status(&guard, error);
 }

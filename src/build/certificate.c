@@ -188,7 +188,7 @@ static finding survey_direction(survey *v, double s, double c)
     c = (float)c;
     double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
-    if (!(area > AREA_LEAST * v->profile->f1))
+    if (!(area > AREA_LEAST * v->profile->f1) || vndf_guard_stopped(v->profile->guard))
         return f;
     f.measured = 1;
     f.area_error = fabs((double)vndf_unit_area(v->table, (float)s, (float)c) / area - 1);

@@ -8,9 +8,9 @@
 #include "core/error.h"
 #include "math/ascending.h"
 
-enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40, PANELS_MAX = 60000 };
+enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40 };
 
-static const double PI = 3.14159265358979323846, DEGREES = 57.295779513082323; /* to a radian */
+static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 static const double UNEVEN = 0.43; /* a jump in the middle would be half of either rule, and pass for smooth */
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
@@ -27,22 +27,24 @@ static double floor_at(const vndf_profile *profile, double r)
     return profile->floor / (q * q);
 }
 
-/* P at r, and a note of the first r where the source is not a density. */
-static double density(vndf_profile *profile, double r)
+/* P at r, which is finite or stops the build. */
+static double density(const vndf_profile *profile, double r)
 {
     double p = vndf_profile_p22(profile, r);
-    if (!(p >= 0.0 && p < HUGE_VAL) && !profile->bad) {
-        profile->bad = 1;
-        profile->bad_r = r * profile->scale;
-        profile->bad_value = vndf_source_p22(profile->source, profile->bad_r);
-    }
+    if (!(p < HUGE_VAL)) /* it overflowed here, not in the source */
+        vndf_guard_note(profile->guard, r * profile->scale, p);
     return p;
 }
 
 double vndf_profile_p22(const vndf_profile *profile, double r)
 {
-    double scale = profile->scale;
-    double given = profile->source->p22(profile->source, r * scale);
+    double scale = profile->scale, given = 0.0;
+    if (vndf_guard_spend(profile->guard, profile->source->operations))
+        given = profile->source->p22(profile->source, r * scale);
+    if (!(given >= 0.0 && given < HUGE_VAL)) {
+        vndf_guard_note(profile->guard, r * scale, given);
+        given = 0.0;
+    }
     return profile->normalization * scale * scale * given + floor_at(profile, r);
 }
 
@@ -70,7 +72,7 @@ static int grow(vndf_profile *profile)
     size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
     vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
     if (!panel) {
-        profile->starved = 1;
+        profile->guard->starved = 1;
         return 0;
     }
     profile->panel = panel;
@@ -80,7 +82,7 @@ static int grow(vndf_profile *profile)
 
 static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
 {
-    if (profile->count >= PANELS_MAX)
+    if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
         profile->rough = 1;
     if (profile->rough || !grow(profile))
         return;
@@ -95,7 +97,7 @@ static int agree(double a, double b, double least)
 
 static int stopped(const vndf_profile *profile)
 {
-    return profile->bad || profile->rough || profile->starved;
+    return profile->rough || vndf_guard_stopped(profile->guard);
 }
 
 static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
@@ -123,7 +125,7 @@ static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments wh
 static double peak(vndf_profile *profile)
 {
     double most = 0.0;
-    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !profile->bad; i++) {
+    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !stopped(profile); i++) {
         double r = exp2(i / 16.0) / profile->scale, p = density(profile, r) * r * r;
         most = p > most ? p : most;
     }
@@ -156,7 +158,8 @@ static void fill_panels(vndf_profile *profile)
     size_t edges;
     double least = fmax(NEGLIGIBLE * peak(profile), LEAST), *edge = make_edges(profile, &edges);
     profile->count = 0;
-    profile->starved = !edge;
+    if (!edge)
+        profile->guard->starved = 1;
     for (size_t i = 0; i + 1 < edges && !stopped(profile); i++)
         if (edge[i + 1] - edge[i] > SAME_EDGE)
             resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
@@ -232,19 +235,12 @@ static vndf_status no_memory(vndf_error *error)
 
 static vndf_status check_values(const vndf_profile *profile, vndf_error *error)
 {
-    if (profile->bad && profile->bad_value < 0.0)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)", profile->bad_value,
-                         profile->bad_r, atan(profile->bad_r) * DEGREES);
-    if (profile->bad)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is %s at slope %g (theta_m = %.9g degrees)",
-                         isnan(profile->bad_value) ? "not a number" : "infinite", profile->bad_r,
-                         atan(profile->bad_r) * DEGREES);
-    if (profile->starved)
-        return no_memory(error);
+    if (vndf_guard_stopped(profile->guard))
+        return vndf_guard_status(profile->guard, error);
     if (profile->rough)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "P22 is too rough: not resolved by %d panels; the last one began at slope %g", PANELS_MAX,
+                         "P22 is too rough: not resolved by %d panels; the last one began at slope %g",
+                         VNDF_LIMIT_BUILD_PANELS,
                          profile->count ? profile->panel[profile->count - 1].r * profile->scale : 0.0);
     if (!(profile->f0 > 0.0))
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
@@ -334,7 +330,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
                      "one at a median slope of %g", profile->scale);
 }
 
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error)
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error)
 {
     vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
     if (!profile) {
@@ -343,6 +339,7 @@ vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error)
         return NULL;
     }
     profile->source = source;
+    profile->guard = guard;
     profile->normalization = profile->scale = 1.0;
     if (make(profile, error) == VNDF_OK)
         return profile;

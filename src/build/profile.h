@@ -8,6 +8,7 @@
 #ifndef VNDF_BUILD_PROFILE_H
 #define VNDF_BUILD_PROFILE_H
 
+#include "build/guard.h"
 #include "distribution/source.h"
 #include "quadrature/gauss.h"
 
@@ -30,21 +31,22 @@ typedef struct vndf_profile_point {
 
 typedef struct vndf_profile {
     const vndf_source *source;
+    vndf_guard *guard;              /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale, floor;
     size_t count, capacity;         /* panels; panel[count] is the outer end */
     vndf_panel *panel;
     vndf_profile_point *point;      /* VNDF_GAUSS per panel */
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
-    double bad_r, bad_value;        /* where the source is no density */
-    int bad, rough, starved;        /* it is so; more panels are needed than there may be, than there is memory */
+    int rough;                      /* more panels are needed than there may be */
 } vndf_profile;
 
-/* NULL and an error with the reason if the source cannot be the normals of a microsurface. */
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_error *error);
+/* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept: it has
+ * to live as long, or be taken away. */
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
-/* P(R) at canonical scale. */
+/* P(R) at canonical scale; only the floor once the guard has stopped the build. */
 double vndf_profile_p22(const vndf_profile *profile, double r);
 
 /* integral over [a, b] of P r dr and of P r (r - a) dr; b may be infinite. */

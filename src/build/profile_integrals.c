@@ -14,6 +14,8 @@ static const double HALF_PI = 1.57079632679489661923;
 /* y - atan y: here the series errs by 1e-11 of it, the difference by 1e-13. */
 static const double SERIES_MOST = 0.05;
 
+static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
+
 /* The panel of R: r_i <= R < r_(i+1), the ends extended. */
 static size_t panel_of(const vndf_profile *profile, double r)
 {
@@ -144,6 +146,8 @@ static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
 {
     size_t i = panel_of(profile, k), count = profile->count;
     kernel sum = {0.0, 0.0, 0.0};
+    if (!vndf_guard_spend(profile->guard, KERNEL_OPERATIONS * VNDF_GAUSS * (double)(count - i)))
+        return sum;
     for (; i < count && profile->panel[i].r < 3 * k; i++) {
         double from = profile->panel[i].r > k ? profile->panel[i].r : k;
         if (profile->panel[i + 1].r > from)

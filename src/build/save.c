@@ -1,4 +1,5 @@
-/* Saving is atomic: a temporary beside the file, flushed and closed without an error, then renamed over it. */
+/* Saving is atomic: a temporary beside the file, flushed to the disk and closed without an error, then renamed over it.
+ * Whatever fails, the old file stays whole and the temporary is removed. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _POSIX_C_SOURCE 200809L
 #  include <unistd.h>
@@ -14,18 +15,26 @@
 #include "table/file.h"
 #include "vndf_build.h"
 
-/* path + ".<process>.tmp", to be freed; NULL if there is no memory. */
-static char *temporary_name(const char *path)
+enum { NAMES_MAX = 100, SUFFIX_MAX = 48 };
+
+/* A new file beside path: path.<process>.tmp, or another number where that name is taken: by another thread, or by what
+ * a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. */
+static FILE *create_temporary(const char *path, char **name)
 {
     long process = 0;
+    FILE *file = NULL;
+    size_t size = strlen(path) + SUFFIX_MAX;
 #ifdef VNDF_HAS_POSIX
     process = (long)getpid();
 #endif
-    size_t n = strlen(path) + 32;
-    char *name = malloc(n);
-    if (name)
-        snprintf(name, n, "%s.%ld.tmp", path, process);
-    return name;
+    *name = malloc(size);
+    for (int i = 0; *name && !file && i < NAMES_MAX; i++) {
+        snprintf(*name, size, i ? "%s.%ld.%d.tmp" : "%s.%ld.tmp", path, process, i);
+        file = fopen(*name, "wbx");
+        if (!file && errno != EEXIST)
+            break;
+    }
+    return file;
 }
 
 /* 0 and errno if anything was not written. */
@@ -44,13 +53,14 @@ static int write_whole(FILE *file, const unsigned char *bytes, size_t size)
 
 static vndf_status write_file(const char *path, const unsigned char *bytes, size_t size, vndf_error *error)
 {
-    char *temporary = temporary_name(path);
+    char *temporary;
+    FILE *file = create_temporary(path, &temporary);
+    vndf_status status = VNDF_OK;
     if (!temporary)
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
-    vndf_status status = VNDF_OK;
-    FILE *file = fopen(temporary, "wb");
     if (!file)
-        status = vndf_fail(error, VNDF_ERROR_IO, "cannot create %s: %s", temporary, strerror(errno));
+        status = vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: cannot create %s: %s", path, temporary,
+                           strerror(errno));
     else if (!write_whole(file, bytes, size) || rename(temporary, path) != 0) {
         status = vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(errno));
         remove(temporary);

@@ -214,8 +214,10 @@ const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
         if (e->row.y == y)
             return &e->row;
     entry *e = calloc(1, sizeof *e);
-    if (!e)
+    if (!e) {
+        fit->profile->guard->starved = 1;
         return NULL;
+    }
     e->row.y = y;
     set_aspect(fit, &e->row);
     fill_row(fit, &e->row);

@@ -1,10 +1,13 @@
 /* Distributions given by a C function: P22(r), or D(cos theta) with P22(r) = D(c) c^4, c = 1/sqrt(1 + r^2). */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/error.h"
 #include "distribution/source.h"
 #include "distribution/words.h"
+
+enum { OPERATIONS = 8 }; /* of a call, whatever it does: a guess */
 
 typedef struct callback_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
@@ -40,6 +43,11 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
         return NULL;
     }
+    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback's name has %zu characters; at most %d are possible",
+                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
     vndf_text_add_word(&words, option);
     vndf_text_add_word(&words, name ? name : "unnamed");
     char *description = vndf_text_finish(&words, error);
@@ -50,7 +58,7 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0 };
+    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS };
     source->density = density;
     source->user = user;
     return &source->base;

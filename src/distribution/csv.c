@@ -14,7 +14,7 @@
 #include "distribution/source.h"
 #include "distribution/words.h"
 
-enum { BREAKS = 4096 };
+enum { BREAKS = 4096, OPERATIONS = 8 };
 
 typedef struct csv_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
@@ -125,7 +125,7 @@ static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_erro
 {
     csv_source *source = calloc(1, sizeof *source);
     if (source) {
-        source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0 };
+        source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS };
         source->breaks = malloc(BREAKS * sizeof *source->breaks);
     }
     if (!source || !source->breaks || !vndf_curve_allocate(&source->curve, rows->count)) {
@@ -152,6 +152,11 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
         return NULL;
     }
+    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the name of the CSV has %zu characters; at most %d are possible",
+                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
     if (vndf_csv_read(text, size, &rows, &inner) != VNDF_OK) {
         vndf_fail(error, inner.status, "%s: %s", name ? name : "unnamed", inner.message);
         return NULL;
@@ -169,7 +174,7 @@ static char *read_stream(FILE *file, const char *path, size_t *size, vndf_error 
 {
     size_t capacity = 0, used = 0, got = 1;
     char *bytes = NULL;
-    while (got > 0 && used <= VNDF_CSV_BYTES) {
+    while (got > 0 && used <= VNDF_LIMIT_CSV_BYTES) {
         if (used == capacity) {
             capacity = 2 * capacity + 65536;
             char *more = realloc(bytes, capacity);
@@ -184,13 +189,13 @@ static char *read_stream(FILE *file, const char *path, size_t *size, vndf_error 
         used += got;
     }
     *size = used;
-    if (!ferror(file) && used <= VNDF_CSV_BYTES)
+    if (!ferror(file) && used <= VNDF_LIMIT_CSV_BYTES)
         return bytes;
     if (ferror(file))
         vndf_fail(error, VNDF_ERROR_IO, "%s: cannot be read: %s", path, strerror(errno));
     else
         vndf_fail(error, VNDF_ERROR_SYNTAX, "%s: more than %d bytes; too long for a CSV of %d rows", path,
-                  VNDF_CSV_BYTES, VNDF_CSV_ROWS);
+                  VNDF_LIMIT_CSV_BYTES, VNDF_LIMIT_CSV_ROWS);
     free(bytes);
     return NULL;
 }

@@ -20,12 +20,6 @@
 
 #include "vndf_build.h"
 
-enum {
-    VNDF_CSV_ROWS = 1000000,
-    VNDF_CSV_LINE = 4096,   /* characters of a line */
-    VNDF_CSV_BYTES = 1 << 26 /* of a file */
-};
-
 typedef enum vndf_csv_first { VNDF_CSV_THETA_DEG, VNDF_CSV_THETA, VNDF_CSV_SLOPE } vndf_csv_first;
 typedef enum vndf_csv_second { VNDF_CSV_NDF, VNDF_CSV_P22 } vndf_csv_second;
 

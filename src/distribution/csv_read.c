@@ -75,8 +75,8 @@ static vndf_status next_line(reader *r, span *line)
     while (r->rest.size > 0) {
         *line = cut(&r->rest, '\n');
         r->line++;
-        if (line->size > VNDF_CSV_LINE)
-            return refuse(r, "%zu characters; at most %d are possible", line->size, VNDF_CSV_LINE);
+        if (line->size > VNDF_LIMIT_CSV_LINE)
+            return refuse(r, "%zu characters; at most %d are possible", line->size, VNDF_LIMIT_CSV_LINE);
         if (line->size > 0 && memchr(line->text, '\0', line->size))
             return refuse(r, "a byte of value 0; a CSV is plain text");
         *line = trim(*line);
@@ -170,8 +170,8 @@ static vndf_status convert_angle(reader *r, double *x)
 static vndf_status append(reader *r, double x, double value)
 {
     vndf_csv_rows *rows = r->rows;
-    if (rows->count == VNDF_CSV_ROWS)
-        return refuse(r, "more than %d rows", VNDF_CSV_ROWS);
+    if (rows->count == VNDF_LIMIT_CSV_ROWS)
+        return refuse(r, "more than %d rows", VNDF_LIMIT_CSV_ROWS);
     if (rows->count == r->capacity) {
         size_t capacity = 2 * r->capacity + 64;
         double *more_x = realloc(rows->x, capacity * sizeof *more_x);

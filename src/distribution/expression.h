@@ -16,10 +16,6 @@
 #include "vndf_build.h"
 
 enum {
-    VNDF_EXPRESSION_LENGTH = 4096,   /* characters of the text */
-    VNDF_EXPRESSION_DEPTH = 64,      /* parentheses, calls, signs and powers inside each other */
-    VNDF_EXPRESSION_PARAMETERS = 64, /* named numbers */
-    VNDF_EXPRESSION_NAME = 64,       /* characters of a parameter's name */
     VNDF_EXPRESSION_STACK = 320      /* operands that wait: at most 4 for each level of depth, see the grammar */
 };
 
@@ -85,10 +81,11 @@ const char *vndf_function_names(void);
 
 /* The slopes where an argument of step, abs, min or max changes sides, ascending, each the last double
  * before the change: found by bisection between the points of a grid from 1e-9 to 1e9 and, for nested calls,
- * between the breaks of the inner ones. variables(r) fills the variables. Returns how many
- * were written to breaks, at most limit. */
+ * between the breaks of the inner ones. variables(r) fills the variables. The search is given up, and what it has found is
+ * kept, where it becomes too long. Writes at most limit of them to breaks and their number to *count; 0 if there is no
+ * memory. */
 typedef void vndf_variables_of_slope(double r, double *variables);
-size_t vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables,
-                              double *breaks, size_t limit);
+int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
+                           size_t limit, size_t *count);
 
 #endif

@@ -20,11 +20,13 @@ typedef struct call {
     vndf_variables_of_slope *variables;
     size_t prefix;
     vndf_kink kink;
+    size_t *done; /* instructions that were run for all calls */
 } call;
 
 static int side(const call *c, double r)
 {
     double variables[3], below, top;
+    *c->done += c->prefix;
     c->variables(r, variables);
     top = vndf_expression_run(c->expression, c->prefix, variables, &below);
     return c->kink == VNDF_KINK_EQUAL ? below >= top : top >= 0;
@@ -78,25 +80,25 @@ static size_t scan(const call *c, double *points, double *breaks, size_t count, 
         points[total++] = nextafter(breaks[i], INFINITY);
     }
     qsort(points, total, sizeof *points, compare);
-    for (size_t i = 1; i < total && found < limit; i++)
+    for (size_t i = 1; i < total && found < limit && *c->done < work; i++)
         if (side(c, points[i - 1]) != side(c, points[i]))
             breaks[found++] = bisect(c, points[i - 1], points[i]);
     return sort_and_thin(breaks, found);
 }
 
-size_t vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables,
-                              double *breaks, size_t limit)
+int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
+                           size_t limit, size_t *count)
 {
     double *points = malloc((GRID + 2 * limit) * sizeof *points);
-    size_t count = 0, done = 0;
+    size_t done = 0;
+    *count = 0;
     for (size_t i = 0; points && i < expression->count && done < work; i++) {
         const vndf_instruction *at = &expression->program[i];
         if (at->operation != VNDF_CALL || at->function->kink == VNDF_KINK_NONE)
             continue;
-        call c = { expression, variables, i, at->function->kink };
-        done += i * (GRID + 2 * count);
-        count = scan(&c, points, breaks, count, limit);
+        call c = { expression, variables, i, at->function->kink, &done };
+        *count = scan(&c, points, breaks, *count, limit);
     }
     free(points);
-    return count;
+    return points != NULL;
 }

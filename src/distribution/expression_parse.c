@@ -90,11 +90,11 @@ static int emit_number(parser *p, double value)
 
 static int enter(parser *p)
 {
-    if (++p->depth <= VNDF_EXPRESSION_DEPTH)
+    if (++p->depth <= VNDF_LIMIT_EXPRESSION_DEPTH)
         return 1;
     vndf_fail(p->error, VNDF_ERROR_SYNTAX,
               "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
-              VNDF_EXPRESSION_DEPTH);
+              VNDF_LIMIT_EXPRESSION_DEPTH);
     return 0;
 }
 
@@ -279,19 +279,19 @@ static int is_known(const vndf_names *names, size_t parameter)
 static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    if (names->parameter_count > VNDF_EXPRESSION_PARAMETERS)
+    if (names->parameter_count > VNDF_LIMIT_PARAMETERS)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu parameters; at most %d are possible",
-                         names->parameter_count, VNDF_EXPRESSION_PARAMETERS);
+                         names->parameter_count, VNDF_LIMIT_PARAMETERS);
     if (names->parameter_count > 0 && !names->parameters)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameters is NULL but their count is not 0");
     for (size_t i = 0; i < names->parameter_count; i++) {
         const char *text = names->parameters[i].name ? names->parameters[i].name : "";
         size_t size = strlen(text);
         vndf_excerpt(excerpt, text, size);
-        if (size == 0 || size > VNDF_EXPRESSION_NAME || name_length(text, size) != size)
+        if (size == 0 || size > VNDF_LIMIT_PARAMETER_NAME || name_length(text, size) != size)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "parameter '%s': a name is a letter or _, then letters, digits or _; at most %d",
-                             excerpt, VNDF_EXPRESSION_NAME);
+                             excerpt, VNDF_LIMIT_PARAMETER_NAME);
         if (is_known(names, i))
             return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
                              excerpt);
@@ -309,9 +309,9 @@ vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vnd
     *expression = (vndf_expression){ NULL, 0 };
     if (!text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");
-    if (p.length > VNDF_EXPRESSION_LENGTH)
+    if (p.length > VNDF_LIMIT_EXPRESSION_LENGTH)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "the expression has %zu characters; at most %d are possible",
-                         p.length, VNDF_EXPRESSION_LENGTH);
+                         p.length, VNDF_LIMIT_EXPRESSION_LENGTH);
     vndf_status status = check_parameters(names, error);
     if (status != VNDF_OK)
         return status;

@@ -10,6 +10,7 @@
 #include "distribution/words.h"
 
 enum { BREAKS = 4096 };
+enum { OPERATIONS = 4 }; /* of an evaluation besides its instructions */
 
 typedef struct expression_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
@@ -69,13 +70,15 @@ static char *describe(const char *option, const char *text, const vndf_names *na
     return vndf_text_finish(&words, error);
 }
 
-/* Known breaks are a help to the builder and not part of the meaning, so too little memory means none. */
-static void find_breaks(expression_source *source, vndf_variables_of_slope *variables)
+/* 0 if there is no memory: a table without them would be another one. */
+static int find_breaks(expression_source *source, vndf_variables_of_slope *variables)
 {
     source->breaks = malloc(BREAKS * sizeof *source->breaks);
-    if (source->breaks)
-        source->base.break_count = vndf_expression_breaks(&source->expression, variables, source->breaks, BREAKS);
+    if (!source->breaks ||
+        !vndf_expression_breaks(&source->expression, variables, source->breaks, BREAKS, &source->base.break_count))
+        return 0;
     source->base.breaks = source->base.break_count > 0 ? source->breaks : NULL;
+    return 1;
 }
 
 /* option says which of the two kinds it is; p22 and variables belong to it. */
@@ -95,10 +98,13 @@ static vndf_source *make(const char *option, const char *text, const vndf_names 
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1 };
+    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1, OPERATIONS + (double)expression.count };
     source->expression = expression;
-    find_breaks(source, variables);
-    return &source->base;
+    if (find_breaks(source, variables))
+        return &source->base;
+    destroy(&source->base);
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
+    return NULL;
 }
 
 vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,

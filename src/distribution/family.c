@@ -17,7 +17,7 @@
 #include "distribution/source.h"
 #include "distribution/words.h"
 
-enum { LENGTH = 4096 }; /* of a specification */
+enum { OPERATIONS = 8 }; /* of a lobe */
 
 static const char mix_usage[] = "mix:(W,S,FAMILY)+(W,S,FAMILY), as in mix:(0.8,0.1,ggx)+(0.2,0.5,student-t:2)";
 
@@ -220,9 +220,9 @@ static vndf_status read_mix(part rest, family_source *source, vndf_error *error)
 static vndf_status read_specification(const char *specification, family_source *source, vndf_error *error)
 {
     part whole = { specification, strlen(specification), 1 };
-    if (whole.size > LENGTH)
+    if (whole.size > VNDF_LIMIT_FAMILY_LENGTH)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %zu characters; at most %d are possible",
-                         whole.size, LENGTH);
+                         whole.size, VNDF_LIMIT_FAMILY_LENGTH);
     part rest = whole, name = cut(&rest, ':');
     if (name.size == 3 && memcmp(name.text, "mix", 3) == 0)
         return read_mix(rest, source, error);
@@ -246,7 +246,8 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
     }
     vndf_text_add_word(&words, "--family");
     vndf_text_add_word(&words, specification);
-    source->base = (vndf_source){ p22, destroy, vndf_text_finish(&words, error), NULL, 0, 1 };
+    source->base = (vndf_source){ p22, destroy, vndf_text_finish(&words, error), NULL, 0, 1,
+                                  OPERATIONS * (double)source->count };
     if (source->base.description)
         return &source->base;
     free(source);

@@ -34,8 +34,8 @@ static vndf_status read_settings(const vndf_words *words, size_t first, vndf_par
             return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "'%s' in a table's source: right would be --set NAME=NUMBER",
                              vndf_excerpt(excerpt, word, strlen(word)));
-        if (*count >= VNDF_EXPRESSION_PARAMETERS)
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "more than %d parameters", VNDF_EXPRESSION_PARAMETERS);
+        if (*count >= VNDF_LIMIT_PARAMETERS)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "more than %d parameters", VNDF_LIMIT_PARAMETERS);
         status = read_setting(words->word[i + 1], &parameters[(*count)++], error);
     }
     return status;
@@ -43,7 +43,7 @@ static vndf_status read_settings(const vndf_words *words, size_t first, vndf_par
 
 static vndf_source *make(const vndf_words *words, vndf_error *error)
 {
-    vndf_parameter parameters[VNDF_EXPRESSION_PARAMETERS];
+    vndf_parameter parameters[VNDF_LIMIT_PARAMETERS];
     size_t count = 0;
     const char *option = words->word[0], *text = words->word[1];
     if (read_settings(words, 2, parameters, &count, error) != VNDF_OK)

@@ -12,7 +12,7 @@
 #include "table/validate.h"
 
 static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
-enum { VERSION = 2, TEXT_MAX = 16384, FILE_MAX = 1 << 26 };
+enum { VERSION = 2, TEXT_MAX = 32768, HEAD = 16 };
 
 /* ---- writing ---- */
 
@@ -102,12 +102,25 @@ static void read_array(vndf_reader *r, float *values, size_t count, size_t strid
         values[i * stride] = vndf_read_f32(r);
 }
 
-/* A copy of the next length-prefixed text, terminated; NULL if it is too long or there is no memory. */
+/* Texts are printed: control characters could do things to a terminal. */
+static int is_printable(const unsigned char *bytes, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (bytes[i] < 32 || bytes[i] == 127)
+            return 0;
+    return 1;
+}
+
+/* A copy of the next length-prefixed text, terminated; NULL if there is none (the reader fails) or no memory. */
 static char *read_text(vndf_reader *r)
 {
     uint32_t n = vndf_read_u32(r);
     const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
-    char *text = bytes && !memchr(bytes, 0, n) ? malloc((size_t)n + 1) : NULL;
+    if (!bytes || !is_printable(bytes, n)) {
+        r->failed = 1;
+        return NULL;
+    }
+    char *text = malloc((size_t)n + 1);
     if (!text)
         return NULL;
     memcpy(text, bytes, n);
@@ -170,7 +183,7 @@ static int counts_valid(vndf_table_size s)
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
 
-/* Everything after the counts; 0 if bytes or memory end early. */
+/* Everything after the counts; 0 if bytes end early (the reader fails) or memory does. */
 static int read_body(vndf_reader *r, vndf_distribution *table)
 {
     vndf_certificate *c = &table->certificate;
@@ -182,18 +195,33 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
     read_radial(r, table);
     read_wedge(r, &table->above);
     read_wedge(r, &table->below);
-    return !r->failed && r->at + 4 == r->size;
+    r->failed |= r->at + 4 != r->size;
+    return !r->failed;
+}
+
+/* The first HEAD bytes; *stated is the size that they say the table has. */
+static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t *stated, vndf_error *error)
+{
+    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
+    if (size < HEAD || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf table: it must begin with \"VNDFtab\"");
+    uint32_t version = vndf_read_u32(&r);
+    *stated = vndf_read_u32(&r);
+    if (version != VERSION)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
+                         (unsigned)version, VERSION);
+    if (*stated < 64 || *stated > VNDF_LIMIT_TABLE_BYTES)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes; from 64 to %d are possible",
+                         (unsigned)*stated, VNDF_LIMIT_TABLE_BYTES);
+    return VNDF_OK;
 }
 
 static vndf_status check_frame(const unsigned char *bytes, size_t size, vndf_error *error)
 {
-    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
-    if (size < 64 || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf table: it must begin with \"VNDFtab\"");
-    uint32_t version = vndf_read_u32(&r), stated = vndf_read_u32(&r);
-    if (version != VERSION)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
-                         (unsigned)version, VERSION);
+    uint32_t stated;
+    vndf_status status = check_head(bytes, size, &stated, error);
+    if (status != VNDF_OK)
+        return status;
     if (stated != size)
         return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, but %lu are here",
                          (unsigned)stated, (unsigned long)size);
@@ -227,8 +255,9 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     table->scale_exact = scale;
     table->scale = (float)scale;
     table->bytes = size;
-    const char *why = read_body(&r, table) ? vndf_table_invalid(table) : "its parts do not fill the file";
-    if (!why && vndf_table_derive(table) && !(why = vndf_table_invalid_derived(table)))
+    int whole = read_body(&r, table);
+    const char *why = whole ? vndf_table_invalid(table) : r.failed ? "its parts do not fill the file" : NULL;
+    if (whole && !why && vndf_table_derive(table) && !(why = vndf_table_invalid_derived(table)))
         return table;
     if (why)
         vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why);
@@ -238,36 +267,46 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     return NULL;
 }
 
+/* Reads what the head promises and one byte more, so that neither a file nor a pipe without end is read to its end. */
+static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
+{
+    unsigned char head[HEAD];
+    uint32_t stated = 0;
+    size_t n = fread(head, 1, HEAD, file);
+    if (ferror(file) || check_head(head, n, &stated, error) != VNDF_OK)
+        return NULL;
+    unsigned char *bytes = malloc((size_t)stated + 1);
+    if (!bytes) {
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %u bytes", (unsigned)stated);
+        return NULL;
+    }
+    memcpy(bytes, head, HEAD);
+    *size = n + fread(bytes + n, 1, (size_t)stated + 1 - n, file);
+    if (!ferror(file) && *size <= stated)
+        return bytes;
+    if (!ferror(file))
+        vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, and more follow", (unsigned)stated);
+    free(bytes);
+    return NULL;
+}
+
 /* The whole file in memory; NULL and an error otherwise. */
 static unsigned char *read_file(const char *path, size_t *size, vndf_error *error)
 {
+    vndf_error inner = {VNDF_OK, ""};
     FILE *file = path ? fopen(path, "rb") : NULL;
     if (!file) {
         vndf_fail(error, path ? VNDF_ERROR_IO : VNDF_ERROR_ARGUMENT, "cannot open %s: %s", path ? path : "(NULL)",
                   path ? strerror(errno) : "no path");
         return NULL;
     }
-    unsigned char *bytes = NULL;
-    size_t capacity = 0, n = 0, got;
-    do {
-        capacity = capacity ? 2 * capacity : 1 << 15;
-        unsigned char *more = capacity <= FILE_MAX ? realloc(bytes, capacity) : NULL;
-        if (!more) {
-            vndf_fail(error, VNDF_ERROR_MEMORY, "%s: too large to be a table", path);
-            free(bytes);
-            fclose(file);
-            return NULL;
-        }
-        bytes = more;
-        n += got = fread(bytes + n, 1, capacity - n, file);
-    } while (n == capacity);
-    if (ferror(file)) {
-        vndf_fail(error, VNDF_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
-        free(bytes);
-        bytes = NULL;
-    }
+    errno = 0;
+    unsigned char *bytes = read_stream(file, size, &inner);
+    if (!bytes && inner.status == VNDF_OK)
+        vndf_fail(error, VNDF_ERROR_IO, "cannot read %s: %s", path, errno ? strerror(errno) : "unknown reason");
+    else if (!bytes)
+        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
     fclose(file);
-    *size = n;
     return bytes;
 }
 
