@@ -9,41 +9,15 @@
  * differently compiled copies with each other and with tests/corpus/same_bits.txt. */
 #include <stdlib.h>
 
+#include "hash.h"
 #include "test.h"
-#include "vndf.h"
 
-enum { PREFIX = 50000 };
-
-static unsigned long long hash_float(unsigned long long hash, float value)
-{
-    unsigned bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (hash ^ bits) * 0x100000001B3ULL; /* FNV-1a, a word at a time */
-}
-
-static unsigned long long hash_vector(unsigned long long hash, vndf_vec3 v)
-{
-    return hash_float(hash_float(hash_float(hash, v.x), v.y), v.z);
-}
-
-/* Everything but the sample itself. */
-static unsigned long long hash_others(unsigned long long hash, const vndf_view *view, const vndf_surface *surface,
-                                      vndf_vec3 wi, vndf_vec3 wm, float u1, float u2)
-{
-    float v1 = 0.0f, v2 = 0.0f;
-    vndf_invert(view, wm, &v1, &v2);
-    hash = hash_float(hash_float(hash, v1), v2);
-    hash = hash_float(hash_float(hash, vndf_pdf(view, wm)), vndf_visible(view, wm));
-    hash = hash_float(hash_float(hash, vndf_ndf(surface, wm)), vndf_p22(surface, u1, u2));
-    hash = hash_float(hash_float(hash, vndf_projected_area(surface, wi)), vndf_lambda(surface, wi));
-    hash = hash_float(hash_float(hash, vndf_g1(surface, wi)), vndf_g2(surface, wi, wm, VNDF_G2_SEPARABLE));
-    return hash_float(hash, vndf_g2(surface, wi, wm, VNDF_G2_HEIGHT_CORRELATED));
-}
+enum { PREFIX = 20000 };
 
 static void print_hashes(const vndf_distribution *distribution, const char *name, unsigned long count)
 {
     static const float alphas[] = {1e-6f, 0.03f, 0.4f, 1.0f, 10.0f};
-    unsigned long long state = 20140716, hash = 0xCBF29CE484222325ULL;
+    unsigned long long state = 20140716, hash = hash_begin;
 
     for (unsigned long i = 0; i < count; i++) {
         const float x = test_uniform(&state), y = test_uniform(&state), z = test_uniform(&state);
@@ -52,9 +26,8 @@ static void print_hashes(const vndf_distribution *distribution, const char *name
         const vndf_surface surface = {distribution, alphas[i % 5], alphas[i / 5 % 5]};
         const vndf_vec3 wi = {2.0f * x - 1.0f, 2.0f * y - 1.0f, 2.0f * z - 1.0f};
         const vndf_view view = vndf_view_from(&surface, wi);
-        float pdf = 0.0f;
-        const vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
-        hash = hash_float(hash_vector(hash, wm), pdf);
+        vndf_vec3 wm;
+        hash = hash_sample(hash, &view, u1, u2, &wm);
         if (i % 8 == 0)
             hash = hash_others(hash, &view, &surface, wi, wm, u1, u2);
         if (i + 1 == PREFIX || i + 1 == count)
