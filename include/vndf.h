@@ -25,9 +25,14 @@
  * result for invalid input is stated with vndf_view_from. Nothing here keeps state: distributions are
  * immutable, every function may be called from any number of threads at once.
  *
- * Reproducible. The table path uses only + - * / sqrt, comparisons and integer conversions, compiled
- * without contraction: the same bits on every IEEE machine, compiler and optimisation level. The closed
- * forms call the C library's elementary functions and promise their accuracy, not their bits. */
+ * Reproducible. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt, comparisons,
+ * conversions and the bits of numbers - elementary functions are its own - compiled without contraction: the same bits
+ * for every compiler, optimisation level, C library and machine with IEEE 754 floats and doubles in the default
+ * rounding mode that keep denormals. The sources refuse to compile where intermediate results have more digits
+ * (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A caller that flushes denormals to zero
+ * gets the same bits as long as none occurs. tests/corpus/same_bits.txt has hashes to compare machines by. Not
+ * promised: vndf_build.h, whose tables depend on the C library's exp, log and pow in their last digits - a table file,
+ * once built, gives the same bits everywhere. */
 #ifndef VNDF_H
 #define VNDF_H
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "math/erfc_remainder.h"
+#include "math/elementary.h"
 
 /* Even and odd powers apart: two short chains instead of one long one, here and in erfc_remainder.h. */
 static double middle(double w)
@@ -26,13 +26,13 @@ static double tail(double u, double w)
     double y = (1.0 - 2.0 * v) * root * (0.99833064623976067 + r * (0.013777668166622379 + r * (-1.5085582602534115
              + r * (5.2107202392865749 + r * (-9.2505828000150393 + r * 7.3469906542702241)))));
     /* Newton on erfc(y) - 2v, whose derivative is -2 exp(-y^2)/sqrt(pi); both are divided by it at once. */
-    y += 0.5 / (y + vndf_erfc_remainder(y)) - 1.7724538509055160 * v * exp(y * y);
+    y += 0.5 / (y + vndf_erfc_remainder(y)) - 1.7724538509055160 * v * vndf_exp(y * y);
     return u < 0.5 ? -y : y;
 }
 
 double vndf_erf_quantile(double u)
 {
     double rest = 1.0 - u;
-    double w = -log(u * rest) - 1.3862943611198906; /* the factor 4 apart: log is slow near 1 */
+    double w = -vndf_log(4.0 * u * rest);
     return w < 6.0 ? (u - rest) * middle(w) : tail(u, w);
 }

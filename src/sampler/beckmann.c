@@ -24,6 +24,7 @@
 
 #include <math.h>
 
+#include "math/elementary.h"
 #include "math/erf_quantile.h"
 #include "math/erfc_remainder.h"
 #include "math/vector.h"
@@ -54,9 +55,9 @@ static marginal marginal_of(double bound)
     marginal g = {bound, part, 0.0};
     if (bound >= 1.25) {
         g.line = 2.0 * vndf_root_pi * bound;
-        g.whole = g.line + exp(-bound * bound) * part;
+        g.whole = g.line + vndf_exp(-bound * bound) * part;
     } else if (bound > 0.0) {
-        g.line = 2.0 * vndf_root_pi * bound * exp(bound * bound);
+        g.line = 2.0 * vndf_root_pi * bound * vndf_exp(bound * bound);
         g.whole = g.line + part;
     }
     return g;
@@ -65,14 +66,14 @@ static marginal marginal_of(double bound)
 float vndf_beckmann_area(float s, float c)
 {
     double k = bound_of(s, c), z = fabs(k), n = vndf_erfc_remainder(z);
-    return (float)(fmax(c, 0.0) + s * exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
+    return (float)((c > 0.0f ? c : 0.0f) + s * vndf_exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
 }
 
 /* m rho = d exp(2 K d/3) solved for d by an approximation of Lambert's function, good to 2%. */
 static double end_distance(double bound, double mrho)
 {
-    double l = log1p(2.0 / 3.0 * bound * mrho);
-    return 1.5 / bound * l * (1.0 - log1p(l) / (2.0 + l));
+    double l = vndf_log1p(2.0 / 3.0 * bound * mrho);
+    return 1.5 / bound * l * (1.0 - vndf_log1p(l) / (2.0 + l));
 }
 
 static slope start_above(const marginal *g, double u)
@@ -83,7 +84,7 @@ static slope start_above(const marginal *g, double u)
     slope p = {q * e / (e + h * h), 0.0};
     p.d = g->bound - p.x;
     if (p.d < 0.7 && g->bound < 6.0) {
-        p.d = end_distance(g->bound, sqrt(-log(u) * g->whole * exp(g->bound * g->bound)));
+        p.d = end_distance(g->bound, sqrt(-vndf_log(u) * g->whole * vndf_exp(g->bound * g->bound)));
         p.x = g->bound - p.d;
     }
     return p;
@@ -91,7 +92,7 @@ static slope start_above(const marginal *g, double u)
 
 static slope start_around(const marginal *g, double u)
 {
-    double rho2 = -log(u), rho = sqrt(rho2), m = sqrt(g->whole), mrho = m * rho;
+    double rho2 = -vndf_log(u), rho = sqrt(rho2), m = sqrt(g->whole), mrho = m * rho;
     slope p;
     if (g->bound > 0.0) {
         p.d = mrho * (1.0 + 0.8 * rho) / (1.0 + 0.8 * mrho);
@@ -116,7 +117,7 @@ static double newton_step(const marginal *g, slope p, double u)
     double z = fabs(p.x), n = vndf_erfc_remainder(z), right = (double)(p.x > 0.0);
     double part = (n + p.d * (1.0 - 2.0 * right)) / (n + z);
     double rest = u * g->whole - right * g->line;
-    return (part - rest * exp(exponent(g, p))) / (2.0 * p.d);
+    return (part - rest * vndf_exp(exponent(g, p))) / (2.0 * p.d);
 }
 
 /* A step of this size relative to the scale on which log F' bends leaves an error in u1 below 4e-8. */
@@ -168,8 +169,8 @@ void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
     marginal g = marginal_of(bound_of(s, c));
     double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
     slope p = {-n.x / z, front > 0.0 ? front : 0.0};
-    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = exp(-exponent(&g, p));
+    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = vndf_exp(-exponent(&g, p));
     double mass = (p.x > 0.0 ? rest - p.d : rest + p.d) / (rest + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
     *u1 = vndf_clamp_unit((float)(mass / g.whole));
-    *u2 = (float)(0.5 * erfc(n.y / z));
+    *u2 = (float)vndf_half_erfc(n.y / z);
 }

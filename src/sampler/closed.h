@@ -20,7 +20,7 @@
 #include <math.h>
 
 #include "core/inline.h"
-#include "math/erfc_remainder.h"
+#include "math/elementary.h"
 #include "vndf.h"
 
 static const double vndf_inverse_pi = 0.31830988618379067, vndf_root_pi = 1.7724538509055160;
@@ -82,13 +82,13 @@ VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, vndf_normal wm, doubl
 
 VNDF_INLINE double vndf_beckmann_p22(double r2)
 {
-    return vndf_inverse_pi * exp(-r2);
+    return vndf_inverse_pi * vndf_exp(-r2);
 }
 
 /* a^3 r^2 exp(-exponent)/pi; beyond 745 exp is 0, and r may be infinite. */
 VNDF_INLINE double vndf_beckmann_scaled(double a, double r, double exponent)
 {
-    return exponent < 745.0 ? vndf_inverse_pi * exp(-exponent) * (a * a * a) * (r * r) : 0.0;
+    return exponent < 745.0 ? vndf_inverse_pi * vndf_exp(-exponent) * (a * a * a) * (r * r) : 0.0;
 }
 
 /* At a unit wm, wm.z >= 0; relative error below 1e-15 (1 + R^2). */

@@ -1,6 +1,7 @@
 /* GGX: the projected area, and the inverse of ggx.h's sampler. */
 #include "sampler/ggx.h"
 
+#include "math/elementary.h"
 #include "math/vector.h"
 
 float vndf_ggx_area(float s, float c)
@@ -21,5 +22,5 @@ void vndf_ggx_invert(float s, float c, vndf_normal n, float *u1, float *u2)
     double across = scale * n.x - h.sine, aside = scale * n.y, v = scale * n.z * per_cosine;
     double from_top = (across * across + aside * aside) / (s2 + v * c2);
     *u2 = vndf_clamp_unit((float)(v < 0.5 ? 1.0 - v : from_top));
-    *u1 = vndf_clamp_unit((float)(0.5 + 0.5 * vndf_inverse_pi * atan2(aside, across)));
+    *u1 = vndf_clamp_unit((float)(0.5 + 0.5 * vndf_inverse_pi * vndf_atan2(aside, across)));
 }
