@@ -1,0 +1,284 @@
+/* The density of a table's samples: azimuth a first, then the slope length R given a (src/sampler/engine.h derives
+ * both; here they are written out with every sum and no shortcut).
+ *
+ * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
+ * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
+ * Radius. Cells of f(xi) (c Z + k X), k = s cos a, divided by the mass of all that is visible. In the cell of the cut, its
+ * neighbours, and without a cut the last cell, the variable is zeta = xi (w0 + W)/(w0 + w1). */
+#include "oracle_table.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* The direction over s + |c|, and the normal over its length, as oracle_table.h has them. */
+typedef struct seen {
+    const oracle_table *t;
+    double s, c, cosine, sine, x, z;
+    double w;         /* (s, 0, c) . normal */
+    double per_area;  /* 1/(ax ay) */
+} seen;
+
+/* Which sides of jumps are taken: of the radial knot, of the knot at the cut, and of the seam. */
+typedef struct sides {
+    int radial, cut, seam;
+} sides;
+
+double oracle_rational(double e0, double e1, double mass, double xi, double eta)
+{
+    double k = (e0 + e1) / mass, q = 1 + (k - 2) * xi * eta;
+    return (e1 * xi * xi + 2 * mass * xi * eta + e0 * eta * eta) / (q * q);
+}
+
+/* ---- azimuth ---- */
+
+/* A cell of some row that holds q, and where. */
+typedef struct within {
+    double width, xi, eta;
+} within;
+
+/* q and `rest` = 1 - q, between two nodes. */
+static within within_of(double from, double to, double q, double rest)
+{
+    double width = to - from, eta = to == 1 ? rest / width : (to - q) / width;
+    within at = {width, (q - from) / width, eta};
+    return at;
+}
+
+/* Per radian at tan(a/2) = q, cos a >= 0. */
+static double front_density(const seen *v, double cosine, double sine)
+{
+    enum { CELLS = 20 };
+    double even = v->c * v->t->total0, tilt = v->s * v->t->total1;
+    double q = sine / (1 + cosine), rest = (cosine + cosine * cosine / (1 + sine)) / (1 + cosine);
+    double a0 = 0, a1 = 0, q0 = 0, q1 = 0;
+    for (int i = 1; i <= CELLS && (i == 1 || q1 <= q); i++) {
+        double w = (double)i / CELLS;
+        a0 = a1;
+        q0 = q1;
+        a1 = PI / 2 * w * (1.5 - 0.5 * w);
+        q1 = i < CELLS ? tan(a1 / 2) : 1;
+    }
+    within at = within_of(q0, q1, q, rest);
+    double n0 = 1 + q0 * q0, n1 = 1 + q1 * q1;
+    double e0 = even * 2 / n0 + tilt * 2 * (1 - q0 * q0) / (n0 * n0);
+    double e1 = even * 2 / n1 + tilt * 2 * (1 - q1 * q1) / (n1 * n1);
+    double mass = even * (a1 - a0) + tilt * (sin(a1) - sin(a0));
+    return oracle_rational(e0 * at.width, e1 * at.width, mass, at.xi, at.eta) / at.width * (1 + q * q) / 2;
+}
+
+/* Per radian and mass of the wedge at the angle from its middle, cosine and sine >= 0. */
+static double wedge_density(const oracle_wedge *w, double y, double cosine, double sine)
+{
+    size_t i = 0, j = 0;
+    while (i + 2 < (w->rows + 1) / 2 && w->row_y[i + 1] <= y)
+        i++;
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = (w->row_y[i + 1] - y) /
+        (w->row_y[i + 1] - w->row_y[i]), share[3] = {rest * rest, 2 * rest * m, m * m};
+    double p = 0, r = 0, e0 = 0, e1 = 0, mass = 0;
+    for (size_t n = 0; n < 3; n++) {
+        p += share[n] * w->aspect_p[2 * i + n];
+        r += share[n] * w->aspect_r[2 * i + n];
+    }
+    double c = r * cosine, s = p * sine, length = hypot(c, s);
+    if (!(length > 0))
+        return 0;
+    double q = s / (c + length), beyond = (c + c * (c / (length + s))) / (c + length);
+    while (j + 1 < w->cells && w->q[j + 1] <= q)
+        j++;
+    for (size_t n = 0; n < 3; n++) {
+        size_t end = (2 * i + n) * (w->cells + 1) + j;
+        e0 += share[n] * w->density[end];
+        e1 += share[n] * w->density[end + 1];
+        mass += share[n] * w->mass[(2 * i + n) * w->cells + j];
+    }
+    within at = within_of(w->q[j], w->q[j + 1], q, beyond);
+    double per_q = oracle_rational(e0 * at.width, e1 * at.width, mass, at.xi, at.eta) / at.width;
+    double x = p * beyond * (1 + q), z = 2 * r * q; /* p (1 - q^2) */
+    return per_q * (x * x + z * z) / (2 * p * r * (1 + q * q));
+}
+
+/* Per radian, of mass 1 over the whole turn. */
+static double azimuth_density(const seen *v, int toward)
+{
+    double cosine = fabs(v->cosine);
+    if (v->c < 0)
+        return toward ? 0.5 * wedge_density(&v->t->below, v->s, cosine, v->sine) : 0;
+    double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1, wedge = oracle_wedge_mass(&v->t->above, v->c);
+    double here = toward ? front_density(v, cosine, v->sine)
+                         : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine) : 0;
+    return 0.5 * here / (front + wedge);
+}
+
+/* ---- radius ---- */
+
+/* A cell's density per xi is that of a rational cell in some variable. */
+typedef struct piece {
+    double e0, e1, mass;
+    double w0, w1, begin, length; /* of the visible part */
+} piece;
+
+static double weight_at(const seen *v, size_t knot)
+{
+    return fmax(v->c * v->t->z[knot] + v->s * v->cosine * v->t->x[knot], 0);
+}
+
+/* integral of f (1 - t) over the visible part, t from its seen end to the cut: Gauss with three points is exact.
+ * Not less than a thousandth of what the straight line gives. */
+static double part_integral(const oracle_table *t, size_t j, double from, double to)
+{
+    double node = sqrt(0.6), sum = 0, line = 0, straight = t->f1[j] - t->f0[j];
+    for (int i = -1; i <= 1; i++) {
+        double at = 0.5 + 0.5 * i * node, weight = i ? 5.0 / 18 : 8.0 / 18, xi = from + (to - from) * at;
+        double f0 = t->f0[j], e0 = t->mu0[j] - f0 / 3 - t->f1[j] / 6, e1 = t->mu1[j] - f0 / 6 - t->f1[j] / 3;
+        double bump = xi * (1 - xi) * (36 * e0 - 24 * e1 + 60 * (e1 - e0) * xi);
+        sum += weight * (1 - at) * (f0 + straight * xi + bump);
+        line += weight * (1 - at) * (f0 + straight * xi);
+    }
+    return fmax(sum, 1e-3 * line);
+}
+
+/* The cell that the cut W = 0 runs through, with a side if there is one; `count` if nothing is cut. */
+static int find_cut(const seen *v, int aside, size_t *cut)
+{
+    double k = v->s * v->cosine;
+    oracle_place at;
+    *cut = v->t->count;
+    if (!(v->c * k < 0))
+        return aside == 0;
+    if (!oracle_table_place(v->t, fabs(v->c), fabs(k), aside, &at))
+        return 0;
+    *cut = at.cell;
+    return 1;
+}
+
+/* The part of the cut's cell that is seen. */
+static piece cut_piece(const seen *v, size_t j)
+{
+    const oracle_table *t = v->t;
+    double k = v->s * v->cosine, w0 = v->c * t->z[j] + k * t->x[j], w1 = v->c * t->z[j + 1] + k * t->x[j + 1];
+    if (v->c > 0) {
+        double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1;
+        piece p = {t->f0[j], oracle_table_cubic(t, j, part), fmax(w0, 0) * part * part_integral(t, j, 0, part),
+                   fmax(w0, 0), 0, 0, part};
+        return p;
+    }
+    double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1;
+    piece p = {oracle_table_cubic(t, j, 1 - part), t->f1[j], fmax(w1, 0) * part * part_integral(t, j, 1, 1 - part),
+               0, fmax(w1, 0), 1 - part, part};
+    return p;
+}
+
+static piece piece_of(const seen *v, size_t j, size_t cut)
+{
+    const oracle_table *t = v->t;
+    if (j == cut)
+        return cut_piece(v, j);
+    double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, 0, 1};
+    return p;
+}
+
+static double visible_mass(const seen *v, size_t cut)
+{
+    size_t from = v->c < 0 ? cut : 0, to = v->c > 0 && v->cosine < 0 && cut < v->t->count ? cut + 1 : v->t->count;
+    double sum = 0;
+    for (size_t j = from; j < to; j++)
+        sum += piece_of(v, j, cut).mass;
+    return sum;
+}
+
+/* Mass per xi over X, the cell's part of it: where f, and with it e0, begins at 0 as X does, both are over xi. */
+static double per_xi_over_x(const seen *v, const piece *p, int weighted, oracle_place at, double w)
+{
+    const oracle_table *t = v->t;
+    size_t j = at.cell;
+    double x = at.eta * t->x[j] + at.xi * t->x[j + 1], xi = at.xi / p->length, eta = at.eta / p->length;
+    if (p->begin > 0)
+        xi = fmax(1 - eta, 0);
+    else if (p->length < 1)
+        eta = fmax(1 - xi, 0);
+    double half = (p->w0 + p->w1) / 2, zeta = xi, rest = eta, e0 = p->e0 * p->w0, e1 = p->e1 * p->w1, per = 1;
+    if (weighted) { /* zeta = (W^2 - w0^2)/(w1^2 - w0^2) */
+        double here = p->w0 * eta + p->w1 * xi;
+        zeta = xi * (p->w0 + here) / (2 * half);
+        rest = eta * (here + p->w1) / (2 * half);
+        e0 = p->e0 * half;
+        e1 = p->e1 * half;
+        per = w / half;
+    }
+    e0 *= p->length;
+    e1 *= p->length;
+    if (j > 0 || e0 > 0)
+        return per / p->length * oracle_rational(e0, e1, p->mass, zeta, rest) / x;
+    double ratio = weighted ? (p->w0 + p->w0 * eta + p->w1 * xi) / (2 * half) : 1; /* zeta/xi */
+    double q = 1 + (e1 / p->mass - 2) * zeta * rest, over = (e1 * zeta + 2 * p->mass * rest) / (q * q);
+    return per / p->length * over * ratio / (p->length * t->x[1]);
+}
+
+/* ---- both ---- */
+
+static int is_at_seam(const seen *v)
+{
+    return v->c >= 0 && fabs(v->cosine) <= 0x1p-22;
+}
+
+/* Returns 0 if there is no such side. */
+static int density_on(const seen *v, sides side, double *value)
+{
+    const oracle_table *t = v->t;
+    oracle_place at;
+    size_t cut;
+    if ((side.seam && !is_at_seam(v)) || !oracle_table_place(t, v->x, v->z, side.radial, &at) ||
+        !find_cut(v, side.cut, &cut))
+        return 0;
+    *value = 0;
+    double azimuth = azimuth_density(v, (v->cosine >= 0) != side.seam);
+    if (!(azimuth > 0) || (v->c <= 0 && v->cosine <= 0))
+        return 1;
+    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut))
+        return 1;
+    size_t j = at.cell;
+    double grow = (at.eta * (t->x[j] + t->z[j]) + at.xi * (t->x[j + 1] + t->z[j + 1])) / (v->x + v->z);
+    double width = t->x[j + 1] * t->z[j] - t->x[j] * t->z[j + 1], mass = visible_mass(v, cut);
+    piece p = piece_of(v, j, cut);
+    int weighted = j + 1 >= cut && j <= cut + 1;
+    if (p.length > 0 && mass > 0)
+        *value = azimuth * per_xi_over_x(v, &p, weighted, at, grow * v->w) / mass / width * grow * grow * grow * v->per_area;
+    return 1;
+}
+
+static seen seen_from(const oracle_table *t, const oracle_query *q)
+{
+    double ax = q->alpha[0] * t->scale, ay = q->alpha[1] * t->scale;
+    double length = hypot(hypot(q->wm[0], q->wm[1]), q->wm[2]), m[3];
+    for (int i = 0; i < 3; i++)
+        m[i] = q->wm[i] / length;
+    double level = q->wi[0] * m[0] + q->wi[1] * m[1], s = hypot(ax * q->wi[0], ay * q->wi[1]), c = q->wi[2];
+    double x = hypot(m[0] / ax, m[1] / ay), sum = s + fabs(c);
+    seen v = {t, s / sum, c / sum, 1, 0, x, m[2], (level + c * m[2]) / sum, 1 / (ax * ay)};
+    if (s > 0 && x > 0) {
+        v.cosine = level / (s * x);
+        v.sine = fabs(ax * q->wi[0] * (m[1] / ay) - ay * q->wi[1] * (m[0] / ax)) / (s * x);
+    } else if (x > 0) { /* straight up or down the azimuth is that of the normal */
+        v.cosine = m[0] / ax / x;
+        v.sine = fabs(m[1] / ay) / x;
+    }
+    return v;
+}
+
+size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES])
+{
+    seen v = seen_from(t, q);
+    size_t n = 0;
+    value[0] = 0;
+    if (!(v.w > 0) || !(v.z >= 0))
+        return 1;
+    for (int i = 0; i < ORACLE_SIDES; i++) { /* 0 is the exact one */
+        static const int aside[3] = {0, -1, 1};
+        sides side = {aside[i % 3], aside[i / 3 % 3], i / 9};
+        if (density_on(&v, side, &value[n]))
+            n++;
+    }
+    return n;
+}
