@@ -221,7 +221,7 @@ void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, floa
     vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
-    *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
+    *u2 = law.gain > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }
 
 /* ---- the distribution ---- */

@@ -57,7 +57,8 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
     vndf_row_weights w = vndf_row_weights_at(mix);
     const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;
-    vndf_wedge_view view = {2.0f * (front + mass), front, mass, mix, w.first * p[0] + w.middle * p[1] + w.last * p[2],
+    /* below the horizon the wedge is all there is: its part is 1, and its mass may underflow */
+    vndf_wedge_view view = {2.0f * (front + mass), front, c >= 0.0f ? mass : s > 0.0f ? 1.0f : 0.0f, mix, w.first * p[0] + w.middle * p[1] + w.last * p[2],
                             w.first * r[0] + w.middle * r[1] + w.last * r[2], 2 * i};
     return view;
 }
