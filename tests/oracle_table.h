@@ -5,9 +5,9 @@
  * True is the function of the very numbers that were given. The numbers of the file are exact; wi need not be unit,
  * it is the direction that counts; so does that of wm, whatever the rounding of its length; roughness is
  * alpha times the f64 scale of the file. So no conditioning of the input excuses an error: a wm whose
- * slope is 1e-6 has that slope to all its digits. Only where the density jumps (a radial knot may be a jump of D;
- * where the cut passes a knot, cells beside it change their form; the seam between the azimuths towards wi and away
- * from it) may an input within two ulps of the jump have the value of its other side.
+ * slope is 1e-6 has that slope to all its digits. Only where the density jumps (a radial knot may be a jump of D; the
+ * seam between the azimuths towards wi and away from it) may an input within two ulps of the jump have the value
+ * of its other side.
  *
  * With  n = (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z)  in the frame whose x axis is that of
  * (ax wi.x, ay wi.y) = s (cos, sin),  c = wi.z:
@@ -44,9 +44,9 @@ typedef struct oracle_query {
     double wi[3], alpha[2], wm[3];
 } oracle_query;
 
-/* The density per steradian in value[0], and in value[1...] what it is on the other side of each jump, and pair of
- * jumps, within two ulps. Returns how many values there are. */
-enum { ORACLE_SIDES = 18 };
+/* The density per steradian in value[0], and in value[1...] what it is on the other side of each jump, and of both,
+ * within two ulps. Returns how many values there are. */
+enum { ORACLE_SIDES = 6 };
 size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES]);
 
 /* A(wi), Lambda, G1; D(wm), with the value on the other side of a knot within two ulps as above. */

@@ -3,8 +3,10 @@
  *
  * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
  * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
- * Radius. Cells of f(xi) (c Z + k X), k = s cos a, divided by the mass of all that is visible. In the cell of the cut, its
- * neighbours, and without a cut the last cell, the variable is zeta = xi (w0 + W)/(w0 + w1). */
+ * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the cell of the
+ * cut, in its neighbour and without a cut in the last cell the variable is zeta = xi (v0 + V)/(v0 + v1) of a
+ * linear V(xi) and the end densities are those of f W/V. V is W, but for the neighbour's knot towards the cut: there it
+ * is W + h^2 (W of the other knot - W), h the visible part of the cell of the cut. */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -19,9 +21,9 @@ typedef struct seen {
     double per_area;  /* 1/(ax ay) */
 } seen;
 
-/* Which sides of jumps are taken: of the radial knot, of the knot at the cut, and of the seam. */
+/* Which sides of jumps are taken: of the radial knot, and of the seam. */
 typedef struct sides {
-    int radial, cut, seam;
+    int radial, seam;
 } sides;
 
 double oracle_rational(double e0, double e1, double mass, double xi, double eta)
@@ -112,10 +114,10 @@ static double azimuth_density(const seen *v, int toward)
 
 /* ---- radius ---- */
 
-/* A cell's density per xi is that of a rational cell in some variable. */
+/* A cell's visible part: f, W and V at its ends, where it begins and how long it is. */
 typedef struct piece {
-    double e0, e1, mass;
-    double w0, w1, begin, length; /* of the visible part */
+    double f0, f1, mass, w0, w1, v0, v1, begin, length;
+    int weighted;
 } piece;
 
 static double weight_at(const seen *v, size_t knot)
@@ -138,18 +140,14 @@ static double part_integral(const oracle_table *t, size_t j, double from, double
     return fmax(sum, 1e-3 * line);
 }
 
-/* The cell that the cut W = 0 runs through, with a side if there is one; `count` if nothing is cut. */
-static int find_cut(const seen *v, int aside, size_t *cut)
+/* The cell that the cut W = 0 runs through; `count` if nothing is cut. */
+static size_t find_cut(const seen *v)
 {
     double k = v->s * v->cosine;
-    oracle_place at;
-    *cut = v->t->count;
-    if (!(v->c * k < 0))
-        return aside == 0;
-    if (!oracle_table_place(v->t, fabs(v->c), fabs(k), aside, &at))
-        return 0;
-    *cut = at.cell;
-    return 1;
+    oracle_place at = {v->t->count, 0, 0};
+    if (v->c * k < 0)
+        oracle_table_place(v->t, fabs(v->c), fabs(k), 0, &at);
+    return at.cell;
 }
 
 /* The part of the cut's cell that is seen. */
@@ -158,14 +156,13 @@ static piece cut_piece(const seen *v, size_t j)
     const oracle_table *t = v->t;
     double k = v->s * v->cosine, w0 = v->c * t->z[j] + k * t->x[j], w1 = v->c * t->z[j + 1] + k * t->x[j + 1];
     if (v->c > 0) {
-        double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1;
-        piece p = {t->f0[j], oracle_table_cubic(t, j, part), fmax(w0, 0) * part * part_integral(t, j, 0, part),
-                   fmax(w0, 0), 0, 0, part};
+        double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1, w = fmax(w0, 0);
+        piece p = {t->f0[j], oracle_table_cubic(t, j, part), w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
         return p;
     }
-    double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1;
-    piece p = {oracle_table_cubic(t, j, 1 - part), t->f1[j], fmax(w1, 0) * part * part_integral(t, j, 1, 1 - part),
-               0, fmax(w1, 0), 1 - part, part};
+    double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1, w = fmax(w1, 0);
+    piece p = {oracle_table_cubic(t, j, 1 - part), t->f1[j], w * part * part_integral(t, j, 1, 1 - part), 0, w, 0, w,
+               1 - part, part, 1};
     return p;
 }
 
@@ -175,7 +172,14 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
     if (j == cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
-    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, 0, 1};
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 1 >= cut && j <= cut + 1};
+    if (p.weighted && cut < t->count) {
+        double part = cut_piece(v, cut).length;
+        if (j < cut)
+            p.v1 += part * part * (w0 - w1);
+        else
+            p.v0 += part * part * (w1 - w0);
+    }
     return p;
 }
 
@@ -188,8 +192,14 @@ static double visible_mass(const seen *v, size_t cut)
     return sum;
 }
 
-/* Mass per xi over X, the cell's part of it: where f, and with it e0, begins at 0 as X does, both are over xi. */
-static double per_xi_over_x(const seen *v, const piece *p, int weighted, oracle_place at, double w)
+/* W/V at an end, where both may vanish. */
+static double over(double w, double v)
+{
+    return v > 0 ? w / v : 1;
+}
+
+/* Mass per xi over X, w being W at the place: where f, and with it e0, begins at 0 as X does, both are over xi. */
+static double per_xi_over_x(const seen *v, const piece *p, oracle_place at, double w)
 {
     const oracle_table *t = v->t;
     size_t j = at.cell;
@@ -198,22 +208,22 @@ static double per_xi_over_x(const seen *v, const piece *p, int weighted, oracle_
         xi = fmax(1 - eta, 0);
     else if (p->length < 1)
         eta = fmax(1 - xi, 0);
-    double half = (p->w0 + p->w1) / 2, zeta = xi, rest = eta, e0 = p->e0 * p->w0, e1 = p->e1 * p->w1, per = 1;
-    if (weighted) { /* zeta = (W^2 - w0^2)/(w1^2 - w0^2) */
-        double here = p->w0 * eta + p->w1 * xi;
-        zeta = xi * (p->w0 + here) / (2 * half);
-        rest = eta * (here + p->w1) / (2 * half);
-        e0 = p->e0 * half;
-        e1 = p->e1 * half;
-        per = w / half;
+    double zeta = xi, rest = eta, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1, per = 1, ratio = 1; /* zeta/xi */
+    if (p->weighted) {
+        double half = (p->v0 + p->v1) / 2, here = p->v0 * eta + p->v1 * xi;
+        ratio = (p->v0 + here) / (2 * half);
+        zeta = xi * ratio;
+        rest = eta * (here + p->v1) / (2 * half);
+        e0 = p->f0 * over(p->w0, p->v0) * half;
+        e1 = p->f1 * over(p->w1, p->v1) * half;
+        per = (p->begin > 0 || p->length < 1 ? w : here) / half;
     }
     e0 *= p->length;
     e1 *= p->length;
     if (j > 0 || e0 > 0)
         return per / p->length * oracle_rational(e0, e1, p->mass, zeta, rest) / x;
-    double ratio = weighted ? (p->w0 + p->w0 * eta + p->w1 * xi) / (2 * half) : 1; /* zeta/xi */
-    double q = 1 + (e1 / p->mass - 2) * zeta * rest, over = (e1 * zeta + 2 * p->mass * rest) / (q * q);
-    return per / p->length * over * ratio / (p->length * t->x[1]);
+    double q = 1 + (e1 / p->mass - 2) * zeta * rest, over_zeta = (e1 * zeta + 2 * p->mass * rest) / (q * q);
+    return per / p->length * over_zeta * ratio / (p->length * t->x[1]);
 }
 
 /* ---- both ---- */
@@ -228,23 +238,21 @@ static int density_on(const seen *v, sides side, double *value)
 {
     const oracle_table *t = v->t;
     oracle_place at;
-    size_t cut;
-    if ((side.seam && !is_at_seam(v)) || !oracle_table_place(t, v->x, v->z, side.radial, &at) ||
-        !find_cut(v, side.cut, &cut))
+    size_t cut = find_cut(v);
+    if ((side.seam && !is_at_seam(v)) || !oracle_table_place(t, v->x, v->z, side.radial, &at))
         return 0;
     *value = 0;
     double azimuth = azimuth_density(v, (v->cosine >= 0) != side.seam);
     if (!(azimuth > 0) || (v->c <= 0 && v->cosine <= 0))
         return 1;
     if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut))
-        return 1;
+        return 0;
     size_t j = at.cell;
     double grow = (at.eta * (t->x[j] + t->z[j]) + at.xi * (t->x[j + 1] + t->z[j + 1])) / (v->x + v->z);
     double width = t->x[j + 1] * t->z[j] - t->x[j] * t->z[j + 1], mass = visible_mass(v, cut);
     piece p = piece_of(v, j, cut);
-    int weighted = j + 1 >= cut && j <= cut + 1;
     if (p.length > 0 && mass > 0)
-        *value = azimuth * per_xi_over_x(v, &p, weighted, at, grow * v->w) / mass / width * grow * grow * grow * v->per_area;
+        *value = azimuth * per_xi_over_x(v, &p, at, grow * v->w) / mass / width * grow * grow * grow * v->per_area;
     return 1;
 }
 
@@ -276,9 +284,8 @@ size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, doub
         return 1;
     for (int i = 0; i < ORACLE_SIDES; i++) { /* 0 is the exact one */
         static const int aside[3] = {0, -1, 1};
-        sides side = {aside[i % 3], aside[i / 3 % 3], i / 9};
-        if (density_on(&v, side, &value[n]))
-            n++;
+        sides side = {aside[i % 3], i / 3};
+        n += (size_t)density_on(&v, side, &value[n]);
     }
-    return n;
+    return n > 0 ? n : 1;
 }
