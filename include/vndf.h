@@ -138,14 +138,14 @@ typedef struct vndf_surface {
  * lives. Its members are private, and may change between versions. */
 typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
-    vndf_vec3 wi;                  /* unit */
-    float alpha_x, alpha_y;        /* roughness times the table's own slope scale */
-    float per_alpha_x, per_alpha_y, per_length; /* reciprocals; length brings the stretched direction to (s, c) */
-    float s, c;                    /* stretched direction: across (>= 0) and along z */
-    float cos_phi, sin_phi;        /* its azimuth */
+    vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
+    double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
+    double s, c, per_length;       /* stretched direction: across (>= 0) and along z; the factor that brings it there */
+    float per_alpha_x, per_alpha_y;
+    float cos_phi, sin_phi;        /* azimuth of the stretched direction */
     float area;                    /* projected area of the unit problem */
     float front, wedge;            /* masses of the two azimuth ranges of a half turn */
-    float mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
+    double mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
     unsigned row;                  /* first of the rows that are mixed */
 } vndf_view;
 

@@ -3,6 +3,7 @@
 #ifndef VNDF_MATH_VECTOR_H
 #define VNDF_MATH_VECTOR_H
 
+#include <float.h>
 #include <math.h>
 
 #include "core/inline.h"
@@ -75,6 +76,12 @@ VNDF_INLINE float vndf_finite(float x)
 VNDF_INLINE float vndf_positive(float x)
 {
     return x > 1.17549435e-38f ? vndf_finite(x) : 1.17549435e-38f;
+}
+
+/* A density as a float: the largest one for what is larger, 0 for NaN. */
+VNDF_INLINE float vndf_density_from(double density)
+{
+    return density > 0.0 ? (density < (double)FLT_MAX ? (float)density : FLT_MAX) : 0.0f;
 }
 
 /* u in [0, 1]; NaN becomes 0. */

@@ -214,32 +214,6 @@ VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, vndf_radius
     return piece->weighted ? vndf_weighted_zeta(piece->v0, piece->v1, inside) : inside;
 }
 
-/* W times the change of the rational cell's variable by xi, which is that of V: 2 V/(v0 + v1). */
-VNDF_INLINE float vndf_radial_own_weight(const vndf_radial_piece *piece, float xi)
-{
-    float w = piece->w0 + xi * (piece->w1 - piece->w0), half = 0.5f * (piece->v0 + piece->v1);
-    if (!piece->weighted)
-        return w;
-    if (piece->v0 == piece->w0 && piece->v1 == piece->w1)
-        return half; /* V is W, also where both vanish */
-    return half * vndf_radial_over(w, piece->v0 + xi * (piece->v1 - piece->v0));
-}
-
-/* Part of the mass per unit of xi at a place, divided by X and the cell's width: finite at the pole, where f and
- * X begin at 0. `w` is W of the very normal whose density is asked for, (direction . normal): what c and k make
- * of W near the cut differs between sample and pdf by rounding, in the cell's mass and in its W alike. */
-VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside, float w)
-{
-    const vndf_distribution *d = law->table;
-    if (at.cell == 0 && at.xi < 1e-6f) {
-        at.xi = 1e-6f;
-        inside = vndf_radial_inside(piece, at);
-    }
-    float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
-    float below = piece->length * x * d->cells[at.cell].width * vndf_radial_own_weight(piece, at.xi);
-    return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
-}
-
 /* Part of the mass before a place. */
 VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
