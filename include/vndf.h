@@ -144,7 +144,8 @@ typedef struct vndf_view {
     float per_alpha_x, per_alpha_y;
     float cos_phi, sin_phi;        /* azimuth of the stretched direction */
     float area;                    /* projected area of the unit problem */
-    float front, wedge;            /* masses of the two azimuth ranges of a half turn */
+    float front;                   /* masses of the two azimuth ranges of a half turn */
+    double wedge;
     double mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
     unsigned row;                  /* first of the rows that are mixed */
 } vndf_view;

@@ -256,18 +256,32 @@ static int density_on(const seen *v, sides side, double *value)
     return 1;
 }
 
+/* a + b + c for numbers that cancel, in order of size: the first sum is then exact or the last is small beside it. */
+static double sum_of(double a, double b, double c)
+{
+    double n[3] = {a, b, c};
+    for (int i = 0; i < 3; i++) {
+        int j = i % 2; /* three exchanges sort three */
+        if (fabs(n[j]) < fabs(n[j + 1])) {
+            double swap = n[j];
+            n[j] = n[j + 1];
+            n[j + 1] = swap;
+        }
+    }
+    double first = n[0] + n[1], lost = n[1] - (first - n[0]);
+    return (first + n[2]) + lost;
+}
+
 static seen seen_from(const oracle_table *t, const oracle_query *q)
 {
-    double ax = q->alpha[0] * t->scale, ay = q->alpha[1] * t->scale;
-    double length = hypot(hypot(q->wm[0], q->wm[1]), q->wm[2]), m[3];
-    for (int i = 0; i < 3; i++)
-        m[i] = q->wm[i] / length;
-    double level = q->wi[0] * m[0] + q->wi[1] * m[1], s = hypot(ax * q->wi[0], ay * q->wi[1]), c = q->wi[2];
-    double x = hypot(m[0] / ax, m[1] / ay), sum = s + fabs(c);
-    seen v = {t, s / sum, c / sum, 1, 0, x, m[2], (level + c * m[2]) / sum, 1 / (ax * ay)};
+    const double *i = q->wi, *m = q->wm;
+    double ax = q->alpha[0] * t->scale, ay = q->alpha[1] * t->scale, length = hypot(hypot(m[0], m[1]), m[2]);
+    double level = i[0] * m[0] + i[1] * m[1], s = hypot(ax * i[0], ay * i[1]), c = i[2];
+    double x = hypot(m[0] / ax, m[1] / ay), sum = s + fabs(c), w = sum_of(i[0] * m[0], i[1] * m[1], c * m[2]);
+    seen v = {t, s / sum, c / sum, 1, 0, x / length, m[2] / length, w / length / sum, 1 / (ax * ay)};
     if (s > 0 && x > 0) {
         v.cosine = level / (s * x);
-        v.sine = fabs(ax * q->wi[0] * (m[1] / ay) - ay * q->wi[1] * (m[0] / ax)) / (s * x);
+        v.sine = fabs(ax * i[0] * (m[1] / ay) - ay * i[1] * (m[0] / ax)) / (s * x);
     } else if (x > 0) { /* straight up or down the azimuth is that of the normal */
         v.cosine = m[0] / ax / x;
         v.sine = fabs(m[1] / ay) / x;

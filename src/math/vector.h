@@ -15,10 +15,13 @@ VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* a . b where it may cancel: whether a normal faces a direction, and by how much. */
+/* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in double,
+ * and so is what the first sum loses (Knuth's TwoSum): one rounding is left, however much cancels. */
 VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
 {
-    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+    double x = (double)a.x * b.x, y = (double)a.y * b.y, z = (double)a.z * b.z, level = x + y, back = level - x;
+    double lost = (x - (level - back)) + (y - back);
+    return (level + z) + lost;
 }
 
 VNDF_INLINE vndf_vec3 vndf_scale(vndf_vec3 v, float factor)

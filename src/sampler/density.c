@@ -87,7 +87,7 @@ static double azimuth_density(const vndf_view *view, double cosine, double sine)
 {
     int toward = cosine >= 0.0, above = view->c >= 0.0;
     mixed_row row = above && toward ? front_row(view) : wedge_row(view);
-    if (!(above && toward) && !(above != toward && view->wedge > 0.0f && row.p > 0.0))
+    if (!(above && toward) && !(above != toward && view->wedge > 0.0 && row.p > 0.0))
         return 0.0;
     return 0.5 * row_density(&row, fabs(cosine), sine) / ((double)view->front + view->wedge);
 }
@@ -279,7 +279,7 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
     double ix = ax * view->wi.x, iy = ay * view->wi.y, scale = 1.0 / (x + wm.z);
-    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, w = level + (double)view->wi.z * wm.z;
+    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, w = vndf_exact_dot(view->wi, wm);
     double cosine = 1.0, sine = 0.0;
     if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
         double per = view->s > 0.0 ? view->per_length / (view->s * x) : 1.0 / x;

@@ -28,22 +28,22 @@ VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scal
 /* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
 VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
-    float target = half * (view->front + view->wedge);
+    float wedge = (float)view->wedge, target = half * (view->front + wedge);
     vndf_azimuth at;
-    if (view->c >= 0.0 && (target < view->front || !(view->wedge > 0.0f))) {
+    if (view->c >= 0.0 && (target < view->front || !(wedge > 0.0f))) {
         vndf_azimuth_row row = vndf_front_row(view);
         return vndf_azimuth_draw(&row, target);
     }
     vndf_azimuth_row row = vndf_wedge_row(view);
     if (view->c >= 0.0) { /* counted from the far side, a = pi */
-        float rest = (target - view->front) / view->wedge;
+        float rest = (target - view->front) / wedge;
         at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
         at.c = -at.c;
     } else {
         at = vndf_azimuth_draw(&row, half);
         at.c = at.c > 1e-7f * at.n ? at.c : 1e-7f * at.n; /* at a right angle from wi nothing is visible */
     }
-    at.density *= view->wedge;
+    at.density *= wedge;
     return at;
 }
 
@@ -88,7 +88,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)
-        *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
+        *pdf = per_steradian(view, 0.5f * a.density / (view->front + (float)view->wedge) *
                                    (vndf_rational_density(&r.piece.cell, r.inside) / (x * d->cells[j].width)), length);
     return wm;
 }
@@ -130,20 +130,20 @@ static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
         return view->front > 0.0f;
     }
     *row = vndf_wedge_row(view);
-    return above != toward && view->wedge > 0.0f && row->p > 0.0f;
+    return above != toward && view->wedge > 0.0 && row->p > 0.0f;
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */
 static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
     vndf_azimuth_row row;
-    float total = view->front + view->wedge;
+    float wedge = (float)view->wedge, total = view->front + wedge;
     if (!row_of(view, cos_phi, &row))
         return 1.0f;
     float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
     if (row.q == vndf_front_q)
         return before / total;
-    return view->c < 0.0 ? before : (view->front + (1.0f - before) * view->wedge) / total;
+    return view->c < 0.0 ? before : (view->front + (1.0f - before) * wedge) / total;
 }
 
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)

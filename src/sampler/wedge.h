@@ -11,8 +11,8 @@
 
 /* The members of a view that belong to the engine; vndf.h says what they are. */
 typedef struct vndf_wedge_view {
-    float area, front, wedge;
-    double mix, aspect_p, aspect_r;
+    float area, front;
+    double wedge, mix, aspect_p, aspect_r;
     uint32_t row;
 } vndf_wedge_view;
 
@@ -33,10 +33,11 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
     return c >= 0.0 ? &d->above : &d->below;
 }
 
-/* One piece of the mass at t in [0, 1] (table/area_piece.h). */
-VNDF_INLINE float vndf_wedge_bezier(const float *b, float t)
+/* One piece of the mass at t in [0, 1] (table/area_piece.h). In double: near the horizon the mass above it falls as c^3, and a
+ * narrow lobe makes up for that. */
+VNDF_INLINE double vndf_wedge_bezier(const float *b, double t)
 {
-    float u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
+    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
@@ -48,11 +49,11 @@ VNDF_INLINE uint32_t vndf_wedge_find(const vndf_guide *guide, const float *knots
 }
 
 /* Mass of half a wedge at y, per (s + |c|). */
-VNDF_INLINE float vndf_wedge_mass(const vndf_wedge *wedge, double y)
+VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 {
     uint32_t i = vndf_wedge_find(&wedge->knot_guide, wedge->knot_y, y);
     const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    return vndf_wedge_bezier(b, (float)((y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]));
+    return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
 }
 
 /* For s + |c| = 1. */
@@ -60,14 +61,13 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, doubl
 {
     const vndf_wedge *wedge = vndf_wedge_of(d, c);
     double y = c >= 0.0 ? c : s;
-    float mass = vndf_wedge_mass(wedge, y);
-    float front = c >= 0.0 ? (float)(c * (d->f0_total * VNDF_QUARTER_TURN) + s * d->f1_total) : 0.0f;
+    double mass = vndf_wedge_mass(wedge, y), front = c >= 0.0 ? c * (d->f0_total * VNDF_QUARTER_TURN) + s * d->f1_total : 0.0;
     uint32_t i = vndf_wedge_find(&wedge->row_guide, wedge->row_y, y);
     double mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]), rest = 1.0 - mix;
     double first = rest * rest, middle = 2.0 * rest * mix, last = mix * mix;
     const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;
     /* below the horizon the wedge is all there is: its part is 1, and its mass may underflow */
-    vndf_wedge_view view = {2.0f * (front + mass), front, c >= 0.0 ? mass : s > 0.0 ? 1.0f : 0.0f, mix,
+    vndf_wedge_view view = {(float)(2.0 * (front + mass)), (float)front, c >= 0.0 ? mass : s > 0.0 ? 1.0 : 0.0, mix,
                             first * p[0] + middle * p[1] + last * p[2], first * r[0] + middle * r[1] + last * r[2], 2 * i};
     return view;
 }
