@@ -88,19 +88,29 @@ static double error_of(double got, double want)
     return isnan(error) ? INFINITY : error;
 }
 
-/* The least error of the values on all sides. */
+/* The error, or where it is above the limit the least one of the values on all sides. */
 static double nearest(double got, const double *value, size_t n, int *aside)
 {
     double error = error_of(got, value[0]);
-    *aside = 0;
-    if (error <= FLOAT_LIMIT)
-        return error;
-    for (size_t i = 1; i < n; i++)
+    for (size_t i = 1; i < n && error > FLOAT_LIMIT; i++)
         if (error_of(got, value[i]) < error) {
             error = error_of(got, value[i]);
             *aside = 1;
         }
     return error;
+}
+
+/* ... and nothing where the density is too steep for double. */
+static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf, int *aside)
+{
+    double value[2];
+    if (error <= FLOAT_LIMIT)
+        return error;
+    oracle_table_blur(&subject->truth, q, ndf, value);
+    if (!(fmin(value[0], value[1]) <= got && got <= fmax(value[0], value[1])))
+        return error;
+    *aside = 1;
+    return 0;
 }
 
 static double density_error(const float_subject *subject, float_quantity quantity, const float_point *at, int *aside)
@@ -117,7 +127,10 @@ static double density_error(const float_subject *subject, float_quantity quantit
     oracle_query q = query_of(at, wm);
     size_t n = quantity == FLOAT_NDF ? oracle_table_ndfs(&subject->truth, &q, value)
                                      : oracle_table_densities(&subject->truth, &q, value);
-    return value[0] > least_true ? nearest((double)density, value, n, aside) : -1;
+    if (!(value[0] > least_true))
+        return -1;
+    double error = nearest((double)density, value, n, aside);
+    return unless_blurred(subject, &q, (double)density, error, quantity == FLOAT_NDF, aside);
 }
 
 static double direction_error(const float_subject *subject, float_quantity quantity, const float_point *at)

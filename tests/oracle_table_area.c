@@ -95,12 +95,12 @@ int oracle_table_place(const oracle_table *t, double x, double z, int aside, ora
     return 1;
 }
 
-double oracle_table_cubic(const oracle_table *t, size_t cell, double xi)
+double oracle_table_cubic(const oracle_table *t, size_t cell, double xi, double eta)
 {
     double f0 = t->f0[cell], f1 = t->f1[cell];
     double e0 = t->mu0[cell] - f0 / 3 - f1 / 6, e1 = t->mu1[cell] - f0 / 6 - f1 / 3;
     double a = 36 * e0 - 24 * e1, b = 60 * (e1 - e0);
-    return fmax(f0 * (1 - xi) + f1 * xi + xi * (1 - xi) * (a + b * xi), 0);
+    return f0 * eta + f1 * xi + xi * eta * (a + b * xi);
 }
 
 /* P22 R dR = f Z dxi, dR = width/Z^2 dxi, so P22 = f Z^4/(X width), and D = P22/(ax ay wm.z^4), where
@@ -110,9 +110,13 @@ static double ndf_at(const oracle_table *t, oracle_place at, double sum, double 
     size_t j = at.cell;
     double x = at.eta * t->x[j] + at.xi * t->x[j + 1], z = at.eta * t->z[j] + at.xi * t->z[j + 1];
     double width = t->x[j + 1] * t->z[j] - t->x[j] * t->z[j + 1], grow = (x + z) / sum;
-    double xi = j == 0 ? fmax(at.xi, 1e-9) : at.xi; /* f and X begin at 0 together */
-    x = j == 0 ? xi * t->x[1] : x;
-    return oracle_table_cubic(t, j, xi) / (x * width) * grow * grow * grow * grow * per_area;
+    double f = oracle_table_cubic(t, j, at.xi, at.eta);
+    if (j == 0) { /* f and X begin at 0 together */
+        double least = fmax(at.xi, 1e-300);
+        f = oracle_table_cubic(t, j, least, 1 - least);
+        x = least * t->x[1];
+    }
+    return fmax(f, 0) / (x * width) * grow * grow * grow * grow * per_area;
 }
 
 size_t oracle_table_ndfs(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES])

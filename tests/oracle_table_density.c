@@ -127,15 +127,14 @@ static double weight_at(const seen *v, size_t knot)
 
 /* integral of f (1 - t) over the visible part, t from its seen end to the cut: Gauss with three points is exact.
  * Not less than a thousandth of what the straight line gives. */
-static double part_integral(const oracle_table *t, size_t j, double from, double to)
+static double part_integral(const oracle_table *t, size_t j, int from_end, double part)
 {
-    double node = sqrt(0.6), sum = 0, line = 0, straight = t->f1[j] - t->f0[j];
+    double node = sqrt(0.6), sum = 0, line = 0;
     for (int i = -1; i <= 1; i++) {
-        double at = 0.5 + 0.5 * i * node, weight = i ? 5.0 / 18 : 8.0 / 18, xi = from + (to - from) * at;
-        double f0 = t->f0[j], e0 = t->mu0[j] - f0 / 3 - t->f1[j] / 6, e1 = t->mu1[j] - f0 / 6 - t->f1[j] / 3;
-        double bump = xi * (1 - xi) * (36 * e0 - 24 * e1 + 60 * (e1 - e0) * xi);
-        sum += weight * (1 - at) * (f0 + straight * xi + bump);
-        line += weight * (1 - at) * (f0 + straight * xi);
+        double at = 0.5 + 0.5 * i * node, weight = i ? 5.0 / 18 : 8.0 / 18, near = part * at, far = 1 - near;
+        double xi = from_end ? far : near, eta = from_end ? near : far;
+        sum += weight * (1 - at) * oracle_table_cubic(t, j, xi, eta);
+        line += weight * (1 - at) * (t->f0[j] * eta + t->f1[j] * xi);
     }
     return fmax(sum, 1e-3 * line);
 }
@@ -157,11 +156,11 @@ static piece cut_piece(const seen *v, size_t j)
     double k = v->s * v->cosine, w0 = v->c * t->z[j] + k * t->x[j], w1 = v->c * t->z[j + 1] + k * t->x[j + 1];
     if (v->c > 0) {
         double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1, w = fmax(w0, 0);
-        piece p = {t->f0[j], oracle_table_cubic(t, j, part), w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
+        piece p = {t->f0[j], fmax(oracle_table_cubic(t, j, part, 1 - part), 0), w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
         return p;
     }
     double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1, w = fmax(w1, 0);
-    piece p = {oracle_table_cubic(t, j, 1 - part), t->f1[j], w * part * part_integral(t, j, 1, 1 - part), 0, w, 0, w,
+    piece p = {fmax(oracle_table_cubic(t, j, 1 - part, part), 0), t->f1[j], w * part * part_integral(t, j, 1, part), 0, w, 0, w,
                1 - part, part, 1};
     return p;
 }
@@ -302,4 +301,21 @@ size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, doub
         n += (size_t)density_on(&v, side, &value[n]);
     }
     return n > 0 ? n : 1;
+}
+
+void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double value[2])
+{
+    for (int i = 0; i < 2; i++) {
+        double other[ORACLE_SIDES];
+        oracle_query moved = *q;
+        seen v = seen_from(t, q);
+        sides exact = {0, 0};
+        v.x *= i ? 1 + 0x1p-50 : 1 - 0x1p-50;
+        moved.wm[2] *= i ? 1 - 0x1p-50 : 1 + 0x1p-50;
+        value[i] = 0;
+        if (ndf && oracle_table_ndfs(t, &moved, other) > 0)
+            value[i] = other[0];
+        else
+            density_on(&v, exact, &value[i]);
+    }
 }
