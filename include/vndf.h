@@ -146,14 +146,15 @@ typedef struct vndf_surface {
  * lives. Its members are private, and may change between versions. */
 typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
-    vndf_vec3 wi;                  /* unit */
-    float alpha_x, alpha_y;        /* roughness times the table's own slope scale */
-    float per_alpha_x, per_alpha_y, per_length; /* reciprocals; length brings the stretched direction to (s, c) */
-    float s, c;                    /* stretched direction: across (>= 0) and along z */
-    float cos_phi, sin_phi;        /* its azimuth */
+    vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
+    double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
+    double s, c, per_length;       /* stretched direction: across (>= 0) and along z; the factor that brings it there */
+    float per_alpha_x, per_alpha_y;
+    float cos_phi, sin_phi;        /* azimuth of the stretched direction */
     float area;                    /* projected area of the unit problem */
-    float front, wedge;            /* masses of the two azimuth ranges of a half turn */
-    float mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
+    float front;                   /* masses of the two azimuth ranges of a half turn */
+    double wedge;
+    double mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
     unsigned row;                  /* first of the rows that are mixed */
 } vndf_view;
 
@@ -166,9 +167,8 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 /* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of 2^-23,
  * wm.z >= 0, wi.wm > 0 for wi as it is rounded to unit length. *pdf, if not NULL, receives the density per steradian
  * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN, FLT_MAX]:
- * what would underflow, on the rim of a lobe or where less than 1e-28 of the surface is visible, is FLT_MIN. The
- * map is continuous, but for what rows and cells of a small table leave (1e-3 of u2), and monotone in each
- * number. Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
+ * what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each number.
+ * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
  * wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi mirrored at the normal.
  * Beckmann: u1 moves the slope along wi, u2 the slope across. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);

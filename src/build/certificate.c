@@ -69,9 +69,9 @@ typedef struct ray {
 static double drawn_density(const ray *at, double r)
 {
     double unit = 1 / (1 + r);
-    float x = (float)(r < HUGE_VAL ? r * unit : 1.0), z = (float)unit;
+    double x = r < HUGE_VAL ? r * unit : 1.0, z = unit;
     double w = at->s * at->cos_phi * x + at->c * z;
-    return w > 0 ? (double)vndf_engine_ray_density(&at->drawn, x, z, (float)w) * z * z * z : 0.0;
+    return w > 0 ? vndf_engine_ray_density(&at->drawn, x, z, w) * z * z * z : 0.0;
 }
 
 /* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
@@ -120,8 +120,8 @@ static void add_quarter(survey *v, const vndf_view *view, const float *node, uin
         double q = node[cell] + width * (part + vndf_gauss_coarse_node[g]);
         double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
         double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
-        ray at = {{{0}, 0}, view->s, view->c, (away ? -x : x) / n, weight, area};
-        at.drawn = vndf_engine_ray_at(view, (float)at.cos_phi, (float)(y / n));
+        ray at = {{0}, view->s, view->c, (away ? -x : x) / n, weight, area};
+        at.drawn = vndf_engine_ray_at(view, at.cos_phi, y / n);
         add_azimuth(v, &at);
     }
 }
@@ -191,7 +191,7 @@ static finding survey_direction(survey *v, double s, double c)
     if (!(area > AREA_LEAST * v->profile->f1) || vndf_guard_stopped(v->profile->guard))
         return f;
     f.measured = 1;
-    f.area_error = fabs((double)vndf_unit_area(v->table, (float)s, (float)c) / area - 1);
+    f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
     area /= s + fabs(c); /* as the view has it: s + |c| = 1 */
     v->count = 0;
     if (view.c >= 0)
@@ -219,7 +219,7 @@ static double ndf_error(const vndf_distribution *d, const vndf_profile *profile)
         if (p->f0 < left / 2 || p->t0 < left / 2 || p->jump)
             continue;
         double z = 1 / (1 + point.r), truth = vndf_profile_p22(profile, point.r);
-        double held = (double)vndf_engine_p22_over_z4(d, (float)(point.r * z), (float)z) * z * z * z * z;
+        double held = vndf_engine_p22_over_z4(d, point.r * z, z) * z * z * z * z;
         if (truth * point.r * point.r > 1e-6 * profile->f0)
             worst = fmax(worst, fabs(held / truth - 1));
     }

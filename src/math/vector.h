@@ -3,6 +3,7 @@
 #ifndef VNDF_MATH_VECTOR_H
 #define VNDF_MATH_VECTOR_H
 
+#include <float.h>
 #include <math.h>
 
 #include "core/inline.h"
@@ -14,10 +15,13 @@ VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* a . b where it may cancel: whether a normal faces a direction, and by how much. */
+/* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in double,
+ * and so is what the first sum loses (Knuth's TwoSum): one rounding is left, however much cancels. */
 VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
 {
-    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+    double x = (double)a.x * b.x, y = (double)a.y * b.y, z = (double)a.z * b.z, level = x + y, back = level - x;
+    double lost = (x - (level - back)) + (y - back);
+    return (level + z) + lost;
 }
 
 VNDF_INLINE vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
@@ -75,6 +79,12 @@ VNDF_INLINE float vndf_finite(float x)
 VNDF_INLINE float vndf_positive(float x)
 {
     return x > 1.17549435e-38f ? vndf_finite(x) : 1.17549435e-38f;
+}
+
+/* A density as a float: the largest one for what is larger, 0 for NaN. */
+VNDF_INLINE float vndf_density_from(double density)
+{
+    return density > 0.0 ? (density < (double)FLT_MAX ? (float)density : FLT_MAX) : 0.0f;
 }
 
 /* u in [0, 1]; NaN becomes 0. */

@@ -104,13 +104,4 @@ VNDF_INLINE float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi, f
     return vndf_azimuth_before(row, j) + vndf_rational_cdf(&cell, xi);
 }
 
-/* Mass per radian at an azimuth. */
-VNDF_INLINE float vndf_azimuth_density(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
-{
-    uint32_t j;
-    float xi, width, q = vndf_azimuth_place(row, cos_phi, sin_phi, &j, &xi);
-    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
-    return vndf_azimuth_at(row, q, vndf_rational_density(&cell, xi) / width).density;
-}
-
 #endif

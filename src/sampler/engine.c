@@ -7,37 +7,14 @@
 #include "sampler/radial_draw.h"
 #include "sampler/wedge.h"
 
-/* Where D falls fast the area changes by more than a rounding of y does: in double up to the cell. */
-static float area_below(const vndf_wedge *wedge, double y)
-{
-    uint32_t i = vndf_guide_find(&wedge->knot_guide, (float)y);
-    const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    float t = (float)((y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
-    return vndf_wedge_bezier(b, t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f);
-}
-
-float vndf_unit_area(const vndf_distribution *d, float s, float c)
+double vndf_unit_area(const vndf_distribution *d, double s, double c)
 {
     if (d->kind == VNDF_KIND_GGX)
-        return vndf_ggx_area(s, c);
+        return vndf_ggx_area((float)s, (float)c);
     if (d->kind == VNDF_KIND_BECKMANN)
-        return vndf_beckmann_area(s, c);
-    double sum = (double)s + fabs((double)c);
-    float below = 2.0f * (float)sum * area_below(&d->below, s / sum);
-    return below + (c > 0.0f ? c : 0.0f); /* A(w) = cos + A(-w) */
-}
-
-/* W = (direction . normal) of the unit problem for the unit normal wm and its image n, where `scale` brings n to
- * X + Z = 1. It comes from wm as it was rounded, so that sample and pdf agree up to the very cut, and from the
- * direction that the masses of the view were made for; where that leaves nothing, from wi. */
-VNDF_INLINE float weight(const vndf_view *view, vndf_vec3 wm, vndf_vec3 n, float scale)
-{
-    double w = (double)view->s * n.x + (double)view->c * n.z;
-    if (!(w > 0.0)) {
-        double dot = vndf_exact_dot(view->wi, wm);
-        return dot > 0.0 ? (float)dot * scale * view->per_length : 0.0f;
-    }
-    return (float)w * scale;
+        return vndf_beckmann_area((float)s, (float)c);
+    double sum = s + fabs(c), below = 2.0 * sum * vndf_wedge_mass(&d->below, s / sum);
+    return below + (c > 0.0 ? c : 0.0); /* A(w) = cos + A(-w) */
 }
 
 /* Per steradian, of a normal that faces wi: dwm = ax ay X Z^2 dR da / scale^3. */
@@ -51,22 +28,22 @@ VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scal
 /* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
 VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
-    float target = half * (view->front + view->wedge);
+    float wedge = (float)view->wedge, target = half * (view->front + wedge);
     vndf_azimuth at;
-    if (view->c >= 0.0f && (target < view->front || !(view->wedge > 0.0f))) {
+    if (view->c >= 0.0 && (target < view->front || !(wedge > 0.0f))) {
         vndf_azimuth_row row = vndf_front_row(view);
         return vndf_azimuth_draw(&row, target);
     }
     vndf_azimuth_row row = vndf_wedge_row(view);
-    if (view->c >= 0.0f) { /* counted from the far side, a = pi */
-        float rest = (target - view->front) / view->wedge;
+    if (view->c >= 0.0) { /* counted from the far side, a = pi */
+        float rest = (target - view->front) / wedge;
         at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
         at.c = -at.c;
     } else {
         at = vndf_azimuth_draw(&row, half);
         at.c = at.c > 1e-7f * at.n ? at.c : 1e-7f * at.n; /* at a right angle from wi nothing is visible */
     }
-    at.density *= view->wedge;
+    at.density *= wedge;
     return at;
 }
 
@@ -74,7 +51,7 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
-    float c = view->c * a->n, k = view->s * a->c;
+    float c = (float)view->c * a->n, k = (float)view->s * a->c;
     if (c < 0.0f)
         return vndf_radial_draw_below(d, c, k, u);
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
@@ -83,8 +60,7 @@ VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azim
 /* A normal whose rounding shows in its density, or turns it away: the density is that of the rounded normal. */
 static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf)
 {
-    vndf_vec3 n = vndf_to_unit(view, wm);
-    if (!(weight(view, wm, n, 1.0f) > 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
+    if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
         *pdf = vndf_pdf(view, wm);
@@ -106,18 +82,18 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
-    int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
-                fabsf(half) < 0.9999f && view->c >= (a.c < 0.05f * a.n ? 0.25f : 0.0f) && !r.piece.weighted;
+    float across = (float)view->s * x, along = across * cos_phi, up = (float)view->c * z; /* W is their sum; no small difference: */
+    int plain = along + up > 0.1f * (across + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
+                fabsf(half) < 0.9999f && view->c >= (a.c < 0.05f * a.n ? 0.25 : 0.0) && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)
-        *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
+        *pdf = per_steradian(view, 0.5f * a.density / (view->front + (float)view->wedge) *
                                    (vndf_rational_density(&r.piece.cell, r.inside) / (x * d->cells[j].width)), length);
     return wm;
 }
 
-/* ---- density and inverse ---- */
+/* ---- inverse ---- */
 
 /* A normal of the unit problem taken apart: azimuth |a| and radius. */
 typedef struct place {
@@ -148,93 +124,33 @@ static place place_of(const vndf_view *view, vndf_vec3 normal)
 /* The row that an azimuth belongs to; 0 if nothing is drawn there. */
 static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
 {
-    int toward = cos_phi >= 0.0f, above = view->c >= 0.0f;
+    int toward = cos_phi >= 0.0f, above = view->c >= 0.0;
     if (above && toward) {
         *row = vndf_front_row(view);
         return view->front > 0.0f;
     }
     *row = vndf_wedge_row(view);
-    return above != toward && view->wedge > 0.0f && row->p > 0.0f;
-}
-
-VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float sin_phi)
-{
-    vndf_engine_ray ray;
-    vndf_azimuth_row row;
-    ray.azimuth = 0.0f;
-    ray.law = vndf_radial_law_for(view->distribution, view->c, view->s * cos_phi);
-    if (!row_of(view, cos_phi, &row))
-        return ray;
-    float azimuth = vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi);
-    if (row.q != vndf_front_q)
-        azimuth *= view->wedge;
-    ray.azimuth = 0.5f * azimuth / (view->front + view->wedge);
-    return ray;
-}
-
-VNDF_INLINE float ray_density(const vndf_engine_ray *ray, vndf_radius at, float w)
-{
-    vndf_radial_piece piece = vndf_radial_piece_of(&ray->law, at.cell);
-    return ray->azimuth * vndf_radial_density(&ray->law, &piece, at, vndf_radial_inside(&piece, at), w);
-}
-
-vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, float cos_phi, float sin_phi)
-{
-    return ray_at(view, cos_phi, sin_phi);
-}
-
-float vndf_engine_ray_density(const vndf_engine_ray *ray, float x, float z, float w)
-{
-    return ray_density(ray, radius_of(ray->law.table, x, z), w);
-}
-
-float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w)
-{
-    place p = place_of(view, normal);
-    vndf_engine_ray ray = ray_at(view, p.cos_phi, p.sin_phi);
-    return ray_density(&ray, p.at, w);
-}
-
-float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
-{
-    vndf_vec3 n = vndf_to_unit(view, wm);
-    float scale = 1.0f / (vndf_length2(n.x, n.y) + n.z);
-    return per_steradian(view, vndf_engine_density(view, n, weight(view, wm, n, scale)), scale);
+    return above != toward && view->wedge > 0.0 && row->p > 0.0f;
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */
 static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
     vndf_azimuth_row row;
-    float total = view->front + view->wedge;
+    float wedge = (float)view->wedge, total = view->front + wedge;
     if (!row_of(view, cos_phi, &row))
         return 1.0f;
     float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
     if (row.q == vndf_front_q)
         return before / total;
-    return view->c < 0.0f ? before : (view->front + (1.0f - before) * view->wedge) / total;
+    return view->c < 0.0 ? before : (view->front + (1.0f - before) * wedge) / total;
 }
 
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     place p = place_of(view, normal);
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, (float)view->c, (float)view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
-    *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
-}
-
-/* ---- the distribution ---- */
-
-float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z)
-{
-    vndf_radius at = radius_of(d, x, z);
-    const vndf_radial_cell *cell = &d->cells[at.cell];
-    float bump = (1.0f - at.xi) * (cell->a + cell->b * at.xi), f_over_x;
-    if (at.cell == 0) /* f begins at 0, as X does */
-        f_over_x = (cell->f1 + bump) / d->knots.x[1];
-    else
-        f_over_x = (cell->f0 * (1.0f - at.xi) + at.xi * (cell->f1 + bump)) /
-                   (d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]));
-    return f_over_x > 0.0f ? f_over_x / cell->width : 0.0f;
+    *u2 = law.gain > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }

@@ -33,7 +33,7 @@
 #include "sampler/radial.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
-float vndf_unit_area(const vndf_distribution *d, float s, float c);
+double vndf_unit_area(const vndf_distribution *d, double s, double c);
 
 /* What follows is for tables, whose views have s + |c| = 1. */
 
@@ -41,22 +41,23 @@ float vndf_unit_area(const vndf_distribution *d, float s, float c);
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* Normals of the unit problem, (X cos a, X sin a, Z) in the turned frame, need not be scaled: their density per
- * X Z^2 dR da at X + Z = 1, where w = s X cos a + c Z > 0. */
-float vndf_engine_density(const vndf_view *view, vndf_vec3 normal, float w);
-
-/* The same for many normals of one azimuth: (cos_phi, sin_phi), sin_phi >= 0, then slope lengths X/Z. */
+/* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
 typedef struct vndf_engine_ray {
-    vndf_radial_law law;
-    float azimuth; /* density of the azimuth, per radian */
+    const vndf_distribution *table;
+    double c, k;        /* k = s cos a */
+    double azimuth;     /* density of the azimuth, per radian */
+    double mass, part;  /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
+    uint32_t cut;       /* that cell; radial_count if there is none */
 } vndf_engine_ray;
-vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, float cos_phi, float sin_phi);
-float vndf_engine_ray_density(const vndf_engine_ray *ray, float x, float z, float w);
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
 
-/* ... and the uniform numbers that give a normal. */
+/* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
+double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);
+
+/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length. */
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
-float vndf_engine_p22_over_z4(const vndf_distribution *d, float x, float z);
+double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z);
 
 #endif

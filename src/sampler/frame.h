@@ -17,8 +17,8 @@ VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_view *view, vndf_vec3 wm)
 /* The real normal of one of the unit problem: not of unit length. */
 VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_view *view, vndf_vec3 n)
 {
-    vndf_vec3 wm = {view->alpha_x * (view->cos_phi * n.x - view->sin_phi * n.y),
-                    view->alpha_y * (view->sin_phi * n.x + view->cos_phi * n.y), n.z};
+    vndf_vec3 wm = {(float)view->alpha_x * (view->cos_phi * n.x - view->sin_phi * n.y),
+                    (float)view->alpha_y * (view->sin_phi * n.x + view->cos_phi * n.y), n.z};
     return wm;
 }
 

@@ -4,7 +4,12 @@
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
  * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the
  * cell that holds the cut W = 0, and in its neighbour, by a weighted one (math/weighted_cell.h). The cell at the
- * cut is used on its visible part alone, with its mass and its value at the cut from the cubic. */
+ * cut is used on its visible part alone, with its mass and its value at the cut from the cubic.
+ *
+ * So that no law jumps as the cut moves, the neighbour's weight V changes with the visible part h of the cell at the
+ * cut: it is W at h = 0, where the cut leaves the neighbour, and constant at h = 1, where the cell becomes a plain one.
+ * V is W at the knot away from the cut, and W + h^2 (W of the other knot - W) at the knot towards it: h^2, not h, since W
+ * vanishes there as h does, and the end density f W/V of the cell must begin at f. */
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
@@ -13,14 +18,16 @@
 #include "table/table.h"
 
 /* The law of R: everything that does not depend on the uniform number. Its mass is 1, so no square of a mass
- * vanishes where next to nothing is visible. */
+ * vanishes where next to nothing is visible. Above the horizon the weights themselves are scaled to that; below it
+ * they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied by `gain`. */
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
-    float scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon stands for it */
+    float scale;              /* by which they were multiplied */
+    float gain;               /* factor of all masses; 0 if nothing is visible: the horizon stands for it */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
-    float part;               /* length of that cell's visible part in xi */
-    float part_mass;          /* its mass */
+    float part;               /* length of that cell's visible part in xi; without a cut 0 */
+    float part_mass;          /* its mass, less the gain */
     float part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
     float part_w0, part_w1;   /* W there */
 } vndf_radial_law;
@@ -49,7 +56,7 @@ VNDF_INLINE float vndf_radial_before_whole(const vndf_radial_law *law, uint32_t 
     return law->c * law->table->knots.f0[j] + law->k * law->table->knots.f1[j];
 }
 
-/* Mass beyond knot j (k > 0). */
+/* Mass beyond knot j, less the gain (k > 0). */
 VNDF_INLINE float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
 {
     return law->k * law->table->knots.s[j] + vndf_radial_weight(law, j) * law->table->knots.t[j];
@@ -80,6 +87,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
+    law.gain = scale > 0.0f ? 1.0f : 0.0f;
     law.part_mass *= scale;
     law.part_w0 *= scale;
     law.part_w1 *= scale;
@@ -89,7 +97,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
 /* c, k >= 0. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, float c, float k)
 {
-    vndf_radial_law law = {d, c, k, 1.0f, d->radial_count, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {d, c, k, 1.0f, 1.0f, d->radial_count, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     return vndf_radial_scaled(law, c * d->f0_total + k * d->f1_total);
 }
 
@@ -97,7 +105,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, fl
 VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, float c, float k, float *total)
 {
     uint32_t j = vndf_guide_find(&d->slope_guide, c / -k);
-    vndf_radial_law law = {d, c, k, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {d, c, k, 1.0f, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     const vndf_radial_cell *cell = &d->cells[j];
     float w0 = vndf_radial_weight(&law, j), w1 = c * d->knots.z[j + 1] + k * d->knots.x[j + 1];
     law.part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
@@ -109,19 +117,23 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, fl
     return law;
 }
 
-/* c < 0 < k. */
+/* c < 0 < k. In the last cell, beyond which there is no mass, all masses are per visible part. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, float c, float k)
 {
-    uint32_t j = vndf_guide_find(&d->slope_guide, -c / k);
-    vndf_radial_law law = {d, c, k, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    float rho = -c / k;
+    uint32_t j = vndf_guide_find(&d->slope_guide, rho);
+    vndf_radial_law law = {d, -rho, 1.0f, 1.0f / k, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     const vndf_radial_cell *cell = &d->cells[j];
-    float w0 = c * d->knots.z[j] + k * d->knots.x[j], w1 = vndf_radial_weight(&law, j + 1);
+    float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
     law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
-    law.part_mass = w1 * law.part * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law.part);
-    law.part_f0 = vndf_radial_f(cell, 1.0f - law.part) * law.part;
-    law.part_f1 = cell->f1 * law.part;
+    float unit = j + 1 < d->radial_count ? law.part : 1.0f;
+    law.part_mass = w1 * unit * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law.part);
+    law.part_f0 = vndf_radial_f(cell, 1.0f - law.part) * unit;
+    law.part_f1 = cell->f1 * unit;
     law.part_w1 = w1;
-    return vndf_radial_scaled(law, vndf_radial_beyond(&law, j + 1) + law.part_mass);
+    float total = vndf_radial_beyond(&law, j + 1) + law.part_mass;
+    law.gain = total > 1e-36f && k > 1e-36f ? 1.0f / total : 0.0f;
+    return law;
 }
 
 /* The law for any weights (c, k). */
@@ -136,47 +148,62 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, floa
         return vndf_radial_law_below(d, c, k);
     if (c >= 0.0f && k >= 0.0f)
         return vndf_radial_law_whole(d, c, k);
-    vndf_radial_law nothing = {d, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law nothing = {d, 0.0f, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     return nothing;
 }
 
 /* A cell as far as it is visible: where that part begins in xi and how long it is. */
 typedef struct vndf_radial_piece {
-    vndf_rational_cell cell; /* in xi of the part, or in zeta if weighted */
+    vndf_rational_cell cell; /* in xi of the part, or in zeta of V if weighted */
     int weighted;
-    float w0, w1, begin, length;
+    float w0, w1, v0, v1, begin, length; /* W and V at the ends of the part */
 } vndf_radial_piece;
 
 /* Away from the cut. */
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
-    vndf_radial_piece piece = {vndf_rational_cell_from(cell->f0 * w0, cell->f1 * w1, w0 * cell->mu0 + w1 * cell->mu1),
-                               0, w0, w1, 0.0f, 1.0f};
+    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1), g0 = law->gain * w0, g1 = law->gain * w1;
+    vndf_radial_piece piece = {vndf_rational_cell_from(cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1),
+                               0, w0, w1, 0.0f, 0.0f, 0.0f, 1.0f};
     return piece;
 }
 
-/* Any cell; without a cut the last one, where W may vanish, is weighted. */
+/* W/V at a knot; what vanishes does so together. */
+VNDF_INLINE float vndf_radial_over(float w, float v)
+{
+    return v > 0.0f ? w / v : 1.0f;
+}
+
+/* The cell at the cut, on its visible part. */
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
+{
+    float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
+    vndf_radial_piece piece = {vndf_rational_cell_from(law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass),
+                               1, w0, w1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
+    return piece;
+}
+
+/* Its neighbour; without a cut the last cell, where W may vanish. */
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece)
+{
+    const vndf_radial_cell *cell = &law->table->cells[j];
+    float w0 = piece.w0, w1 = piece.w1, change = law->part * law->part * (w0 - w1);
+    piece.weighted = 1;
+    piece.v0 = j > law->cut ? w0 - change : w0;
+    piece.v1 = j > law->cut ? w1 : w1 + change;
+    float half = law->gain * (0.5f * (piece.v0 + piece.v1));
+    piece.cell = vndf_rational_cell_from(cell->f0 * vndf_radial_over(w0, piece.v0) * half,
+                                         cell->f1 * vndf_radial_over(w1, piece.v1) * half, piece.cell.mass);
+    return piece;
+}
+
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
 {
+    if (j == law->cut)
+        return vndf_radial_piece_cut(law);
     vndf_radial_piece piece = vndf_radial_piece_plain(law, j);
-    if (j + 1 < law->cut || j > law->cut + 1)
-        return piece;
-    float f0 = law->table->cells[j].f0, f1 = law->table->cells[j].f1, mass = piece.cell.mass;
-    piece.weighted = 1;
-    if (j == law->cut) {
-        f0 = law->part_f0;
-        f1 = law->part_f1;
-        piece.w0 = law->part_w0;
-        piece.w1 = law->part_w1;
-        mass = law->part_mass;
-        piece.length = law->part;
-        piece.begin = law->c < 0.0f ? 1.0f - law->part : 0.0f;
-    }
-    float half = 0.5f * (piece.w0 + piece.w1);
-    piece.cell = vndf_rational_cell_from(f0 * half, f1 * half, mass);
-    return piece;
+    return j + 1 < law->cut || j > law->cut + 1 ? piece : vndf_radial_piece_beside(law, j, piece);
 }
 
 /* Where the piece's rational cell stands at a place of the whole cell. */
@@ -184,23 +211,7 @@ VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, vndf_radius
 {
     float inside = piece->begin > 0.0f ? 1.0f - at.eta / piece->length : at.xi / piece->length;
     inside = inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f;
-    return piece->weighted ? vndf_weighted_zeta(piece->w0, piece->w1, inside) : inside;
-}
-
-/* Part of the mass per unit of xi at a place, divided by X and the cell's width: finite at the pole, where f and
- * X begin at 0. `w` is W of the very normal whose density is asked for, (direction . normal): what c and k make
- * of W near the cut differs between sample and pdf by rounding, in the cell's mass and in its W alike. */
-VNDF_INLINE float vndf_radial_density(const vndf_radial_law *law, const vndf_radial_piece *piece, vndf_radius at, float inside, float w)
-{
-    const vndf_distribution *d = law->table;
-    if (at.cell == 0 && at.xi < 1e-6f) {
-        at.xi = 1e-6f;
-        inside = vndf_radial_inside(piece, at);
-    }
-    float x = d->knots.x[at.cell] + at.xi * (d->knots.x[at.cell + 1] - d->knots.x[at.cell]);
-    float own_w = piece->weighted ? 0.5f * (piece->w0 + piece->w1) : piece->w0 + at.xi * (piece->w1 - piece->w0);
-    float below = piece->length * x * d->cells[at.cell].width * own_w;
-    return below > 0.0f ? w * law->scale * vndf_rational_density(&piece->cell, inside) / below : 0.0f;
+    return piece->weighted ? vndf_weighted_zeta(piece->v0, piece->v1, inside) : inside;
 }
 
 /* Part of the mass before a place. */
@@ -209,7 +220,7 @@ VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
     float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at));
     if (law->c < 0.0f)
-        return 1.0f - (vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
+        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
     return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;
 }
 

@@ -74,11 +74,11 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
     vndf_radial_drawn r = {{j, 1.0f, 0.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
     float xi = r.inside, eta = 1.0f - xi;
     if (piece.weighted) {
-        float within = vndf_weighted_xi(piece.w0, piece.w1, xi);
+        float within = vndf_weighted_xi(piece.v0, piece.v1, xi);
         xi = piece.begin + piece.length * within;
         eta = piece.begin > 0.0f ? piece.length * (1.0f - within) : 1.0f - xi;
     }
-    if (!(xi < 1.0f && law->scale > 0.0f))
+    if (!(eta > 0.0f && law->gain > 0.0f))
         return r; /* where nothing is visible the horizon stands for it */
     r.at.xi = xi;
     r.at.eta = eta;
@@ -118,9 +118,9 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d,
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
 {
     vndf_radial_law law = vndf_radial_law_for(d, c, k);
-    uint32_t j = vndf_radial_search_beyond(&law, 1.0f - u);
+    uint32_t j = law.gain > 0.0f ? vndf_radial_search_beyond(&law, (1.0f - u) / law.gain) : law.cut;
     vndf_radial_piece piece = vndf_radial_piece_of(&law, j);
-    return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - vndf_radial_beyond(&law, j + 1)));
+    return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - law.gain * vndf_radial_beyond(&law, j + 1)));
 }
 
 /* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density

@@ -13,20 +13,21 @@ static int is_usable_direction(vndf_vec3 w)
     return m > 0.0f && m < HUGE_VALF && w.x == w.x && w.y == w.y && w.z == w.z; /* max_abs may pass over a NaN */
 }
 
-/* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form: azimuth, s and c, and what brings it to them. */
+/* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form: s and c, the factor that brings it to them, and azimuth. With
+ * s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms. In double: no length or roughness is out of range, and the
+ * digits are there that an area takes which falls as fast as the normals of a Beckmann do. */
 typedef struct polar {
-    float s, c, cos_phi, sin_phi, per_length;
+    double s, c, per_length;
+    float cos_phi, sin_phi;
 } polar;
 
-/* With s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms; exact for the smallest parts. wi need not
- * be unit: `length` is its length. */
-VNDF_INLINE polar stretch(vndf_vec3 wi, float length, float ax, float ay, int table)
+VNDF_INLINE polar stretch(vndf_vec3 wi, double ax, double ay, int table)
 {
-    float x = ax * wi.x, y = ay * wi.y, across = vndf_length2(x, y);
-    float per = 1.0f / (table ? across + fabsf(wi.z) : vndf_length2(across, wi.z));
-    float per_across = across > 0.0f ? 1.0f / across : 0.0f;
-    polar p = {across * per, wi.z * per + 0.0f, /* -0 becomes +0: the horizon is seen from above */
-               across > 0.0f ? x * per_across : 1.0f, y * per_across, length * per};
+    double x = ax * wi.x, y = ay * wi.y, across2 = x * x + y * y, across = sqrt(across2);
+    double per = 1.0 / (table ? across + fabs((double)wi.z) : sqrt(across2 + (double)wi.z * wi.z));
+    double per_across = across > 0.0 ? 1.0 / across : 0.0;
+    polar p = {across * per, wi.z * per + 0.0, per, /* -0 becomes +0: the horizon is seen from above */
+               across > 0.0 ? (float)(x * per_across) : 1.0f, (float)(y * per_across)};
     return p;
 }
 
@@ -38,24 +39,18 @@ static vndf_view invalid_view(void)
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    float square = vndf_dot(wi, wi), ax, ay;
-    int plain = vndf_is_plain(square);
-    if (!vndf_surface_scaled(surface, &ax, &ay) || (!plain && !is_usable_direction(wi)))
+    double ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
         return invalid_view();
     const vndf_distribution *d = surface->distribution;
     int table = d->kind == VNDF_KIND_TABLE;
-    if (!plain) {
-        wi = vndf_normalize(wi);
-        square = 1.0f;
-    }
-    float length = sqrtf(square);
-    polar p = stretch(wi, length, ax, ay, table);
+    polar p = stretch(wi, ax, ay, table);
     vndf_wedge_view w = {0};
     if (table)
         w = vndf_wedge_view_at(d, p.s, p.c);
     else
-        w.area = vndf_unit_area(d, p.s, p.c);
-    vndf_view view = {d, vndf_scale(wi, 1.0f / length), ax, ay, 1.0f / ax, 1.0f / ay, p.per_length, p.s, p.c, p.cos_phi, p.sin_phi,
+        w.area = (float)vndf_unit_area(d, p.s, p.c);
+    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, (float)(1.0 / ax), (float)(1.0 / ay), p.cos_phi, p.sin_phi,
                       w.area, w.front, w.wedge, w.mix, w.aspect_p, w.aspect_r, w.row};
     return view;
 }
@@ -83,8 +78,8 @@ static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(view->s, view->c, u1, u2)
-                                                             : vndf_beckmann_sample(view->s, view->c, u1, u2);
+    vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample((float)view->s, (float)view->c, u1, u2)
+                                                             : vndf_beckmann_sample((float)view->s, (float)view->c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(view, n));
     if (!(vndf_facing(view, vndf_normal_of(wm)) > 0.0))
         wm = turn_closed(view, wm);
@@ -123,9 +118,9 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
     if (!view->distribution || !(wm.z >= 0.0f) || !is_usable_direction(wm))
         return;
     if (view->distribution->kind == VNDF_KIND_GGX)
-        vndf_ggx_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
+        vndf_ggx_invert((float)view->s, (float)view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        vndf_beckmann_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
+        vndf_beckmann_invert((float)view->s, (float)view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else
         vndf_engine_invert(view, vndf_to_unit(view, wm), u1, u2);
     *u1 = vndf_clamp_unit(*u1);
@@ -136,8 +131,9 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
     if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
         return visible_closed(view, wm);
-    float facing_cos = view->distribution ? (float)vndf_exact_dot(view->wi, wm) : 0.0f;
-    if (!(wm.z >= 0.0f) || !(facing_cos > 0.0f) || !(view->area > 0.0f))
+    double facing = view->distribution ? vndf_exact_dot(view->wi, wm) : 0.0;
+    if (!(wm.z >= 0.0f) || !(facing > 0.0) || !(view->area > 0.0f))
         return 0.0f;
-    return vndf_finite(vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm) * (facing_cos * view->per_length) / view->area);
+    double ndf = vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm);
+    return vndf_density_from(ndf * (facing * view->per_length) / view->area);
 }

@@ -1,0 +1,305 @@
+/* The density of a given normal, and D, in double from the very numbers that came in. In float three things would
+ * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D is
+ * steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed in the turned frame:
+ *
+ *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
+ *
+ * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch. Cells are those of
+ * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5
+ * of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+#include <math.h>
+
+#include "math/vector.h"
+#include "sampler/engine.h"
+#include "sampler/wedge.h"
+
+/* ---- cells ---- */
+
+/* Mass per xi; eta = 1 - xi, exact where it is small. */
+static double rational_density(double e0, double e1, double mass, double xi, double eta)
+{
+    double w = xi * eta, q = 1.0 + ((e0 + e1) / mass - 2.0) * w;
+    return (e1 * xi * xi + 2.0 * mass * w + e0 * eta * eta) / (q * q);
+}
+
+/* The same over xi where e0 = 0. */
+static double rational_density_over(double e1, double mass, double xi, double eta)
+{
+    double q = 1.0 + (e1 / mass - 2.0) * (xi * eta);
+    return (e1 * xi + 2.0 * mass * eta) / (q * q);
+}
+
+/* ---- azimuth ---- */
+
+/* Rows of cells and their shares. */
+typedef struct mixed_row {
+    const float *mass[3], *density[3], *q;
+    double share[3], p, r;
+    uint32_t cells;
+} mixed_row;
+
+static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
+{
+    return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
+}
+
+static mixed_row front_row(const vndf_view *view)
+{
+    const vndf_distribution *d = view->distribution;
+    mixed_row row = {{vndf_front_even_mass, vndf_front_cosine_mass, vndf_front_even_mass},
+                     {vndf_front_even_density, vndf_front_cosine_density, vndf_front_even_density}, vndf_front_q,
+                     {view->c * d->f0_total, view->s * d->f1_total, 0.0}, 1.0, 1.0, VNDF_FRONT_CELLS};
+    return row;
+}
+
+static mixed_row wedge_row(const vndf_view *view)
+{
+    const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
+    size_t ends = w->cell_count + 1;
+    const float *mass = w->cell_mass + (size_t)view->row * w->stride, *density = w->density + (size_t)view->row * ends;
+    double m = view->mix, rest = 1.0 - m;
+    mixed_row row = {{mass, mass + w->stride, mass + 2 * (size_t)w->stride}, {density, density + ends, density + 2 * ends}, w->q,
+                     {view->wedge * (rest * rest), view->wedge * (2.0 * rest * m), view->wedge * (m * m)},
+                     view->aspect_p, view->aspect_r, w->cell_count};
+    return row;
+}
+
+/* Mass per radian at an azimuth, cos >= 0; 1 - q is formed without a difference. */
+static double row_density(const mixed_row *row, double cosine, double sine)
+{
+    double c = row->r * cosine, s = row->p * sine, n = sqrt(c * c + s * s);
+    if (!(n > 0.0))
+        return 0.0;
+    double q = s / (c + n), rest = (c + c * (c / (n + s))) / (c + n);
+    uint32_t j = 0;
+    for (uint32_t i = 1; i < row->cells; i++)
+        j += row->q[i] <= q;
+    double from = row->q[j], to = row->q[j + 1], h = to - from;
+    double xi = (q - from) / h, eta = (rest - (1.0 - to)) / h;
+    double per_q = rational_density(mixed(row, row->density, j) * h, mixed(row, row->density, j + 1) * h,
+                                    mixed(row, row->mass, j), xi, eta) / h;
+    double x = row->p * rest * (1.0 + q), y = 2.0 * row->r * q;
+    return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
+}
+
+/* Per radian, of mass 1 in a whole turn. */
+static double azimuth_density(const vndf_view *view, double cosine, double sine)
+{
+    int toward = cosine >= 0.0, above = view->c >= 0.0;
+    mixed_row row = above && toward ? front_row(view) : wedge_row(view);
+    if (!(above && toward) && !(above != toward && view->wedge > 0.0 && row.p > 0.0))
+        return 0.0;
+    return 0.5 * row_density(&row, fabs(cosine), sine) / ((double)view->front + view->wedge);
+}
+
+/* ---- radius ---- */
+
+/* A place in the table: xi and eta from both knots, each exact where it is small. */
+typedef struct place {
+    uint32_t cell;
+    double xi, eta;
+} place;
+
+/* The guide finds the cell but for the rounding of the slope. */
+static place place_of(const vndf_distribution *d, double x, double z)
+{
+    const float *kx = d->knots.x, *kz = d->knots.z;
+    uint32_t j = vndf_guide_find(&d->slope_guide, z > 0.0 ? (float)(x / z) : HUGE_VALF);
+    if (j > 0 && x * kz[j] < z * kx[j])
+        j--;
+    if (j + 1 < d->radial_count && x * kz[j + 1] >= z * kx[j + 1])
+        j++;
+    double inner = x * kz[j] - z * kx[j], outer = z * kx[j + 1] - x * kz[j + 1];
+    place at = {j, inner / (inner + outer), outer / (inner + outer)};
+    return at;
+}
+
+/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes. */
+typedef struct bump {
+    double a, b;
+} bump;
+
+static bump bump_of(const vndf_radial_cell *cell)
+{
+    double f0 = cell->f0, f1 = cell->f1;
+    double e0 = cell->mu0 - f0 / 3.0 - f1 / 6.0, e1 = cell->mu1 - f0 / 6.0 - f1 / 3.0;
+    bump bend = {36.0 * e0 - 24.0 * e1, 60.0 * (e1 - e0)};
+    return bend;
+}
+
+static double cubic(const vndf_radial_cell *cell, double xi, double eta)
+{
+    bump bend = bump_of(cell);
+    double f = cell->f0 * eta + cell->f1 * xi + xi * eta * (bend.a + bend.b * xi);
+    return f > 0.0 ? f : 0.0;
+}
+
+/* vndf_radial_part (radial.h). */
+static double part_integral(double f0, double f1, double a, double b, double h)
+{
+    double slope = f1 - f0;
+    double whole = 0.5 * f0 + h * ((slope + a) / 6.0 + h * ((b - a) / 12.0 - h * b / 20.0));
+    double least = 1e-3 * (0.5 * f0 + h * slope / 6.0);
+    return whole > least ? whole : least;
+}
+
+static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
+{
+    double w = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    return w > 0.0 ? w : 0.0;
+}
+
+/* A cell as far as it is visible, f times its length at its ends, W and V there. */
+typedef struct piece {
+    double f0, f1, mass, w0, w1, v0, v1, begin, length;
+    int weighted;
+} piece;
+
+/* The cell j of the cut; c > 0 > k, then c < 0 < k. */
+static piece piece_above(const vndf_engine_ray *ray, uint32_t j)
+{
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w = knot_weight(ray, j), end = ray->c * ray->table->knots.z[j + 1] + ray->k * ray->table->knots.x[j + 1];
+    double h = end < 0.0 ? w / (w - end) : 1.0;
+    bump bend = bump_of(cell);
+    piece p = {cell->f0, cubic(cell, h, 1.0 - h), w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h),
+               w, 0.0, w, 0.0, 0.0, h, 1};
+    return p;
+}
+
+static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
+{
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    double h = end < 0.0 ? w / (w - end) : 1.0;
+    bump bend = bump_of(cell);
+    piece p = {cubic(cell, 1.0 - h, h), cell->f1, w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h),
+               0.0, w, 0.0, w, 1.0 - h, h, 1};
+    return p;
+}
+
+/* Any cell; see radial.h for V of the neighbour of the cut. */
+static piece piece_of(const vndf_engine_ray *ray, uint32_t j)
+{
+    if (j == ray->cut)
+        return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), change = ray->part * ray->part * (w0 - w1);
+    piece p = {cell->f0, cell->f1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, w0, w1, 0.0, 1.0, 0};
+    if (j + 1 < ray->cut || j > ray->cut + 1)
+        return p;
+    p.weighted = 1;
+    p.v0 = j > ray->cut ? w0 - change : w0;
+    p.v1 = j > ray->cut ? w1 : w1 + change;
+    return p;
+}
+
+static double over(double w, double v)
+{
+    return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
+}
+
+/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as X
+ * does. */
+static double density_over_x(const vndf_engine_ray *ray, const piece *p, place at, double w)
+{
+    const vndf_knots *k = &ray->table->knots;
+    double xi = at.xi / p->length, eta = at.eta / p->length, zeta, rest, ratio = 1.0, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1, per = 1.0;
+    if (p->length < 1.0) {
+        xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
+        eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
+    }
+    zeta = xi;
+    rest = eta;
+    if (p->weighted) {
+        double sum = p->v0 + p->v1, v = p->v0 * eta + p->v1 * xi, half = 0.5 * sum;
+        ratio = (p->v0 + v) / sum;
+        zeta = xi * ratio;
+        rest = eta * ((v + p->v1) / sum);
+        e0 = p->f0 * over(p->w0, p->v0) * half;
+        e1 = p->f1 * over(p->w1, p->v1) * half;
+        per = (p->length < 1.0 ? w : v) / half;
+    }
+    per /= p->length;
+    if (at.cell == 0 && p->f0 == 0.0)
+        return per * ratio * rational_density_over(e1 * p->length, p->mass, zeta, rest) / (p->length * k->x[1]);
+    double x = at.eta * k->x[at.cell] + at.xi * k->x[at.cell + 1];
+    return per * rational_density(e0 * p->length, e1 * p->length, p->mass, zeta, rest) / x;
+}
+
+/* The law of the radius for one azimuth: its cut, and all of its mass. */
+static void find_law(vndf_engine_ray *ray)
+{
+    const vndf_distribution *d = ray->table;
+    double c = ray->c, k = ray->k;
+    ray->cut = d->radial_count;
+    ray->part = ray->mass = 0.0;
+    if (c >= 0.0 && k >= 0.0) {
+        ray->mass = c * d->f0_total + k * d->f1_total;
+        return;
+    }
+    if (!(c > 0.0) && !(k > 0.0))
+        return;
+    uint32_t j = ray->cut = place_of(d, fabs(c), fabs(k)).cell;
+    piece p = piece_of(ray, j);
+    ray->part = p.length;
+    if (c > 0.0)
+        ray->mass = c * d->knots.e[j] + p.w0 * d->knots.g[j] + p.mass;
+    else
+        ray->mass = k * d->knots.s[j + 1] + p.w1 * d->knots.t[j + 1] + p.mass;
+}
+
+/* ---- both ---- */
+
+static vndf_engine_ray ray_from(const vndf_view *view, double cosine, double sine, double k)
+{
+    vndf_engine_ray ray = {view->distribution, view->c, k, azimuth_density(view, cosine, sine), 0.0, 0.0, 0};
+    find_law(&ray);
+    return ray;
+}
+
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine)
+{
+    return ray_from(view, cosine, sine, view->s * cosine);
+}
+
+double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w)
+{
+    place at = place_of(ray->table, x, z);
+    int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
+    if (hidden || !(ray->mass > 0.0) || !(ray->azimuth > 0.0))
+        return 0.0;
+    piece p = piece_of(ray, at.cell);
+    if (!(p.length > 0.0))
+        return 0.0;
+    return ray->azimuth * density_over_x(ray, &p, at, w) / (ray->mass * ray->table->cells[at.cell].width);
+}
+
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
+    double ix = ax * view->wi.x, iy = ay * view->wi.y, scale = 1.0 / (x + wm.z);
+    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, w = vndf_exact_dot(view->wi, wm);
+    double cosine = 1.0, sine = 0.0;
+    if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
+        double per = view->s > 0.0 ? view->per_length / (view->s * x) : 1.0 / x;
+        cosine = per * (view->s > 0.0 ? level : mx);
+        sine = per * fabs(view->s > 0.0 ? ix * my - iy * mx : my);
+    }
+    vndf_engine_ray ray = ray_from(view, cosine, sine, x > 0.0 ? level * view->per_length / x : view->s);
+    double density = vndf_engine_ray_density(&ray, x * scale, wm.z * scale, w * view->per_length * scale);
+    return vndf_positive(vndf_density_from(density * scale * scale * scale / (ax * ay)));
+}
+
+/* ---- D ---- */
+
+double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
+{
+    place at = place_of(d, x, z);
+    const vndf_radial_cell *cell = &d->cells[at.cell];
+    const float *kx = d->knots.x + at.cell;
+    bump bend = bump_of(cell);
+    double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
+    double f_over_x = at.cell == 0 ? rise / kx[1] : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
+    return f_over_x > 0.0 ? f_over_x / cell->width : 0.0;
+}
