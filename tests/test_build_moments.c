@@ -17,7 +17,8 @@ static void test_moments(const vndf_source *source, const char *text, size_t byt
 {
     vndf_build_options options = {bytes, 0, NULL, NULL};
     vndf_error error = {VNDF_OK, ""};
-    vndf_profile *profile = vndf_profile_from(source, &error);
+    vndf_guard guard = vndf_guard_from(NULL, NULL);
+    vndf_profile *profile = vndf_profile_from(source, &guard, &error);
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
     if (TEST(profile && table)) {
         double f0 = (double)table->f0_total, f1 = (double)table->f1_total;

@@ -215,7 +215,7 @@ const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
             return &e->row;
     entry *e = calloc(1, sizeof *e);
     if (!e) {
-        fit->profile->guard->starved = 1;
+        fit->side.profile->guard->starved = 1;
         return NULL;
     }
     e->row.y = y;
