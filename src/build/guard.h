@@ -1,7 +1,7 @@
 /* The guard of a build: what it has cost so far, and why it has to end early.
  *
- * Costs are counted in operations, of some 6 to 30 ns each: a formula takes one for each of its instructions, and what
- * else is summed over is charged by what it takes. So a bound is the same on every machine, and builds stay
+ * Costs are counted in operations, of some 4 to 12 ns each (vndf_build.h): what an evaluation of the source takes, and
+ * what else is summed over is charged by what it takes. So a bound is the same on every machine, and builds stay
  * deterministic. Every GUARD_INTERVAL operations the caller's progress function is asked whether to go on.
  *
  * Once a build has to end nothing evaluates the source any more, all loops run out quickly on whatever is left, and

@@ -10,7 +10,7 @@
 #include "distribution/words.h"
 
 enum { BREAKS = 4096 };
-enum { OPERATIONS = 4 }; /* of an evaluation besides its instructions */
+enum { OPERATIONS = 4, CALL_OPERATIONS = 8 }; /* of an evaluation besides its instructions; of a function or power */
 
 typedef struct expression_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
@@ -70,6 +70,16 @@ static char *describe(const char *option, const char *text, const vndf_names *na
     return vndf_text_finish(&words, error);
 }
 
+static double operations_of(const vndf_expression *expression)
+{
+    double sum = OPERATIONS;
+    for (size_t i = 0; i < expression->count; i++) {
+        vndf_operation operation = expression->program[i].operation;
+        sum += operation == VNDF_CALL || operation == VNDF_POWER ? CALL_OPERATIONS : 1;
+    }
+    return sum;
+}
+
 /* 0 if there is no memory: a table without them would be another one. */
 static int find_breaks(expression_source *source, vndf_variables_of_slope *variables)
 {
@@ -98,7 +108,7 @@ static vndf_source *make(const char *option, const char *text, const vndf_names 
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1, OPERATIONS + (double)expression.count };
+    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1, operations_of(&expression) };
     source->expression = expression;
     if (find_breaks(source, variables))
         return &source->base;
