@@ -40,11 +40,12 @@ static void test_table(const oracle *o)
     vndf_free(table);
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
     for (size_t i = 0; i < ORACLE_COUNT; i++) {
         oracle o = oracle_get(i);
-        test_table(&o);
+        if (oracle_wanted(arguments, argument, i, oracle_name(&o)))
+            test_table(&o);
     }
     return test_done();
 }

@@ -30,13 +30,17 @@ static void test_subject(const vndf_distribution *d, const char *name, uint64_t 
     }
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
     const size_t kinds[] = {ORACLE_STUDENT, ORACLE_HAZE, ORACLE_RING};
-    test_subject(vndf_ggx(), "closed ggx", 100);
-    test_subject(vndf_beckmann(), "closed beckmann", 200);
+    if (oracle_wanted(arguments, argument, 0, "ggx"))
+        test_subject(vndf_ggx(), "closed ggx", 100);
+    if (oracle_wanted(arguments, argument, 1, "beckmann"))
+        test_subject(vndf_beckmann(), "closed beckmann", 200);
     for (size_t i = 0; i < 3; i++) {
         oracle o = oracle_get(kinds[i]);
+        if (!oracle_wanted(arguments, argument, i + 2, oracle_name(&o)))
+            continue;
         vndf_distribution *table = oracle_build(&o, i == 1 ? 2048 : 0, NULL);
         test_subject(table, oracle_name(&o), 300 + 100 * i);
         vndf_free(table);
