@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -198,6 +199,13 @@ vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certific
         fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
     vndf_source_free(source);
     return table;
+}
+
+int oracle_wanted(int arguments, char **argument, size_t index, const char *name)
+{
+    char number[24];
+    snprintf(number, sizeof number, "%lu", (unsigned long)index);
+    return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
 }
 
 int oracle_quick(void)

@@ -170,6 +170,7 @@ double oracle_visible(const oracle *o, const vndf_surface *surface, vndf_vec3 wi
 
 typedef struct survey {
     vndf_view view;
+    double heavy;
     oracle_finding finding;
 } survey;
 
@@ -180,11 +181,12 @@ static void measure(const oracle_point *point, void *user)
     v->finding.mass += pdf * point->weight;
     v->finding.truth += point->truth * point->weight;
     v->finding.tv += fabs(pdf - point->truth) * point->weight / 2;
+    v->finding.heavier += point->truth > v->heavy * pdf ? point->truth * point->weight : 0;
 }
 
-oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_vec3 wi)
+oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, double heavy)
 {
-    survey v = {vndf_view_from(surface, wi), {0, 0, 0, 0}};
+    survey v = {vndf_view_from(surface, wi), heavy, {0, 0, 0, 0, 0}};
     double area = oracle_surface_area(o, surface, wi);
     v.finding.area_error = fabs((double)vndf_projected_area(surface, wi) / area - 1);
     visit_all(o, surface, wi, measure, &v, 1); /* pdf and truth are even in the azimuth */

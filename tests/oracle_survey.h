@@ -31,8 +31,9 @@ typedef struct oracle_finding {
     double truth;      /* of the truth over the same grid; 1 up to the error of the grid */
     double tv;         /* half the integral of |pdf - truth| */
     double area_error; /* of vndf_projected_area, relative */
+    double heavier;    /* part of the truth where it exceeds `heavy` times the pdf */
 } oracle_finding;
-oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_vec3 wi);
+oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, double heavy);
 
 /* wi at theta and phi in degrees; exactly horizontal at 90. */
 vndf_vec3 oracle_direction(double theta, double phi);

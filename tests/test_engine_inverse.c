@@ -190,12 +190,16 @@ static void test_distribution(const vndf_distribution *d, const char *name)
         }
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
-    test_distribution(vndf_ggx(), "closed ggx");
-    test_distribution(vndf_beckmann(), "closed beckmann");
+    if (oracle_wanted(arguments, argument, 0, "ggx"))
+        test_distribution(vndf_ggx(), "closed ggx");
+    if (oracle_wanted(arguments, argument, 1, "beckmann"))
+        test_distribution(vndf_beckmann(), "closed beckmann");
     for (size_t i = 0; i < ORACLE_COUNT; i++) {
         oracle o = oracle_get(i);
+        if (!oracle_wanted(arguments, argument, i + 2, oracle_name(&o)))
+            continue;
         vndf_distribution *table = oracle_build(&o, i % 2 ? 0 : 2048, NULL);
         test_distribution(table, oracle_name(&o));
         vndf_free(table);

@@ -2,7 +2,8 @@
  * uniform numbers, for every shipped table, the smallest table of each source, the closed forms, and distributions that
  * are pathological: jumps, a hole at the pole, a narrow ring, an unbounded peak, a tail at the edge of integrability,
  * two scales a hundred apart, and a scale of 1e-9. Of the smallest tables and the pathological
- * ones every fifth view, which `vndf check --hard` does not leave out; with VNDF_TEST_QUICK every 37th of all. */
+ * ones every fifth view, which `vndf check --hard` does not leave out; with VNDF_TEST_QUICK every 37th of all. With the
+ * name of a shipped table as its argument it looks at that and the smallest of the source. */
 #include "oracle.h"
 #include "stress.h"
 #include "test.h"
@@ -109,9 +110,14 @@ static void test_notes(void)
     TEST(!stress_note(&result, STRESS_REPEATED, NAN, &first) && result.found[STRESS_REPEATED].worst == INFINITY);
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
     test_notes();
+    if (arguments > 1) {
+        char last[1024] = "";
+        test_shipped(argument[1], last, sizeof last);
+        return test_done();
+    }
     test_distribution(vndf_ggx(), "closed ggx", 1);
     test_distribution(vndf_beckmann(), "closed beckmann", 1);
     test_pathological();
