@@ -8,6 +8,7 @@
 
 #include "sampler/engine.h"
 #include "sampler/front.h"
+#include "sampler/surface.h"
 
 static const double PI = 3.14159265358979323846;
 static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
@@ -54,9 +55,8 @@ typedef struct finding {
 /* The view of the unit problem: isotropic, so that it may be made from s and c alone. */
 static vndf_view view_of(const vndf_distribution *table, double s, double c)
 {
-    vndf_surface surface = {table, 1.0f / table->scale, 1.0f / table->scale};
     vndf_vec3 wi = {(float)s, 0.0f, (float)c};
-    return vndf_view_from(&surface, wi);
+    return vndf_view_scaled(table, 1.0, 1.0, wi);
 }
 
 /* One azimuth of a direction, with the weight that it has in the sum. */

@@ -51,7 +51,7 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
-    float c = (float)view->c * a->n, k = (float)view->s * a->c;
+    float c = (float)view->c * a->n + 0.0f, k = (float)view->s * a->c; /* what rounds to -0 is the horizon */
     if (c < 0.0f)
         return vndf_radial_draw_below(d, c, k, u);
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
