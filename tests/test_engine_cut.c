@@ -29,7 +29,7 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
  * it would be anyway. */
 static double jump_of(const vndf_view *view, uint32_t j, uint32_t cell, double xi)
 {
-    const double h = 1e-5;
+    const double h = 2e-6;
     double part[4], slope = view->distribution->slope[j];
     for (int i = 0; i < 4; i++)
         part[i] = part_before(view, slope, (2 * i - 3) * h, cell, xi);
