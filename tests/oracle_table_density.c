@@ -4,9 +4,9 @@
  * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
  * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
  * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the cell of the
- * cut, in its neighbour and without a cut in the last cell the variable is zeta = xi (v0 + V)/(v0 + v1) of a
- * linear V(xi) and the end densities are those of f W/V. V is W, but for the neighbour's knot towards the cut: there it
- * is W + h^2 (W of the other knot - W), h the visible part of the cell of the cut. */
+ * cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0 + v1) of a
+ * linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot towards the cut: there
+ * it is 16 h of the way to W of the other knot, h the visible part of the cell of the cut, all of it from 1/16 on. */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -171,14 +171,12 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
     if (j == cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
-    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 1 >= cut && j <= cut + 1};
-    if (p.weighted && cut < t->count) {
-        double part = cut_piece(v, cut).length;
-        if (j < cut)
-            p.v1 += part * part * (w0 - w1);
-        else
-            p.v0 += part * part * (w1 - w0);
-    }
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 2 >= cut && j <= cut + 2};
+    double way = cut < t->count && p.weighted ? fmin(16 * cut_piece(v, cut).length, 1) : 0;
+    if (j + 2 == cut)
+        p.v1 += way * (w0 - w1);
+    if (j == cut + 2)
+        p.v0 += way * (w1 - w0);
     return p;
 }
 

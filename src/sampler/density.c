@@ -178,19 +178,21 @@ static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
     return p;
 }
 
-/* Any cell; see radial.h for V of the neighbour of the cut. */
+/* Any cell; see radial.h for V of the second cell beside the cut. */
 static piece piece_of(const vndf_engine_ray *ray, uint32_t j)
 {
     if (j == ray->cut)
         return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), change = ray->part * ray->part * (w0 - w1);
+    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
     piece p = {cell->f0, cell->f1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, w0, w1, 0.0, 1.0, 0};
-    if (j + 1 < ray->cut || j > ray->cut + 1)
+    if (j + 2 < ray->cut || j > ray->cut + 2)
         return p;
     p.weighted = 1;
-    p.v0 = j > ray->cut ? w0 - change : w0;
-    p.v1 = j > ray->cut ? w1 : w1 + change;
+    if (j + 2 == ray->cut)
+        p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
+    else if (j == ray->cut + 2)
+        p.v0 += (way < 1.0 ? way : 1.0) * (w1 - w0);
     return p;
 }
 
