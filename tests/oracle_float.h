@@ -20,8 +20,8 @@ typedef struct float_subject {
     oracle_table truth;
 } float_subject;
 
-/* `name` is a file of tables/ or tests/corpus/table/, or "BYTES SLOPE": the table of P22 = SLOPE of at most so many
- * bytes, written to `scratch` and read again. 0 after a message if there is none. */
+/* `name` is a file of tables/ or tests/corpus/table/, or "BYTES SLOPE" or "BYTES family NAME": the table of P22 = SLOPE,
+ * or of a family, of at most so many bytes, written to `scratch` and read again. 0 after a message if there is none. */
 int float_subject_open(float_subject *subject, const char *name, const char *scratch);
 void float_subject_close(float_subject *subject);
 
@@ -63,5 +63,14 @@ void float_note(float_worst worst[FLOAT_COUNT], const float_subject *subject, fl
 /* Random local search for a larger error: `steps` steps of the point found worst. */
 void float_climb(float_worst *worst, const float_subject *subject, float_quantity quantity, size_t steps,
                  unsigned long long *state);
+
+/* So many points of either kind, each for all quantities, then a climb from the worst of each. */
+void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, size_t random, size_t hard, size_t climb,
+               unsigned long long seed);
+
+/* One line of tests/corpus/float/worst.csv, and back: name, quantity, wi, roughness, wm (or u1, u2 and 0), error.
+ * float_scan returns 0 if it is none. */
+void float_print(const float_subject *subject, float_quantity quantity, const float_worst *worst);
+int float_scan(const char *line, char name[64], float_quantity *quantity, float_point *at);
 
 #endif

@@ -49,9 +49,9 @@ typedef struct oracle_query {
 enum { ORACLE_SIDES = 6 };
 size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES]);
 
-/* The densities, or with `ndf` D, where the slope is 2^-50 less and more: where they change by 1e-5 between these, no
- * arithmetic in double could place the normal any better. */
-void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double value[2]);
+/* The least and the largest density, or with `ndf` D, where the slope or the cut is 2^-50 less or more: where they change by
+ * 1e-5 between these, no arithmetic in double could place the normal any better. */
+void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double range[2]);
 
 /* A(wi), Lambda, G1; D(wm), with the value on the other side of a knot within two ulps as above. */
 double oracle_table_area(const oracle_table *t, const oracle_query *q);

@@ -301,19 +301,23 @@ size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, doub
     return n > 0 ? n : 1;
 }
 
-void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double value[2])
+void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double range[2])
 {
-    for (int i = 0; i < 2; i++) {
-        double other[ORACLE_SIDES];
+    range[0] = HUGE_VAL;
+    range[1] = 0;
+    for (int i = 0; i < 4; i++) {
+        double value[ORACLE_SIDES] = {0}, step = i % 2 ? 1 + 0x1p-50 : 1 - 0x1p-50;
         oracle_query moved = *q;
         seen v = seen_from(t, q);
         sides exact = {0, 0};
-        v.x *= i ? 1 + 0x1p-50 : 1 - 0x1p-50;
-        moved.wm[2] *= i ? 1 - 0x1p-50 : 1 + 0x1p-50;
-        value[i] = 0;
-        if (ndf && oracle_table_ndfs(t, &moved, other) > 0)
-            value[i] = other[0];
+        v.x *= i < 2 ? step : 1;
+        v.c *= i < 2 ? 1 : step;
+        moved.wm[2] /= step;
+        if (ndf)
+            oracle_table_ndfs(t, &moved, value);
         else
-            density_on(&v, exact, &value[i]);
+            density_on(&v, exact, &value[0]);
+        range[0] = fmin(range[0], value[0]);
+        range[1] = fmax(range[1], value[0]);
     }
 }
