@@ -242,8 +242,11 @@ static int density_on(const seen *v, sides side, double *value)
     double azimuth = azimuth_density(v, (v->cosine >= 0) != side.seam);
     if (!(azimuth > 0) || (v->c <= 0 && v->cosine <= 0))
         return 1;
-    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut))
-        return 0;
+    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut)) { /* W > 0: this is the cut, but for rounding */
+        double part = cut_piece(v, cut).length;
+        oracle_place end = {cut, v->c > 0 ? part : 1 - part, v->c > 0 ? 1 - part : part};
+        at = end;
+    }
     size_t j = at.cell;
     double grow = (at.eta * (t->x[j] + t->z[j]) + at.xi * (t->x[j + 1] + t->z[j + 1])) / (v->x + v->z);
     double width = t->x[j + 1] * t->z[j] - t->x[j] * t->z[j + 1], mass = visible_mass(v, cut);

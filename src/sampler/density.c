@@ -269,11 +269,15 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
 {
     place at = place_of(ray->table, x, z);
     int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
-    if (hidden || !(ray->mass > 0.0) || !(ray->azimuth > 0.0))
+    if (!(ray->mass > 0.0) || !(ray->azimuth > 0.0))
         return 0.0;
-    piece p = piece_of(ray, at.cell);
+    piece p = piece_of(ray, hidden ? ray->cut : at.cell);
     if (!(p.length > 0.0))
         return 0.0;
+    if (hidden) { /* by rounding alone, since w > 0: the place is the cut */
+        place end = {ray->cut, ray->c > 0.0 ? p.length : p.begin, ray->c > 0.0 ? 1.0 - p.length : p.length};
+        at = end;
+    }
     return ray->azimuth * density_over_x(ray, &p, at, w) / (ray->mass * ray->table->cells[at.cell].width);
 }
 
