@@ -114,6 +114,13 @@ static place place_of(const vndf_distribution *d, double x, double z)
     return at;
 }
 
+/* X + Z at a place: the knots have 1 but for their rounding. What is per X + Z = 1 of the normal becomes per that. */
+static double sum_at(const vndf_distribution *d, place at)
+{
+    const float *x = d->knots.x + at.cell, *z = d->knots.z + at.cell;
+    return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
+}
+
 /* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes. */
 typedef struct bump {
     double a, b;
@@ -278,7 +285,8 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
         place end = {ray->cut, ray->c > 0.0 ? p.length : p.begin, ray->c > 0.0 ? 1.0 - p.length : p.length};
         at = end;
     }
-    return ray->azimuth * density_over_x(ray, &p, at, w) / (ray->mass * ray->table->cells[at.cell].width);
+    double sum = sum_at(ray->table, at), density = density_over_x(ray, &p, at, w * sum) * (sum * sum * sum);
+    return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
 }
 
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
@@ -307,5 +315,6 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
     bump bend = bump_of(cell);
     double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
     double f_over_x = at.cell == 0 ? rise / kx[1] : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
-    return f_over_x > 0.0 ? f_over_x / cell->width : 0.0;
+    double sum = sum_at(d, at), square = sum * sum;
+    return f_over_x > 0.0 ? f_over_x / cell->width * (square * square) : 0.0;
 }
