@@ -54,7 +54,7 @@ static double pdf_per_slope(const integral *g, double r, double cos_a, double si
 /* Slopes r0 to r1 <= infinity, in the variable in which r/(scale + r) is linear. */
 static void add_panel(integral *g, double cos_a, double sin_a, double weight, double r0, double r1)
 {
-    double scale = g->table->scale, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
+    double scale = g->table->scale_exact, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
     double z0 = scale / (scale + r0), z1 = isinf(r1) ? 0 : scale / (scale + r1);
     for (int i = 0; i < points(g); i++) {
         double x = x0 + (x1 - x0) * node(g, i), z = z0 + (z1 - z0) * node(g, i), r = scale * x / z;
@@ -63,12 +63,19 @@ static void add_panel(integral *g, double cos_a, double sin_a, double weight, do
     }
 }
 
+/* Of a knot, unrounded: a jump of D may stand there. */
+static double slope_of(const integral *g, uint32_t j)
+{
+    double x = g->table->knots.x[j], z = g->table->knots.z[j];
+    return z > 0 ? x / z * g->table->scale_exact : INFINITY;
+}
+
 static void add_azimuth(integral *g, double a, double weight)
 {
     double cos_a = cos(a), sin_a = g->count++ % 2 ? sin(a) : -sin(a), k = g->s * cos_a, cut = g->c * k < 0 ?
         -g->c / k : 0;
     for (uint32_t j = 0; j < g->table->radial_count; j++) {
-        double r0 = g->table->slope[j] * g->table->scale, r1 = g->table->slope[j + 1] * g->table->scale;
+        double r0 = slope_of(g, j), r1 = slope_of(g, j + 1);
         if (g->c > 0 && k < 0)
             r1 = fmin(r1, cut);
         else if (g->c <= 0)
