@@ -24,8 +24,9 @@ static int build_into(const char *recipe, const char *path)
     vndf_error error = {VNDF_OK, ""};
     char *slope;
     vndf_build_options options = {strtoul(recipe, &slope, 10), 0, NULL, NULL};
-    vndf_source *source = strncmp(slope, " family ", 8) == 0 ? vndf_source_family(slope + 8, &error)
-                                                             : vndf_source_slope_expression(slope, NULL, 0, &error);
+    int family = strncmp(slope, " family ", 8) == 0;
+    vndf_source *source = family ? vndf_source_family(slope + 8, &error)
+                                 : vndf_source_slope_expression(slope, NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     int good = table && vndf_save(table, path, &error) == VNDF_OK;
     if (!good)
@@ -77,7 +78,8 @@ void float_subject_close(float_subject *subject)
 
 static oracle_query query_of(const float_point *at, vndf_vec3 wm)
 {
-    oracle_query q = {{(double)at->wi.x, (double)at->wi.y, (double)at->wi.z}, {(double)at->alpha_x, (double)at->alpha_y},
+    oracle_query q = {{(double)at->wi.x, (double)at->wi.y, (double)at->wi.z},
+                      {(double)at->alpha_x, (double)at->alpha_y},
                       {(double)wm.x, (double)wm.y, (double)wm.z}};
     return q;
 }
@@ -102,7 +104,8 @@ static double nearest(double got, const double *value, size_t n, int *aside)
 }
 
 /* ... and nothing where the density is too steep for double. */
-static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf, int *aside)
+static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf,
+                             int *aside)
 {
     double range[2];
     if (error <= FLOAT_LIMIT)
@@ -114,7 +117,8 @@ static double unless_blurred(const float_subject *subject, const oracle_query *q
     return 0;
 }
 
-static double density_error(const float_subject *subject, float_quantity quantity, const float_point *at, int *aside)
+static double density_error(const float_subject *subject, float_quantity quantity, const float_point *at,
+                            int *aside)
 {
     vndf_surface surface = {subject->table, at->alpha_x, at->alpha_y};
     vndf_view view = vndf_view_from(&surface, at->wi);
@@ -236,8 +240,8 @@ void float_climb(float_worst *worst, const float_subject *subject, float_quantit
 
 /* ---- all of it ---- */
 
-void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, size_t random, size_t hard, size_t climb,
-               unsigned long long seed)
+void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, size_t random, size_t hard,
+               size_t climb, unsigned long long seed)
 {
     unsigned long long state = seed;
     for (size_t i = 0; i < random + hard; i++) {
@@ -254,21 +258,22 @@ void float_print(const float_subject *subject, float_quantity quantity, const fl
 {
     const float_point *at = &worst->at;
     printf("%s,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g\n", subject->name, float_quantity_name(quantity),
-           (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->alpha_x, (double)at->alpha_y, (double)at->wm.x,
-           (double)at->wm.y, (double)at->wm.z, worst->error);
+           (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->alpha_x, (double)at->alpha_y,
+           (double)at->wm.x, (double)at->wm.y, (double)at->wm.z, worst->error);
 }
 
 int float_scan(const char *line, char name[64], float_quantity *quantity, float_point *at)
 {
     char word[16];
     double n[8];
-    int fields = sscanf(line, "%63[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, word, &n[0], &n[1], &n[2], &n[3], &n[4],
-                        &n[5], &n[6], &n[7]), id = 0;
+    int fields = sscanf(line, "%63[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, word, &n[0], &n[1], &n[2],
+                        &n[3], &n[4], &n[5], &n[6], &n[7]), id = 0;
     while (id < FLOAT_COUNT && strcmp(word, float_quantity_name((float_quantity)id)) != 0)
         id++;
     if (fields != 10 || id == FLOAT_COUNT)
         return 0;
-    float_point read = {{(float)n[0], (float)n[1], (float)n[2]}, (float)n[3], (float)n[4], {(float)n[5], (float)n[6], (float)n[7]}};
+    float_point read = {{(float)n[0], (float)n[1], (float)n[2]}, (float)n[3], (float)n[4],
+                        {(float)n[5], (float)n[6], (float)n[7]}};
     *at = read;
     *quantity = (float_quantity)id;
     return 1;

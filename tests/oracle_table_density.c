@@ -3,10 +3,11 @@
  *
  * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
  * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
- * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the cell of the
- * cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0 + v1) of a
- * linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot towards the cut: there
- * it is 16 h of the way to W of the other knot, h the visible part of the cell of the cut, all of it from 1/16 on. */
+ * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the
+ * cell of the cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0
+ * + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot
+ * towards the cut: there it is 16 h of the way to W of the other knot, h the visible part of the cell of the cut,
+ * all of it from 1/16 on. */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -106,7 +107,8 @@ static double azimuth_density(const seen *v, int toward)
     double cosine = fabs(v->cosine);
     if (v->c < 0)
         return toward ? 0.5 * wedge_density(&v->t->below, v->s, cosine, v->sine) : 0;
-    double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1, wedge = oracle_wedge_mass(&v->t->above, v->c);
+    double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1;
+    double wedge = oracle_wedge_mass(&v->t->above, v->c);
     double here = toward ? front_density(v, cosine, v->sine)
                          : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine) : 0;
     return 0.5 * here / (front + wedge);
@@ -156,12 +158,13 @@ static piece cut_piece(const seen *v, size_t j)
     double k = v->s * v->cosine, w0 = v->c * t->z[j] + k * t->x[j], w1 = v->c * t->z[j + 1] + k * t->x[j + 1];
     if (v->c > 0) {
         double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1, w = fmax(w0, 0);
-        piece p = {t->f0[j], fmax(oracle_table_cubic(t, j, part, 1 - part), 0), w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
+        double end = fmax(oracle_table_cubic(t, j, part, 1 - part), 0);
+        piece p = {t->f0[j], end, w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
         return p;
     }
     double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1, w = fmax(w1, 0);
-    piece p = {fmax(oracle_table_cubic(t, j, 1 - part, part), 0), t->f1[j], w * part * part_integral(t, j, 1, part), 0, w, 0, w,
-               1 - part, part, 1};
+    double end = fmax(oracle_table_cubic(t, j, 1 - part, part), 0);
+    piece p = {end, t->f1[j], w * part * part_integral(t, j, 1, part), 0, w, 0, w, 1 - part, part, 1};
     return p;
 }
 
@@ -171,7 +174,8 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
     if (j == cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
-    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 2 >= cut && j <= cut + 2};
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1,
+               j + 2 >= cut && j <= cut + 2};
     double way = cut < t->count && p.weighted ? fmin(16 * cut_piece(v, cut).length, 1) : 0;
     if (j + 2 == cut)
         p.v1 += way * (w0 - w1);
@@ -242,7 +246,8 @@ static int density_on(const seen *v, sides side, double *value)
     double azimuth = azimuth_density(v, (v->cosine >= 0) != side.seam);
     if (!(azimuth > 0) || (v->c <= 0 && v->cosine <= 0))
         return 1;
-    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut)) { /* W > 0: this is the cut, but for rounding */
+    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut)) {
+        /* W > 0: this is the cut, but for rounding */
         double part = cut_piece(v, cut).length;
         oracle_place end = {cut, v->c > 0 ? part : 1 - part, v->c > 0 ? 1 - part : part};
         at = end;
@@ -256,7 +261,8 @@ static int density_on(const seen *v, sides side, double *value)
     return 1;
 }
 
-/* a + b + c for numbers that cancel, in order of size: the first sum is then exact or the last is small beside it. */
+/* a + b + c for numbers that cancel, in order of size: the first sum is then exact or the last is small beside
+ * it. */
 static double sum_of(double a, double b, double c)
 {
     double n[3] = {a, b, c};

@@ -1,8 +1,8 @@
-/* The oracle of a table is itself right: its density integrates to 1 over the sphere of normals from above and below the
- * horizon, whatever the table's size; its D integrates to 1 with the cosine, and with max(0, wi.wm) to its area. The
- * first is exact by construction of every cell, so the bound is that of the quadrature here; the others hold as far as
- * the moments are floats and the area's spline is that of the cells: twice the certificate's area_error, but for the disc,
- * whose four cells do not know its edge as well as the spline does. */
+/* The oracle of a table is itself right: its density integrates to 1 over the sphere of normals from above and
+ * below the horizon, whatever the table's size; its D integrates to 1 with the cosine, and with max(0, wi.wm) to
+ * its area. The first is exact by construction of every cell, so the bound is that of the quadrature here; the
+ * others hold as far as the moments are floats and the area's spline is that of the cells: twice the
+ * certificate's area_error, but for the disc, whose four cells do not know its edge as well as the spline does. */
 #include "oracle.h"
 #include "oracle_float.h"
 #include "test.h"

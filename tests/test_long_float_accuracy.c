@@ -1,6 +1,7 @@
-/* Over 1.5e7 random and 1.5e6 hard points (each normal that faces wi is one of a density: two of three), and climbing from the worst of them, density, drawn density, area, Lambda, G1 and D in
- * float are within 1e-5 of the oracle (test_float_accuracy.c says what of), for every shipped table and those of
- * tests/corpus/table. Prints the worst of each quantity of each table as lines of tests/corpus/float/worst.csv. */
+/* Over 1.5e7 random and 1.5e6 hard points (each normal that faces wi is one of a density: two of three), and
+ * climbing from the worst of them, density, drawn density, area, Lambda, G1 and D in float are within 1e-5 of the
+ * oracle (test_float_accuracy.c says what of), for every shipped table and those of tests/corpus/table. Prints
+ * the worst of each quantity of each table as lines of tests/corpus/float/worst.csv. */
 #include <stdlib.h>
 
 #include "oracle.h"
@@ -13,7 +14,8 @@ static const char *const subjects[] = {
     "sgd-blue-metallic-paint-b.vndf", "sgd-red-fabric-r.vndf", "sgd-specular-black-phenolic-g.vndf",
     "abc-two-layer-gold.vndf", "example.vndf", "disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf", "tail.vndf"};
 
-enum { SUBJECTS = sizeof subjects / sizeof *subjects, RANDOM = 15000000 / SUBJECTS, HARD = 1500000 / SUBJECTS, CLIMB = 100000 };
+enum { SUBJECTS = sizeof subjects / sizeof *subjects, RANDOM = 15000000 / SUBJECTS,
+       HARD = 1500000 / SUBJECTS, CLIMB = 100000 };
 
 int main(int argc, char **argv)
 {
@@ -39,7 +41,8 @@ int main(int argc, char **argv)
         float_subject_close(&subject);
     }
     for (int id = 0; id < FLOAT_COUNT; id++)
-        fprintf(stderr, "%-8s %9lu checked, %lu missed, %lu at jumps, worst %.2g\n", float_quantity_name((float_quantity)id),
-                (unsigned long)most[id].checked, (unsigned long)most[id].missed, (unsigned long)most[id].aside, most[id].error);
+        fprintf(stderr, "%-8s %9lu checked, %lu missed, %lu at jumps, worst %.2g\n",
+                float_quantity_name((float_quantity)id), (unsigned long)most[id].checked, (unsigned long)most[id].missed,
+                (unsigned long)most[id].aside, most[id].error);
     return test_done();
 }

@@ -1,12 +1,13 @@
 /* The density of a given normal, and D, in double from the very numbers that came in. In float three things would
- * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D is
- * steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed in the turned frame:
+ * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D
+ * is steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed
+ * in the turned frame:
  *
  *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch. Cells are those of
- * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5
- * of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+ * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below
+ * 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"
@@ -56,9 +57,11 @@ static mixed_row wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
     size_t ends = w->cell_count + 1;
-    const float *mass = w->cell_mass + (size_t)view->row * w->stride, *density = w->density + (size_t)view->row * ends;
+    const float *mass = w->cell_mass + (size_t)view->row * w->stride;
+    const float *density = w->density + (size_t)view->row * ends;
     double m = view->mix, rest = 1.0 - m;
-    mixed_row row = {{mass, mass + w->stride, mass + 2 * (size_t)w->stride}, {density, density + ends, density + 2 * ends}, w->q,
+    mixed_row row = {{mass, mass + w->stride, mass + 2 * (size_t)w->stride},
+                     {density, density + ends, density + 2 * ends}, w->q,
                      {view->wedge * (rest * rest), view->wedge * (2.0 * rest * m), view->wedge * (m * m)},
                      view->aspect_p, view->aspect_r, w->cell_count};
     return row;
@@ -114,14 +117,16 @@ static place place_of(const vndf_distribution *d, double x, double z)
     return at;
 }
 
-/* X + Z at a place: the knots have 1 but for their rounding. What is per X + Z = 1 of the normal becomes per that. */
+/* X + Z at a place: the knots have 1 but for their rounding. What is per X + Z = 1 of the normal becomes per
+ * that. */
 static double sum_at(const vndf_distribution *d, place at)
 {
     const float *x = d->knots.x + at.cell, *z = d->knots.z + at.cell;
     return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
 }
 
-/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes. */
+/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes.
+ * */
 typedef struct bump {
     double a, b;
 } bump;
@@ -166,7 +171,8 @@ typedef struct piece {
 static piece piece_above(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w = knot_weight(ray, j), end = ray->c * ray->table->knots.z[j + 1] + ray->k * ray->table->knots.x[j + 1];
+    const vndf_knots *k = &ray->table->knots;
+    double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     bump bend = bump_of(cell);
     piece p = {cell->f0, cubic(cell, h, 1.0 - h), w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h),
@@ -180,8 +186,8 @@ static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
     double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     bump bend = bump_of(cell);
-    piece p = {cubic(cell, 1.0 - h, h), cell->f1, w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h),
-               0.0, w, 0.0, w, 1.0 - h, h, 1};
+    double mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
+    piece p = {cubic(cell, 1.0 - h, h), cell->f1, mass, 0.0, w, 0.0, w, 1.0 - h, h, 1};
     return p;
 }
 
@@ -208,12 +214,13 @@ static double over(double w, double v)
     return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
 }
 
-/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as X
- * does. */
+/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
+ * X does. */
 static double density_over_x(const vndf_engine_ray *ray, const piece *p, place at, double w)
 {
     const vndf_knots *k = &ray->table->knots;
-    double xi = at.xi / p->length, eta = at.eta / p->length, zeta, rest, ratio = 1.0, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1, per = 1.0;
+    double xi = at.xi / p->length, eta = at.eta / p->length, ratio = 1.0, per = 1.0;
+    double zeta, rest, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1;
     if (p->length < 1.0) {
         xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
         eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
@@ -314,7 +321,8 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
     const float *kx = d->knots.x + at.cell;
     bump bend = bump_of(cell);
     double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
-    double f_over_x = at.cell == 0 ? rise / kx[1] : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
+    double f_over_x = at.cell == 0 ? rise / kx[1]
+                                   : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
     double sum = sum_at(d, at), square = sum * sum;
     return f_over_x > 0.0 ? f_over_x / cell->width * (square * square) : 0.0;
 }
