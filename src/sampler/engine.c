@@ -54,8 +54,8 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
     float target = half * (view->front + view->wedge);
     vndf_azimuth at;
     if (view->c >= 0.0f && (target < view->front || !(view->wedge > 0.0f))) {
-        vndf_azimuth_row row = vndf_front_row(view);
-        return vndf_azimuth_draw(&row, target);
+        float rest = view->front - target;
+        return vndf_front_draw(vndf_front_of(view->distribution, view->s, view->c), rest > 0.0f ? rest : 0.0f, 1.0f / view->front);
     }
     vndf_azimuth_row row = vndf_wedge_row(view);
     if (view->c >= 0.0f) { /* counted from the far side, a = pi */
@@ -112,8 +112,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)
-        *pdf = per_steradian(view, 0.5f * a.density / (view->front + view->wedge) *
-                                   (vndf_rational_density(&r.piece.cell, r.inside) / (x * d->cells[j].width)), length);
+        *pdf = per_steradian(view, a.density * r.inside.density / (view->area * x * d->cells[j].width), length);
     return wm;
 }
 
@@ -145,30 +144,29 @@ static place place_of(const vndf_view *view, vndf_vec3 normal)
     return p;
 }
 
-/* The row that an azimuth belongs to; 0 if nothing is drawn there. */
-static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
+static int is_front(const vndf_view *view, float cos_phi)
 {
-    int toward = cos_phi >= 0.0f, above = view->c >= 0.0f;
-    if (above && toward) {
-        *row = vndf_front_row(view);
-        return view->front > 0.0f;
-    }
-    *row = vndf_wedge_row(view);
-    return above != toward && view->wedge > 0.0f && row->p > 0.0f;
+    return view->c >= 0.0f && cos_phi >= 0.0f;
+}
+
+/* Whether normals are drawn at an azimuth that is not in front. */
+static int is_wedge(const vndf_view *view, float cos_phi)
+{
+    return (view->c >= 0.0f) != (cos_phi >= 0.0f) && view->wedge > 0.0f && view->aspect_p > 0.0f;
 }
 
 VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float sin_phi)
 {
     vndf_engine_ray ray;
-    vndf_azimuth_row row;
     ray.azimuth = 0.0f;
     ray.law = vndf_radial_law_for(view->distribution, view->c, view->s * cos_phi);
-    if (!row_of(view, cos_phi, &row))
-        return ray;
-    float azimuth = vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi);
-    if (row.q != vndf_front_q)
-        azimuth *= view->wedge;
-    ray.azimuth = 0.5f * azimuth / (view->front + view->wedge);
+    if (is_front(view, cos_phi)) {
+        ray.azimuth = vndf_front_density(vndf_front_of(view->distribution, view->s, view->c), cos_phi);
+    } else if (is_wedge(view, cos_phi)) {
+        vndf_azimuth_row row = vndf_wedge_row(view);
+        ray.azimuth = vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi) * view->wedge;
+    }
+    ray.azimuth *= 0.5f / (view->front + view->wedge);
     return ray;
 }
 
@@ -205,13 +203,13 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
 /* Part of a half turn's mass between the side of wi and |a|. */
 static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    vndf_azimuth_row row;
     float total = view->front + view->wedge;
-    if (!row_of(view, cos_phi, &row))
+    if (is_front(view, cos_phi))
+        return (view->front - vndf_front_rest(vndf_front_of(view->distribution, view->s, view->c), cos_phi, sin_phi)) / total;
+    if (!is_wedge(view, cos_phi))
         return 1.0f;
+    vndf_azimuth_row row = vndf_wedge_row(view);
     float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
-    if (row.q == vndf_front_q)
-        return before / total;
     return view->c < 0.0f ? before : (view->front + (1.0f - before) * view->wedge) / total;
 }
 

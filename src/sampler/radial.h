@@ -166,7 +166,7 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1), g0 = law->gain * w0, g1 = law->gain * w1;
-    vndf_radial_piece piece = {vndf_rational_cell_from(cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1),
+    vndf_radial_piece piece = {{cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1},
                                0, w0, w1, 0.0f, 0.0f, 0.0f, 1.0f};
     return piece;
 }
@@ -181,7 +181,7 @@ VNDF_INLINE float vndf_radial_over(float w, float v)
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
 {
     float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
-    vndf_radial_piece piece = {vndf_rational_cell_from(law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass),
+    vndf_radial_piece piece = {{law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass},
                                1, w0, w1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
     return piece;
 }
@@ -196,8 +196,8 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *la
     piece.v0 = beyond ? w0 - change : w0;
     piece.v1 = beyond ? w1 : w1 + change;
     float half = law->gain * (0.5f * (piece.v0 + piece.v1));
-    piece.cell = vndf_rational_cell_from(cell->f0 * vndf_radial_over(w0, piece.v0) * half,
-                                         cell->f1 * vndf_radial_over(w1, piece.v1) * half, piece.cell.mass);
+    piece.cell.e0 = cell->f0 * vndf_radial_over(w0, piece.v0) * half;
+    piece.cell.e1 = cell->f1 * vndf_radial_over(w1, piece.v1) * half;
     return piece;
 }
 

@@ -6,11 +6,11 @@
 #include "sampler/radial.h"
 #include "table/window.h"
 
-/* A drawn place, its piece and where that stands. */
+/* A drawn place, its piece, and the place in the piece's rational cell. */
 typedef struct vndf_radial_drawn {
     vndf_radius at;
     vndf_radial_piece piece;
-    float inside;
+    vndf_rational_place inside;
 } vndf_radial_drawn;
 
 /* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
@@ -72,7 +72,7 @@ VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece, float rest)
 {
     vndf_radial_drawn r = {{j, 1.0f, 0.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
-    float xi = r.inside, eta = 1.0f - xi;
+    float xi = r.inside.xi, eta = 1.0f - xi;
     if (piece.weighted) {
         float within = vndf_weighted_xi(piece.v0, piece.v1, xi);
         xi = piece.begin + piece.length * within;
@@ -129,7 +129,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d,
 VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
     const vndf_knots *k = &d->knots;
-    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside;
+    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside.xi;
     float change = fabsf(rise) * k->x[r->at.cell + 1] * k->z[r->at.cell], least = here < r->piece.cell.mass ? here : r->piece.cell.mass;
     return change > 10.0f * least * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
 }

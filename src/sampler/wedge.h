@@ -52,7 +52,7 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float
 {
     const vndf_wedge *wedge = vndf_wedge_of(d, c);
     float y = c >= 0.0f ? c : s, mass = vndf_wedge_mass(wedge, y);
-    float front = c >= 0.0f ? c * d->f0_total * VNDF_QUARTER_TURN + s * d->f1_total : 0.0f;
+    float front = c >= 0.0f ? vndf_front_mass(vndf_front_of(d, s, c)) : 0.0f;
     uint32_t i = vndf_guide_find(&wedge->row_guide, y);
     float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
     vndf_row_weights w = vndf_row_weights_at(mix);
@@ -61,17 +61,6 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float
     vndf_wedge_view view = {2.0f * (front + mass), front, c >= 0.0f ? mass : s > 0.0f ? 1.0f : 0.0f, mix, w.first * p[0] + w.middle * p[1] + w.last * p[2],
                             w.first * r[0] + w.middle * r[1] + w.last * r[2], 2 * i};
     return view;
-}
-
-/* The half circle towards wi, above the horizon. */
-VNDF_INLINE vndf_azimuth_row vndf_front_row(const vndf_view *view)
-{
-    const vndf_distribution *d = view->distribution;
-    vndf_azimuth_row row = {
-        {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, view->c * d->f0_total},
-        {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, view->s * d->f1_total},
-        {NULL, NULL, NULL, 0.0f}, 2, vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f, 1};
-    return row;
 }
 
 /* The wedge: away from wi above the horizon, towards it below. Its mass is 1. */
@@ -83,7 +72,7 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
     vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
                             {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
                             {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends, share.last},
-                            3, w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r, 0};
+                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
     return row;
 }
 
