@@ -91,6 +91,15 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     return wm;
 }
 
+/* Above the horizon, where W is no small difference and the azimuth not one where W may be small for all normals. */
+VNDF_INLINE int is_plain(const vndf_view *view, const vndf_azimuth *a, float x, float z)
+{
+    float across = view->s * x * a->n, along = view->s * x * a->c, up = view->c * z * a->n;
+    if (a->c >= 0.0f)
+        return view->c >= (a->c < 0.05f * a->n ? 0.25f : 0.0f);
+    return view->c >= 0.25f && along + up > 0.1f * (across + up);
+}
+
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     const vndf_distribution *d = view->distribution;
@@ -106,9 +115,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    float along = view->s * x * cos_phi, up = view->c * z; /* W is their sum; no small difference: */
-    int plain = along + up > 0.1f * (view->s * x + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
-                fabsf(half) < 0.9999f && view->c >= (a.c < 0.05f * a.n ? 0.25f : 0.0f) && !r.piece.weighted;
+    int plain = is_plain(view, &a, x, z) && fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r))
         return sample_delicate(view, wm, pdf);
     if (pdf)
@@ -219,7 +226,7 @@ void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, floa
     vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
-    *u2 = law.gain > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
+    *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }
 
 /* ---- the distribution ---- */

@@ -50,16 +50,16 @@ VNDF_INLINE float vndf_front_rest(vndf_front front, float cos_phi, float sin_phi
     return vndf_front_beyond(front, y, y * y);
 }
 
-/* The azimuth with mass `rest` beyond it; per_mass is 1/vndf_front_mass. Quotients of nothing become 0. */
+/* The azimuth with mass `rest` beyond it; per_mass is 1/vndf_front_mass. The third power of the step is 1e-8. */
 VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, float rest, float per_mass)
 {
-    float part = rest * per_mass, k = front.even * (1.0f + 0.1107f * part * part), twice = 2.0f * front.odd;
-    float y = rest / (k + sqrtf(k * k + twice * rest) + 1e-30f), y2 = y * y;
-    float sine = 2.0f * y * sqrtf(1.0f - y2), cosine = 1.0f - 2.0f * y2;
-    float miss = vndf_front_beyond(front, y, y2) - rest, density = front.even + front.odd * sine;
-    float step = -miss * density / (density * density - 0.5f * miss * front.odd * cosine + 1e-30f);
-    float step2 = step * step, sine_step = step * (1.0f - step2 * (1.0f / 6.0f)), cosine_step = 1.0f - 0.5f * step2;
-    float c = sine * cosine_step + cosine * sine_step, s = cosine * cosine_step - sine * sine_step;
+    const float tiny = 1e-30f; /* quotients of nothing become 0, here and below */
+    float k = (front.even + tiny) + (0.1107f * front.even * per_mass * per_mass) * (rest * rest);
+    float y = rest / (k + sqrtf(k * k + 2.0f * front.odd * rest)), y2 = y * y;
+    float sine = 2.0f * y * sqrtf(1.0f - y2), cosine = 1.0f - 2.0f * y2, density = vndf_front_density(front, sine) + 1e-18f;
+    float miss = rest - vndf_front_beyond(front, y, y2);
+    float step = miss * density / (density * density + miss * (0.5f * front.odd * cosine)), half_step2 = 0.5f * (step * step);
+    float c = (sine + cosine * step) - sine * half_step2, s = (cosine - sine * step) - cosine * half_step2;
     vndf_azimuth at = {c > 0.0f ? c : 0.0f, s > 0.0f ? s : 0.0f, 1.0f, 0.0f};
     at.density = vndf_front_density(front, at.c);
     return at;

@@ -26,7 +26,7 @@ typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
     float scale;              /* by which they were multiplied */
-    float gain;               /* factor of all masses; 0 if nothing is visible: the horizon stands for it */
+    float gain;               /* factor of all masses; with the scale 0 if nothing is visible: the horizon stands for it */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi; without a cut 0 */
     float part_mass;          /* its mass, less the gain */
@@ -89,7 +89,6 @@ VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
-    law.gain = scale > 0.0f ? 1.0f : 0.0f;
     law.part_mass *= scale;
     law.part_w0 *= scale;
     law.part_w1 *= scale;
@@ -124,7 +123,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
 {
     float rho = -c / k;
     uint32_t j = vndf_guide_find(&d->slope_guide, rho);
-    vndf_radial_law law = {d, -rho, 1.0f, 1.0f / k, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     const vndf_radial_cell *cell = &d->cells[j];
     float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
     law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
@@ -135,6 +134,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
     law.part_w1 = w1;
     float total = vndf_radial_beyond(&law, j + 1) + law.part_mass;
     law.gain = total > 1e-36f && k > 1e-36f ? 1.0f / total : 0.0f;
+    law.scale = law.gain > 0.0f ? 1.0f / k : 0.0f;
     return law;
 }
 

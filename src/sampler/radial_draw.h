@@ -48,7 +48,7 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t 
 }
 
 /* Where no window is known: first the block, then within. Returns the last knot with no more than target before it. */
-static inline uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
+VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
 {
     uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
     block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
@@ -78,7 +78,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
         xi = piece.begin + piece.length * within;
         eta = piece.begin > 0.0f ? piece.length * (1.0f - within) : 1.0f - xi;
     }
-    if (!(eta > 0.0f && law->gain > 0.0f))
+    if (!(eta > 0.0f && law->scale > 0.0f))
         return r; /* where nothing is visible the horizon stands for it */
     r.at.xi = xi;
     r.at.eta = eta;
@@ -115,7 +115,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d,
 }
 
 /* c < 0, k > 0; or k = 0 and nothing is visible. Mass is counted from infinity inwards. */
-VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
+VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
 {
     vndf_radial_law law = vndf_radial_law_for(d, c, k);
     uint32_t j = law.gain > 0.0f ? vndf_radial_search_beyond(&law, (1.0f - u) / law.gain) : law.cut;
