@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "sampler/engine.h"
+#include "sampler/wedge.h"
 
 static const double PI = 3.14159265358979323846;
 static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
@@ -208,9 +209,9 @@ static finding survey_direction(survey *v, double s, double c)
     v->count = 0;
     if (view.c >= 0)
         add_front(v, &view, area);
-    const vndf_wedge *wedge = view.c >= 0 ? &v->table->above : &v->table->below;
-    if (view.wedge > 0 && view.aspect_p > 0)
-        add_quarter(v, &view, wedge->q, wedge->cell_count, view.aspect_p, view.aspect_r, view.c >= 0, area);
+    vndf_azimuth_row row = vndf_wedge_row(&view);
+    if (view.wedge > 0 && row.p > 0)
+        add_quarter(v, &view, row.q, row.cells, row.p, row.r, view.c >= 0, area);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);

@@ -5,7 +5,7 @@
 
 #if defined(__GNUC__)
 #  define VNDF_INLINE static inline __attribute__((always_inline))
-#  define VNDF_RARE static __attribute__((noinline, cold, unused))
+#  define VNDF_RARE static __attribute__((noinline, unused))
 #else
 #  define VNDF_INLINE static inline
 #  define VNDF_RARE static

@@ -159,7 +159,7 @@ static int is_front(const vndf_view *view, float cos_phi)
 /* Whether normals are drawn at an azimuth that is not in front. */
 static int is_wedge(const vndf_view *view, float cos_phi)
 {
-    return (view->c >= 0.0f) != (cos_phi >= 0.0f) && view->wedge > 0.0f && view->aspect_p > 0.0f;
+    return (view->c >= 0.0f) != (cos_phi >= 0.0f) && view->wedge > 0.0f;
 }
 
 VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float sin_phi)
@@ -171,7 +171,7 @@ VNDF_INLINE vndf_engine_ray ray_at(const vndf_view *view, float cos_phi, float s
         ray.azimuth = vndf_front_density(vndf_front_of(view->distribution, view->s, view->c), cos_phi);
     } else if (is_wedge(view, cos_phi)) {
         vndf_azimuth_row row = vndf_wedge_row(view);
-        ray.azimuth = vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi) * view->wedge;
+        ray.azimuth = row.p > 0.0f ? vndf_azimuth_density(&row, fabsf(cos_phi), sin_phi) * view->wedge : 0.0f;
     }
     ray.azimuth *= 0.5f / (view->front + view->wedge);
     return ray;

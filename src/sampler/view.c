@@ -56,7 +56,7 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     else
         w.area = vndf_unit_area(d, p.s, p.c);
     vndf_view view = {d, vndf_scale(wi, 1.0f / length), ax, ay, 1.0f / ax, 1.0f / ay, p.per_length, p.s, p.c, p.cos_phi, p.sin_phi,
-                      w.area, w.front, w.wedge, w.mix, w.aspect_p, w.aspect_r, w.row};
+                      w.area, w.front, w.wedge};
     return view;
 }
 

@@ -11,8 +11,7 @@
 
 /* The members of a view that belong to the engine; vndf.h says what they are. */
 typedef struct vndf_wedge_view {
-    float area, front, wedge, mix, aspect_p, aspect_r;
-    uint32_t row;
+    float area, front, wedge;
 } vndf_wedge_view;
 
 /* Shares of three neighbouring rows `mix` of the way from the first to the last. */
@@ -47,32 +46,37 @@ VNDF_INLINE float vndf_wedge_mass(const vndf_wedge *wedge, float y)
     return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
 }
 
-/* For s + |c| = 1. */
+/* The wedge's coordinate of a direction with s + |c| = 1. */
+VNDF_INLINE float vndf_wedge_y(float s, float c)
+{
+    return c >= 0.0f ? c : s;
+}
+
 VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, float s, float c)
 {
-    const vndf_wedge *wedge = vndf_wedge_of(d, c);
-    float y = c >= 0.0f ? c : s, mass = vndf_wedge_mass(wedge, y);
+    float mass = vndf_wedge_mass(vndf_wedge_of(d, c), vndf_wedge_y(s, c));
     float front = c >= 0.0f ? vndf_front_mass(vndf_front_of(d, s, c)) : 0.0f;
-    uint32_t i = vndf_guide_find(&wedge->row_guide, y);
-    float mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]);
-    vndf_row_weights w = vndf_row_weights_at(mix);
-    const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;
     /* below the horizon the wedge is all there is: its part is 1, and its mass may underflow */
-    vndf_wedge_view view = {2.0f * (front + mass), front, c >= 0.0f ? mass : s > 0.0f ? 1.0f : 0.0f, mix, w.first * p[0] + w.middle * p[1] + w.last * p[2],
-                            w.first * r[0] + w.middle * r[1] + w.last * r[2], 2 * i};
+    vndf_wedge_view view = {2.0f * (front + mass), front, c >= 0.0f ? mass : s > 0.0f ? 1.0f : 0.0f};
     return view;
 }
 
-/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. */
+/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. Not part of the view, since three of four
+ * samples are in front. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    vndf_row_weights share = vndf_row_weights_at(view->mix);
-    size_t cells = w->stride, ends = w->cell_count + 1, a = (size_t)view->row * cells, end = (size_t)view->row * ends;
+    float y = vndf_wedge_y(view->s, view->c);
+    uint32_t i = vndf_guide_find(&w->row_guide, y);
+    vndf_row_weights share = vndf_row_weights_at((y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]));
+    size_t cells = w->stride, ends = w->cell_count + 1, a = 2 * (size_t)i * cells, end = 2 * (size_t)i * ends;
+    const float *p = w->aspect_p + 2 * (size_t)i, *r = w->aspect_r + 2 * (size_t)i;
     vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
                             {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
                             {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends, share.last},
-                            w->q, w->cell_count, w->stride, view->aspect_p, view->aspect_r};
+                            w->q, w->cell_count, w->stride,
+                            share.first * p[0] + share.middle * p[1] + share.last * p[2],
+                            share.first * r[0] + share.middle * r[1] + share.last * r[2]};
     return row;
 }
 
