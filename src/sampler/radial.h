@@ -161,11 +161,13 @@ typedef struct vndf_radial_piece {
     float w0, w1, v0, v1, begin, length; /* W and V at the ends of the part */
 } vndf_radial_piece;
 
-/* Away from the cut. */
+/* Away from the cut, where W > 0 without a guard. */
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1), g0 = law->gain * w0, g1 = law->gain * w1;
+    const vndf_knots *k = &law->table->knots;
+    float w0 = law->c * k->z[j] + law->k * k->x[j], w1 = law->c * k->z[j + 1] + law->k * k->x[j + 1];
+    float g0 = law->gain * w0, g1 = law->gain * w1;
     vndf_radial_piece piece = {{cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1},
                                0, w0, w1, 0.0f, 0.0f, 0.0f, 1.0f};
     return piece;
@@ -191,8 +193,11 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *la
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;
-    float w0 = piece.w0, w1 = piece.w1, way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
+    float w0 = piece.w0 > 0.0f ? piece.w0 : 0.0f, w1 = piece.w1 > 0.0f ? piece.w1 : 0.0f; /* rounding at the cut */
+    float way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
     piece.weighted = 1;
+    piece.w0 = w0;
+    piece.w1 = w1;
     piece.v0 = beyond ? w0 - change : w0;
     piece.v1 = beyond ? w1 : w1 + change;
     float half = law->gain * (0.5f * (piece.v0 + piece.v1));
@@ -248,8 +253,10 @@ VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
     float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at));
-    if (law->c < 0.0f)
-        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
+    if (law->c < 0.0f) {
+        float rest = piece.cell.mass - inside; /* below 0 where nothing is visible */
+        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (rest > 0.0f ? rest : 0.0f));
+    }
     return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;
 }
 

@@ -123,15 +123,21 @@ VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, f
     return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - law.gain * vndf_radial_beyond(&law, j + 1)));
 }
 
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
- * changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what it has at the
- * place, about - and beside a knot, which may be a jump of D. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r)
+/* Whether the density changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what
+ * it has at the place, about. */
+VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
     const vndf_knots *k = &d->knots;
     float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside.xi;
     float change = fabsf(rise) * k->x[r->at.cell + 1] * k->z[r->at.cell], least = here < r->piece.cell.mass ? here : r->piece.cell.mass;
-    return change > 10.0f * least * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
+    return change > 10.0f * least * d->cells[r->at.cell].width;
+}
+
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep, and
+ * beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
+VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
+{
+    return fabsf(r->at.xi - 0.5f) > 0.499f || (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
 }
 
 #endif
