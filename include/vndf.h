@@ -146,8 +146,6 @@ typedef struct vndf_view {
     float area;                    /* projected area of the unit problem */
     float front;                   /* masses of the two azimuth ranges of a half turn */
     double wedge;
-    double mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
-    unsigned row;                  /* first of the rows that are mixed */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the

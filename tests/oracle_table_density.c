@@ -1,8 +1,8 @@
 /* The density of a table's samples: azimuth a first, then the slope length R given a (src/sampler/engine.h derives
  * both; here they are written out with every sum and no shortcut).
  *
- * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
- * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
+ * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a, and a
+ * wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
  * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the
  * cell of the cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0
  * + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot
@@ -48,28 +48,6 @@ static within within_of(double from, double to, double q, double rest)
     return at;
 }
 
-/* Per radian at tan(a/2) = q, cos a >= 0. */
-static double front_density(const seen *v, double cosine, double sine)
-{
-    enum { CELLS = 20 };
-    double even = v->c * v->t->total0, tilt = v->s * v->t->total1;
-    double q = sine / (1 + cosine), rest = (cosine + cosine * cosine / (1 + sine)) / (1 + cosine);
-    double a0 = 0, a1 = 0, q0 = 0, q1 = 0;
-    for (int i = 1; i <= CELLS && (i == 1 || q1 <= q); i++) {
-        double w = (double)i / CELLS;
-        a0 = a1;
-        q0 = q1;
-        a1 = PI / 2 * w * (1.5 - 0.5 * w);
-        q1 = i < CELLS ? tan(a1 / 2) : 1;
-    }
-    within at = within_of(q0, q1, q, rest);
-    double n0 = 1 + q0 * q0, n1 = 1 + q1 * q1;
-    double e0 = even * 2 / n0 + tilt * 2 * (1 - q0 * q0) / (n0 * n0);
-    double e1 = even * 2 / n1 + tilt * 2 * (1 - q1 * q1) / (n1 * n1);
-    double mass = even * (a1 - a0) + tilt * (sin(a1) - sin(a0));
-    return oracle_rational(e0 * at.width, e1 * at.width, mass, at.xi, at.eta) / at.width * (1 + q * q) / 2;
-}
-
 /* Per radian and mass of the wedge at the angle from its middle, cosine and sine >= 0. */
 static double wedge_density(const oracle_wedge *w, double y, double cosine, double sine)
 {
@@ -109,7 +87,7 @@ static double azimuth_density(const seen *v, int toward)
         return toward ? 0.5 * wedge_density(&v->t->below, v->s, cosine, v->sine) : 0;
     double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1;
     double wedge = oracle_wedge_mass(&v->t->above, v->c);
-    double here = toward ? front_density(v, cosine, v->sine)
+    double here = toward ? v->c * v->t->total0 + v->s * v->t->total1 * cosine
                          : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine) : 0;
     return 0.5 * here / (front + wedge);
 }

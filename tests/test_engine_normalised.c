@@ -5,7 +5,7 @@
  * the table, read from its memory, and where normals turn away: any other panels would give the same integral,
  * of many more points. */
 #include "oracle_survey.h"
-#include "table/table.h"
+#include "sampler/wedge.h"
 #include "test.h"
 
 static const double PI = 3.14159265358979323846;
@@ -109,7 +109,7 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
 {
     integral g = {surface->distribution, *surface, vndf_view_from(surface, wi), 0, 0, 1, 0, 0, 1, 0};
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
-    const vndf_wedge *wedge = wi.z >= 0 ? &g.table->above : &g.table->below;
+    vndf_azimuth_row row = vndf_wedge_row(&g.view);
     g.parts = g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
     g.s = hypot(x, y);
     g.c = wi.z;
@@ -119,8 +119,8 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     }
     if (wi.z >= 0)
         add_front(&g);
-    if (wi.z < 0 || g.view.aspect_p > 0)
-        add_quarter(&g, wedge->q, wedge->cell_count, g.view.aspect_p, g.view.aspect_r, wi.z >= 0);
+    if (wi.z < 0 || row.p > 0)
+        add_quarter(&g, row.q, row.cells, row.p, row.r, wi.z >= 0);
     return g.sum;
 }
 

@@ -44,26 +44,20 @@ static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
     return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
 }
 
-static mixed_row front_row(const vndf_view *view)
-{
-    const vndf_distribution *d = view->distribution;
-    mixed_row row = {{vndf_front_even_mass, vndf_front_cosine_mass, vndf_front_even_mass},
-                     {vndf_front_even_density, vndf_front_cosine_density, vndf_front_even_density}, vndf_front_q,
-                     {view->c * d->f0_total, view->s * d->f1_total, 0.0}, 1.0, 1.0, VNDF_FRONT_CELLS};
-    return row;
-}
-
 static mixed_row wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    size_t ends = w->cell_count + 1;
-    const float *mass = w->cell_mass + (size_t)view->row * w->stride;
-    const float *density = w->density + (size_t)view->row * ends;
-    double m = view->mix, rest = 1.0 - m;
-    mixed_row row = {{mass, mass + w->stride, mass + 2 * (size_t)w->stride},
-                     {density, density + ends, density + 2 * ends}, w->q,
-                     {view->wedge * (rest * rest), view->wedge * (2.0 * rest * m), view->wedge * (m * m)},
-                     view->aspect_p, view->aspect_r, w->cell_count};
+    double y = vndf_wedge_y(view->s, view->c);
+    uint32_t i = vndf_wedge_find(&w->row_guide, w->row_y, y);
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
+    size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
+    const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;
+    mixed_row row = {{mass, mass + cells, mass + 2 * cells}, {density, density + ends, density + 2 * ends}, w->q,
+                     {rest * rest, 2.0 * rest * m, m * m}, 0.0, 0.0, w->cell_count};
+    for (size_t n = 0; n < 3; n++) {
+        row.p += row.share[n] * w->aspect_p[first + n];
+        row.r += row.share[n] * w->aspect_r[first + n];
+    }
     return row;
 }
 
@@ -88,11 +82,15 @@ static double row_density(const mixed_row *row, double cosine, double sine)
 /* Per radian, of mass 1 in a whole turn. */
 static double azimuth_density(const vndf_view *view, double cosine, double sine)
 {
+    const vndf_distribution *d = view->distribution;
     int toward = cosine >= 0.0, above = view->c >= 0.0;
-    mixed_row row = above && toward ? front_row(view) : wedge_row(view);
-    if (!(above && toward) && !(above != toward && view->wedge > 0.0 && row.p > 0.0))
+    double per = 0.5 / ((double)view->front + view->wedge);
+    if (above && toward)
+        return per * (view->c * d->f0_total + view->s * d->f1_total * cosine);
+    if (above == toward || !(view->wedge > 0.0))
         return 0.0;
-    return 0.5 * row_density(&row, fabs(cosine), sine) / ((double)view->front + view->wedge);
+    mixed_row row = wedge_row(view);
+    return row.p > 0.0 ? per * view->wedge * row_density(&row, fabs(cosine), sine) : 0.0;
 }
 
 /* ---- radius ---- */

@@ -47,7 +47,7 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
     else
         w.area = (float)vndf_unit_area(d, p.s, p.c);
     vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, 1.0f / (float)ax, 1.0f / (float)ay, p.cos_phi, p.sin_phi,
-                      w.area, w.front, w.wedge, w.mix, w.aspect_p, w.aspect_r, w.row};
+                      w.area, w.front, w.wedge};
     return view;
 }
 
