@@ -154,8 +154,6 @@ typedef struct vndf_view {
     float area;                    /* projected area of the unit problem */
     float front;                   /* masses of the two azimuth ranges of a half turn */
     double wedge;
-    double mix, aspect_p, aspect_r; /* place between two rows and aspect of the wedge */
-    unsigned row;                  /* first of the rows that are mixed */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
@@ -165,7 +163,7 @@ typedef struct vndf_view {
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of 2^-23,
- * wm.z >= 0, wi.wm > 0 for wi as it is rounded to unit length. *pdf, if not NULL, receives the density per steradian
+ * wm.z >= 0, wi.wm > 0 for wi as it was given. *pdf, if not NULL, receives the density per steradian
  * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN, FLT_MAX]:
  * what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each number.
  * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
@@ -174,6 +172,7 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0, elsewhere >= FLT_MIN.
+ * Of a table: within 1e-5, relative, of what its numbers define, wherever that is above 1e-30; so are area, lambda, g1 and ndf.
  * For a table this is close to, not equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the
  * weight that makes an estimator exact, and its maximum stands in the certificate. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);

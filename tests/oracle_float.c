@@ -24,7 +24,9 @@ static int build_into(const char *recipe, const char *path)
     vndf_error error = {VNDF_OK, ""};
     char *slope;
     vndf_build_options options = {strtoul(recipe, &slope, 10), 0, NULL, NULL};
-    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, &error);
+    int family = strncmp(slope, " family ", 8) == 0;
+    vndf_source *source = family ? vndf_source_family(slope + 8, &error)
+                                 : vndf_source_slope_expression(slope, NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     int good = table && vndf_save(table, path, &error) == VNDF_OK;
     if (!good)
@@ -76,7 +78,8 @@ void float_subject_close(float_subject *subject)
 
 static oracle_query query_of(const float_point *at, vndf_vec3 wm)
 {
-    oracle_query q = {{(double)at->wi.x, (double)at->wi.y, (double)at->wi.z}, {(double)at->alpha_x, (double)at->alpha_y},
+    oracle_query q = {{(double)at->wi.x, (double)at->wi.y, (double)at->wi.z},
+                      {(double)at->alpha_x, (double)at->alpha_y},
                       {(double)wm.x, (double)wm.y, (double)wm.z}};
     return q;
 }
@@ -101,19 +104,21 @@ static double nearest(double got, const double *value, size_t n, int *aside)
 }
 
 /* ... and nothing where the density is too steep for double. */
-static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf, int *aside)
+static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf,
+                             int *aside)
 {
-    double value[2];
+    double range[2];
     if (error <= FLOAT_LIMIT)
         return error;
-    oracle_table_blur(&subject->truth, q, ndf, value);
-    if (!(fmin(value[0], value[1]) <= got && got <= fmax(value[0], value[1])))
+    oracle_table_blur(&subject->truth, q, ndf, range);
+    if (!(range[0] <= got && got <= range[1]))
         return error;
     *aside = 1;
     return 0;
 }
 
-static double density_error(const float_subject *subject, float_quantity quantity, const float_point *at, int *aside)
+static double density_error(const float_subject *subject, float_quantity quantity, const float_point *at,
+                            int *aside)
 {
     vndf_surface surface = {subject->table, at->alpha_x, at->alpha_y};
     vndf_view view = vndf_view_from(&surface, at->wi);
@@ -231,4 +236,45 @@ void float_climb(float_worst *worst, const float_subject *subject, float_quantit
             worst->at = at;
         }
     }
+}
+
+/* ---- all of it ---- */
+
+void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, size_t random, size_t hard,
+               size_t climb, unsigned long long seed)
+{
+    unsigned long long state = seed;
+    for (size_t i = 0; i < random + hard; i++) {
+        float_point at = i < random ? float_point_random(subject, &state) : float_point_hard(subject, &state);
+        float_point drawn = float_point_drawn(at, &state);
+        for (int id = 0; id < FLOAT_COUNT; id++)
+            float_note(worst, subject, (float_quantity)id, id == FLOAT_DRAWN ? &drawn : &at);
+    }
+    for (int id = 0; id < FLOAT_COUNT; id++)
+        float_climb(&worst[id], subject, (float_quantity)id, climb, &state);
+}
+
+void float_print(const float_subject *subject, float_quantity quantity, const float_worst *worst)
+{
+    const float_point *at = &worst->at;
+    printf("%s,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g\n", subject->name, float_quantity_name(quantity),
+           (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->alpha_x, (double)at->alpha_y,
+           (double)at->wm.x, (double)at->wm.y, (double)at->wm.z, worst->error);
+}
+
+int float_scan(const char *line, char name[64], float_quantity *quantity, float_point *at)
+{
+    char word[16];
+    double n[8];
+    int fields = sscanf(line, "%63[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, word, &n[0], &n[1], &n[2],
+                        &n[3], &n[4], &n[5], &n[6], &n[7]), id = 0;
+    while (id < FLOAT_COUNT && strcmp(word, float_quantity_name((float_quantity)id)) != 0)
+        id++;
+    if (fields != 10 || id == FLOAT_COUNT)
+        return 0;
+    float_point read = {{(float)n[0], (float)n[1], (float)n[2]}, (float)n[3], (float)n[4],
+                        {(float)n[5], (float)n[6], (float)n[7]}};
+    *at = read;
+    *quantity = (float_quantity)id;
+    return 1;
 }

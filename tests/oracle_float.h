@@ -1,5 +1,5 @@
-/* The run time, in float, held against oracle_table.h, in double: which quantities, at which point, how far apart; points
- * that are hard; and a search for the hardest near a given one. */
+/* The run time, in float, held against oracle_table.h, in double: which quantities, at which point, how far
+ * apart; points that are hard; and a search for the hardest near a given one. */
 #ifndef TESTS_ORACLE_FLOAT_H
 #define TESTS_ORACLE_FLOAT_H
 
@@ -9,7 +9,9 @@
 #include "vndf.h"
 
 /* DRAWN is the density that vndf_sample returns against the oracle's at the normal that it returns. */
-typedef enum float_quantity { FLOAT_DENSITY, FLOAT_DRAWN, FLOAT_AREA, FLOAT_LAMBDA, FLOAT_G1, FLOAT_NDF, FLOAT_COUNT } float_quantity;
+typedef enum float_quantity {
+    FLOAT_DENSITY, FLOAT_DRAWN, FLOAT_AREA, FLOAT_LAMBDA, FLOAT_G1, FLOAT_NDF, FLOAT_COUNT
+} float_quantity;
 
 const char *float_quantity_name(float_quantity quantity);
 
@@ -20,8 +22,9 @@ typedef struct float_subject {
     oracle_table truth;
 } float_subject;
 
-/* `name` is a file of tables/ or tests/corpus/table/, or "BYTES SLOPE": the table of P22 = SLOPE of at most so many
- * bytes, written to `scratch` and read again. 0 after a message if there is none. */
+/* `name` is a file of tables/ or tests/corpus/table/, or "BYTES SLOPE" or "BYTES family NAME": the table of P22 =
+ * SLOPE, or of a family, of at most so many bytes, written to `scratch` and read again. 0 after a message if
+ * there is none. */
 int float_subject_open(float_subject *subject, const char *name, const char *scratch);
 void float_subject_close(float_subject *subject);
 
@@ -32,16 +35,16 @@ typedef struct float_point {
     vndf_vec3 wm;
 } float_point;
 
-/* |got/true - 1|, infinite for NaN. Negative where nothing is promised: the true value is 1e-30 or less, the view is not
- * valid. *aside tells whether the value of the other side of a jump had to be taken. */
+/* |got/true - 1|, infinite for NaN. Negative where nothing is promised: the true value is 1e-30 or less, the view
+ * is not valid. *aside tells whether the value of the other side of a jump had to be taken. */
 double float_error(const float_subject *subject, float_quantity quantity, const float_point *at, int *aside);
 
 /* A point from the whole domain: wi over the sphere, the horizon and the depths below it, roughness 1e-6 to 1e4,
  * normals from samples and of any slope. */
 float_point float_point_random(const float_subject *subject, unsigned long long *state);
 
-/* A point beside a border: of the unit square, the horizon of wi, the pole, z = 0, a knot, the cut at a knot, the seam,
- * rows and area knots, denormal cosines. */
+/* A point beside a border: of the unit square, the horizon of wi, the pole, z = 0, a knot, the cut at a knot, the
+ * seam, rows and area knots, denormal cosines. */
 float_point float_point_hard(const float_subject *subject, unsigned long long *state);
 
 /* Uniform numbers instead of the normal, at and beside the corners in one of two. */
@@ -63,5 +66,14 @@ void float_note(float_worst worst[FLOAT_COUNT], const float_subject *subject, fl
 /* Random local search for a larger error: `steps` steps of the point found worst. */
 void float_climb(float_worst *worst, const float_subject *subject, float_quantity quantity, size_t steps,
                  unsigned long long *state);
+
+/* So many points of either kind, each for all quantities, then a climb from the worst of each. */
+void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, size_t random, size_t hard,
+               size_t climb, unsigned long long seed);
+
+/* One line of tests/corpus/float/worst.csv, and back: name, quantity, wi, roughness, wm (or u1, u2 and 0), error.
+ * float_scan returns 0 if it is none. */
+void float_print(const float_subject *subject, float_quantity quantity, const float_worst *worst);
+int float_scan(const char *line, char name[64], float_quantity *quantity, float_point *at);
 
 #endif

@@ -1,5 +1,6 @@
 /* Points for oracle_float.h. Directions and normals are chosen in the stretched frame, where a table has its
- * knots, and taken back: wi ~ (s cos/ax, s sin/ay, c), wm ~ (ax X cos, ay X sin, Z), with the table's scale in ax, ay. */
+ * knots, and taken back: wi ~ (s cos/ax, s sin/ay, c), wm ~ (ax X cos, ay X sin, Z), with the table's scale in
+ * ax, ay. */
 #include <float.h>
 
 #include "oracle_float.h"
@@ -53,7 +54,8 @@ static void choose_roughness(float_point *at, unsigned long long *state)
 {
     int wide = one_of(state, 3) == 0;
     at->alpha_x = (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
-    at->alpha_y = one_of(state, 3) == 0 ? at->alpha_x : (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
+    at->alpha_y = one_of(state, 3) == 0 ? at->alpha_x
+                                            : (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
 }
 
 /* The sphere; the horizon; and the sphere of the stretched frame, where the area below falls to nothing. */
@@ -94,12 +96,14 @@ float_point float_point_random(const float_subject *subject, unsigned long long 
 
 static float corner(unsigned long long *state)
 {
-    static const float edges[] = {0, FLT_TRUE_MIN, 0x1p-24f, 0.5f - 0x1p-25f, 0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
+    static const float edges[] = {0, FLT_TRUE_MIN, 0x1p-24f, 0.5f - 0x1p-25f, 0.5f, 0.5f + 0x1p-24f,
+                                  1 - 0x1p-24f, 1};
     int i = one_of(state, 16);
     return i < 8 ? edges[i] : i < 12 ? (float)decade(state, -12, 0) : 1 - (float)decade(state, -7.5, 0);
 }
 
-/* From tools/stress.c: the pole, angles beside it, the horizon from both sides down to denormals, straight down. */
+/* From tools/stress.c: the pole, angles beside it, the horizon from both sides down to denormals, straight down.
+ * */
 static void choose_hard_direction(float_point *at, unsigned long long *state)
 {
     static const double angles[] = {0, 1e-7, 1e-4, 0.01, 30, 60, 85, 89, 89.9, 89.9999, 91, 130, 179.9, 180};
@@ -129,7 +133,8 @@ static double about_one(unsigned long long *state)
 }
 
 /* A normal whose slope is at a knot. */
-static vndf_vec3 at_knot(const float_subject *subject, const float_point *at, double phi, unsigned long long *state)
+static vndf_vec3 at_knot(const float_subject *subject, const float_point *at, double phi,
+                         unsigned long long *state)
 {
     const oracle_table *t = &subject->truth;
     size_t j = 1 + (size_t)one_of(state, (int)t->count - 1);
@@ -137,7 +142,8 @@ static vndf_vec3 at_knot(const float_subject *subject, const float_point *at, do
 }
 
 /* A direction whose cut, for the azimuth a from it, is at a knot: c Z + s cos a X = 0. */
-static void cut_at_knot(const float_subject *subject, float_point *at, double phi, double a, unsigned long long *state)
+static void cut_at_knot(const float_subject *subject, float_point *at, double phi, double a,
+                        unsigned long long *state)
 {
     const oracle_table *t = &subject->truth;
     size_t j = 1 + (size_t)one_of(state, (int)t->count - 1);
@@ -149,7 +155,8 @@ static void at_row(const float_subject *subject, float_point *at, double phi, un
 {
     int below = one_of(state, 2);
     const oracle_wedge *w = below ? &subject->truth.below : &subject->truth.above;
-    double y = one_of(state, 2) ? w->row_y[one_of(state, (int)(w->rows + 1) / 2)] : w->knot_y[one_of(state, (int)w->knots)];
+    double y = one_of(state, 2) ? w->row_y[one_of(state, (int)(w->rows + 1) / 2)]
+                                : w->knot_y[one_of(state, (int)w->knots)];
     y = fmin(y * about_one(state), 1);
     at->wi = below ? direction_to(subject, at, y, phi, y - 1) : direction_to(subject, at, 1 - y, phi, y);
 }
@@ -157,9 +164,11 @@ static void at_row(const float_subject *subject, float_point *at, double phi, un
 /* The normal turned about the axis that is level and across it until wi . wm is nearly 0. */
 static void near_cut(float_point *at, unsigned long long *state)
 {
-    double level = (double)at->wi.x * (double)at->wm.x + (double)at->wi.y * (double)at->wm.y, z = -level / (double)at->wi.z;
+    double level = (double)at->wi.x * (double)at->wm.x + (double)at->wi.y * (double)at->wm.y;
+    double z = -level / (double)at->wi.z;
+    double beside = 1 + copysign(decade(state, -8, -0.5), (double)at->wi.z);
     if (z > 0 && z < 1e30)
-        at->wm = unit((double)at->wm.x, (double)at->wm.y, z * (1 + copysign(decade(state, -8, -0.5), (double)at->wi.z)));
+        at->wm = unit((double)at->wm.x, (double)at->wm.y, z * beside);
 }
 
 float_point float_point_hard(const float_subject *subject, unsigned long long *state)
@@ -186,10 +195,11 @@ float_point float_point_hard(const float_subject *subject, unsigned long long *s
         break;
     case 4:
         cut_at_knot(subject, &at, phi, a, state);
-        at.wm = one_of(state, 2) ? normal_at(subject, &at, decade(state, -2, 2), phi, 1) : at_knot(subject, &at, phi, state);
+        at.wm = one_of(state, 2) ? normal_at(subject, &at, decade(state, -2, 2), phi, 1)
+                                 : at_knot(subject, &at, phi, state);
         break;
     case 5: /* at and beside the seam */
-        a = azimuth_of(&at) + side * (PI / 2 + (one_of(state, 2) ? decade(state, -9, -1) : -decade(state, -9, -1)));
+        a = azimuth_of(&at) + side * (PI / 2 + (one_of(state, 2) ? 1 : -1) * decade(state, -9, -1));
         at.wm = normal_at(subject, &at, decade(state, -3, 3), a, 1);
         break;
     case 6:

@@ -1,13 +1,13 @@
-/* A table once more, in double, from the bytes of its file alone: what the run time's density, area, Lambda, G1 and D
- * are to be, computed straight from their definition and sharing no code with src/. Slow and plain: no guides,
- * windows or prefix sums, every mass is added up cell by cell.
+/* A table once more, in double, from the bytes of its file alone: what the run time's density, area, Lambda, G1
+ * and D are to be, computed straight from their definition and sharing no code with src/. Slow and plain: no
+ * guides, windows or prefix sums, every mass is added up cell by cell.
  *
- * True is the function of the very numbers that were given. The numbers of the file are exact; wi need not be unit,
- * it is the direction that counts; so does that of wm, whatever the rounding of its length; roughness is
+ * True is the function of the very numbers that were given. The numbers of the file are exact; wi need not be
+ * unit, it is the direction that counts; so does that of wm, whatever the rounding of its length; roughness is
  * alpha times the f64 scale of the file. So no conditioning of the input excuses an error: a wm whose
- * slope is 1e-6 has that slope to all its digits. Only where the density jumps (a radial knot may be a jump of D; the
- * seam between the azimuths towards wi and away from it) may an input within two ulps of the jump have the value
- * of its other side.
+ * slope is 1e-6 has that slope to all its digits. Only where the density jumps (a radial knot may be a jump of D;
+ * the seam between the azimuths towards wi and away from it) may an input within two ulps of the jump have the
+ * value of its other side.
  *
  * With  n = (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z)  in the frame whose x axis is that of
  * (ax wi.x, ay wi.y) = s (cos, sin),  c = wi.z:
@@ -44,14 +44,14 @@ typedef struct oracle_query {
     double wi[3], alpha[2], wm[3];
 } oracle_query;
 
-/* The density per steradian in value[0], and in value[1...] what it is on the other side of each jump, and of both,
- * within two ulps. Returns how many values there are. */
+/* The density per steradian in value[0], and in value[1...] what it is on the other side of each jump, and of
+ * both, within two ulps. Returns how many values there are. */
 enum { ORACLE_SIDES = 6 };
 size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES]);
 
-/* The densities, or with `ndf` D, where the slope is 2^-50 less and more: where they change by 1e-5 between these, no
- * arithmetic in double could place the normal any better. */
-void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double value[2]);
+/* The least and the largest density, or with `ndf` D, where the slope or the cut is 2^-50 less or more: where
+ * they change by 1e-5 between these, no arithmetic in double could place the normal any better. */
+void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double range[2]);
 
 /* A(wi), Lambda, G1; D(wm), with the value on the other side of a knot within two ulps as above. */
 double oracle_table_area(const oracle_table *t, const oracle_query *q);
@@ -67,8 +67,8 @@ typedef struct oracle_place {
     double xi, eta;
 } oracle_place;
 
-/* Where the slope X/Z lies; `aside` is -1 or 1 for the end of the cell before or behind that is within two ulps, 0 for
- * the cell itself. Returns 0 if there is none. */
+/* Where the slope X/Z lies; `aside` is -1 or 1 for the end of the cell before or behind that is within two ulps,
+ * 0 for the cell itself. Returns 0 if there is none. */
 int oracle_table_place(const oracle_table *t, double x, double z, int aside, oracle_place *at);
 
 /* f of a cell by its cubic, before it is held above 0; eta = 1 - xi. */

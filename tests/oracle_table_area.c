@@ -1,6 +1,6 @@
-/* Area, Lambda, G1 and D of a table. The mass of a wedge is a quintic spline in y = s/(s + |c|) below the horizon: the
- * piece with given values, slopes and second derivatives at both ends in Bernstein form, its coefficients
- * held in ascending order between the end values. Above the horizon A(w) = cos + A(-w). */
+/* Area, Lambda, G1 and D of a table. The mass of a wedge is a quintic spline in y = s/(s + |c|) below the
+ * horizon: the piece with given values, slopes and second derivatives at both ends in Bernstein form, its
+ * coefficients held in ascending order between the end values. Above the horizon A(w) = cos + A(-w). */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -24,7 +24,8 @@ double oracle_wedge_mass(const oracle_wedge *w, double y)
     size_t i = 0;
     while (i + 2 < w->knots && w->knot_y[i + 1] <= y)
         i++;
-    double h = w->knot_y[i + 1] - w->knot_y[i], t = (y - w->knot_y[i]) / h, first = w->area[i], last = w->area[i + 1];
+    double h = w->knot_y[i + 1] - w->knot_y[i], t = (y - w->knot_y[i]) / h;
+    double first = w->area[i], last = w->area[i + 1];
     double a1 = first + h * w->slope[i] / 5, a2 = 2 * a1 - first + h * h * w->curve[i] / 20;
     double b1 = last - h * w->slope[i + 1] / 5, b2 = 2 * b1 - last + h * h * w->curve[i + 1] / 20;
     a1 = held(a1, first, last);

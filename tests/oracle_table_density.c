@@ -1,12 +1,13 @@
 /* The density of a table's samples: azimuth a first, then the slope length R given a (src/sampler/engine.h derives
  * both; here they are written out with every sum and no shortcut).
  *
- * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of mass c F0 pi/2 + s F1, the
- * cells of c F0 + s F1 cos a on twenty nodes, and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
- * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the cell of the
- * cut, in its neighbour and without a cut in the last cell the variable is zeta = xi (v0 + V)/(v0 + v1) of a
- * linear V(xi) and the end densities are those of f W/V. V is W, but for the neighbour's knot towards the cut: there it
- * is W + h^2 (W of the other knot - W), h the visible part of the cell of the cut. */
+ * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a, and a
+ * wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
+ * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the
+ * cell of the cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0
+ * + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot
+ * towards the cut: there it is 16 h of the way to W of the other knot, h the visible part of the cell of the cut,
+ * all of it from 1/16 on. */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -47,28 +48,6 @@ static within within_of(double from, double to, double q, double rest)
     return at;
 }
 
-/* Per radian at tan(a/2) = q, cos a >= 0. */
-static double front_density(const seen *v, double cosine, double sine)
-{
-    enum { CELLS = 20 };
-    double even = v->c * v->t->total0, tilt = v->s * v->t->total1;
-    double q = sine / (1 + cosine), rest = (cosine + cosine * cosine / (1 + sine)) / (1 + cosine);
-    double a0 = 0, a1 = 0, q0 = 0, q1 = 0;
-    for (int i = 1; i <= CELLS && (i == 1 || q1 <= q); i++) {
-        double w = (double)i / CELLS;
-        a0 = a1;
-        q0 = q1;
-        a1 = PI / 2 * w * (1.5 - 0.5 * w);
-        q1 = i < CELLS ? tan(a1 / 2) : 1;
-    }
-    within at = within_of(q0, q1, q, rest);
-    double n0 = 1 + q0 * q0, n1 = 1 + q1 * q1;
-    double e0 = even * 2 / n0 + tilt * 2 * (1 - q0 * q0) / (n0 * n0);
-    double e1 = even * 2 / n1 + tilt * 2 * (1 - q1 * q1) / (n1 * n1);
-    double mass = even * (a1 - a0) + tilt * (sin(a1) - sin(a0));
-    return oracle_rational(e0 * at.width, e1 * at.width, mass, at.xi, at.eta) / at.width * (1 + q * q) / 2;
-}
-
 /* Per radian and mass of the wedge at the angle from its middle, cosine and sine >= 0. */
 static double wedge_density(const oracle_wedge *w, double y, double cosine, double sine)
 {
@@ -106,8 +85,9 @@ static double azimuth_density(const seen *v, int toward)
     double cosine = fabs(v->cosine);
     if (v->c < 0)
         return toward ? 0.5 * wedge_density(&v->t->below, v->s, cosine, v->sine) : 0;
-    double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1, wedge = oracle_wedge_mass(&v->t->above, v->c);
-    double here = toward ? front_density(v, cosine, v->sine)
+    double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1;
+    double wedge = oracle_wedge_mass(&v->t->above, v->c);
+    double here = toward ? v->c * v->t->total0 + v->s * v->t->total1 * cosine
                          : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine) : 0;
     return 0.5 * here / (front + wedge);
 }
@@ -156,12 +136,13 @@ static piece cut_piece(const seen *v, size_t j)
     double k = v->s * v->cosine, w0 = v->c * t->z[j] + k * t->x[j], w1 = v->c * t->z[j + 1] + k * t->x[j + 1];
     if (v->c > 0) {
         double part = w1 < 0 ? fmax(w0, 0) / (fmax(w0, 0) - w1) : 1, w = fmax(w0, 0);
-        piece p = {t->f0[j], fmax(oracle_table_cubic(t, j, part, 1 - part), 0), w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
+        double end = fmax(oracle_table_cubic(t, j, part, 1 - part), 0);
+        piece p = {t->f0[j], end, w * part * part_integral(t, j, 0, part), w, 0, w, 0, 0, part, 1};
         return p;
     }
     double part = w0 < 0 ? fmax(w1, 0) / (fmax(w1, 0) - w0) : 1, w = fmax(w1, 0);
-    piece p = {fmax(oracle_table_cubic(t, j, 1 - part, part), 0), t->f1[j], w * part * part_integral(t, j, 1, part), 0, w, 0, w,
-               1 - part, part, 1};
+    double end = fmax(oracle_table_cubic(t, j, 1 - part, part), 0);
+    piece p = {end, t->f1[j], w * part * part_integral(t, j, 1, part), 0, w, 0, w, 1 - part, part, 1};
     return p;
 }
 
@@ -171,14 +152,13 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
     if (j == cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
-    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 1 >= cut && j <= cut + 1};
-    if (p.weighted && cut < t->count) {
-        double part = cut_piece(v, cut).length;
-        if (j < cut)
-            p.v1 += part * part * (w0 - w1);
-        else
-            p.v0 += part * part * (w1 - w0);
-    }
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1,
+               j + 2 >= cut && j <= cut + 2};
+    double way = cut < t->count && p.weighted ? fmin(16 * cut_piece(v, cut).length, 1) : 0;
+    if (j + 2 == cut)
+        p.v1 += way * (w0 - w1);
+    if (j == cut + 2)
+        p.v0 += way * (w1 - w0);
     return p;
 }
 
@@ -244,8 +224,12 @@ static int density_on(const seen *v, sides side, double *value)
     double azimuth = azimuth_density(v, (v->cosine >= 0) != side.seam);
     if (!(azimuth > 0) || (v->c <= 0 && v->cosine <= 0))
         return 1;
-    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut))
-        return 0;
+    if (cut < t->count && (v->c > 0 ? at.cell > cut : at.cell < cut)) {
+        /* W > 0: this is the cut, but for rounding */
+        double part = cut_piece(v, cut).length;
+        oracle_place end = {cut, v->c > 0 ? part : 1 - part, v->c > 0 ? 1 - part : part};
+        at = end;
+    }
     size_t j = at.cell;
     double grow = (at.eta * (t->x[j] + t->z[j]) + at.xi * (t->x[j + 1] + t->z[j + 1])) / (v->x + v->z);
     double width = t->x[j + 1] * t->z[j] - t->x[j] * t->z[j + 1], mass = visible_mass(v, cut);
@@ -255,7 +239,8 @@ static int density_on(const seen *v, sides side, double *value)
     return 1;
 }
 
-/* a + b + c for numbers that cancel, in order of size: the first sum is then exact or the last is small beside it. */
+/* a + b + c for numbers that cancel, in order of size: the first sum is then exact or the last is small beside
+ * it. */
 static double sum_of(double a, double b, double c)
 {
     double n[3] = {a, b, c};
@@ -303,19 +288,23 @@ size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, doub
     return n > 0 ? n : 1;
 }
 
-void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double value[2])
+void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double range[2])
 {
-    for (int i = 0; i < 2; i++) {
-        double other[ORACLE_SIDES];
+    range[0] = HUGE_VAL;
+    range[1] = 0;
+    for (int i = 0; i < 4; i++) {
+        double value[ORACLE_SIDES] = {0}, step = i % 2 ? 1 + 0x1p-50 : 1 - 0x1p-50;
         oracle_query moved = *q;
         seen v = seen_from(t, q);
         sides exact = {0, 0};
-        v.x *= i ? 1 + 0x1p-50 : 1 - 0x1p-50;
-        moved.wm[2] *= i ? 1 - 0x1p-50 : 1 + 0x1p-50;
-        value[i] = 0;
-        if (ndf && oracle_table_ndfs(t, &moved, other) > 0)
-            value[i] = other[0];
+        v.x *= i < 2 ? step : 1;
+        v.c *= i < 2 ? 1 : step;
+        moved.wm[2] /= step;
+        if (ndf)
+            oracle_table_ndfs(t, &moved, value);
         else
-            density_on(&v, exact, &value[i]);
+            density_on(&v, exact, &value[0]);
+        range[0] = fmin(range[0], value[0]);
+        range[1] = fmax(range[1], value[0]);
     }
 }

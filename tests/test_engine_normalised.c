@@ -5,7 +5,7 @@
  * the table, read from its memory, and where normals turn away: any other panels would give the same integral,
  * of many more points. */
 #include "oracle_survey.h"
-#include "table/table.h"
+#include "sampler/wedge.h"
 #include "test.h"
 
 static const double PI = 3.14159265358979323846;
@@ -54,7 +54,7 @@ static double pdf_per_slope(const integral *g, double r, double cos_a, double si
 /* Slopes r0 to r1 <= infinity, in the variable in which r/(scale + r) is linear. */
 static void add_panel(integral *g, double cos_a, double sin_a, double weight, double r0, double r1)
 {
-    double scale = g->table->scale, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
+    double scale = g->table->scale_exact, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
     double z0 = scale / (scale + r0), z1 = isinf(r1) ? 0 : scale / (scale + r1);
     for (int i = 0; i < points(g); i++) {
         double x = x0 + (x1 - x0) * node(g, i), z = z0 + (z1 - z0) * node(g, i), r = scale * x / z;
@@ -63,12 +63,19 @@ static void add_panel(integral *g, double cos_a, double sin_a, double weight, do
     }
 }
 
+/* Of a knot, unrounded: a jump of D may stand there. */
+static double slope_of(const integral *g, uint32_t j)
+{
+    double x = g->table->knots.x[j], z = g->table->knots.z[j];
+    return z > 0 ? x / z * g->table->scale_exact : INFINITY;
+}
+
 static void add_azimuth(integral *g, double a, double weight)
 {
     double cos_a = cos(a), sin_a = g->count++ % 2 ? sin(a) : -sin(a), k = g->s * cos_a, cut = g->c * k < 0 ?
         -g->c / k : 0;
     for (uint32_t j = 0; j < g->table->radial_count; j++) {
-        double r0 = g->table->slope[j] * g->table->scale, r1 = g->table->slope[j + 1] * g->table->scale;
+        double r0 = slope_of(g, j), r1 = slope_of(g, j + 1);
         if (g->c > 0 && k < 0)
             r1 = fmin(r1, cut);
         else if (g->c <= 0)
@@ -102,7 +109,7 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
 {
     integral g = {surface->distribution, *surface, vndf_view_from(surface, wi), 0, 0, 1, 0, 0, 1, 0};
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
-    const vndf_wedge *wedge = wi.z >= 0 ? &g.table->above : &g.table->below;
+    vndf_azimuth_row row = vndf_wedge_row(&g.view);
     g.parts = g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
     g.s = hypot(x, y);
     g.c = wi.z;
@@ -112,8 +119,8 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     }
     if (wi.z >= 0)
         add_front(&g);
-    if (wi.z < 0 || g.view.aspect_p > 0)
-        add_quarter(&g, wedge->q, wedge->cell_count, g.view.aspect_p, g.view.aspect_r, wi.z >= 0);
+    if (wi.z < 0 || row.p > 0)
+        add_quarter(&g, row.q, row.cells, row.p, row.r, wi.z >= 0);
     return g.sum;
 }
 

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 
 #include "sampler/engine.h"
-#include "sampler/front.h"
+#include "sampler/surface.h"
+#include "sampler/wedge.h"
 
 static const double PI = 3.14159265358979323846;
 static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
@@ -17,7 +18,7 @@ static const double MASS_LEFT_OUT = 1e-6;
 static const double STEEP = 1.3;
 
 /* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
-enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20 };
+enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, FRONT_PANELS = 20 };
 
 static uint32_t parts_for(uint32_t cells, uint32_t least)
 {
@@ -54,9 +55,8 @@ typedef struct finding {
 /* The view of the unit problem: isotropic, so that it may be made from s and c alone. */
 static vndf_view view_of(const vndf_distribution *table, double s, double c)
 {
-    vndf_surface surface = {table, 1.0f / table->scale, 1.0f / table->scale};
     vndf_vec3 wi = {(float)s, 0.0f, (float)c};
-    return vndf_view_from(&surface, wi);
+    return vndf_view_scaled(table, 1.0, 1.0, wi);
 }
 
 /* One azimuth of a direction, with the weight that it has in the sum. */
@@ -124,6 +124,17 @@ static void add_quarter(survey *v, const vndf_view *view, const float *node, uin
         at.drawn = vndf_engine_ray_at(view, at.cos_phi, y / n);
         add_azimuth(v, &at);
     }
+}
+
+/* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
+static void add_front(survey *v, const vndf_view *view, double area)
+{
+    float node[FRONT_PANELS + 1];
+    for (int i = 0; i <= FRONT_PANELS; i++) {
+        double w = (double)i / FRONT_PANELS;
+        node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
+    }
+    add_quarter(v, view, node, FRONT_PANELS, 1, 1, 0, area);
 }
 
 static double ratio_of(sample a)
@@ -195,10 +206,10 @@ static finding survey_direction(survey *v, double s, double c)
     area /= s + fabs(c); /* as the view has it: s + |c| = 1 */
     v->count = 0;
     if (view.c >= 0)
-        add_quarter(v, &view, vndf_front_q, VNDF_FRONT_CELLS, 1, 1, 0, area);
-    const vndf_wedge *wedge = view.c >= 0 ? &v->table->above : &v->table->below;
-    if (view.wedge > 0 && view.aspect_p > 0)
-        add_quarter(v, &view, wedge->q, wedge->cell_count, view.aspect_p, view.aspect_r, view.c >= 0, area);
+        add_front(v, &view, area);
+    vndf_azimuth_row row = vndf_wedge_row(&view);
+    if (view.wedge > 0 && row.p > 0)
+        add_quarter(v, &view, row.q, row.cells, row.p, row.r, view.c >= 0, area);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);
@@ -257,7 +268,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
 {
     survey v = {table, profile, parts_for(table->radial_count, RADIAL_PARTS_LEAST), NULL, 0, 0};
     vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
-    uint32_t cells = table->above.cell_count + table->below.cell_count + VNDF_FRONT_CELLS + 3 * AZIMUTH_PARTS_LEAST;
+    uint32_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
     v.capacity = (size_t)cells * VNDF_GAUSS_COARSE * table->radial_count * v.radial_parts * VNDF_GAUSS;
     v.samples = malloc(v.capacity * sizeof *v.samples);
     if (!v.samples)

@@ -156,8 +156,8 @@ static double miss(const vndf_radial_cell *cell, double w0, double w1, double f,
 {
     double mass = w0 * cell->mu0 + w1 * cell->mu1, w = w0 * (1 - xi) + w1 * xi, sum = w0 + w1;
     int weighted = w0 == 0 || w1 == 0;
-    vndf_rational_cell drawn = vndf_rational_cell_from((float)(cell->f0 * (weighted ? sum / 2 : w0) / mass),
-                                                       (float)(cell->f1 * (weighted ? sum / 2 : w1) / mass), 1.0f);
+    vndf_rational_cell drawn = {(float)(cell->f0 * (weighted ? sum / 2 : w0) / mass),
+                                (float)(cell->f1 * (weighted ? sum / 2 : w1) / mass), 1.0f};
     float at = weighted ? vndf_weighted_zeta((float)w0, (float)w1, (float)xi) : (float)xi;
     return fabs((double)vndf_rational_density(&drawn, at) * (weighted ? 2 * w / sum : 1) - f * w / mass);
 }

@@ -125,9 +125,8 @@ static double cell_miss(const vndf_wedge_fit *fit, const judge *j, double a, dou
         f[i] = density_in_q(fit, j->d, j->p, j->r, a + h * vndf_gauss_node[i]);
         mass += vndf_gauss_weight[i] * h * f[i];
     }
-    float e0 = (float)(density_in_q(fit, j->d, j->p, j->r, a) * h);
-    float e1 = (float)(density_in_q(fit, j->d, j->p, j->r, b) * h);
-    vndf_rational_cell cell = vndf_rational_cell_from(e0, e1, (float)mass);
+    vndf_rational_cell cell = {(float)(density_in_q(fit, j->d, j->p, j->r, a) * h),
+                               (float)(density_in_q(fit, j->d, j->p, j->r, b) * h), (float)mass};
     for (int i = 0; i < VNDF_GAUSS; i++)
         miss += vndf_gauss_weight[i] * fabs((double)vndf_rational_density(&cell, (float)vndf_gauss_node[i]) / h - f[i]);
     return miss * h / 2 * j->scale;

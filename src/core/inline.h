@@ -1,6 +1,7 @@
 /* What every file of the run time is compiled under.
  *
- * Functions of the hot path are always part of their caller, so that the small structures they return stay in registers.
+ * Functions of the hot path are always part of their caller, so that the small structures they return stay in
+ * registers; those beside it, which must not take registers there, never are.
  *
  * Arithmetic is done in the type it is written in: where intermediate floats are held in more digits, as on the x87, the
  * bits would be others, and the bounds that were measured would be nobody's. 16 is 0 with a half-precision type. */
@@ -15,8 +16,10 @@
 
 #if defined(__GNUC__)
 #  define VNDF_INLINE static inline __attribute__((always_inline))
+#  define VNDF_RARE static __attribute__((noinline, unused))
 #else
 #  define VNDF_INLINE static inline
+#  define VNDF_RARE static
 #endif
 
 #endif

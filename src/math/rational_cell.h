@@ -7,7 +7,10 @@
  *     F'(xi) = (e1 xi^2 + 2 m xi eta + e0 eta^2) / (1 + (k - 2) xi eta)^2.
  *
  * F' > 0 inside for any e0, e1, so a cell never has a hole; F is inverted by one square root; and F'
- * follows a smooth density to third order in the cell's width, where a linear one reaches the second. */
+ * follows a smooth density to third order in the cell's width, where a linear one reaches the second.
+ *
+ * All quotients are multiplied by m, so that none has to wait for k: with e = e0 + e1 the denominator is
+ * m + (e - 2 m) xi eta. */
 #ifndef VNDF_MATH_RATIONAL_CELL_H
 #define VNDF_MATH_RATIONAL_CELL_H
 
@@ -16,38 +19,47 @@
 #include "core/inline.h"
 
 typedef struct vndf_rational_cell {
-    float e0, e1, mass, k;
+    float e0, e1, mass;
 } vndf_rational_cell;
 
-VNDF_INLINE vndf_rational_cell vndf_rational_cell_from(float e0, float e1, float mass)
+/* (m + (e - 2 m) xi eta); > 0 but for a cell without mass and density. */
+VNDF_INLINE float vndf_rational_below(const vndf_rational_cell *cell, float w)
 {
-    vndf_rational_cell cell = {e0, e1, mass, mass > 0.0f ? (e0 + e1) / mass : 2.0f};
-    return cell;
+    return cell->mass + (cell->e0 + cell->e1 - 2.0f * cell->mass) * w;
 }
 
 /* Mass before xi. */
 VNDF_INLINE float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
 {
-    float w = xi * (1.0f - xi);
-    return (cell->mass * xi * xi + cell->e0 * w) / (1.0f + (cell->k - 2.0f) * w);
+    float w = xi * (1.0f - xi), below = vndf_rational_below(cell, w);
+    return below > 0.0f ? (cell->mass * xi * xi + cell->e0 * w) * (cell->mass / below) : 0.0f;
 }
 
 /* Mass per unit of xi. */
 VNDF_INLINE float vndf_rational_density(const vndf_rational_cell *cell, float xi)
 {
-    float eta = 1.0f - xi, w = xi * eta, q = 1.0f + (cell->k - 2.0f) * w;
-    return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) / (q * q);
+    float eta = 1.0f - xi, w = xi * eta, below = vndf_rational_below(cell, w), part = below > 0.0f ? cell->mass / below : 0.0f;
+    return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
+/* A place in a cell, and the mass per unit of xi there. */
+typedef struct vndf_rational_place {
+    float xi, density;
+} vndf_rational_place;
+
 /* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
- * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other. */
-VNDF_INLINE float vndf_rational_invert(const vndf_rational_cell *cell, float t)
+ * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other.
+ * Its root is the derivative of a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root stand here times m. */
+VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, float t)
 {
-    float middle = cell->e0 - t * cell->k, b = middle + 2.0f * t;
-    float square = middle * middle + 4.0f * t * (cell->mass - t);
+    float m = cell->mass, twice = 2.0f * t * m, middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
+    float square = middle * middle + twice * (2.0f * m * (m - t));
     float root = sqrtf(square > 0.0f ? square : 0.0f); /* below 0 only by rounding of t beyond m */
-    float xi = b >= 0.0f ? (t > 0.0f ? 2.0f * t / (b + root) : 0.0f) : (root - b) / (2.0f * (cell->mass - b)); /* no difference of equals */
-    return xi < 1.0f ? xi : 1.0f;
+    float above = b >= 0.0f ? twice : root - b, below = b >= 0.0f ? b + root : 2.0f * (m * m - b); /* no difference of equals */
+    float xi = below > 0.0f ? above / below : 0.0f;
+    xi = xi < 1.0f ? xi : 1.0f;
+    vndf_rational_place place = {xi, root / (vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f)}; /* 0 of an empty cell */
+    return place;
 }
 
 #endif

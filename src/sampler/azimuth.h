@@ -1,6 +1,6 @@
-/* Stage 1 of the engine: an azimuth p in [0, pi/2] from a mix of two or three rows of cells.
+/* Stage 1 of the engine, in the wedge: an azimuth p in [0, pi/2] from a mix of three rows of cells.
  *
- * The row's variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
+ * The rows' variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
  * the density:  (cos, sin) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
  *               dphi/dq = 2 p r (1 + q^2) / N^2.
  * With p = r this is the plain half-angle tangent. */
@@ -21,11 +21,9 @@ typedef struct vndf_azimuth_part {
 /* The weighted sum of its parts, cell by cell. */
 typedef struct vndf_azimuth_row {
     vndf_azimuth_part a, b, c;
-    int parts;              /* 2 or 3 */
     const float *q;         /* cells + 1 */
     uint32_t cells, stride;
     float p, r;
-    int plain;              /* p = r = 1 */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
@@ -35,8 +33,7 @@ typedef struct vndf_azimuth {
 
 VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c, uint32_t j)
 {
-    float two = row->a.weight * a[j] + row->b.weight * b[j];
-    return row->parts == 2 ? two : two + row->c.weight * c[j];
+    return row->a.weight * a[j] + row->b.weight * b[j] + row->c.weight * c[j];
 }
 
 VNDF_INLINE float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
@@ -50,20 +47,16 @@ VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, ui
     const float *a = row->a.density, *b = row->b.density, *c = row->c.density;
     float h = row->q[j + 1] - row->q[j];
     *width = h;
-    return vndf_rational_cell_from(vndf_azimuth_mix(row, a, b, c, j) * h, vndf_azimuth_mix(row, a, b, c, j + 1) * h,
-                                   vndf_azimuth_mix(row, row->a.mass, row->b.mass, row->c.mass, j));
+    vndf_rational_cell cell = {vndf_azimuth_mix(row, a, b, c, j) * h, vndf_azimuth_mix(row, a, b, c, j + 1) * h,
+                               vndf_azimuth_mix(row, row->a.mass, row->b.mass, row->c.mass, j)};
+    return cell;
 }
 
-/* The azimuth at q, where the mass per unit of q is per_q. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float per_q)
+/* The azimuth at q, where the mass per `width` of q is `density`. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float density, float width)
 {
-    float even = 1.0f + q * q; /* n if p = r = 1 */
-    if (row->plain) {
-        vndf_azimuth at = {1.0f - q * q, 2.0f * q, even, per_q * (0.5f * even)};
-        return at;
-    }
     float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    vndf_azimuth at = {c, s, sqrtf(n2), per_q * n2 / (2.0f * row->p * row->r * even)};
+    vndf_azimuth at = {c, s, sqrtf(n2), density * n2 / (2.0f * row->p * row->r * (1.0f + q * q) * width)};
     return at;
 }
 
@@ -76,8 +69,8 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float ta
     uint32_t j = count > 0 ? count - 1 : 0;
     float width;
     vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
-    float xi = vndf_rational_invert(&cell, target - vndf_azimuth_before(row, j));
-    return vndf_azimuth_at(row, row->q[j] + xi * width, vndf_rational_density(&cell, xi) / width);
+    vndf_rational_place in = vndf_rational_invert(&cell, target - vndf_azimuth_before(row, j));
+    return vndf_azimuth_at(row, row->q[j] + in.xi * width, in.density, width);
 }
 
 /* Place of the azimuth (cos, sin) in the row: q, its cell and xi within. */

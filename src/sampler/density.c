@@ -1,12 +1,13 @@
 /* The density of a given normal, and D, in double from the very numbers that came in. In float three things would
- * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D is
- * steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed in the turned frame:
+ * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D
+ * is steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed
+ * in the turned frame:
  *
  *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch. Cells are those of
- * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5
- * of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+ * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below
+ * 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"
@@ -43,24 +44,20 @@ static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
     return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
 }
 
-static mixed_row front_row(const vndf_view *view)
-{
-    const vndf_distribution *d = view->distribution;
-    mixed_row row = {{vndf_front_even_mass, vndf_front_cosine_mass, vndf_front_even_mass},
-                     {vndf_front_even_density, vndf_front_cosine_density, vndf_front_even_density}, vndf_front_q,
-                     {view->c * d->f0_total, view->s * d->f1_total, 0.0}, 1.0, 1.0, VNDF_FRONT_CELLS};
-    return row;
-}
-
 static mixed_row wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    size_t ends = w->cell_count + 1;
-    const float *mass = w->cell_mass + (size_t)view->row * w->stride, *density = w->density + (size_t)view->row * ends;
-    double m = view->mix, rest = 1.0 - m;
-    mixed_row row = {{mass, mass + w->stride, mass + 2 * (size_t)w->stride}, {density, density + ends, density + 2 * ends}, w->q,
-                     {view->wedge * (rest * rest), view->wedge * (2.0 * rest * m), view->wedge * (m * m)},
-                     view->aspect_p, view->aspect_r, w->cell_count};
+    double y = vndf_wedge_y(view->s, view->c);
+    uint32_t i = vndf_wedge_find(&w->row_guide, w->row_y, y);
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
+    size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
+    const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;
+    mixed_row row = {{mass, mass + cells, mass + 2 * cells}, {density, density + ends, density + 2 * ends}, w->q,
+                     {rest * rest, 2.0 * rest * m, m * m}, 0.0, 0.0, w->cell_count};
+    for (size_t n = 0; n < 3; n++) {
+        row.p += row.share[n] * w->aspect_p[first + n];
+        row.r += row.share[n] * w->aspect_r[first + n];
+    }
     return row;
 }
 
@@ -85,11 +82,15 @@ static double row_density(const mixed_row *row, double cosine, double sine)
 /* Per radian, of mass 1 in a whole turn. */
 static double azimuth_density(const vndf_view *view, double cosine, double sine)
 {
+    const vndf_distribution *d = view->distribution;
     int toward = cosine >= 0.0, above = view->c >= 0.0;
-    mixed_row row = above && toward ? front_row(view) : wedge_row(view);
-    if (!(above && toward) && !(above != toward && view->wedge > 0.0 && row.p > 0.0))
+    double per = 0.5 / ((double)view->front + view->wedge);
+    if (above && toward)
+        return per * (view->c * d->f0_total + view->s * d->f1_total * cosine);
+    if (above == toward || !(view->wedge > 0.0))
         return 0.0;
-    return 0.5 * row_density(&row, fabs(cosine), sine) / ((double)view->front + view->wedge);
+    mixed_row row = wedge_row(view);
+    return row.p > 0.0 ? per * view->wedge * row_density(&row, fabs(cosine), sine) : 0.0;
 }
 
 /* ---- radius ---- */
@@ -114,7 +115,16 @@ static place place_of(const vndf_distribution *d, double x, double z)
     return at;
 }
 
-/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes. */
+/* X + Z at a place: the knots have 1 but for their rounding. What is per X + Z = 1 of the normal becomes per
+ * that. */
+static double sum_at(const vndf_distribution *d, place at)
+{
+    const float *x = d->knots.x + at.cell, *z = d->knots.z + at.cell;
+    return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
+}
+
+/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes.
+ * */
 typedef struct bump {
     double a, b;
 } bump;
@@ -159,7 +169,8 @@ typedef struct piece {
 static piece piece_above(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w = knot_weight(ray, j), end = ray->c * ray->table->knots.z[j + 1] + ray->k * ray->table->knots.x[j + 1];
+    const vndf_knots *k = &ray->table->knots;
+    double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     bump bend = bump_of(cell);
     piece p = {cell->f0, cubic(cell, h, 1.0 - h), w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h),
@@ -173,24 +184,26 @@ static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
     double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     bump bend = bump_of(cell);
-    piece p = {cubic(cell, 1.0 - h, h), cell->f1, w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h),
-               0.0, w, 0.0, w, 1.0 - h, h, 1};
+    double mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
+    piece p = {cubic(cell, 1.0 - h, h), cell->f1, mass, 0.0, w, 0.0, w, 1.0 - h, h, 1};
     return p;
 }
 
-/* Any cell; see radial.h for V of the neighbour of the cut. */
+/* Any cell; see radial.h for V of the second cell beside the cut. */
 static piece piece_of(const vndf_engine_ray *ray, uint32_t j)
 {
     if (j == ray->cut)
         return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), change = ray->part * ray->part * (w0 - w1);
+    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
     piece p = {cell->f0, cell->f1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, w0, w1, 0.0, 1.0, 0};
-    if (j + 1 < ray->cut || j > ray->cut + 1)
+    if (j + 2 < ray->cut || j > ray->cut + 2)
         return p;
     p.weighted = 1;
-    p.v0 = j > ray->cut ? w0 - change : w0;
-    p.v1 = j > ray->cut ? w1 : w1 + change;
+    if (j + 2 == ray->cut)
+        p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
+    else if (j == ray->cut + 2)
+        p.v0 += (way < 1.0 ? way : 1.0) * (w1 - w0);
     return p;
 }
 
@@ -199,12 +212,13 @@ static double over(double w, double v)
     return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
 }
 
-/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as X
- * does. */
+/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
+ * X does. */
 static double density_over_x(const vndf_engine_ray *ray, const piece *p, place at, double w)
 {
     const vndf_knots *k = &ray->table->knots;
-    double xi = at.xi / p->length, eta = at.eta / p->length, zeta, rest, ratio = 1.0, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1, per = 1.0;
+    double xi = at.xi / p->length, eta = at.eta / p->length, ratio = 1.0, per = 1.0;
+    double zeta, rest, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1;
     if (p->length < 1.0) {
         xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
         eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
@@ -267,12 +281,17 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
 {
     place at = place_of(ray->table, x, z);
     int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
-    if (hidden || !(ray->mass > 0.0) || !(ray->azimuth > 0.0))
+    if (!(ray->mass > 0.0) || !(ray->azimuth > 0.0))
         return 0.0;
-    piece p = piece_of(ray, at.cell);
+    piece p = piece_of(ray, hidden ? ray->cut : at.cell);
     if (!(p.length > 0.0))
         return 0.0;
-    return ray->azimuth * density_over_x(ray, &p, at, w) / (ray->mass * ray->table->cells[at.cell].width);
+    if (hidden) { /* by rounding alone, since w > 0: the place is the cut */
+        place end = {ray->cut, ray->c > 0.0 ? p.length : p.begin, ray->c > 0.0 ? 1.0 - p.length : p.length};
+        at = end;
+    }
+    double sum = sum_at(ray->table, at), density = density_over_x(ray, &p, at, w * sum) * (sum * sum * sum);
+    return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
 }
 
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
@@ -300,6 +319,8 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
     const float *kx = d->knots.x + at.cell;
     bump bend = bump_of(cell);
     double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
-    double f_over_x = at.cell == 0 ? rise / kx[1] : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
-    return f_over_x > 0.0 ? f_over_x / cell->width : 0.0;
+    double f_over_x = at.cell == 0 ? rise / kx[1]
+                                   : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
+    double sum = sum_at(d, at), square = sum * sum;
+    return f_over_x > 0.0 ? f_over_x / cell->width * (square * square) : 0.0;
 }

@@ -25,14 +25,19 @@ VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scal
 
 /* ---- sampling ---- */
 
+VNDF_INLINE vndf_front front_of(const vndf_view *view)
+{
+    return vndf_front_of(view->distribution, (float)view->s, (float)view->c);
+}
+
 /* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
 VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
     float wedge = (float)view->wedge, target = half * (view->front + wedge);
     vndf_azimuth at;
     if (view->c >= 0.0 && (target < view->front || !(wedge > 0.0f))) {
-        vndf_azimuth_row row = vndf_front_row(view);
-        return vndf_azimuth_draw(&row, target);
+        float rest = view->front - target;
+        return vndf_front_draw(front_of(view), rest > 0.0f ? rest : 0.0f, 1.0f / view->front);
     }
     vndf_azimuth_row row = vndf_wedge_row(view);
     if (view->c >= 0.0) { /* counted from the far side, a = pi */
@@ -51,7 +56,7 @@ VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
-    float c = (float)view->c * a->n, k = (float)view->s * a->c;
+    float c = (float)view->c * a->n + 0.0f, k = (float)view->s * a->c; /* what rounds to -0 is the horizon */
     if (c < 0.0f)
         return vndf_radial_draw_below(d, c, k, u);
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
@@ -65,6 +70,15 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     if (pdf)
         *pdf = vndf_pdf(view, wm);
     return wm;
+}
+
+/* Above the horizon, where W is no small difference and the azimuth not one where W may be small for all normals. */
+VNDF_INLINE int is_plain(const vndf_view *view, const vndf_azimuth *a, float x, float z)
+{
+    float s = (float)view->s, across = s * x * a->n, along = s * x * a->c, up = (float)view->c * z * a->n;
+    if (a->c >= 0.0f)
+        return view->c >= (a->c < 0.05f * a->n ? 0.25 : 0.0);
+    return view->c >= 0.25 && along + up > 0.1f * (across + up);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -82,14 +96,11 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    float across = (float)view->s * x, along = across * cos_phi, up = (float)view->c * z; /* W is their sum; no small difference: */
-    int plain = along + up > 0.1f * (across + fabsf(up)) && fabsf(u2 - 0.5f) < 0.4999f &&
-                fabsf(half) < 0.9999f && view->c >= (a.c < 0.05f * a.n ? 0.25 : 0.0) && !r.piece.weighted;
-    if (!plain || vndf_radial_is_delicate(d, &r))
+    int plain = is_plain(view, &a, x, z) && fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
+    if (!plain || vndf_radial_is_delicate(d, &r, a.c >= 0.0f))
         return sample_delicate(view, wm, pdf);
     if (pdf)
-        *pdf = per_steradian(view, 0.5f * a.density / (view->front + (float)view->wedge) *
-                                   (vndf_rational_density(&r.piece.cell, r.inside) / (x * d->cells[j].width)), length);
+        *pdf = per_steradian(view, a.density * r.inside.density / (view->area * x * d->cells[j].width), length);
     return wm;
 }
 
@@ -121,28 +132,27 @@ static place place_of(const vndf_view *view, vndf_vec3 normal)
     return p;
 }
 
-/* The row that an azimuth belongs to; 0 if nothing is drawn there. */
-static int row_of(const vndf_view *view, float cos_phi, vndf_azimuth_row *row)
+static int is_front(const vndf_view *view, float cos_phi)
 {
-    int toward = cos_phi >= 0.0f, above = view->c >= 0.0;
-    if (above && toward) {
-        *row = vndf_front_row(view);
-        return view->front > 0.0f;
-    }
-    *row = vndf_wedge_row(view);
-    return above != toward && view->wedge > 0.0 && row->p > 0.0f;
+    return view->c >= 0.0 && cos_phi >= 0.0f;
+}
+
+/* Whether normals are drawn at an azimuth that is not in front. */
+static int is_wedge(const vndf_view *view, float cos_phi)
+{
+    return (view->c >= 0.0) != (cos_phi >= 0.0f) && view->wedge > 0.0;
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */
 static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    vndf_azimuth_row row;
     float wedge = (float)view->wedge, total = view->front + wedge;
-    if (!row_of(view, cos_phi, &row))
+    if (is_front(view, cos_phi))
+        return (view->front - vndf_front_rest(front_of(view), cos_phi, sin_phi)) / total;
+    if (!is_wedge(view, cos_phi))
         return 1.0f;
+    vndf_azimuth_row row = vndf_wedge_row(view);
     float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
-    if (row.q == vndf_front_q)
-        return before / total;
     return view->c < 0.0 ? before : (view->front + (1.0f - before) * wedge) / total;
 }
 
@@ -152,5 +162,5 @@ void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, floa
     vndf_radial_law law = vndf_radial_law_for(view->distribution, (float)view->c, (float)view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
-    *u2 = law.gain > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
+    *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
 }

@@ -26,7 +26,7 @@ typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
     float scale;              /* by which they were multiplied */
-    float gain;               /* factor of all masses; 0 if nothing is visible: the horizon stands for it */
+    float gain;               /* factor of all masses; with the scale 0 if nothing is visible: the horizon stands for it */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi; without a cut 0 */
     float part_mass;          /* its mass, less the gain */
@@ -89,7 +89,6 @@ VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
-    law.gain = scale > 0.0f ? 1.0f : 0.0f;
     law.part_mass *= scale;
     law.part_w0 *= scale;
     law.part_w1 *= scale;
@@ -124,7 +123,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
 {
     float rho = -c / k;
     uint32_t j = vndf_guide_find(&d->slope_guide, rho);
-    vndf_radial_law law = {d, -rho, 1.0f, 1.0f / k, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     const vndf_radial_cell *cell = &d->cells[j];
     float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
     law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
@@ -135,6 +134,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
     law.part_w1 = w1;
     float total = vndf_radial_beyond(&law, j + 1) + law.part_mass;
     law.gain = total > 1e-36f && k > 1e-36f ? 1.0f / total : 0.0f;
+    law.scale = law.gain > 0.0f ? 1.0f / k : 0.0f;
     return law;
 }
 
@@ -161,12 +161,14 @@ typedef struct vndf_radial_piece {
     float w0, w1, v0, v1, begin, length; /* W and V at the ends of the part */
 } vndf_radial_piece;
 
-/* Away from the cut. */
+/* Away from the cut, where W > 0 without a guard. */
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1), g0 = law->gain * w0, g1 = law->gain * w1;
-    vndf_radial_piece piece = {vndf_rational_cell_from(cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1),
+    const vndf_knots *k = &law->table->knots;
+    float w0 = law->c * k->z[j] + law->k * k->x[j], w1 = law->c * k->z[j + 1] + law->k * k->x[j + 1];
+    float g0 = law->gain * w0, g1 = law->gain * w1;
+    vndf_radial_piece piece = {{cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1},
                                0, w0, w1, 0.0f, 0.0f, 0.0f, 1.0f};
     return piece;
 }
@@ -181,7 +183,7 @@ VNDF_INLINE float vndf_radial_over(float w, float v)
 VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
 {
     float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
-    vndf_radial_piece piece = {vndf_rational_cell_from(law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass),
+    vndf_radial_piece piece = {{law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass},
                                1, w0, w1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
     return piece;
 }
@@ -191,13 +193,16 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *la
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;
-    float w0 = piece.w0, w1 = piece.w1, way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
+    float w0 = piece.w0 > 0.0f ? piece.w0 : 0.0f, w1 = piece.w1 > 0.0f ? piece.w1 : 0.0f; /* rounding at the cut */
+    float way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
     piece.weighted = 1;
+    piece.w0 = w0;
+    piece.w1 = w1;
     piece.v0 = beyond ? w0 - change : w0;
     piece.v1 = beyond ? w1 : w1 + change;
     float half = law->gain * (0.5f * (piece.v0 + piece.v1));
-    piece.cell = vndf_rational_cell_from(cell->f0 * vndf_radial_over(w0, piece.v0) * half,
-                                         cell->f1 * vndf_radial_over(w1, piece.v1) * half, piece.cell.mass);
+    piece.cell.e0 = cell->f0 * vndf_radial_over(w0, piece.v0) * half;
+    piece.cell.e1 = cell->f1 * vndf_radial_over(w1, piece.v1) * half;
     return piece;
 }
 
@@ -222,8 +227,10 @@ VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
 {
     vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
     float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at));
-    if (law->c < 0.0f)
-        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (piece.cell.mass - inside));
+    if (law->c < 0.0f) {
+        float rest = piece.cell.mass - inside; /* below 0 where nothing is visible */
+        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (rest > 0.0f ? rest : 0.0f));
+    }
     return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;
 }
 

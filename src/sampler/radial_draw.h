@@ -6,11 +6,11 @@
 #include "sampler/radial.h"
 #include "table/window.h"
 
-/* A drawn place, its piece and where that stands. */
+/* A drawn place, its piece, and the place in the piece's rational cell. */
 typedef struct vndf_radial_drawn {
     vndf_radius at;
     vndf_radial_piece piece;
-    float inside;
+    vndf_rational_place inside;
 } vndf_radial_drawn;
 
 /* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
@@ -48,7 +48,7 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t 
 }
 
 /* Where no window is known: first the block, then within. Returns the last knot with no more than target before it. */
-static inline uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
+VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
 {
     uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
     block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
@@ -72,13 +72,13 @@ VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece, float rest)
 {
     vndf_radial_drawn r = {{j, 1.0f, 0.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
-    float xi = r.inside, eta = 1.0f - xi;
+    float xi = r.inside.xi, eta = 1.0f - xi;
     if (piece.weighted) {
         float within = vndf_weighted_xi(piece.v0, piece.v1, xi);
         xi = piece.begin + piece.length * within;
         eta = piece.begin > 0.0f ? piece.length * (1.0f - within) : 1.0f - xi;
     }
-    if (!(eta > 0.0f && law->gain > 0.0f))
+    if (!(eta > 0.0f && law->scale > 0.0f))
         return r; /* where nothing is visible the horizon stands for it */
     r.at.xi = xi;
     r.at.eta = eta;
@@ -115,7 +115,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d,
 }
 
 /* c < 0, k > 0; or k = 0 and nothing is visible. Mass is counted from infinity inwards. */
-VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
+VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, float c, float k, float u)
 {
     vndf_radial_law law = vndf_radial_law_for(d, c, k);
     uint32_t j = law.gain > 0.0f ? vndf_radial_search_beyond(&law, (1.0f - u) / law.gain) : law.cut;
@@ -123,15 +123,21 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d,
     return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - law.gain * vndf_radial_beyond(&law, j + 1)));
 }
 
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where the density
- * changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what it has at the
- * place, about - and beside a knot, which may be a jump of D. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r)
+/* Whether the density changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what
+ * it has at the place, about. */
+VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
     const vndf_knots *k = &d->knots;
-    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside;
+    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside.xi;
     float change = fabsf(rise) * k->x[r->at.cell + 1] * k->z[r->at.cell], least = here < r->piece.cell.mass ? here : r->piece.cell.mass;
-    return change > 10.0f * least * d->cells[r->at.cell].width || r->at.xi > 0.999f || r->at.xi < 0.001f;
+    return change > 10.0f * least * d->cells[r->at.cell].width;
+}
+
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep, and
+ * beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
+VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
+{
+    return fabsf(r->at.xi - 0.5f) > 0.499f || (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
 }
 
 #endif

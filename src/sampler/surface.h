@@ -11,10 +11,15 @@ VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, dou
 {
     if (!surface || !surface->distribution)
         return 0;
-    *ax = surface->alpha_x * surface->distribution->scale_exact;
-    *ay = surface->alpha_y * surface->distribution->scale_exact;
+    const vndf_distribution *d = surface->distribution;
+    double scale = d->kind == VNDF_KIND_TABLE ? d->scale_exact : 1.0;
+    *ax = surface->alpha_x * scale;
+    *ay = surface->alpha_y * scale;
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;
 }
+
+/* The view of a usable direction for roughness times the table's scale (ax, ay). */
+vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
 /* D(wm) for roughness times the table's scale (ax, ay). */
 double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wm);

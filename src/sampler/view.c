@@ -37,12 +37,8 @@ static vndf_view invalid_view(void)
     return view;
 }
 
-vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    double ax, ay;
-    if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
-        return invalid_view();
-    const vndf_distribution *d = surface->distribution;
     int table = d->kind == VNDF_KIND_TABLE;
     polar p = stretch(wi, ax, ay, table);
     vndf_wedge_view w = {0};
@@ -50,9 +46,22 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
         w = vndf_wedge_view_at(d, p.s, p.c);
     else
         w.area = (float)vndf_unit_area(d, p.s, p.c);
-    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, (float)(1.0 / ax), (float)(1.0 / ay), p.cos_phi, p.sin_phi,
-                      w.area, w.front, w.wedge, w.mix, w.aspect_p, w.aspect_r, w.row};
+    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, 1.0f / (float)ax, 1.0f / (float)ay, p.cos_phi, p.sin_phi,
+                      w.area, w.front, w.wedge};
     return view;
+}
+
+vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+{
+    return view_scaled(d, ax, ay, wi);
+}
+
+vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+{
+    double ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
+        return invalid_view();
+    return view_scaled(surface->distribution, ax, ay, wi);
 }
 
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)

@@ -12,8 +12,7 @@
 /* The members of a view that belong to the engine; vndf.h says what they are. */
 typedef struct vndf_wedge_view {
     float area, front;
-    double wedge, mix, aspect_p, aspect_r;
-    uint32_t row;
+    double wedge;
 } vndf_wedge_view;
 
 /* Shares of three neighbouring rows `mix` of the way from the first to the last. */
@@ -56,43 +55,37 @@ VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
     return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
 }
 
-/* For s + |c| = 1. */
+/* The wedge's coordinate of a direction with s + |c| = 1. */
+VNDF_INLINE double vndf_wedge_y(double s, double c)
+{
+    return c >= 0.0 ? c : s;
+}
+
 VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, double s, double c)
 {
-    const vndf_wedge *wedge = vndf_wedge_of(d, c);
-    double y = c >= 0.0 ? c : s;
-    double mass = vndf_wedge_mass(wedge, y), front = c >= 0.0 ? c * (d->f0_total * VNDF_QUARTER_TURN) + s * d->f1_total : 0.0;
-    uint32_t i = vndf_wedge_find(&wedge->row_guide, wedge->row_y, y);
-    double mix = (y - wedge->row_y[i]) / (wedge->row_y[i + 1] - wedge->row_y[i]), rest = 1.0 - mix;
-    double first = rest * rest, middle = 2.0 * rest * mix, last = mix * mix;
-    const float *p = wedge->aspect_p + 2 * (size_t)i, *r = wedge->aspect_r + 2 * (size_t)i;
+    double mass = vndf_wedge_mass(vndf_wedge_of(d, c), vndf_wedge_y(s, c));
+    double front = c >= 0.0 ? c * (d->f0_total * VNDF_QUARTER_TURN) + s * d->f1_total : 0.0;
     /* below the horizon the wedge is all there is: its part is 1, and its mass may underflow */
-    vndf_wedge_view view = {(float)(2.0 * (front + mass)), (float)front, c >= 0.0 ? mass : s > 0.0 ? 1.0 : 0.0, mix,
-                            first * p[0] + middle * p[1] + last * p[2], first * r[0] + middle * r[1] + last * r[2], 2 * i};
+    vndf_wedge_view view = {(float)(2.0 * (front + mass)), (float)front, c >= 0.0 ? mass : s > 0.0 ? 1.0 : 0.0};
     return view;
 }
 
-/* The half circle towards wi, above the horizon. */
-VNDF_INLINE vndf_azimuth_row vndf_front_row(const vndf_view *view)
-{
-    const vndf_distribution *d = view->distribution;
-    vndf_azimuth_row row = {
-        {vndf_front_even_cdf, vndf_front_even_mass, vndf_front_even_density, (float)view->c * d->f0_total},
-        {vndf_front_cosine_cdf, vndf_front_cosine_mass, vndf_front_cosine_density, (float)view->s * d->f1_total},
-        {NULL, NULL, NULL, 0.0f}, 2, vndf_front_q, VNDF_FRONT_CELLS, VNDF_FRONT_CELLS, 1.0f, 1.0f, 1};
-    return row;
-}
-
-/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. */
+/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. Not part of the view, since three of four
+ * samples are in front. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    vndf_row_weights share = vndf_row_weights_at((float)view->mix);
-    size_t cells = w->stride, ends = w->cell_count + 1, a = (size_t)view->row * cells, end = (size_t)view->row * ends;
+    float y = (float)vndf_wedge_y(view->s, view->c);
+    uint32_t i = vndf_guide_find(&w->row_guide, y);
+    vndf_row_weights share = vndf_row_weights_at((y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]));
+    size_t cells = w->stride, ends = w->cell_count + 1, a = 2 * (size_t)i * cells, end = 2 * (size_t)i * ends;
+    const float *p = w->aspect_p + 2 * (size_t)i, *r = w->aspect_r + 2 * (size_t)i;
     vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
                             {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
                             {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends, share.last},
-                            3, w->q, w->cell_count, w->stride, (float)view->aspect_p, (float)view->aspect_r, 0};
+                            w->q, w->cell_count, w->stride,
+                            share.first * p[0] + share.middle * p[1] + share.last * p[2],
+                            share.first * r[0] + share.middle * r[1] + share.last * r[2]};
     return row;
 }
 

@@ -21,13 +21,12 @@ VNDF_INLINE uint32_t vndf_float_bits(float x)
 int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count);
 void vndf_guide_free(vndf_guide *guide);
 
-/* Index i in [0, count - 2] with knots[i] <= value < knots[i+1], the ends extended; value >= 0. Two steps without a
- * branch to mispredict are enough for nearly every value. */
+/* Index i in [0, count - 2] with knots[i] <= value < knots[i+1], the ends extended; value >= 0. One step without a
+ * branch to mispredict is enough for nearly every value. */
 VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 {
     uint32_t bits = vndf_float_bits(value), above = bits > guide->low ? bits - guide->low : 0, bucket = above >> guide->shift;
     uint32_t i = guide->first[bucket < guide->last ? bucket : guide->last];
-    i += bits >= guide->next[i];
     i += bits >= guide->next[i];
     while (bits >= guide->next[i])
         i++;

@@ -45,10 +45,10 @@ typedef struct vndf_knots {
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. 32 bytes. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1, a, b, width;
-    float unused; /* 32 bytes */
+    uint32_t calm; /* the density changes little in it for every law with c, k >= 0 (sampler/radial_draw.h) */
 } vndf_radial_cell;
 
 /* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps (table/guide.h). */
