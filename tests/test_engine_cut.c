@@ -1,7 +1,7 @@
-/* The law of the slope length follows its cut, wherever that stands. As the cut passes a knot of the table no part of the
- * law jumps by more than 1e-4 of u2, though the cells beside it are drawn in another way than those away from it. And
- * where the cut lies at slopes of 1e10, at 179.9 degrees with a roughness of 1e-8, samples have their density and come
- * back through vndf_invert within 1e-3. */
+/* The law of the slope length follows its cut, wherever that stands. As the cut passes a knot of the table no
+ * part of the law jumps by more than 1e-4 of u2, though the cells beside it are drawn in another way than those
+ * away from it. And where the cut lies at slopes of 1e10, at 179.9 degrees with a roughness of 1e-8, samples
+ * have their density and come back through vndf_invert within 1e-3. */
 #include <float.h>
 
 #include "oracle.h"

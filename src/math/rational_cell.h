@@ -38,7 +38,8 @@ VNDF_INLINE float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
 /* Mass per unit of xi. */
 VNDF_INLINE float vndf_rational_density(const vndf_rational_cell *cell, float xi)
 {
-    float eta = 1.0f - xi, w = xi * eta, below = vndf_rational_below(cell, w), part = below > 0.0f ? cell->mass / below : 0.0f;
+    float eta = 1.0f - xi, w = xi * eta, below = vndf_rational_below(cell, w);
+    float part = below > 0.0f ? cell->mass / below : 0.0f;
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
@@ -48,17 +49,21 @@ typedef struct vndf_rational_place {
 } vndf_rational_place;
 
 /* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
- * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other.
- * Its root is the derivative of a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root stand here times m. */
+ * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the
+ * other. Its root is the derivative of a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root
+ * stand here times m. */
 VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, float t)
 {
-    float m = cell->mass, twice = 2.0f * t * m, middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
+    float m = cell->mass, twice = 2.0f * t * m, middle = cell->e0 * m - t * (cell->e0 + cell->e1);
+    float b = middle + twice;
     float square = middle * middle + twice * (2.0f * m * (m - t));
     float root = sqrtf(square > 0.0f ? square : 0.0f); /* below 0 only by rounding of t beyond m */
-    float above = b >= 0.0f ? twice : root - b, below = b >= 0.0f ? b + root : 2.0f * (m * m - b); /* no difference of equals */
+    float above = b >= 0.0f ? twice : root - b; /* no difference of equals */
+    float below = b >= 0.0f ? b + root : 2.0f * (m * m - b);
     float xi = below > 0.0f ? above / below : 0.0f;
     xi = xi < 1.0f ? xi : 1.0f;
-    vndf_rational_place place = {xi, root / (vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f)}; /* 0 of an empty cell */
+    float per_xi = root / (vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f); /* 0 of an empty cell */
+    vndf_rational_place place = {xi, per_xi};
     return place;
 }
 

@@ -1,12 +1,13 @@
-/* The front half circle, cos a >= 0, above the horizon: the density of the azimuth is A + B cos a, A = c F0 and B = s F1,
- * known without a table of D. With b = pi/2 - a its mass beyond a is
+/* The front half circle, cos a >= 0, above the horizon: the density of the azimuth is A + B cos a, A = c F0 and B
+ * = s F1, known without a table of D. With b = pi/2 - a its mass beyond a is
  *
  *     A b + B (1 - cos b) = 2 A asin(y) + 2 B y^2,      y = sin(b/2),
  *
- * Kepler's equation if it is to be R. With k for asin(y)/y the root is y = R/(A k + sqrt((A k)^2 + 2 B R)); for A = 0 that
- * is exact, and where A rules k = 1 + 0.1107 (R/whole)^2 is good: b is within 4.3e-3. One step of Halley's method in b,
- * made by turning (sin b, cos b), leaves an error of 7.4e-9 of the mass, so (A + B cos a) is the density of what is drawn
- * to float precision. asin(y)/y is a polynomial in y^2 up to 0.505, largest error 1.8e-8 (fitted for that). */
+ * Kepler's equation if it is to be R. With k for asin(y)/y the root is y = R/(A k + sqrt((A k)^2 + 2 B R)); for
+ * A = 0 that is exact, and where A rules k = 1 + 0.1107 (R/whole)^2 is good: b is within 4.3e-3. One step of
+ * Halley's method in b, made by turning (sin b, cos b), leaves an error of 7.4e-9 of the mass, so (A + B cos a)
+ * is the density of what is drawn to float precision. asin(y)/y is a polynomial in y^2 up to 0.505, largest
+ * error 1.8e-8 (fitted for that). */
 #ifndef VNDF_SAMPLER_FRONT_H
 #define VNDF_SAMPLER_FRONT_H
 
@@ -56,9 +57,11 @@ VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, float rest, float per
     const float tiny = 1e-30f; /* quotients of nothing become 0, here and below */
     float k = (front.even + tiny) + (0.1107f * front.even * per_mass * per_mass) * (rest * rest);
     float y = rest / (k + sqrtf(k * k + 2.0f * front.odd * rest)), y2 = y * y;
-    float sine = 2.0f * y * sqrtf(1.0f - y2), cosine = 1.0f - 2.0f * y2, density = vndf_front_density(front, sine) + 1e-18f;
+    float sine = 2.0f * y * sqrtf(1.0f - y2), cosine = 1.0f - 2.0f * y2;
+    float density = vndf_front_density(front, sine) + 1e-18f;
     float miss = rest - vndf_front_beyond(front, y, y2);
-    float step = miss * density / (density * density + miss * (0.5f * front.odd * cosine)), half_step2 = 0.5f * (step * step);
+    float step = miss * density / (density * density + miss * (0.5f * front.odd * cosine));
+    float half_step2 = 0.5f * (step * step);
     float c = (sine + cosine * step) - sine * half_step2, s = (cosine - sine * step) - cosine * half_step2;
     vndf_azimuth at = {c > 0.0f ? c : 0.0f, s > 0.0f ? s : 0.0f, 1.0f, 0.0f};
     at.density = vndf_front_density(front, at.c);

@@ -2,16 +2,17 @@
  * cell of the radial table, where c Z + k X > 0. Drawing from it is in radial_draw.h.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
- * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the
- * cell that holds the cut W = 0, and in the two beside it, by a weighted one (math/weighted_cell.h), with a weight V
- * that is W for the cell at the cut and the first beside it. The cell at the cut is used on its visible part alone, with
- * its mass and its value at the cut from the cubic.
+ * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that
+ * holds the cut W = 0, and in the two beside it, by a weighted one (math/weighted_cell.h), with a weight V that
+ * is W for the cell at the cut and the first beside it. The cell at the cut is used on its visible part alone,
+ * with its mass and its value at the cut from the cubic.
  *
- * So that no law jumps as the cut moves, V of the second cell beside it depends on the visible part h of the cell at
- * the cut: it is W at h = 0, where the cut leaves the first, and from h = 1/16 constant, that is a plain cell. V is W at
- * the knot away from the cut, and 16 h of the way from W there to that value at the knot towards it. W and a constant
- * follow a law f W equally well, what is between them less so: a way as long as h would raise the TV of 16 KiB from
- * 6e-5 to 1.4e-4 (gtr:1.5), in the first cell to 5e-4; this one raises it to 7e-5. */
+ * So that no law jumps as the cut moves, V of the second cell beside it depends on the visible part h of the
+ * cell at the cut: it is W at h = 0, where the cut leaves the first, and from h = 1/16 constant, that is a
+ * plain cell. V is W at the knot away from the cut, and 16 h of the way from W there to that value at the knot
+ * towards it. W and a constant follow a law f W equally well, what is between them less so: a way as long as h
+ * would raise the TV of 16 KiB from 6e-5 to 1.4e-4 (gtr:1.5), in the first cell to 5e-4; this one raises it to
+ * 7e-5. */
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
@@ -20,8 +21,9 @@
 #include "table/table.h"
 
 /* The law of R: everything that does not depend on the uniform number. Its mass is 1, so no square of a mass
- * vanishes where next to nothing is visible. Above the horizon the weights themselves are scaled to that; below it
- * they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied by `gain`. */
+ * vanishes where next to nothing is visible. Above the horizon the weights themselves are scaled to that; below
+ * it they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied
+ * by `gain`. */
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
