@@ -22,10 +22,10 @@ typedef struct vndf_parameter {
     double value;
 } vndf_parameter;
 
-/* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses,
- * numbers, pi, parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma
- * abs min max pow step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an
- * error that points at the column if it cannot be read. The text and parameters are copied. */
+/* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses, numbers, pi,
+ * parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
+ * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that
+ * points at the column if it cannot be read. The text and parameters are copied. */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters,
                                                  size_t count, vndf_error *error);
 
@@ -47,7 +47,8 @@ VNDF_API vndf_source *vndf_source_family(const char *specification, vndf_error *
 /* One line per family with its parameters, ranges, formula and reference; a static string. */
 VNDF_API const char *vndf_family_help(void);
 
-/* The i-th measured material that is shipped ("sgd:alum-bronze/r", ..., "abc:two-layer-gold"), or NULL past the last. */
+/* The i-th measured material that is shipped ("sgd:alum-bronze/r", ..., "abc:two-layer-gold"), or NULL past the
+ * last. */
 VNDF_API const char *vndf_family_material(size_t index);
 
 /* A C function: D(cos theta_m), or P22(r) (better for narrow distributions: 1 - cos loses digits). It
@@ -72,11 +73,11 @@ VNDF_API void vndf_source_free(vndf_source *source);
 
 /* ---- limits ------------------------------------------------------------------------------------ */
 
-/* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they take, not by
- * seconds, so that the same input gives the same result on every machine: an evaluation of P22 counts as 8 operations
- * (16 for a mix), for a formula as 4, 8 for each function and power in it, and one for each number, name and other
- * operator. An operation takes some 4 to 12 ns, so that no formula takes more than minutes; the time of a callback is
- * its own. Memory is bounded by the same: below 512 MiB. */
+/* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they
+ * take, not by seconds, so that the same input gives the same result on every machine: an evaluation of P22
+ * counts as 8 operations (16 for a mix), for a formula as 4, 8 for each function and power in it, and one for
+ * each number, name and other operator. An operation takes some 4 to 12 ns, so that no formula takes more than
+ * minutes; the time of a callback is its own. Memory stays below 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096,     /* characters */
     VNDF_LIMIT_EXPRESSION_DEPTH = 64,        /* parentheses, calls, signs and powers inside each other */
@@ -93,9 +94,9 @@ enum {
 
 /* ---- building ---------------------------------------------------------------------------------- */
 
-/* Called when a build begins something else, and at least every 2^18 operations (see limits), some milliseconds, with the
- * part done in [0, 1] and what is being done; returns 0 to go on, anything else to stop the build (VNDF_ERROR_ARGUMENT,
- * "interrupted"). */
+/* Called when a build begins something else, and at least every 2^18 operations (see limits), some
+ * milliseconds, with the part done in [0, 1] and what is being done; returns 0 to go on, anything else to stop
+ * the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
 typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults. */
@@ -124,9 +125,9 @@ VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it (path.PROCESS.tmp), flushed to the disk, then renamed over path.
- * If that fails the old file is whole and no temporary is left. A signal that ends the process meanwhile may leave one:
- * block it, as `vndf build` does. */
+/* Writes the table to a file: to a temporary beside it (path.PROCESS.tmp), flushed to the disk, then renamed
+ * over path. If that fails the old file is whole and no temporary is left. A signal that ends the process
+ * meanwhile may leave one: block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* What the tests of damaged tables share: a copy of bytes that nothing can be read beyond, and what a table has to do,
- * whatever it holds. */
+/* What the tests of damaged tables share: a copy of bytes that nothing can be read beyond, and what a table has
+ * to do, whatever it holds. */
 #ifndef TESTS_DAMAGE_H
 #define TESTS_DAMAGE_H
 
@@ -17,7 +17,8 @@
 #include "test.h"
 #include "vndf.h"
 
-/* Room for bytes that end where a page begins that nobody may read; elsewhere blocks of the exact size, for sanitizers. */
+/* Room for bytes that end where a page begins that nobody may read; elsewhere blocks of the exact size, for
+ * sanitizers. */
 typedef struct fence {
     unsigned char *base; /* NULL: no pages */
     size_t room;
@@ -40,7 +41,8 @@ static inline fence fence_for(size_t most)
 }
 
 /* Loads a copy that ends at the fence. */
-static inline vndf_distribution *load_fenced(const fence *f, const unsigned char *bytes, size_t size, vndf_error *error)
+static inline vndf_distribution *load_fenced(const fence *f, const unsigned char *bytes, size_t size,
+                                             vndf_error *error)
 {
     unsigned char *own = f->base ? f->base + f->room - size : malloc(size ? size : 1);
     if (!own)

@@ -1,7 +1,9 @@
-/* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing leaks: every
- * operation is tried with its first allocation failing, then its second, until it succeeds with none that failed.
+/* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing
+ * leaks: every operation is tried with its first allocation failing, then its second, until it succeeds with
+ * none that failed.
  *
- * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as here. */
+ * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as
+ * here. */
 #include <stdlib.h>
 
 #include "oracle.h"
@@ -219,12 +221,13 @@ static int try_with(operation *run, const subject *of, long after)
     else
         clean &= TEST(error.status == VNDF_OK);
     if (!clean)
-        fprintf(stderr, "  %s, allocation %ld: status %d, '%s', %ld blocks more\n", of->name, after, (int)error.status,
-                error.message, live - before);
+        fprintf(stderr, "  %s, allocation %ld: status %d, '%s', %ld blocks more\n", of->name, after,
+                (int)error.status, error.message, live - before);
     return failed != 0;
 }
 
-/* The first `every` allocations, and each step-th of those after them: there they are rows of azimuths, all alike. */
+/* The first `every` allocations, and each step-th of those after them: there they are rows of azimuths, all
+ * alike. */
 static void try_all(const char *what, operation *run, const subject *of, long every, long step)
 {
     long n = 0, tries = 0;
@@ -234,11 +237,11 @@ static void try_all(const char *what, operation *run, const subject *of, long ev
     }
     TEST(n > 0);
     fprintf(stderr, "%-12s %-22s: some %ld allocations, %ld of them failed in turn\n", what,
-            run == load || run == load_memory || run == save || run == remake_and_certify ? "shipped table" : of->name, n,
-            tries);
+            of->make ? of->name : "shipped table", n, tries);
 }
 
-/* With any argument every allocation of every build fails, else all of the first kind of source and some of the others. */
+/* With any argument every allocation of every build fails, else all of the first kind of source and some of the
+ * others. */
 int main(int count, char **arguments)
 {
     const subject table = {shipped, NULL, 0};

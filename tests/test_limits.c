@@ -1,5 +1,6 @@
-/* Every limit that the headers state is where they state it: what is at the limit is taken, what is one beyond is refused
- * with an error that names the limit. (Length and depth of expressions, lines of a CSV: test_expression, test_csv.) */
+/* Every limit that the headers state is where they state it: what is at the limit is taken, what is one beyond
+ * is refused with an error that names the limit. (Length and depth of expressions, lines of a CSV:
+ * test_expression, test_csv.) */
 #include <stdlib.h>
 
 #include "build/guard.h"

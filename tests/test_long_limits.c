@@ -1,5 +1,5 @@
-/* No formula keeps a build busy for ever: those found to take longest end, with a table or with an error that says why.
- * The seconds are printed. */
+/* No formula keeps a build busy for ever: those found to take longest end, with a table or with an error that
+ * says why. The seconds are printed. */
 #include <time.h>
 
 #include "test.h"

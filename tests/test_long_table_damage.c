@@ -1,5 +1,5 @@
-/* What test_table_damage does with a small table holds for every table given: all truncations and all single-bit flips are
- * refused, and with the checksum put right again each flip is refused or safe. */
+/* What test_table_damage does with a small table holds for every table given: all truncations and all
+ * single-bit flips are refused, and with the checksum put right again each flip is refused or safe. */
 #define _DEFAULT_SOURCE
 #include "damage.h"
 

@@ -1,5 +1,6 @@
-/* Whatever goes wrong around the program - a full disk, a folder that may not be written, a signal in the middle, a
- * reader that goes away - the old file stays whole, no temporary is left, and what is said is clear, or nothing. */
+/* Whatever goes wrong around the program - a full disk, a folder that may not be written, a signal in the
+ * middle, a reader that goes away - the old file stays whole, no temporary is left, and what is said is clear,
+ * or nothing. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  define HAS_PROCESSES 1
@@ -216,7 +217,8 @@ static void test_full_stdout(void)
 static void test_no_folder(void)
 {
     static const char *const words[] = {"build", "--family", "ggx", "-o", "old.vndf/table.vndf", NULL};
-    static const char *const sample[] = {"sample", "ggx", "--theta", "60", "-n", "3", "-o", "old.vndf/a.csv", NULL};
+    static const char *const sample[] = {"sample", "ggx", "--theta", "60", "-n", "3", "-o", "old.vndf/a.csv",
+                                         NULL};
     put_old("old.vndf");
     outcome o = run(&plain, words);
     TEST(exited(o, 2));
@@ -263,8 +265,8 @@ static outcome interrupt(const char *const *words, int number, long delay, int a
 /* A build of many seconds. The child of a busy machine may not have begun it yet: then the signal waits longer. */
 static void test_interrupted_build(int number)
 {
-    static const char *const words[] = {"build", "--slope", "exp(-r)*(1+0.9*sin(300*r))", "--max-bytes", "65536", "-o",
-                                        "old.vndf", NULL};
+    static const char *const words[] = {"build", "--slope", "exp(-r)*(1+0.9*sin(300*r))", "--max-bytes", "65536",
+                                        "-o", "old.vndf", NULL};
     outcome o = {0, ""};
     put_old("old.vndf");
     for (long delay = 300; delay < 5000 && !o.errors[0]; delay *= 2)

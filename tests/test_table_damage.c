@@ -1,5 +1,6 @@
-/* Every truncation and every single-bit flip of a shipped table is refused, and nothing is read beyond its end; where the
- * checksum is put right again, the table is refused or safe to use. (test_long_table_damage: all shipped tables.) */
+/* Every truncation and every single-bit flip of a shipped table is refused, and nothing is read beyond its end;
+ * where the checksum is put right again, the table is refused or safe to use. (test_long_table_damage: all
+ * shipped tables.) */
 #define _DEFAULT_SOURCE
 #include "damage.h"
 #include "oracle.h"

@@ -37,8 +37,8 @@ static int print_help(void)
          "         vndf check wavy.vndf\n"
          "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
          "\n"
-         "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed; a reader that closes\n"
-         "the pipe ends the program quietly, by SIGPIPE or, where that is ignored, with status 2");
+         "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed;\n"
+         "a reader that closes the pipe ends the program quietly, by SIGPIPE or, where that is ignored, with status 2");
     return STATUS_GOOD;
 }
 

@@ -140,8 +140,8 @@ int output_open(output_file *output, const char *command, const char *path)
 
 /* ---- closing ------------------------------------------------------------------------------------- */
 
-/* Flushes; 0 and errno if that or any write before failed. Of a write before, the reason may be lost: another one, of a
- * byte that nobody will read, shows it. */
+/* Flushes; 0 and errno if that or any write before failed. Of a write before, the reason may be lost: another
+ * one, of a byte that nobody will read, shows it. */
 static int flush(FILE *file)
 {
     int failed_before = ferror(file);
@@ -171,7 +171,8 @@ static void close_file(output_file *output)
     output_release_signals(output->held);
 }
 
-/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be synced. */
+/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be
+ * synced. */
 static int close_and_rename(output_file *output)
 {
     int good = flush(output->file) && (fsync(fileno(output->file)) == 0 || errno == EINVAL || errno == EROFS);
@@ -196,8 +197,8 @@ int output_commit(output_file *output)
     return STATUS_USE;
 }
 
-/* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited are let
- * through last, when all is said. */
+/* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited
+ * are let through last, when all is said. */
 int output_give_up(output_file *output, const char *why)
 {
     if (output->temporary) {

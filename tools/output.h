@@ -21,7 +21,8 @@ int output_open(output_file *output, const char *command, const char *path);
 /* 1 if one of the signals that wait has come: for work between output_hold_signals and output_release_signals. */
 int output_stopping(unsigned held);
 
-/* A file that outgrows a limit of the shell then fails to be written, as on a full disk, instead of ending the program. */
+/* A file that outgrows a limit of the shell then fails to be written, as on a full disk, instead of ending the
+ * program. */
 void output_ignore_size_signal(void);
 
 /* 1 if the user asked to stop; close with output_give_up then. */

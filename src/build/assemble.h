@@ -16,7 +16,8 @@ typedef struct vndf_plan {
     double finest;  /* the error down to which the fits were refined */
 } vndf_plan;
 
-/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped it. */
+/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped
+ * it. */
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
 void vndf_plan_free(vndf_plan *plan);
 

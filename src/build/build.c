@@ -96,7 +96,8 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
         double middle = (low + high) / 2;
         vndf_error ignored;
-        vndf_distribution *smaller = finish(plan, exp(middle), &ignored); /* if floats cannot hold it, the larger one stays */
+        /* if floats cannot hold it, the larger one stays */
+        vndf_distribution *smaller = finish(plan, exp(middle), &ignored);
         if (smaller && smaller->certificate.tv <= max_tv) {
             vndf_free(table);
             table = smaller;
@@ -141,7 +142,8 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     double max_tv = options ? options->max_tv : 0.0;
     if (check_options(source, max_bytes, max_tv, error) != VNDF_OK)
         return NULL;
-    vndf_guard guard = vndf_guard_from(options ? options->progress : NULL, options ? options->progress_user : NULL);
+    vndf_build_options none = {0, 0, NULL, NULL}, given = options ? *options : none;
+    vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)

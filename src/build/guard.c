@@ -61,8 +61,9 @@ static vndf_status bad_value(const vndf_guard *guard, vndf_error *error)
 {
     double theta = atan(guard->bad_r) * DEGREES;
     if (guard->bad_value < 0.0)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)",
-                         guard->bad_value, guard->bad_r, theta);
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is negative (%g) at slope %g (theta_m = %.9g degrees)", guard->bad_value,
+                         guard->bad_r, theta);
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION, "P22 is %s at slope %g (theta_m = %.9g degrees)",
                      isnan(guard->bad_value) ? "not a number" : "infinite", guard->bad_r, theta);
 }
@@ -77,8 +78,8 @@ vndf_status vndf_guard_status(const vndf_guard *guard, vndf_error *error)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "interrupted (%s)", guard->what);
     if (guard->exhausted)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "the distribution is too costly: the build was given up after %.3g operations (%s); a formula "
-                         "that is shorter or has fewer features, or a smaller table, takes fewer",
+                         "the distribution is too costly: the build was given up after %.3g operations (%s); a "
+                         "formula that is shorter or has fewer features, or a smaller table, takes fewer",
                          OPERATIONS_MOST, guard->what);
     return VNDF_OK;
 }

@@ -1,11 +1,12 @@
 /* The guard of a build: what it has cost so far, and why it has to end early.
  *
- * Costs are counted in operations, of some 4 to 12 ns each (vndf_build.h): what an evaluation of the source takes, and
- * what else is summed over is charged by what it takes. So a bound is the same on every machine, and builds stay
- * deterministic. Every GUARD_INTERVAL operations the caller's progress function is asked whether to go on.
+ * Costs are counted in operations, of some 4 to 12 ns each (vndf_build.h): what an evaluation of the source
+ * takes, and what else is summed over is charged by what it takes. So a bound is the same on every machine, and
+ * builds stay deterministic. Every GUARD_INTERVAL operations the caller's progress function is asked whether to
+ * go on.
  *
- * Once a build has to end nothing evaluates the source any more, all loops run out quickly on whatever is left, and
- * who began the build asks vndf_guard_status for the reason: what was made meanwhile is of no use. */
+ * Once a build has to end nothing evaluates the source any more, all loops run out quickly on whatever is left,
+ * and who began the build asks vndf_guard_status for the reason: what was made meanwhile is of no use. */
 #ifndef VNDF_BUILD_GUARD_H
 #define VNDF_BUILD_GUARD_H
 

@@ -1,9 +1,9 @@
 /* A source made fit for integration: P22 at canonical scale, cut into panels on which it is resolved.
  *
- * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1
- * and median R = 1. The floor, 1e-26/(1 + R^2)^2, is too small for any measurement and keeps a density
- * positive on the whole hemisphere. Panels are even in log R, at most an octave wide, cut in two until ten Gauss
- * points agree with twice ten to 1e-10 of the panel, or until that was done forty times: then there is a jump. All
+ * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1 and
+ * median R = 1. The floor, 1e-26/(1 + R^2)^2, is too small for any measurement and keeps a density positive on
+ * the whole hemisphere. Panels are even in log R, at most an octave wide, cut in two until ten Gauss points
+ * agree with twice ten to 1e-10 of the panel, or until that was done forty times: then there is a jump. All
  * integrals below are sums over panels, with relative precision near the pole (E) and in the tail (S). */
 #ifndef VNDF_BUILD_PROFILE_H
 #define VNDF_BUILD_PROFILE_H
@@ -41,8 +41,8 @@ typedef struct vndf_profile {
     int rough;                      /* more panels are needed than there may be */
 } vndf_profile;
 
-/* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept: it has
- * to live as long, or be taken away. */
+/* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:
+ * it has to live as long, or be taken away. */
 vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 

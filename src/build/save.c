@@ -1,5 +1,5 @@
-/* Saving is atomic: a temporary beside the file, flushed to the disk and closed without an error, then renamed over it.
- * Whatever fails, the old file stays whole and the temporary is removed. */
+/* Saving is atomic: a temporary beside the file, flushed to the disk and closed without an error, then renamed
+ * over it. Whatever fails, the old file stays whole and the temporary is removed. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _POSIX_C_SOURCE 200809L
 #  include <unistd.h>
@@ -17,8 +17,8 @@
 
 enum { NAMES_MAX = 100, SUFFIX_MAX = 48 };
 
-/* A new file beside path: path.<process>.tmp, or another number where that name is taken: by another thread, or by what
- * a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. */
+/* A new file beside path: path.<process>.tmp, or another number where that name is taken: by another thread, or
+ * by what a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. */
 static FILE *create_temporary(const char *path, char **name)
 {
     long process = 0;

@@ -79,11 +79,11 @@ double vndf_expression_run(const vndf_expression *expression, size_t count, cons
 const vndf_function *vndf_function_find(const char *name, size_t size);
 const char *vndf_function_names(void);
 
-/* The slopes where an argument of step, abs, min or max changes sides, ascending, each the last double
- * before the change: found by bisection between the points of a grid from 1e-9 to 1e9 and, for nested calls,
- * between the breaks of the inner ones. variables(r) fills the variables. The search is given up, and what it has found is
- * kept, where it becomes too long. Writes at most limit of them to breaks and their number to *count; 0 if there is no
- * memory. */
+/* The slopes where an argument of step, abs, min or max changes sides, ascending, each the last double before
+ * the change: found by bisection between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
+ * the breaks of the inner ones. variables(r) fills the variables. The search is given up, and what it has found
+ * is kept, where it becomes too long. Writes at most limit of them to breaks and their number to *count; 0 if
+ * there is no memory. */
 typedef void vndf_variables_of_slope(double r, double *variables);
 int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
                            size_t limit, size_t *count);

@@ -10,7 +10,8 @@
 #include "distribution/words.h"
 
 enum { BREAKS = 4096 };
-enum { OPERATIONS = 4, CALL_OPERATIONS = 8 }; /* of an evaluation besides its instructions; of a function or power */
+/* Of an evaluation besides its instructions; of a function or power. */
+enum { OPERATIONS = 4, CALL_OPERATIONS = 8 };
 
 typedef struct expression_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */

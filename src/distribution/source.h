@@ -13,7 +13,7 @@ struct vndf_source {
     const double *breaks;                             /* ascending slopes of known kinks and jumps, or NULL */
     size_t break_count;
     int rebuildable;                                  /* description alone makes the same source again */
-    double operations;                                /* what an evaluation costs, see VNDF_LIMIT_BUILD_OPERATIONS */
+    double operations;                                /* what an evaluation costs (vndf_build.h, limits) */
 };
 
 #endif

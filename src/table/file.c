@@ -211,8 +211,9 @@ static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t 
         return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
                          (unsigned)version, VERSION);
     if (*stated < 64 || *stated > VNDF_LIMIT_TABLE_BYTES)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes; from 64 to %d are possible",
-                         (unsigned)*stated, VNDF_LIMIT_TABLE_BYTES);
+        return vndf_fail(error, VNDF_ERROR_TABLE,
+                         "the table says that it has %u bytes; from 64 to %d are possible", (unsigned)*stated,
+                         VNDF_LIMIT_TABLE_BYTES);
     return VNDF_OK;
 }
 
@@ -267,7 +268,8 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     return NULL;
 }
 
-/* Reads what the head promises and one byte more, so that neither a file nor a pipe without end is read to its end. */
+/* Reads what the head promises and one byte more, so that neither a file nor a pipe without end is read to its
+ * end. */
 static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
 {
     unsigned char head[HEAD];
@@ -285,7 +287,8 @@ static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
     if (!ferror(file) && *size <= stated)
         return bytes;
     if (!ferror(file))
-        vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, and more follow", (unsigned)stated);
+        vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, and more follow",
+                  (unsigned)stated);
     free(bytes);
     return NULL;
 }
