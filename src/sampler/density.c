@@ -44,11 +44,18 @@ static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
     return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
 }
 
+/* The last of ascending knots at or below y: the guide finds it but for the rounding of y. */
+static uint32_t knot_before(const vndf_guide *guide, const float *knots, double y)
+{
+    uint32_t i = vndf_guide_find(guide, (float)y);
+    return i - (i > 0 && y < knots[i]);
+}
+
 static mixed_row wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
     double y = vndf_wedge_y(view->s, view->c);
-    uint32_t i = vndf_wedge_find(&w->row_guide, w->row_y, y);
+    uint32_t i = knot_before(&w->row_guide, w->row_y, y);
     double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
     size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
     const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;

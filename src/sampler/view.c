@@ -7,10 +7,11 @@
 #include "sampler/surface.h"
 #include "sampler/wedge.h"
 
+/* Not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
 static int is_usable_direction(vndf_vec3 w)
 {
-    float m = vndf_max_abs(w);
-    return m > 0.0f && m < HUGE_VALF && w.x == w.x && w.y == w.y && w.z == w.z; /* max_abs may pass over a NaN */
+    double square = (double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z;
+    return square > 0.0 && square < HUGE_VAL;
 }
 
 /* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form: s and c, the factor that brings it to them, and azimuth. With

@@ -34,25 +34,18 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
 
 /* One piece of the mass at t in [0, 1] (table/area_piece.h). In double: near the horizon the mass above it falls as c^3, and a
  * narrow lobe makes up for that. */
-VNDF_INLINE double vndf_wedge_bezier(const float *b, double t)
+VNDF_INLINE double vndf_wedge_bezier(const double *b, double t)
 {
     double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
-/* The last of ascending knots at or below y <= 1. Where D falls fast a rounding of y to float would show. */
-VNDF_INLINE uint32_t vndf_wedge_find(const vndf_guide *guide, const float *knots, double y)
-{
-    uint32_t i = vndf_guide_find(guide, (float)y);
-    return i - (i > 0 && y < knots[i]);
-}
-
-/* Mass of half a wedge at y, per (s + |c|). */
+/* Mass of half a wedge at y, per (s + |c|). Where D falls fast a rounding of y to the float of the guide would show. */
 VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 {
-    uint32_t i = vndf_wedge_find(&wedge->knot_guide, wedge->knot_y, y);
-    const float *b = wedge->bezier + (size_t)VNDF_BEZIER * i;
-    return vndf_wedge_bezier(b, (y - wedge->knot_y[i]) * b[VNDF_AREA_ORDER]);
+    const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
+    span -= y < span->begin;
+    return vndf_wedge_bezier(span->coefficient, (y - span->begin) * span->per_width);
 }
 
 /* The wedge's coordinate of a direction with s + |c| = 1. */

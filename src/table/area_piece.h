@@ -6,8 +6,7 @@
 #define VNDF_TABLE_AREA_PIECE_H
 
 #include "core/inline.h"
-
-enum { VNDF_AREA_ORDER = 6 };
+#include "table/table.h"
 
 typedef struct vndf_area_knot {
     double mass, slope, curve;

@@ -31,14 +31,15 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
 {
     uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
-    size_t area_floats = (4 + VNDF_BEZIER) * (size_t)knots;
-    float *block = calloc(2 * row_floats + ends + row_knots + (size_t)2 * rows + area_floats + cells + 1, sizeof *block);
+    size_t per_rows = row_knots + 2 * (size_t)rows, per_knots = 4 * (size_t)knots;
+    float *block = calloc(2 * row_floats + ends + per_rows + per_knots + cells + 1, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
     wedge->stride = stride;
     wedge->cdf = block;
-    if (!block)
+    wedge->piece = calloc(knots, sizeof *wedge->piece);
+    if (!block || !wedge->piece)
         return 0;
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
@@ -49,14 +50,14 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->mass = wedge->knot_y + knots;
     wedge->slope = wedge->mass + knots;
     wedge->curve = wedge->slope + knots;
-    wedge->bezier = wedge->curve + knots;
-    wedge->q = wedge->bezier + VNDF_BEZIER * (size_t)knots;
+    wedge->q = wedge->curve + knots;
     return 1;
 }
 
 static void free_wedge(vndf_wedge *wedge)
 {
     free(wedge->cdf);
+    free(wedge->piece);
     vndf_guide_free(&wedge->row_guide);
     vndf_guide_free(&wedge->knot_guide);
 }
@@ -211,14 +212,13 @@ static void derive_rows(vndf_wedge *wedge)
 static void derive_area(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
-        float *b = wedge->bezier + (size_t)VNDF_BEZIER * i, h = wedge->knot_y[i + 1] - wedge->knot_y[i];
+        vndf_area_span *span = &wedge->piece[i];
+        double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
         vndf_area_knot from = {wedge->mass[i], wedge->slope[i], wedge->curve[i]};
         vndf_area_knot to = {wedge->mass[i + 1], wedge->slope[i + 1], wedge->curve[i + 1]};
-        double piece[VNDF_AREA_ORDER];
-        vndf_area_piece(h, from, to, piece);
-        for (int n = 0; n < VNDF_AREA_ORDER; n++)
-            b[n] = (float)piece[n];
-        b[VNDF_AREA_ORDER] = 1.0f / h;
+        vndf_area_piece(width, from, to, span->coefficient);
+        span->begin = begin;
+        span->per_width = 1.0 / width;
     }
 }
 

@@ -31,7 +31,7 @@ enum {
     VNDF_RATIOS = 18, /* and of k/c */
     VNDF_NO_WINDOW = 0xffff,
     VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
-    VNDF_BEZIER = 8
+    VNDF_AREA_ORDER = 6 /* coefficients of a piece of an area's spline */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -58,6 +58,11 @@ typedef struct vndf_guide {
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
 } vndf_guide;
 
+/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: one line of the cache. */
+typedef struct vndf_area_span {
+    double coefficient[VNDF_AREA_ORDER], begin, per_width;
+} vndf_area_span;
+
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
@@ -72,7 +77,7 @@ typedef struct vndf_wedge {
     float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
     float *density;                      /* at the ends of the cells, cell_count + 1 to a row */
     float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
-    float *bezier;                       /* the spline once more: 6 coefficients and 1/width to a piece */
+    vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
