@@ -13,6 +13,7 @@
 #include "math/vector.h"
 #include "sampler/engine.h"
 #include "sampler/wedge.h"
+#include "table/moment_cubic.h"
 
 /* ---- cells ---- */
 
@@ -130,23 +131,15 @@ static double sum_at(const vndf_distribution *d, place at)
     return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
 }
 
-/* The bump a + b xi of a cell's cubic, from its moments: rounded to float it would show where f nearly vanishes.
- * */
-typedef struct bump {
-    double a, b;
-} bump;
-
-static bump bump_of(const vndf_radial_cell *cell)
+/* The cell's cubic, from its moments: rounded to float its bump would show where f nearly vanishes. */
+static vndf_moment_cubic bump_of(const vndf_radial_cell *cell)
 {
-    double f0 = cell->f0, f1 = cell->f1;
-    double e0 = cell->mu0 - f0 / 3.0 - f1 / 6.0, e1 = cell->mu1 - f0 / 6.0 - f1 / 3.0;
-    bump bend = {36.0 * e0 - 24.0 * e1, 60.0 * (e1 - e0)};
-    return bend;
+    return vndf_moment_cubic_from(cell->f0, cell->f1, cell->mu0, cell->mu1);
 }
 
 static double cubic(const vndf_radial_cell *cell, double xi, double eta)
 {
-    bump bend = bump_of(cell);
+    vndf_moment_cubic bend = bump_of(cell);
     double f = cell->f0 * eta + cell->f1 * xi + xi * eta * (bend.a + bend.b * xi);
     return f > 0.0 ? f : 0.0;
 }
@@ -179,7 +172,7 @@ static piece piece_above(const vndf_engine_ray *ray, uint32_t j)
     const vndf_knots *k = &ray->table->knots;
     double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
     double h = end < 0.0 ? w / (w - end) : 1.0;
-    bump bend = bump_of(cell);
+    vndf_moment_cubic bend = bump_of(cell);
     piece p = {cell->f0, cubic(cell, h, 1.0 - h), w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h),
                w, 0.0, w, 0.0, 0.0, h, 1};
     return p;
@@ -190,7 +183,7 @@ static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
     const vndf_radial_cell *cell = &ray->table->cells[j];
     double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
     double h = end < 0.0 ? w / (w - end) : 1.0;
-    bump bend = bump_of(cell);
+    vndf_moment_cubic bend = bump_of(cell);
     double mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
     piece p = {cubic(cell, 1.0 - h, h), cell->f1, mass, 0.0, w, 0.0, w, 1.0 - h, h, 1};
     return p;
@@ -324,7 +317,7 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
     place at = place_of(d, x, z);
     const vndf_radial_cell *cell = &d->cells[at.cell];
     const float *kx = d->knots.x + at.cell;
-    bump bend = bump_of(cell);
+    vndf_moment_cubic bend = bump_of(cell);
     double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
     double f_over_x = at.cell == 0 ? rise / kx[1]
                                    : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
