@@ -60,7 +60,7 @@ static void place_turns(double border[BINS_PHI + 1], const double *sorted)
 /* Infinite at the horizon. */
 static double slope_of(double x, double y, double z)
 {
-    return z > 0 ? hypot(x, y) / z : HUGE_VAL;
+    return z > 0 ? sqrt(x * x + y * y) / z : HUGE_VAL; /* squares of floats: no overflow */
 }
 
 /* A hostile sampler must not spoil the map: any finite positive scale makes a valid one. */
@@ -94,16 +94,14 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
     return map;
 }
 
-/* The interval of ascending borders that holds x. */
+/* The interval of ascending borders that holds x, without branches to mispredict: samples come in any order. */
 static size_t interval(const double *border, size_t parts, double x)
 {
-    size_t low = 0, high = parts;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (x < border[middle])
-            high = middle;
-        else
-            low = middle;
+    size_t low = 0;
+    while (parts > 1) {
+        size_t half = parts / 2;
+        low += x >= border[low + half] ? half : 0;
+        parts -= half;
     }
     return low;
 }
@@ -111,7 +109,8 @@ static size_t interval(const double *border, size_t parts, double x)
 size_t bins_place(const bin_map *map, vndf_vec3 wm)
 {
     double x = (double)wm.x / map->stretch_x, y = (double)wm.y / map->stretch_y;
-    double slope = slope_of(x, y, (double)wm.z), phi = remainder(atan2(y, x) - map->centre, 2 * pi);
+    double slope = slope_of(x, y, (double)wm.z), phi = atan2(y, x) - map->centre;
+    phi += phi < -pi ? 2 * pi : phi > pi ? -2 * pi : 0;
     return interval(map->slope, BINS_THETA, slope) * BINS_PHI + interval(map->phi, BINS_PHI, phi);
 }
 
