@@ -14,7 +14,8 @@ static const double ANGLES[] = {0, 20, 45, 60, 75, 85, 89, 89.9, 90, 91, 100, 11
 /* Gauss-Legendre with four points on [0, 1], in one to six equal parts of a panel: more for coarse tables, whose
  * cells are steep. */
 static const double NODE[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
-static const double WEIGHT[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+static const double WEIGHT[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                 0.17392742256872693};
 
 /* One view, its direction once more in double, and the sum. */
 typedef struct integral {

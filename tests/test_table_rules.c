@@ -1,6 +1,6 @@
-/* A table that breaks one rule of the format is refused, whatever its checksum says, and the message names the rule:
- * every rule of src/table/validate.c, the limits of the counts, and parts that leave bytes over. Random damage
- * (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
+/* A table that breaks one rule of the format is refused, whatever its checksum says, and the message names the
+ * rule: every rule of src/table/validate.c, the limits of the counts, and parts that leave bytes over. Random
+ * damage (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
 #include <stdlib.h>
 
 #include "core/checksum.h"

@@ -36,7 +36,8 @@ static double area_at(const double piece[VNDF_AREA_ORDER], double t)
     return sum;
 }
 
-/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for it. */
+/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for
+ * it. */
 void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_knot *from, vndf_area_knot *to)
 {
     *from = knot_at(side, a);
@@ -60,7 +61,8 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     vndf_area_fit_piece(side, a, b, &from, &to);
     vndf_area_piece(h, from, to, piece);
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
-        double y = a + at[i] * h, truth = vndf_side_area(side, y).mass, error = fabs(area_at(piece, at[i]) - truth);
+        double y = a + at[i] * h, truth = vndf_side_area(side, y).mass;
+        double error = fabs(area_at(piece, at[i]) - truth);
         double whole = side->below ? truth + AREA_LEAST * side->profile->f1 : truth / vndf_side_share(side, y);
         worst = fmax(worst, error / whole);
     }

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by less,
- * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table of half the
- * default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
+/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by
+ * less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
+ * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
 static const double AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
 enum { PROMISE_BYTES = 8192 };
 

@@ -88,8 +88,9 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     vndf_distribution *table = finish(plan, best, error);
     if (table && table->certificate.tv > max_tv) {
         vndf_fail(error, VNDF_ERROR_TARGET,
-                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees", max_tv,
-                  (unsigned long)table->bytes, (double)table->certificate.tv, (double)table->certificate.tv_theta);
+                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+                  max_tv, (unsigned long)table->bytes, (double)table->certificate.tv,
+                  (double)table->certificate.tv_theta);
         vndf_free(table);
         return NULL;
     }
@@ -114,7 +115,8 @@ static vndf_distribution *build_planned(vndf_plan *plan, size_t max_bytes, doubl
 {
     double best = error_for_bytes(plan, max_bytes);
     if (best == 0.0) {
-        vndf_fail(error, VNDF_ERROR_TARGET, "%lu bytes are too few: the smallest table of this distribution takes %lu",
+        vndf_fail(error, VNDF_ERROR_TARGET,
+                  "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)max_bytes,
                   (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->source->description));
         return NULL;

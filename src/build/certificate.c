@@ -115,7 +115,8 @@ static void add_quarter(survey *v, const vndf_view *view, const float *node, uin
 {
     uint32_t parts = parts_for(cells, AZIMUTH_PARTS_LEAST);
     for (uint32_t i = 0; i < cells * parts * VNDF_GAUSS_COARSE; i++) {
-        uint32_t cell = i / VNDF_GAUSS_COARSE / parts, part = i / VNDF_GAUSS_COARSE % parts, g = i % VNDF_GAUSS_COARSE;
+        uint32_t g = i % VNDF_GAUSS_COARSE, cell = i / VNDF_GAUSS_COARSE / parts;
+        uint32_t part = i / VNDF_GAUSS_COARSE % parts;
         double width = ((double)node[cell + 1] - node[cell]) / parts;
         double q = node[cell] + width * (part + vndf_gauss_coarse_node[g]);
         double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);

@@ -31,7 +31,8 @@ typedef struct vndf_azimuth {
     float c, s, n, density;
 } vndf_azimuth;
 
-VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c, uint32_t j)
+VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c,
+                                   uint32_t j)
 {
     return row->a.weight * a[j] + row->b.weight * b[j] + row->c.weight * c[j];
 }
@@ -74,7 +75,8 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float ta
 }
 
 /* Place of the azimuth (cos, sin) in the row: q, its cell and xi within. */
-VNDF_INLINE float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
+VNDF_INLINE float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j,
+                                     float *xi)
 {
     float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
     uint32_t count = 0;

@@ -21,7 +21,8 @@ const vndf_distribution *vndf_beckmann(void)
 
 vndf_info vndf_distribution_info(const vndf_distribution *d)
 {
-    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, (size_t)d->above.row_count + d->below.row_count,
-                      d->above.cell_count, d->normalization, d->scale_exact, d->certificate};
+    size_t rows = (size_t)d->above.row_count + d->below.row_count;
+    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, rows, d->above.cell_count,
+                      d->normalization, d->scale_exact, d->certificate};
     return info;
 }

@@ -14,13 +14,14 @@
  *     a front half (c >= 0, cos a >= 0):   c F0(inf) + s cos(a) F1(inf)                               (2)
  *     the wedge above (c > 0, cos a < 0):  c (F0(rho) - F1(rho)/rho),   rho = c/(s |cos a|)           (3)
  *     the wedge below (c < 0, cos a > 0):  k (T1(rho) - rho T0(rho)),   T_n = F_n(inf) - F_n          (4)
- * (2) is Kepler's equation with two numbers of D, which is solved to float precision (front.h). (3) and (4) are integrals
- * of D over a half plane's strip, twice smoother than D: here, and only here, a 2D table stands (vndf_wedge): rows over
- * the angle of incidence of mass and density on cells of a half-angle tangent q, mixed by quadratic Bezier weights.
- * Linear mixing left twice the error at 64 KiB; higher orders may leave the positive numbers.
+ * (2) is Kepler's equation with two numbers of D, which is solved to float precision (front.h). (3) and (4) are
+ * integrals of D over a half plane's strip, twice smoother than D: here, and only here, a 2D table stands
+ * (vndf_wedge): rows over the angle of incidence of mass and density on cells of a half-angle tangent q, mixed by
+ * quadratic Bezier weights. Linear mixing left twice the error at 64 KiB; higher orders may leave the positive
+ * numbers.
  *
- * The wedges and the radius are drawn from piecewise densities that are *defined* by the numbers of the table (cells of
- * math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
+ * The wedges and the radius are drawn from piecewise densities that are *defined* by the numbers of the table
+ * (cells of math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
  * density is known whatever the size of the table, only its distance to (1) shrinks with it.
  *
  * Why this and not the other orders, both measured on prototypes of 16 KiB: slope x first, then y given x, needs a

@@ -27,8 +27,8 @@
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
-    float scale;              /* by which they were multiplied */
-    float gain;               /* factor of all masses; with the scale 0 if nothing is visible: the horizon stands for it */
+    float scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
+    float gain;               /* factor of all masses: 1 above the horizon */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi; without a cut 0 */
     float part_mass;          /* its mass, less the gain */
@@ -191,7 +191,8 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
 }
 
 /* One of the two cells beside it; without a cut the last two, where W may vanish. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece)
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j,
+                                                       vndf_radial_piece piece)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;

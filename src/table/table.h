@@ -6,8 +6,8 @@
  * Radial cells. The slope length R = X/Z is cut by knots (X_j, Z_j), X + Z = 1, from (0, 1) to (1, 0);
  *   inside a cell X and Z are linear in xi in [0, 1]. The mass of normals at R, P22(R) R dR = f(xi) Z dxi
  *   per radian of azimuth, is held as a cubic f through the end values f0, f1 and the two moments
- *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so the weighted
- *   mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
+ *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so
+ *   the weighted mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
  * Sums over the cells, from the pole and from the tail (vndf_knots).
  * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
  *   circle that the horizon of wi cuts, as rows over the angle of incidence, all on the same cells of q.
@@ -38,20 +38,23 @@ enum {
  *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
- * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count through sixteen knots at once; `count` includes padding: what
- * lies beyond the last knot has sums that no search reaches. */
+ * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
+ * through sixteen knots at once; `count` includes padding: what lies beyond the last knot has sums that no search
+ * reaches. */
 typedef struct vndf_knots {
     uint32_t count;
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. 32 bytes. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi.
+ * 32 bytes. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1, a, b, width;
     uint32_t calm; /* the density changes little in it for every law with c, k >= 0 (sampler/radial_draw.h) */
 } vndf_radial_cell;
 
-/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps (table/guide.h). */
+/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
+ * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
     uint16_t *first;
@@ -66,8 +69,8 @@ typedef struct vndf_area_span {
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
- * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|) is a
- * quintic spline on knots of its own (table/area_piece.h). */
+ * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|)
+ * is a quintic spline on knots of its own (table/area_piece.h). */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     float *q;                            /* cell_count + 1, from 0 to 1 */
