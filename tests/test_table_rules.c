@@ -78,7 +78,7 @@ static void claim_negative(vndf_distribution *t)
 
 static void scale_zero(vndf_distribution *t)
 {
-    t->scale_exact = 0;
+    t->scale = 0;
 }
 
 static void normalization_infinite(vndf_distribution *t)

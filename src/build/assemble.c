@@ -206,8 +206,7 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
         fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
         fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;
-        table->scale_exact = plan->profile->scale;
-        table->scale = (float)plan->profile->scale;
+        table->scale = plan->profile->scale;
     }
     free(knots);
     if (good)

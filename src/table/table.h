@@ -88,7 +88,6 @@ typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vn
 
 struct vndf_distribution {
     vndf_kind kind;
-    float scale;               /* canonical slope 1 is this slope of the source */
     uint32_t radial_count;     /* cells */
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_knots knots;          /* radial_count + 1 and padding */
@@ -97,7 +96,8 @@ struct vndf_distribution {
     vndf_radial_cell *cells;   /* radial_count */
     vndf_guide slope_guide;
     vndf_wedge above, below;
-    double normalization, scale_exact;
+    double normalization;      /* the source was multiplied by it */
+    double scale;              /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */

@@ -87,7 +87,7 @@ const char *vndf_table_invalid(const vndf_distribution *table)
     for (unsigned i = 0; i < sizeof claims / sizeof *claims; i++)
         if (!in_range(claims[i], 0.0f, HUGE_VALF))
             return "the certificate holds what is no measurement";
-    if (!(table->scale > 1e-18f && table->scale < 1e18f) || !(table->normalization > 0.0) ||
+    if (!(table->scale > 1e-18 && table->scale < 1e18) || !(table->normalization > 0.0) ||
         !isfinite(table->normalization))
         return "the scale or normalization is out of range";
     if (!why)
