@@ -2,8 +2,6 @@
 #ifndef VNDF_SAMPLER_WEDGE_H
 #define VNDF_SAMPLER_WEDGE_H
 
-#include <math.h>
-
 #include "sampler/azimuth.h"
 #include "sampler/front.h"
 #include "table/area_piece.h"
@@ -32,21 +30,13 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
     return c >= 0.0 ? &d->above : &d->below;
 }
 
-/* One piece of the mass at t in [0, 1] (table/area_piece.h). In double: near the horizon the mass above it falls
- * as c^3, and a narrow lobe makes up for that. */
-VNDF_INLINE double vndf_wedge_bezier(const double *b, double t)
-{
-    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
-    return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
-}
-
-/* Mass of half a wedge at y, per (s + |c|). Where D falls fast a rounding of y to the float of the guide would
- * show. */
+/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a narrow
+ * lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
 VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 {
     const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
     span -= y < span->begin;
-    return vndf_wedge_bezier(span->coefficient, (y - span->begin) * span->per_width);
+    return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
 }
 
 /* The wedge's coordinate of a direction with s + |c| = 1. */

@@ -32,4 +32,12 @@ VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot 
         coefficient[i] = made[i];
 }
 
+/* The piece at t in [0, 1]. */
+VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER], double t)
+{
+    const double *b = coefficient;
+    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
+    return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
+}
+
 #endif
