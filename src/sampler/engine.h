@@ -31,7 +31,9 @@
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 
-#include "sampler/radial.h"
+#include <stdint.h>
+
+#include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 double vndf_unit_area(const vndf_distribution *d, double s, double c);
