@@ -115,7 +115,7 @@ typedef struct vndf_certificate {
     float max_weight;  /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
     float area_error;  /* largest relative error of the projected area, hence of Lambda and G1 */
-    float consistency; /* largest |integral of the float pdf - 1| */
+    float consistency; /* largest |integral of the pdf - 1| */
     float ndf_error;   /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
 } vndf_certificate;
 
@@ -152,7 +152,7 @@ typedef struct vndf_view {
     float per_alpha_x, per_alpha_y;
     float cos_phi, sin_phi;        /* azimuth of the stretched direction */
     float area;                    /* projected area of the unit problem */
-    float front;                   /* masses of the two azimuth ranges of a half turn */
+    float front;                   /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
     double wedge;
 } vndf_view;
 

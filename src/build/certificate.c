@@ -11,7 +11,7 @@
 #include "sampler/wedge.h"
 
 static const double PI = 3.14159265358979323846;
-static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
+static const double AREA_LEAST = 1e-10; /* of half the area at grazing incidence: below it nothing is claimed */
 static const double MASS_LEFT_OUT = 1e-6;
 
 /* f of a cell changes by more than this: it takes the finer rule. */

@@ -1,6 +1,6 @@
-/* Drawing the slope length: search for the cell, then its inverse. One function for each of the three kinds of
- * laws (radial.h); they take the weights before scaling, so that the search need not wait for the division by the
- * mass. */
+/* Drawing the slope length: search for the cell, in a window of eight knots (table/window.h) or by blocks, then
+ * its inverse. One function for each of the three kinds of laws (radial.h); they take the weights before scaling,
+ * so that the search need not wait for the division by the mass. */
 #ifndef VNDF_SAMPLER_RADIAL_DRAW_H
 #define VNDF_SAMPLER_RADIAL_DRAW_H
 

@@ -1,4 +1,5 @@
-/* The part of the circle that the horizon of wi cuts: its mass, its rows, and what a view holds of them. */
+/* The wedge, the part of the circle that the horizon of wi cuts: its mass, its row for a direction, and what a
+ * view holds of the two masses of a half turn. */
 #ifndef VNDF_SAMPLER_WEDGE_H
 #define VNDF_SAMPLER_WEDGE_H
 

@@ -12,7 +12,8 @@
  * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
  *   circle that the horizon of wi cuts, as rows over the angle of incidence, all on the same cells of q.
  *
- * Floats on disk are cells and rows alone; prefix sums, guides and cubic coefficients follow from them. */
+ * On disk are knots, cells, rows and the values of the area splines; prefix sums, windows, guides and coefficients
+ * follow from them. */
 #ifndef VNDF_TABLE_TABLE_H
 #define VNDF_TABLE_TABLE_H
 
@@ -25,13 +26,13 @@ enum {
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
-    VNDF_BLOCK = 16, /* radial knots are searched by blocks */
-    VNDF_WINDOW = 8, /* or by a window of knots, where one is known to hold the cell (table/window.h): */
-    VNDF_RANGES = 64, /* for this many ranges of u */
-    VNDF_RATIOS = 18, /* and of k/c */
-    VNDF_NO_WINDOW = 0xffff,
-    VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
-    VNDF_AREA_ORDER = 6 /* coefficients of a piece of an area's spline */
+    VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
+    VNDF_WINDOW = 8,         /* or by a window of knots, where one is known to hold the cell (table/window.h): */
+    VNDF_RANGES = 64,        /* for this many ranges of u */
+    VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
+    VNDF_NO_WINDOW = 0xffff, /* a window would be too narrow */
+    VNDF_LANES = 4,          /* arrays that are counted through are padded to a multiple of this */
+    VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -39,8 +40,8 @@ enum {
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
  * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
- * through sixteen knots at once; `count` includes padding: what lies beyond the last knot has sums that no search
- * reaches. */
+ * through all knots of a block or a window at once; `count` includes padding: what lies beyond the last knot has
+ * sums that no search reaches. f0 and f1 of blocks are not filled. */
 typedef struct vndf_knots {
     uint32_t count;
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
@@ -61,7 +62,7 @@ typedef struct vndf_guide {
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
 } vndf_guide;
 
-/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: one line of the cache. */
+/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
 typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
