@@ -31,8 +31,8 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
     return c >= 0.0 ? &d->above : &d->below;
 }
 
-/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a narrow
- * lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
+/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
+ * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
 VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 {
     const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
