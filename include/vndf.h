@@ -25,14 +25,14 @@
  * result for invalid input is stated with vndf_view_from. Nothing here keeps state: distributions are
  * immutable, every function may be called from any number of threads at once.
  *
- * Reproducible. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt, comparisons,
- * conversions and the bits of numbers - elementary functions are its own - compiled without contraction: the same bits
- * for every compiler, optimisation level, C library and machine with IEEE 754 floats and doubles in the default
- * rounding mode that keep denormals. The sources refuse to compile where intermediate results have more digits
- * (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A caller that flushes denormals to zero
- * gets the same bits as long as none occurs. tests/corpus/same_bits.txt has hashes to compare machines by. Not
- * promised: vndf_build.h, whose tables depend on the C library's exp, log and pow in their last digits - a table file,
- * once built, gives the same bits everywhere. */
+ * Reproducible. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt,
+ * comparisons, conversions and the bits of numbers - elementary functions are its own - compiled without
+ * contraction: the same bits for every compiler, optimisation level, C library and machine with IEEE 754 floats
+ * and doubles in the default rounding mode that keep denormals. The sources refuse to compile where intermediate
+ * results have more digits (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A
+ * caller that flushes denormals to zero gets the same bits as long as none occurs. tests/corpus/same_bits.txt has
+ * hashes to compare machines by. Not promised: vndf_build.h, whose tables depend on the C library's exp, log and
+ * pow in their last digits - a table file, once built, gives the same bits everywhere. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -115,7 +115,7 @@ typedef struct vndf_certificate {
     float max_weight;  /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
     float area_error;  /* largest relative error of the projected area, hence of Lambda and G1 */
-    float consistency; /* largest |integral of the float pdf - 1| */
+    float consistency; /* largest |integral of the pdf - 1| */
     float ndf_error;   /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
 } vndf_certificate;
 
@@ -148,39 +148,41 @@ typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
     vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
     double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
-    double s, c, per_length;       /* stretched direction: across (>= 0) and along z; the factor that brings it there */
+    double s, c, per_length;       /* stretched direction: across (>= 0), along z; what brings it there */
     float per_alpha_x, per_alpha_y;
     float cos_phi, sin_phi;        /* azimuth of the stretched direction */
     float area;                    /* projected area of the unit problem */
-    float front;                   /* masses of the two azimuth ranges of a half turn */
+    float front;                   /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
     double wedge;
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
- * distribution's scale (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1) with density 0, and every
- * other function 0. One valid view sees nothing: wi = (0, 0, -1) exactly, where every normal is turned away; samples are
- * then horizontal normals with density 0. */
+ * distribution's scale (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample
+ * then returns (0, 0, 1) with density 0, and every other function 0. One valid view sees nothing: wi = (0, 0, -1)
+ * exactly, where every normal is turned away; samples are then horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
-/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of 2^-23,
- * wm.z >= 0, wi.wm > 0 for wi as it was given. *pdf, if not NULL, receives the density per steradian
- * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN, FLT_MAX]:
- * what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each number.
- * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of
- * wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi mirrored at the normal.
- * Beckmann: u1 moves the slope along wi, u2 the slope across. */
+/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of
+ * 2^-23, wm.z >= 0, wi.wm > 0 for wi as it was given. *pdf, if not NULL, receives the density per steradian
+ * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN,
+ * FLT_MAX]: what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each
+ * number.
+ * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the
+ * side of wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi
+ * mirrored at the normal. Beckmann: u1 moves the slope along wi, u2 the slope across. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0, elsewhere >= FLT_MIN.
- * Of a table: within 1e-5, relative, of what its numbers define, wherever that is above 1e-30; so are area, lambda, g1 and ndf.
- * For a table this is close to, not equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the
- * weight that makes an estimator exact, and its maximum stands in the certificate. */
+/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0, elsewhere >=
+ * FLT_MIN. Of a table: within 1e-5, relative, of what its numbers define, wherever that is above 1e-30; so are
+ * area, lambda, g1 and ndf. For a table this is close to, not equal to, vndf_visible: the ratio
+ * vndf_visible/vndf_pdf is the weight that makes an estimator exact, and its maximum stands in the certificate. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm, or into a normal within some roundings of it. Three places give
- * no more than numbers in [0, 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at u2 = 0; where
- * u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of the normal), directions below the
- * horizon that see less than 1e-10 of what they would at grazing incidence, and the view that sees nothing. */
+/* The uniform numbers that vndf_sample turns into wm, or into a normal within some roundings of it. Three places
+ * give no more than numbers in [0, 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at
+ * u2 = 0; where u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of the normal),
+ * directions below the horizon that see less than 1e-10 of what they would at grazing incidence, and the view
+ * that sees nothing. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
 /* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. For the closed forms this is vndf_pdf, FLT_MIN included. */

@@ -55,7 +55,8 @@ static void insert_bytes(input *in, size_t at, unsigned long long *state)
 
 static void mutate_once(input *in, unsigned long long *state)
 {
-    static const uint8_t notable[] = {0, 1, 0x7f, 0x80, 0xff, '\n', ',', '.', '-', 'e', '9', '(', ')', '^', '#', '"'};
+    static const uint8_t notable[] = {0,   1,   0x7f, 0x80, 0xff, '\n', ',', '.',
+                                      '-', 'e', '9',  '(',  ')',  '^',  '#', '"'};
     const size_t at = below(state, in->size);
 
     switch (below(state, 6)) {

@@ -72,7 +72,8 @@ const char *oracle_name(const oracle *o)
 
 /* sum over the abscissae k h, k = first, first + step, ... of both signs; x = middle + half tanh(pi/2 sinh t). The
  * distance to the nearer end is formed without a difference, for integrands that begin like a root there. */
-static double tanh_sinh_sum(oracle_function *f, const void *user, double a, double b, double h, int first, int step)
+static double tanh_sinh_sum(oracle_function *f, const void *user, double a, double b, double h, int first,
+                            int step)
 {
     double half = (b - a) / 2, sum = first == 0 ? PI / 2 * f((a + b) / 2, user) : 0;
     for (int k = first == 0 ? step : first; k * h < 4.0; k += step) {

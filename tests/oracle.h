@@ -37,8 +37,8 @@ double oracle_p22(const oracle *o, double r);
 /* integral over slopes of P22 max(0, c + s r cos a): relative error below 1e-9 where it exceeds 1e-200. */
 double oracle_area(const oracle *o, double s, double c);
 
-/* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or name is
- * its first argument. test_mutants.cmake asks for single parts. */
+/* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
+ * name is its first argument. test_mutants.cmake asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
 
 /* VNDF_TEST_QUICK is set: a fifth of the work is enough, since a sanitizer watches. */

@@ -104,8 +104,8 @@ static double nearest(double got, const double *value, size_t n, int *aside)
 }
 
 /* ... and nothing where the density is too steep for double. */
-static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error, int ndf,
-                             int *aside)
+static double unless_blurred(const float_subject *subject, const oracle_query *q, double got, double error,
+                             int ndf, int *aside)
 {
     double range[2];
     if (error <= FLOAT_LIMIT)

@@ -102,8 +102,8 @@ static float corner(unsigned long long *state)
     return i < 8 ? edges[i] : i < 12 ? (float)decade(state, -12, 0) : 1 - (float)decade(state, -7.5, 0);
 }
 
-/* From tools/stress.c: the pole, angles beside it, the horizon from both sides down to denormals, straight down.
- * */
+/* From tools/stress.c: the pole, angles beside it, the horizon from both sides down to denormals, straight
+ * down. */
 static void choose_hard_direction(float_point *at, unsigned long long *state)
 {
     static const double angles[] = {0, 1e-7, 1e-4, 0.01, 30, 60, 85, 89, 89.9, 89.9999, 91, 130, 179.9, 180};

@@ -1,8 +1,8 @@
 /* The density of a table's samples: azimuth a first, then the slope length R given a (src/sampler/engine.h derives
  * both; here they are written out with every sum and no shortcut).
  *
- * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a, and a
- * wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
+ * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a,
+ * and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
  * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the
  * cell of the cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0
  * + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot

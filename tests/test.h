@@ -19,7 +19,8 @@ static inline int test_report(int good, const char *file, int line, const char *
     return 0;
 }
 
-static inline int test_near(double got, double want, double tolerance, const char *file, int line, const char *what)
+static inline int test_near(double got, double want, double tolerance, const char *file, int line,
+                            const char *what)
 {
     char text[256];
     if (fabs(got - want) <= tolerance) /* false for NaN */

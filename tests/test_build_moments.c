@@ -1,7 +1,7 @@
-/* The cells of a table hold the mass of D, whatever D is and however few they are. Tails just heavy enough, peaks, rings
- * and jumps are the hard ones: there a cell's cubic has to be bent to stay positive, which may shift mass within the
- * cell, from one moment of D (all normals) to the other (seen at grazing incidence): each is right to 1e-3, their sum
- * to 5e-6. */
+/* The cells of a table hold the mass of D, whatever D is and however few they are. Tails just heavy enough,
+ * peaks, rings and jumps are the hard ones: there a cell's cubic has to be bent to stay positive, which may shift
+ * mass within the cell, from one moment of D (all normals) to the other (seen at grazing incidence): each is
+ * right to 1e-3, their sum to 5e-6. */
 #include "build/profile.h"
 #include "table/table.h"
 #include "test.h"

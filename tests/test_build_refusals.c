@@ -1,4 +1,5 @@
-/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not. */
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is
+ * not. */
 #include "test.h"
 #include "vndf_build.h"
 

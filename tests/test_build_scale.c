@@ -1,8 +1,8 @@
 /* The scale of the input does not matter: a distribution a million times narrower or a thousand times wider gives
  * a table as good and as large, and the same samples when roughness undoes the scale, within the tables' errors.
  *
- * Not the same bits: panels begin at octaves of the input's own unit, and the median, to which tables are scaled, is
- * found within 2% only. */
+ * Not the same bits: panels begin at octaves of the input's own unit, and the median, to which tables are scaled,
+ * is found within 2% only. */
 #include "oracle.h"
 #include "test.h"
 
@@ -56,7 +56,8 @@ int main(void)
         double apart = mean_difference(unit, table, widths[i]);
         TEST_RELATIVE(vndf_distribution_info(table).scale, widths[i] * vndf_distribution_info(unit).scale, 0.02);
         TEST_RELATIVE((double)other.tv, (double)one.tv, 0.3);
-        TEST_RELATIVE((double)vndf_distribution_info(table).bytes, (double)vndf_distribution_info(unit).bytes, 0.2);
+        TEST_RELATIVE((double)vndf_distribution_info(table).bytes, (double)vndf_distribution_info(unit).bytes,
+                      0.2);
         TEST_NEAR(apart, 0, (double)one.tv + (double)other.tv);
         fprintf(stderr, "width %g: TV %.3g (%.3g at width 1), uniform numbers within %.2g\n", widths[i],
                 (double)other.tv,

@@ -217,7 +217,8 @@ static int leads_back(const vndf_view *view, float u1, float u2)
            || (fabs((double)v1 - u1) <= 4.0 * 0x1p-24 && fabs((double)v2 - u2) <= 4.0 * 0x1p-24);
 }
 
-/* Only where the projected area is above 1e-12: below, all normals of a Beckmann lie within the rounding of one. */
+/* Only where the projected area is above 1e-12: below, all normals of a Beckmann lie within the rounding of
+ * one. */
 static void inverse_leads_back(const closed_form *form)
 {
     unsigned long long state = 12;

@@ -222,8 +222,8 @@ static void check_sample(const closed_form *form, direction w, float u1, float u
     vndf_vec3 n = form->sample(w.s, w.c, u1, u2);
     float v1 = -1.0f, v2 = -1.0f;
     char text[200];
-    snprintf(text, sizeof text, "%s s=%g c=%g u=%.9g,%.9g: normal %.9g %.9g %.9g", form->name, w.s, w.c, u1, u2, n.x,
-             n.y, n.z);
+    snprintf(text, sizeof text, "%s s=%g c=%g u=%.9g,%.9g: normal %.9g %.9g %.9g", form->name, w.s, w.c, u1, u2,
+             n.x, n.y, n.z);
     test_report(is_visible_normal(w, n), __FILE__, __LINE__, text);
     form->invert(w.s, w.c, vndf_normal_of(n), &v1, &v2);
     test_report(v1 >= 0.0f && v1 <= 1.0f && v2 >= 0.0f && v2 <= 1.0f, __FILE__, __LINE__, text);
@@ -262,8 +262,8 @@ static void inverse_leads_back(const closed_form *form)
         worst = fmax(worst, error);
         far += error > 1e-5;
     }
-    fprintf(stderr, "%s: sample(invert(wm)) is off by more than 1e-5 for %g of the mass, at most %.2g\n", form->name,
-            (double)far / SAMPLES, worst);
+    fprintf(stderr, "%s: sample(invert(wm)) is off by more than 1e-5 for %g of the mass, at most %.2g\n",
+            form->name, (double)far / SAMPLES, worst);
     TEST(far <= 1);
     TEST(worst < 1e-4);
 }

@@ -1,5 +1,5 @@
-/* Reading and writing bytes stop at the end: the last byte is had, the one after it is not, and a reader that failed
- * gives zeros from then on. */
+/* Reading and writing bytes stop at the end: the last byte is had, the one after it is not, and a reader that
+ * failed gives zeros from then on. */
 #include "core/cursor.h"
 #include "test.h"
 

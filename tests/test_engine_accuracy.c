@@ -1,7 +1,7 @@
 /* A table of 16 KiB is as close to the truth as promised: total variation at most 1e-3 (1e-2 for a ring and a
- * jump) and area error at most 2e-6 at every angle, and the certificate says the same within 20%. Its other claims hold
- * as well: areas within 20% (and 1e-7), the largest weight within 25% of what it has above 1 for all but 2e-6 of the
- * mass, and ndf_error within 20%.
+ * jump) and area error at most 2e-6 at every angle, and the certificate says the same within 20%. Its other
+ * claims hold as well: areas within 20% (and 1e-7), the largest weight within 25% of what it has above 1 for all
+ * but 2e-6 of the mass, and ndf_error within 20%.
  *
  * Promises hold where the area exceeds 1e-10 of its value at grazing incidence, as the header says. The sums of
  * the grid have an error of about 2% of the total variation, and the float direction is taken as it is, so the
@@ -47,7 +47,8 @@ static void test_table(const oracle *o)
         area = fmax(area, f.area_error);
         TEST_NEAR(f.truth, 1, 2e-6); /* the grid itself */
         if (!(TEST(f.tv <= (o->rough ? 1e-2 : 1e-3)) & TEST(f.area_error <= 2e-6) & TEST(f.heavier <= 2e-6)))
-            fprintf(stderr, "  %s at %g degrees: TV %.3g, area error %.3g, ratio above %.4g for %.3g of the mass\n",
+            fprintf(stderr,
+                    "  %s at %g degrees: TV %.3g, area error %.3g, ratio above %.4g for %.3g of the mass\n",
                     oracle_name(o), ANGLES[i], f.tv, f.area_error, heavy, f.heavier);
     }
     TEST(area <= 1.2 * claim.area_error + 1e-7);

@@ -16,7 +16,8 @@ static const double PI = 3.14159265358979323846;
 static double part_before(const vndf_view *view, double slope, double shift, uint32_t cell, double xi)
 {
     const vndf_distribution *d = view->distribution;
-    double x = d->knots.x[cell] * (1 - xi) + d->knots.x[cell + 1] * xi, z = d->knots.z[cell] * (1 - xi) + d->knots.z[cell + 1] * xi;
+    double x = d->knots.x[cell] * (1 - xi) + d->knots.x[cell + 1] * xi;
+    double z = d->knots.z[cell] * (1 - xi) + d->knots.z[cell + 1] * xi;
     double cosine = -view->c / (view->s * slope * (1 + shift)), sine = sqrt(1 - cosine * cosine);
     double across = x * view->alpha_x, l = hypot(across, z);
     vndf_vec3 wm = {(float)(across * cosine / l), (float)(across * sine / l), (float)(z / l)};
@@ -25,8 +26,8 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
     return u2;
 }
 
-/* The jump at knot j of the part before a place: the step across the knot less what the steps on either side say that
- * it would be anyway. */
+/* The jump at knot j of the part before a place: the step across the knot less what the steps on either side say
+ * that it would be anyway. */
 static double jump_of(const vndf_view *view, uint32_t j, uint32_t cell, double xi)
 {
     const double h = 2e-6;
@@ -86,8 +87,10 @@ static void test_far(const vndf_distribution *d, const char *name, double theta,
         worst2 = fmax(worst2, fabs((double)u2 - v2));
     }
     if (!(TEST(floors == 0) & TEST(worst1 <= 1e-4) & TEST(worst2 <= 1e-3)))
-        fprintf(stderr, "  %s (%lu bytes), theta %g, alpha %g: %d densities are limits, u1 and u2 off by %.3g and %.3g\n", name,
-                (unsigned long)vndf_distribution_info(d).bytes, theta, (double)alpha, floors, worst1, worst2);
+        fprintf(stderr,
+                "  %s (%lu bytes), theta %g, alpha %g: %d densities are limits, u1 and u2 off by %.3g and %.3g\n",
+                name, (unsigned long)vndf_distribution_info(d).bytes, theta, (double)alpha, floors, worst1,
+                worst2);
 }
 
 static void test_size(const oracle *o, size_t bytes)

@@ -5,7 +5,8 @@
  * 2^-24 everywhere. Between u and a place and back lie a dozen roundings, so with the Jacobian J of the map,
  * measured on steps of 2^-15 of u, float allows a normal to return within max(1e-5, 16 2^-24 |J|) and u within
  * 16 2^-24 (1 + |1/J|). A jump would stay when an interval of u shrinks from 2^-9 to 2^-21; what moves the normal
- * there is density. The parts of [0, 1] within 2^-7 of the ends, where tails run to infinity, are left out of that. */
+ * there is density. The parts of [0, 1] within 2^-7 of the ends, where tails run to infinity, are left out of
+ * that. */
 #include "oracle.h"
 #include "test.h"
 

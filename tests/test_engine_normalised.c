@@ -14,7 +14,8 @@ static const double ANGLES[] = {0, 20, 45, 60, 75, 85, 89, 89.9, 90, 91, 100, 11
 /* Gauss-Legendre with four points on [0, 1], in one to six equal parts of a panel: more for coarse tables, whose
  * cells are steep. */
 static const double NODE[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
-static const double WEIGHT[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+static const double WEIGHT[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                 0.17392742256872693};
 
 /* One view, its direction once more in double, and the sum. */
 typedef struct integral {
@@ -54,7 +55,7 @@ static double pdf_per_slope(const integral *g, double r, double cos_a, double si
 /* Slopes r0 to r1 <= infinity, in the variable in which r/(scale + r) is linear. */
 static void add_panel(integral *g, double cos_a, double sin_a, double weight, double r0, double r1)
 {
-    double scale = g->table->scale_exact, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
+    double scale = g->table->scale, x0 = r0 / (scale + r0), x1 = isinf(r1) ? 1 : r1 / (scale + r1);
     double z0 = scale / (scale + r0), z1 = isinf(r1) ? 0 : scale / (scale + r1);
     for (int i = 0; i < points(g); i++) {
         double x = x0 + (x1 - x0) * node(g, i), z = z0 + (z1 - z0) * node(g, i), r = scale * x / z;
@@ -67,7 +68,7 @@ static void add_panel(integral *g, double cos_a, double sin_a, double weight, do
 static double slope_of(const integral *g, uint32_t j)
 {
     double x = g->table->knots.x[j], z = g->table->knots.z[j];
-    return z > 0 ? x / z * g->table->scale_exact : INFINITY;
+    return z > 0 ? x / z * g->table->scale : INFINITY;
 }
 
 static void add_azimuth(integral *g, double a, double weight)

@@ -1,9 +1,9 @@
 /* The surface functions are what they are called: D is normalised and P22 its slopes, area and Lambda agree with
  * quadrature, and the identities of Lambda, G1 and G2 hold, for closed forms and tables alike.
  *
- * Tables hold areas within 2e-6 and P22 within 2e-4 of it or of 1e-4 of its largest value; closed forms within 1e-6.
- * On top comes what the rounding of the stretched direction to float, 2^-23 of it, does to the area: much, in the
- * tail below the horizon. */
+ * Tables hold areas within 2e-6 and P22 within 2e-4 of it or of 1e-4 of its largest value; closed forms within
+ * 1e-6. On top comes what the rounding of the stretched direction to float, 2^-23 of it, does to the area: much,
+ * in the tail below the horizon. */
 #include "oracle_survey.h"
 #include "test.h"
 
@@ -47,7 +47,8 @@ static void test_area(const subject *t, const vndf_surface *surface)
             continue;
         TEST_NEAR(lambda + (double)vndf_lambda(surface, back), -1, 2e-7 * (1 + fabs(lambda)));
         if (theta < 90) {
-            double truth = reversed_area(t->o, surface, wi) / up, least = 2 * t->area + rounding(t->o, surface, back);
+            double truth = reversed_area(t->o, surface, wi) / up;
+            double least = 2 * t->area + rounding(t->o, surface, back);
             TEST(lambda >= 0);
             TEST_NEAR(lambda, truth, truth > 1e-10 ? least * truth : 1e-9);
             TEST_RELATIVE((double)vndf_g1(surface, wi), up / area, 2 * t->area);
@@ -61,10 +62,12 @@ static void test_g2(const vndf_surface *surface)
     unsigned long long state = 29;
     for (int i = 0; i < 3000; i++) {
         vndf_vec3 wi = oracle_direction(100 * (double)test_uniform(&state), 360 * (double)test_uniform(&state));
-        vndf_vec3 wo = oracle_direction(90 * sqrt((double)test_uniform(&state)), 360 * (double)test_uniform(&state));
+        double u = (double)test_uniform(&state), v = (double)test_uniform(&state);
+        vndf_vec3 wo = oracle_direction(90 * sqrt(u), 360 * v);
         float apart = vndf_g2(surface, wi, wo, VNDF_G2_SEPARABLE),
             joint = vndf_g2(surface, wi, wo, VNDF_G2_HEIGHT_CORRELATED);
         float gi = vndf_g1(surface, wi), go = vndf_g1(surface, wo);
+        double lambdas = (double)vndf_lambda(surface, wi) + (double)vndf_lambda(surface, wo);
         TEST(apart >= 0 && apart <= 1 && joint >= 0 && joint <= 1 && gi >= 0 && gi <= 1);
         TEST(joint >= apart * (1 - 1e-6f) && joint <= fminf(gi, go) * (1 + 1e-6f)); /* Heitz 2014, section 5 */
         TEST(joint == vndf_g2(surface, wo, wi, VNDF_G2_HEIGHT_CORRELATED) &&
@@ -72,8 +75,7 @@ static void test_g2(const vndf_surface *surface)
         if (wi.z <= 0)
             TEST(apart == 0 && joint == 0);
         else if (gi > 1e-6f && go > 1e-6f)
-            TEST_RELATIVE((double)joint, 1 / (1 + (double)vndf_lambda(surface, wi) + (double)vndf_lambda(surface,
-                                                                                                         wo)), 2e-6);
+            TEST_RELATIVE((double)joint, 1 / (1 + lambdas), 2e-6);
     }
 }
 
@@ -101,7 +103,8 @@ static void test_ndf(const subject *t, const vndf_surface *surface)
 }
 
 /* At the pole, where the slope's azimuth means nothing, the density drawn is that of one of its neighbours, which
- * differ by the error of azimuth cells (measured: 1e-3), and near the visible one (measured: 1.7e-2, at 75 degrees). */
+ * differ by the error of azimuth cells (measured: 1e-3), and near the visible one (measured: 1.7e-2, at 75
+ * degrees). */
 static void test_pole(const vndf_surface *surface)
 {
     const vndf_vec3 up = {0, 0, 1}, beside = {1e-7f * surface->alpha_x, 0, 1};

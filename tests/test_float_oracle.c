@@ -55,7 +55,8 @@ static double part_of(line *l, integrand what, double x0, double z0, double x1, 
 {
     double sum = 0, part;
     for (int i = 0; i < PANELS * POINTS; i++) {
-        double xi = place_in(0, 1, i, &part), x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), length = hypot(x, z);
+        double xi = place_in(0, 1, i, &part), x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0);
+        double length = hypot(x, z);
         sum += value_at(l, what, x, z) * part * (x1 * z0 - x0 * z1) * x / (length * length * length);
     }
     return sum;
@@ -71,7 +72,8 @@ static double azimuth_of(line *l, integrand what, double a)
     l->k = l->q.wi[0] * l->cosine;
     for (size_t j = 0; j < t->count; j++) {
         double w0 = l->q.wi[2] * t->z[j] + l->k * t->x[j], w1 = l->q.wi[2] * t->z[j + 1] + l->k * t->x[j + 1];
-        double x = (t->x[j] * w1 - t->x[j + 1] * w0) / (w1 - w0), z = (t->z[j] * w1 - t->z[j + 1] * w0) / (w1 - w0);
+        double x = (t->x[j] * w1 - t->x[j + 1] * w0) / (w1 - w0);
+        double z = (t->z[j] * w1 - t->z[j + 1] * w0) / (w1 - w0);
         int cut = w0 * w1 < 0;
         sum += part_of(l, what, t->x[j], t->z[j], cut ? x : t->x[j + 1], cut ? z : t->z[j + 1]);
         if (cut)
@@ -111,7 +113,8 @@ static double wedge_of(line *l, const oracle_wedge *w, double y, int away)
     double p = 0, r = 0;
     while (i + 2 < (w->rows + 1) / 2 && w->row_y[i + 1] <= y)
         i++;
-    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), share[3] = {(1 - m) * (1 - m), 2 * m * (1 - m), m * m};
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]);
+    double share[3] = {(1 - m) * (1 - m), 2 * m * (1 - m), m * m};
     for (size_t n = 0; n < 3; n++) {
         p += share[n] * w->aspect_p[2 * i + n];
         r += share[n] * w->aspect_r[2 * i + n];

@@ -24,5 +24,6 @@ endforeach()
 file(GLOB_RECURSE program ${PREFIX}/bin/${program_name})
 execute_process(COMMAND ${program} --version RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT status EQUAL 0 OR NOT output MATCHES "${VERSION}")
-    message(SEND_ERROR "installed `vndf --version` should print ${VERSION}; exit status ${status}, output:\n${output}")
+    message(SEND_ERROR "installed `vndf --version` should print ${VERSION}; exit status ${status}, output:\n"
+        "${output}")
 endif()

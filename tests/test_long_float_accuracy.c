@@ -9,10 +9,11 @@
 #include "test.h"
 
 static const char *const subjects[] = {
-    "student-t-2.5-small.vndf", "student-t-2.5.vndf", "student-t-2.5-large.vndf", "student-t-1.8.vndf", "student-t-6.vndf",
-    "gtr-1.5.vndf", "epd-0.6.vndf", "hazy.vndf", "sgd-alum-bronze-r.vndf", "sgd-nickel-g.vndf",
+    "student-t-2.5-small.vndf", "student-t-2.5.vndf", "student-t-2.5-large.vndf", "student-t-1.8.vndf",
+    "student-t-6.vndf", "gtr-1.5.vndf", "epd-0.6.vndf", "hazy.vndf", "sgd-alum-bronze-r.vndf", "sgd-nickel-g.vndf",
     "sgd-blue-metallic-paint-b.vndf", "sgd-red-fabric-r.vndf", "sgd-specular-black-phenolic-g.vndf",
-    "abc-two-layer-gold.vndf", "example.vndf", "disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf", "tail.vndf"};
+    "abc-two-layer-gold.vndf", "example.vndf", "disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf",
+    "tail.vndf"};
 
 enum { SUBJECTS = sizeof subjects / sizeof *subjects, RANDOM = 15000000 / SUBJECTS,
        HARD = 1500000 / SUBJECTS, CLIMB = 100000 };
@@ -42,7 +43,7 @@ int main(int argc, char **argv)
     }
     for (int id = 0; id < FLOAT_COUNT; id++)
         fprintf(stderr, "%-8s %9lu checked, %lu missed, %lu at jumps, worst %.2g\n",
-                float_quantity_name((float_quantity)id), (unsigned long)most[id].checked, (unsigned long)most[id].missed,
-                (unsigned long)most[id].aside, most[id].error);
+                float_quantity_name((float_quantity)id), (unsigned long)most[id].checked,
+                (unsigned long)most[id].missed, (unsigned long)most[id].aside, most[id].error);
     return test_done();
 }

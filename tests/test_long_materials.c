@@ -1,5 +1,5 @@
-/* All 312 measured fits tabulate in 16 KiB, with a total variation of at most 1e-3 and an area error of at most 2e-6;
- * prints the median and the worst of each. */
+/* All 312 measured fits tabulate in 16 KiB, with a total variation of at most 1e-3 and an area error of at most
+ * 2e-6; prints the median and the worst of each. */
 #include <stdlib.h>
 
 #include "distribution/family.h"
@@ -36,7 +36,8 @@ static void print(const char *what, double *value, size_t count)
 {
     qsort(value, count, sizeof *value, vndf_ascending);
     if (count)
-        printf("%s: median %.3g, worst %.3g of %lu\n", what, value[count / 2], value[count - 1], (unsigned long)count);
+        printf("%s: median %.3g, worst %.3g of %lu\n", what, value[count / 2], value[count - 1],
+               (unsigned long)count);
 }
 
 int main(void)

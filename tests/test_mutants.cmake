@@ -1,9 +1,9 @@
-# A test of the tests: each defect of tests/mutants.txt, planted in a copy of the sources, makes the test fail that is
-# named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text that is no
-# longer found exactly once is an error too: the list has to follow the sources.
+# A test of the tests: each defect of tests/mutants.txt, planted in a copy of the sources, makes the test fail
+# that is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text
+# that is no longer found exactly once is an error too: the list has to follow the sources.
 #
-# The copy is configured once with -O1; a defect costs what depends on its file, and one test. LONG=ON (long_mutants)
-# plants all, otherwise those marked `always`.
+# The copy is configured once with -O1; a defect costs what depends on its file, and one test. LONG=ON
+# (long_mutants) plants all, otherwise those marked `always`.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/mutants.txt text)

@@ -73,7 +73,8 @@ function(check_file file)
     endforeach()
 endfunction()
 
-file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/src/*.c ${SOURCE}/src/*.h ${SOURCE}/tools/*.c ${SOURCE}/tools/*.h)
+file(GLOB_RECURSE files RELATIVE ${SOURCE}
+    ${SOURCE}/src/*.c ${SOURCE}/src/*.h ${SOURCE}/tools/*.c ${SOURCE}/tools/*.h)
 list(LENGTH files count)
 if(count LESS 2)
     message(FATAL_ERROR "no sources under ${SOURCE}")

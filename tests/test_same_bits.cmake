@@ -1,10 +1,11 @@
-# The run time gives the same bits whatever compiled it and wherever it runs: gcc and clang, from no optimisation to
-# everything that this machine's processor has, 32-bit x86 with SSE2, and the machines of `machines` below through
-# qemu, all compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Only the rooms
-# of the run time are compiled here, so they do not need the offline ones.
+# The run time gives the same bits whatever compiled it and wherever it runs: gcc and clang, from no optimisation
+# to everything that this machine's processor has, 32-bit x86 with SSE2, and the machines of `machines` below
+# through qemu, all compared with tests/corpus/same_bits.txt, so that machines that never met are compared too.
+# Only the rooms of the run time are compiled here, so they do not need the offline ones.
 #
 # The optimised builds for this machine take 1e6 samples of every distribution, the slow ones - not optimised,
-# emulated, or 32-bit - the first 2e4 of the same. What cannot be built or run here is named on a line "not here: ...".
+# emulated, or 32-bit - the first 2e4 of the same. What cannot be built or run here is named on a line
+# "not here: ...".
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
 # runs this with -DRENEW=ON and writes the file anew, if all builds agree.
@@ -34,8 +35,8 @@ file(MAKE_DIRECTORY ${OUT})
 
 # ---- expected hashes ----------------------------------------------------------------------------
 
-# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's, or without one (RENEW) the
-# first build's.
+# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's, or without one (RENEW)
+# the first build's.
 function(compare_hashes who lines)
     string(REGEX REPLACE "\n" ";" lines "${lines}")
     foreach(line IN LISTS lines)
@@ -45,8 +46,8 @@ function(compare_hashes who lines)
                 set_property(GLOBAL PROPERTY "hash of ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}" ${CMAKE_MATCH_1})
                 set_property(GLOBAL APPEND PROPERTY hash_lines "${line}")
             elseif(NOT known STREQUAL CMAKE_MATCH_1)
-                message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2} samples of ${CMAKE_MATCH_3}, "
-                    "expected '${known}'. If arithmetic or tables were changed on purpose: "
+                message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2} samples of "
+                    "${CMAKE_MATCH_3}, expected '${known}'. If arithmetic or tables were changed on purpose: "
                     "cmake --build build --target same_bits")
             endif()
         endif()
@@ -90,7 +91,8 @@ function(run_build who count emulator)
     message("same bits: ${who}, ${count} samples of each distribution (${seconds} s)")
 endfunction()
 
-# Whether a program with the headers of the run time can be built and run; nothing here is ours, so nothing is judged.
+# Whether a program with the headers of the run time can be built and run; nothing here is ours, so nothing is
+# judged.
 function(can_run result emulator)
     file(WRITE ${OUT}/probe.c "#include <errno.h>\n#include <math.h>\n#include <stdio.h>\n#include <stdlib.h>\n"
         "int main(int n, char **a) { return a[0] && errno == 0 && sqrt((double)n) == 1.0 ? 0 : 1; }\n")
@@ -145,7 +147,8 @@ if(found)
     execute_process(COMMAND gcc -mfpmath=387 ${flags} -fsyntax-only ${SOURCE}/src/sampler/ggx.c
         RESULT_VARIABLE status ERROR_VARIABLE errors)
     if(status EQUAL 0 OR NOT errors MATCHES "FLT_EVAL_METHOD 0")
-        message(SEND_ERROR "floats with more digits than they have are to be refused; gcc -mfpmath=387 says:\n${errors}")
+        message(SEND_ERROR "floats with more digits than they have are to be refused; gcc -mfpmath=387 says:\n"
+            "${errors}")
     endif()
     message("refused, as it must be: gcc -mfpmath=387")
 else()

@@ -1,13 +1,13 @@
-/* No input is too hard: every property of tools/stress.h holds over its whole product of directions, roughnesses and
- * uniform numbers, for every shipped table, the smallest table of each source, the closed forms, and distributions that
- * are pathological: jumps, a hole at the pole, a narrow ring, an unbounded peak, a tail at the edge of integrability,
- * two scales a hundred apart, and a scale of 1e-9. Of the smallest tables and the pathological
- * ones every fifth view, which `vndf check --hard` does not leave out; with VNDF_TEST_QUICK every 37th of all. With the
- * name of a shipped table as its argument it looks at that and the smallest of the source. */
+/* No input is too hard: every property of tools/stress.h holds over its whole product of directions, roughnesses
+ * and uniform numbers, for every shipped table, the smallest table of each source, the closed forms, and
+ * distributions that are pathological: jumps, a hole at the pole, a narrow ring, an unbounded peak, a tail at the
+ * edge of integrability, two scales a hundred apart, and a scale of 1e-9. Of the smallest tables and the
+ * pathological ones every fifth view, which `vndf check --hard` does not leave out; with VNDF_TEST_QUICK every
+ * 37th of all. With the name of a shipped table as its argument it looks at that and the smallest of the
+ * source. */
 #include "oracle.h"
 #include "stress.h"
 #include "test.h"
-
 
 static const char *const pathological[] = {
     "step(1-r)", "exp(-r)*step(r-2)", "exp(-((r-1)/0.02)^2)", "r^-1.5*exp(-r)", "r^-1.75*exp(-r)", "(1+r*r)^-1.55",

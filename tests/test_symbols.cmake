@@ -58,7 +58,8 @@ if(count EQUAL 0)
     message(FATAL_ERROR "no function is declared with VNDF_API in ${SOURCE}/include")
 endif()
 report_difference(exported declared "is exported, but no header declares it with VNDF_API: make it hidden")
-report_difference(declared exported "is declared with VNDF_API in a header, but the shared library has no such symbol")
+report_difference(declared exported
+    "is declared with VNDF_API in a header, but the shared library has no such symbol")
 
 read_symbols(external -g --defined-only ${STATIC_LIBRARY})
 foreach(name IN LISTS external)

@@ -1,5 +1,5 @@
-/* A table whose bytes were changed and whose checksum was put right is refused, or its samples are finite, unit and
- * not below the surface and its densities finite and positive: such tables may be wrong, never dangerous. */
+/* A table whose bytes were changed and whose checksum was put right is refused, or its samples are finite, unit
+ * and not below the surface and its densities finite and positive: such tables may be wrong, never dangerous. */
 #define _DEFAULT_SOURCE
 #include "damage.h"
 #include "oracle.h"

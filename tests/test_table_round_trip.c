@@ -1,5 +1,5 @@
-/* Saved and loaded, a table is the same: the same bits of sample, pdf, invert, area and certificate. What cannot be
- * saved or loaded gives its status and leaves nothing behind. */
+/* Saved and loaded, a table is the same: the same bits of sample, pdf, invert, area and certificate. What cannot
+ * be saved or loaded gives its status and leaves nothing behind. */
 #include <stdlib.h>
 
 #include "oracle.h"

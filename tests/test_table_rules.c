@@ -1,6 +1,6 @@
-/* A table that breaks one rule of the format is refused, whatever its checksum says, and the message names the rule:
- * every rule of src/table/validate.c, the limits of the counts, and parts that leave bytes over. Random damage
- * (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
+/* A table that breaks one rule of the format is refused, whatever its checksum says, and the message names the
+ * rule: every rule of src/table/validate.c, the limits of the counts, and parts that leave bytes over. Random
+ * damage (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
 #include <stdlib.h>
 
 #include "core/checksum.h"
@@ -78,7 +78,7 @@ static void claim_negative(vndf_distribution *t)
 
 static void scale_zero(vndf_distribution *t)
 {
-    t->scale_exact = 0;
+    t->scale = 0;
 }
 
 static void normalization_infinite(vndf_distribution *t)

@@ -1,6 +1,6 @@
 /* One distribution, one surface and one view shared by eight threads that sample, evaluate and invert give every
- * thread the bits that a single thread gets, for a table and both closed forms. The threads run first: what would be
- * made at the first use, would be made there. test_threads_sanitized.cmake runs this under ThreadSanitizer.
+ * thread the bits that a single thread gets, for a table and both closed forms. The threads run first: what would
+ * be made at the first use, would be made there. test_threads_sanitized.cmake runs this under ThreadSanitizer.
  *
  * Threads are POSIX's where CMake finds them, else C11's. */
 #include <stdlib.h>
@@ -114,7 +114,8 @@ static void compare(const vndf_distribution *d, const char *name, const char *pa
         task alone = tasks[i];
         run_task(&alone);
         if (!TEST(alone.hash == tasks[i].hash))
-            fprintf(stderr, "  %s: thread %d has %016llx, alone it is %016llx\n", name, i, tasks[i].hash, alone.hash);
+            fprintf(stderr, "  %s: thread %d has %016llx, alone it is %016llx\n", name, i, tasks[i].hash,
+                    alone.hash);
         TEST(i == 0 || tasks[i].hash != tasks[0].hash); /* different numbers, different bits */
     }
 }

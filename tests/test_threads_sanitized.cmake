@@ -1,6 +1,6 @@
-# Under ThreadSanitizer the eight threads of test_threads.c have no data race. The sanitizer is first shown a race: where
-# it cannot be linked, does not run, or does not report that, nothing could be learnt, and this test is skipped.
-# Only the rooms of the run time are compiled.
+# Under ThreadSanitizer the eight threads of test_threads.c have no data race. The sanitizer is first shown a
+# race: where it cannot be linked, does not run, or does not report that, nothing could be learnt, and this test
+# is skipped. Only the rooms of the run time are compiled.
 cmake_minimum_required(VERSION 3.16)
 
 file(MAKE_DIRECTORY ${OUT})

@@ -1,5 +1,5 @@
-/* The oracle of vndf_build.h agrees with the closed forms of GGX and Beckmann at any scale and factor: P22, and the
- * projected area from straight above far below the horizon, to 1e-8 of them. */
+/* The oracle of vndf_build.h agrees with the closed forms of GGX and Beckmann at any scale and factor: P22, and
+ * the projected area from straight above far below the horizon, to 1e-8 of them. */
 #include "test.h"
 #include "vndf_build.h"
 

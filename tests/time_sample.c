@@ -44,7 +44,8 @@ static vndf_vec3 plain_caps(const input *in, float *pdf)
 {
     float a = in->alpha, x = a * in->wi.x, y = a * in->wi.y, length = sqrtf(x * x + y * y + in->wi.z * in->wi.z);
     vndf_vec3 w = {x / length, y / length, in->wi.z / length};
-    float phi = 6.28318531f * in->u1, z = (1.0f - in->u2) * (1.0f + w.z) - w.z, s = sqrtf(fmaxf(0.0f, 1.0f - z * z));
+    float phi = 6.28318531f * in->u1, z = (1.0f - in->u2) * (1.0f + w.z) - w.z;
+    float s = sqrtf(fmaxf(0.0f, 1.0f - z * z));
     vndf_vec3 m = unit(a * (s * cosf(phi) + w.x), a * (s * sinf(phi) + w.y), z + w.z);
     float ex = m.x / a, ey = m.y / a, q = ex * ex + ey * ey + m.z * m.z;
     float dot = in->wi.x * m.x + in->wi.y * m.y + in->wi.z * m.z;
@@ -103,7 +104,10 @@ static double turn(const method *m, kind k, const input *inputs, float *sum)
 {
     double start = now();
     for (int loop = 0; loop < LOOPS; loop++)
-        *sum += !m->d ? plain(inputs) : k == WHOLE ? whole(m, inputs) : k == PDF ? pdf_alone(m, inputs) : shared_view(m, inputs);
+        *sum += !m->d        ? plain(inputs)
+                : k == WHOLE ? whole(m, inputs)
+                : k == PDF   ? pdf_alone(m, inputs)
+                             : shared_view(m, inputs);
     return (now() - start) / (LOOPS * SAMPLES);
 }
 
@@ -115,7 +119,8 @@ static int prepare(method *m, const input *inputs)
         vndf_view view = view_of(m->d, &inputs[i]), first = view_of(m->d, &inputs[i / SHARED * SHARED]);
         float pdf;
         vndf_vec3 n = vndf_sample(&view, inputs[i].u1, inputs[i].u2, &pdf);
-        if (fabsf(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) > 1e-6f || !(n.x * wi.x + n.y * wi.y + n.z * wi.z >= 0.0f) || !(pdf > 0.0f))
+        if (fabsf(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) > 1e-6f ||
+            !(n.x * wi.x + n.y * wi.y + n.z * wi.z >= 0.0f) || !(pdf > 0.0f))
             return 0;
         m->wm[i] = vndf_sample(&first, inputs[i].u1, inputs[i].u2, NULL);
     }
@@ -145,14 +150,16 @@ static void fill(input *inputs)
     unsigned long long state = 20231;
     for (int i = 0; i < SAMPLES; i++) {
         float z = test_uniform(&state), phi = 6.28318531f * test_uniform(&state), s = sqrtf(1.0f - z * z);
-        inputs[i] = (input){{s * cosf(phi), s * sinf(phi), z}, 0.05f + 0.9f * test_uniform(&state), test_uniform(&state), test_uniform(&state)};
+        float alpha = 0.05f + 0.9f * test_uniform(&state), u1 = test_uniform(&state), u2 = test_uniform(&state);
+        inputs[i] = (input){{s * cosf(phi), s * sinf(phi), z}, alpha, u1, u2};
     }
 }
 
 int main(int count, char **paths)
 {
     static input inputs[SAMPLES];
-    static method methods[METHODS_MAX] = {{.name = "plain spherical caps"}, {.name = "vndf_ggx()"}, {.name = "vndf_beckmann()"}};
+    static method methods[METHODS_MAX] = {{.name = "plain spherical caps"}, {.name = "vndf_ggx()"},
+                                          {.name = "vndf_beckmann()"}};
     int n = 3;
     float sum = 0.0f;
     methods[1].d = vndf_ggx();
@@ -171,7 +178,8 @@ int main(int count, char **paths)
         for (int m = 0; m < n; m++)
             for (int k = 0; k < (methods[m].d ? KINDS : 1); k++)
                 methods[m].time[k][t] = turn(&methods[m], (kind)k, inputs, &sum);
-    printf("%-44s %7s %7s %7s %7s %11s %7s\n", "view + sample + density", "ns", "25%", "75%", "ratio", "shared view", "pdf");
+    printf("%-44s %7s %7s %7s %7s %11s %7s\n", "view + sample + density", "ns", "25%", "75%", "ratio",
+           "shared view", "pdf");
     for (int m = 0; m < n; m++)
         print(&methods[m], m ? methods[0].time[WHOLE][TURNS / 2] : 0);
     return sum == 12345.0f; /* keeps the loops alive */

@@ -1,5 +1,5 @@
-/* vndf check: is a distribution what it claims to be? Three parts, and a fourth on demand, each printing lines that
- * end with good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three parts, and a fourth on demand, each printing lines
+ * that end with good or FAILED:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
@@ -237,7 +237,8 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     if (follows == STATUS_USE)
         return STATUS_USE;
     int hard = given->hard.count ? hard_check(chosen->distribution, seed) : STATUS_GOOD;
-    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD && hard == STATUS_GOOD;
+    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD &&
+               hard == STATUS_GOOD;
     printf("result %s\n", verdict(good));
     return good ? STATUS_GOOD : STATUS_NO;
 }

@@ -38,7 +38,8 @@ static int print_help(void)
          "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
          "\n"
          "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed;\n"
-         "a reader that closes the pipe ends the program quietly, by SIGPIPE or, where that is ignored, with status 2");
+         "a reader that closes the pipe ends the program quietly, by SIGPIPE or, where that is ignored, with "
+         "status 2");
     return STATUS_GOOD;
 }
 

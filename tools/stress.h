@@ -2,10 +2,11 @@
  *
  *     incident directions   exactly along z and 1e-7, 1e-4, 0.01 degrees from it; 30 to 89.9999 degrees; cosines
  *                           1e-7, 1e-20, 1e-42 (a denormal), 0 and -0, and the negative ones; 91, 130, 179.9 and
- *                           exactly 180 degrees; each along x, along y, diagonally and at 200 degrees; each of length
- *                           1 and 1 +- 1e-6
+ *                           exactly 180 degrees; each along x, along y, diagonally and at 200 degrees; each of
+ *                           length 1 and 1 +- 1e-6
  *     roughness             1e-8 1e-6 1e-4 0.01 0.1 0.5 1 2 10 1e4 in all pairs up to a ratio of 1e8
- *     uniform numbers       0, the least float, 2^-24, 1/2 and its neighbours, 1 - 2^-24, 1 in all pairs, and random
+ *     uniform numbers       0, the least float, 2^-24, 1/2 and its neighbours, 1 - 2^-24, 1 in all pairs, and
+ *                           random
  *
  * is run through sample, pdf, invert, area, lambda, g1 and g2 of one distribution. Each property (stress_property)
  * is a number that is 0 at best and must not exceed its limit; kept are how often it did and the worst input. */
@@ -53,8 +54,8 @@ typedef struct stress_result {
     stress_finding found[STRESS_COUNT];
 } stress_result;
 
-/* Every `every`-th view of the product (1: all, some 23000 of 80 samples each; a number prime to 12 and 21 does not
- * favour any direction). The result is added to, so it begins as zeros. */
+/* Every `every`-th view of the product (1: all, some 23000 of 80 samples each; a number prime to 12 and 21 does
+ * not favour any direction). The result is added to, so it begins as zeros. */
 void stress_run(const vndf_distribution *distribution, size_t every, uint64_t seed, stress_result *result);
 
 /* How many properties failed. */

@@ -1,9 +1,9 @@
 /* The properties of stress.h, one number each. What theory says of the area: A(w) = integral max(0, w.wm) D dwm
  * (Heitz, "Understanding the Masking-Shadowing Function", JCGT 2014, eq. 16) is convex and even in the part of w
- * across z, so it grows with that part's length; and dA/dw.z, the integral of wm.z D over the visible normals, is >= 0.
- * Down a great circle both parts shrink once z < 0, so A falls from 90 to 180 degrees; mirrored, A(-w) grows from 0 to
- * 90, and so does Lambda = A(-w)/cos, while G1 = 1/(1 + Lambda) falls. A itself need not be monotone above the
- * horizon: rough surfaces (A(90 degrees) > 1) rise before they fall. */
+ * across z, so it grows with that part's length; and dA/dw.z, the integral of wm.z D over the visible normals, is
+ * >= 0. Down a great circle both parts shrink once z < 0, so A falls from 90 to 180 degrees; mirrored, A(-w)
+ * grows from 0 to 90, and so does Lambda = A(-w)/cos, while G1 = 1/(1 + Lambda) falls. A itself need not be
+ * monotone above the horizon: rough surfaces (A(90 degrees) > 1) rise before they fall. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -57,8 +57,8 @@ static double length_of(vndf_vec3 w)
     return sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y + (double)w.z * (double)w.z);
 }
 
-/* As far as wi.wm is below 0, against its terms: wi is rounded to unit length, component by component, and the normal
- * faces what comes out. */
+/* As far as wi.wm is below 0, against its terms: wi is rounded to unit length, component by component, and the
+ * normal faces what comes out. */
 static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
     double x = (double)wi.x * (double)wm.x, y = (double)wi.y * (double)wm.y, z = (double)wi.z * (double)wm.z;
@@ -78,8 +78,8 @@ static double distance_stretched(const vndf_surface *surface, vndf_vec3 a, vndf_
     return sqrt(sum);
 }
 
-/* What came back, or what was put in where the two are within 8 steps of 2^-24: in a heavy tail one such step moves
- * the normal by more than any tolerance. */
+/* What came back, or what was put in where the two are within 8 steps of 2^-24: in a heavy tail one such step
+ * moves the normal by more than any tolerance. */
 static float settled(float back, float given)
 {
     return fabs((double)back - (double)given) <= 8 * 0x1p-24 ? given : back;
@@ -97,8 +97,8 @@ static vndf_vec3 returned(const vndf_view *view, const stress_point *at, vndf_ve
 }
 
 /* How far that normal moves where wm is up to four roundings off in each component. */
-static double moved_by_rounding(const vndf_surface *surface, const vndf_view *view, const stress_point *at, vndf_vec3 wm,
-                                vndf_vec3 back)
+static double moved_by_rounding(const vndf_surface *surface, const vndf_view *view, const stress_point *at,
+                                vndf_vec3 wm, vndf_vec3 back)
 {
     const float step[3] = {1 - 0x1p-22f, 1, 1 + 0x1p-22f};
     double most = 0;
@@ -122,9 +122,10 @@ static int is_deep(const vndf_surface *surface, vndf_vec3 wi)
 }
 
 /* 0 where the normal's own rounding moves it as far; within four steps of 2^-24 of the border of the unit square,
- * where the side u2 = 0 is drawn together to one normal and the sides u1 = 0 and 1 come to lie at a right angle to wi,
- * so that all of u2 changes with the last bit of the azimuth; and deep below the horizon. */
-static double lost_by_inversion(const vndf_surface *surface, const vndf_view *view, const stress_point *at, vndf_vec3 wm)
+ * where the side u2 = 0 is drawn together to one normal and the sides u1 = 0 and 1 come to lie at a right angle
+ * to wi, so that all of u2 changes with the last bit of the azimuth; and deep below the horizon. */
+static double lost_by_inversion(const vndf_surface *surface, const vndf_view *view, const stress_point *at,
+                                vndf_vec3 wm)
 {
     vndf_vec3 back = returned(view, at, wm);
     double lost = distance_stretched(surface, wm, back);
@@ -200,9 +201,9 @@ void stress_measure_direction(const vndf_surface *surface, const stress_point *a
     double cosine = (double)at->wi.z / length_of(at->wi), up = fmax(cosine, 0);
     float a = vndf_projected_area(surface, at->wi), b = vndf_projected_area(surface, back);
     float lambda = vndf_lambda(surface, at->wi), mirrored = vndf_lambda(surface, back);
-    double area = (double)a, largest = fmax(area, (double)b);
+    double area = (double)a, largest = fmax(area, (double)b), miss = fabs(area - (double)b - cosine);
     stress_note(result, STRESS_AREA, a >= 0 && a <= FLT_MAX ? (up - area) / (up > 0 ? up : 1) : INFINITY, at);
-    stress_note(result, STRESS_MIRRORED, largest > 0 ? fabs(area - (double)b - cosine) / largest : fabs(cosine), at);
+    stress_note(result, STRESS_MIRRORED, largest > 0 ? miss / largest : fabs(cosine), at);
     stress_note(result, STRESS_LAMBDA, lambda_error(at->wi, lambda, mirrored), at);
     stress_note(result, STRESS_G1, g1_error(at->wi, vndf_g1(surface, at->wi), lambda), at);
     stress_note(result, STRESS_G2, g2_error(surface, at->wi, at->wo), at);

@@ -73,7 +73,8 @@ void svg_circle(FILE *file, double x, double y, double radius, const char *fill,
 
 void svg_frame(FILE *file, double x, double y, double width, double height)
 {
-    fprintf(file, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#868e96\"/>\n",
+    fprintf(file,
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#868e96\"/>\n",
             x, y, width, height);
 }
 

@@ -28,15 +28,8 @@ static vndf_area_knot knot_at(const vndf_side *side, double y)
     return knot;
 }
 
-static double area_at(const double piece[VNDF_AREA_ORDER], double t)
-{
-    double sum = piece[0];
-    for (int i = 1; i < VNDF_AREA_ORDER; i++)
-        sum = sum * (1 - t) + piece[i] * pow(t, i);
-    return sum;
-}
-
-/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for it. */
+/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for
+ * it. */
 void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_knot *from, vndf_area_knot *to)
 {
     *from = knot_at(side, a);
@@ -47,7 +40,7 @@ void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_kn
     double h = b - a, piece[VNDF_AREA_ORDER];
     free_end->curve = 0.0;
     vndf_area_piece(h, *from, *to, piece);
-    double missing = 32 * (vndf_side_area(side, a + h / 2).mass - area_at(piece, 0.5));
+    double missing = 32 * (vndf_side_area(side, a + h / 2).mass - vndf_area_piece_at(piece, 0.5));
     free_end->curve = fmin(fmax(missing * 2 / (h * h), 0.0), CURVE_MOST);
 }
 
@@ -60,7 +53,8 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     vndf_area_fit_piece(side, a, b, &from, &to);
     vndf_area_piece(h, from, to, piece);
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
-        double y = a + at[i] * h, truth = vndf_side_area(side, y).mass, error = fabs(area_at(piece, at[i]) - truth);
+        double y = a + at[i] * h, truth = vndf_side_area(side, y).mass;
+        double error = fabs(vndf_area_piece_at(piece, at[i]) - truth);
         double whole = side->below ? truth + AREA_LEAST * side->profile->f1 : truth / vndf_side_share(side, y);
         worst = fmax(worst, error / whole);
     }

@@ -15,8 +15,8 @@ typedef struct vndf_side {
 /* Mass of the wedge per (s + |c|), with its derivatives by y. */
 vndf_area_value vndf_side_area(const vndf_side *side, double y);
 
-/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen, and hardly
- * where nothing is claimed any more. */
+/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen, and
+ * hardly where nothing is claimed any more. */
 double vndf_side_share(const vndf_side *side, double y);
 
 /* The ends of the spline's piece from a to b. */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by less,
- * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table of half the
- * default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
+/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by
+ * less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
+ * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
 static const double AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
 enum { PROMISE_BYTES = 8192 };
 
@@ -206,8 +206,7 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
         fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
         fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;
-        table->scale_exact = plan->profile->scale;
-        table->scale = (float)plan->profile->scale;
+        table->scale = plan->profile->scale;
     }
     free(knots);
     if (good)

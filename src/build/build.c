@@ -88,8 +88,9 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     vndf_distribution *table = finish(plan, best, error);
     if (table && table->certificate.tv > max_tv) {
         vndf_fail(error, VNDF_ERROR_TARGET,
-                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees", max_tv,
-                  (unsigned long)table->bytes, (double)table->certificate.tv, (double)table->certificate.tv_theta);
+                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+                  max_tv, (unsigned long)table->bytes, (double)table->certificate.tv,
+                  (double)table->certificate.tv_theta);
         vndf_free(table);
         return NULL;
     }
@@ -114,7 +115,8 @@ static vndf_distribution *build_planned(vndf_plan *plan, size_t max_bytes, doubl
 {
     double best = error_for_bytes(plan, max_bytes);
     if (best == 0.0) {
-        vndf_fail(error, VNDF_ERROR_TARGET, "%lu bytes are too few: the smallest table of this distribution takes %lu",
+        vndf_fail(error, VNDF_ERROR_TARGET,
+                  "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)max_bytes,
                   (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->source->description));
         return NULL;
@@ -175,12 +177,12 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
     vndf_profile *profile = vndf_profile_from(source, &guard, &inner);
     if (!profile)
         return vndf_fail(error, inner.status, "%s", inner.message);
-    double scale = profile->scale / distribution->scale_exact;
+    double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
         vndf_status other = vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                                       "the table is of another distribution: scale %.9g and normalization %.9g, "
-                                      "the source has %.9g and %.9g", distribution->scale_exact,
+                                      "the source has %.9g and %.9g", distribution->scale,
                                       distribution->normalization, profile->scale, profile->normalization);
         vndf_profile_free(profile);
         return other;

@@ -11,7 +11,7 @@
 #include "sampler/wedge.h"
 
 static const double PI = 3.14159265358979323846;
-static const double AREA_LEAST = 1e-10; /* of the area at normal incidence: below it nothing is claimed */
+static const double AREA_LEAST = 1e-10; /* of half the area at grazing incidence: below it nothing is claimed */
 static const double MASS_LEFT_OUT = 1e-6;
 
 /* f of a cell changes by more than this: it takes the finer rule. */
@@ -63,7 +63,7 @@ static vndf_view view_of(const vndf_distribution *table, double s, double c)
 /* One azimuth of a direction, with the weight that it has in the sum. */
 typedef struct ray {
     vndf_engine_ray drawn;
-    double s, c, cos_phi, weight, area;
+    double weight, area;
 } ray;
 
 /* pdf per unit of slope area of the unit problem at R: the engine's density is per X Z^2 dR da. */
@@ -71,7 +71,7 @@ static double drawn_density(const ray *at, double r)
 {
     double unit = 1 / (1 + r);
     double x = r < HUGE_VAL ? r * unit : 1.0, z = unit;
-    double w = at->s * at->cos_phi * x + at->c * z;
+    double w = at->drawn.k * x + at->drawn.c * z;
     return w > 0 ? vndf_engine_ray_density(&at->drawn, x, z, w) * z * z * z : 0.0;
 }
 
@@ -85,7 +85,7 @@ static void add_slopes(survey *v, const ray *at, double r0, double r1, int steep
     double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
     for (int i = 0; i < points && v->count < v->capacity; i++) {
         double xi = node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
-        double measure = at->weight * weight[i] * width * r / (z * z), mask = at->c + at->s * at->cos_phi * r;
+        double measure = at->weight * weight[i] * width * r / (z * z), mask = at->drawn.c + at->drawn.k * r;
         double truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / at->area : 0.0;
         sample one = {truth * measure, drawn_density(at, r) * measure};
         v->samples[v->count++] = one;
@@ -95,7 +95,7 @@ static void add_slopes(survey *v, const ray *at, double r0, double r1, int steep
 /* One azimuth: every radial cell that is seen, in parts where there are few, the one at the cut up to the cut. */
 static void add_azimuth(survey *v, const ray *at)
 {
-    double k = at->s * at->cos_phi, c = at->c, cut = c * k < 0 ? -c / k : 0.0;
+    double k = at->drawn.k, c = at->drawn.c, cut = c * k < 0 ? -c / k : 0.0;
     const vndf_distribution *d = v->table;
     for (uint32_t i = 0; i < d->radial_count * v->radial_parts; i++) {
         uint32_t j = i / v->radial_parts, part = i % v->radial_parts;
@@ -125,8 +125,7 @@ static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uin
     double q = turn->node[cell] + width * (part + vndf_gauss_coarse_node[g]), p = turn->p, r = turn->r;
     double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
     double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
-    ray at = {{0}, view->s, view->c, (turn->away ? -x : x) / n, weight, 0.0};
-    at.drawn = vndf_engine_ray_at(view, at.cos_phi, y / n);
+    ray at = {vndf_engine_ray_at(view, (turn->away ? -x : x) / n, y / n), weight, 0.0};
     return at;
 }
 

@@ -1,5 +1,5 @@
-/* The certificate: what a table is worth, measured with the run time's own float code against the profile
- * of the source. */
+/* The certificate: what a table is worth, measured with the run time's own densities (those that vndf_pdf rounds
+ * to float), areas and D against the profile of the source. */
 #ifndef VNDF_BUILD_CERTIFICATE_H
 #define VNDF_BUILD_CERTIFICATE_H
 

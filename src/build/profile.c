@@ -18,7 +18,7 @@ static const double LEAST = 1e-290;     /* a product with a slope or two remains
 static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
 static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
 static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
-static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: it draws as one cell */
+static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: one cell draws it */
 static const double SAME_MASS = 1e-7;   /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)

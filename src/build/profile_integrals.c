@@ -96,7 +96,8 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
     return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
 }
 
-/* Kernels of the two areas by s, of their derivatives by y (see profile.h) and of s^3 times the second, at R > k. */
+/* Kernels of the two areas by s, of their derivatives by y (see profile.h) and of s^3 times the second, at
+ * R > k. */
 typedef struct kernel {
     double mass, slope, curve;
 } kernel;

@@ -25,7 +25,7 @@ static const double NEAR_HORIZON = 1e-6; /* of the last cell: x/z is finite ther
 /* An end of f this many times above the mean is a pole of D: the cell is kept bounded. */
 static const double END_MOST = 50;
 static const double MASS_LEAST = 1e-36; /* of a cell: a normal float with some room for products */
-static const double ENDS_MOST = 3;      /* both ends of a bent cubic together, of its mass: at 4 none is left inside */
+static const double ENDS_MOST = 3;      /* both ends of a bent cubic together, of its mass: at 4 none is inside */
 static const double INSIDE = 1e-3;      /* the cubic stays off 0 when its moments are rounded to float */
 
 /* ---- knots ---- */

@@ -128,7 +128,8 @@ static double cell_miss(const vndf_wedge_fit *fit, const judge *j, double a, dou
     vndf_rational_cell cell = {(float)(density_in_q(fit, j->d, j->p, j->r, a) * h),
                                (float)(density_in_q(fit, j->d, j->p, j->r, b) * h), (float)mass};
     for (int i = 0; i < VNDF_GAUSS; i++)
-        miss += vndf_gauss_weight[i] * fabs((double)vndf_rational_density(&cell, (float)vndf_gauss_node[i]) / h - f[i]);
+        miss += vndf_gauss_weight[i] *
+                fabs((double)vndf_rational_density(&cell, (float)vndf_gauss_node[i]) / h - f[i]);
     return miss * h / 2 * j->scale;
 }
 
@@ -225,7 +226,8 @@ const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y)
     return &e->row;
 }
 
-/* The middle control point of a quadratic Bezier curve from a to b that passes through `halfway`, kept positive. */
+/* The middle control point of a quadratic Bezier curve from a to b that passes through `halfway`, kept
+ * positive. */
 static double control(double a, double halfway, double b, double least)
 {
     return fmax(2 * halfway - (a + b) / 2, least);
@@ -284,7 +286,8 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
     return fmax(by_mass, by_density) / 2;
 }
 
-/* Where a quadratic through both ends and the middle misses most, and where what is seen fades out between them. */
+/* Where a quadratic through both ends and the middle misses most, and where what is seen fades out between
+ * them. */
 static const double PROBES[] = {0.22, 0.6, 0.8, 0.95};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)

@@ -3,8 +3,9 @@
  * Functions of the hot path are always part of their caller, so that the small structures they return stay in
  * registers; those beside it, which must not take registers there, never are.
  *
- * Arithmetic is done in the type it is written in: where intermediate floats are held in more digits, as on the x87, the
- * bits would be others, and the bounds that were measured would be nobody's. 16 is 0 with a half-precision type. */
+ * Arithmetic is done in the type it is written in: where intermediate floats are held in more digits, as on the
+ * x87, the bits would be others, and the bounds that were measured would be nobody's. 16 is 0 with a
+ * half-precision type. */
 #ifndef VNDF_CORE_INLINE_H
 #define VNDF_CORE_INLINE_H
 

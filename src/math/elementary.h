@@ -1,16 +1,17 @@
-/* exp, log, log1p, erfc and atan2 from + - * / and sqrt alone, so that closed forms give the same bits with every C
- * library. Relative errors, measured by tests/test_elementary.c against long double: exp and log below 4e-16 (exp
- * beyond 700 either way 1e-15), log1p and atan2 below 8e-16, half_erfc below 3e-9.
+/* exp, log, log1p, erfc and atan2 from + - * / and sqrt alone, so that closed forms give the same bits with every
+ * C library. Relative errors, measured by tests/test_elementary.c against long double: exp and log below 4e-16
+ * (exp beyond 700 either way 1e-15), log1p and atan2 below 8e-16, half_erfc below 3e-9.
  *
- *   exp    x = k log 2 + r, |r| <= (log 2)/2: 1 + r + r^2 times a polynomial of degree 9 (error 1.6e-17), times 2^k.
- *   log    x = 2^k m, 1/sqrt(2) <= m < sqrt(2); log m = 2 atanh f with f = (m - 1)/(m + 1), |f| < 0.1716: 2 f (1 + s
- *          times a polynomial of degree 6 in s = f^2, error 4.4e-18).
+ *   exp    x = k log 2 + r, |r| <= (log 2)/2: 1 + r + r^2 times a polynomial of degree 9 (error 1.6e-17),
+ *          times 2^k.
+ *   log    x = 2^k m, 1/sqrt(2) <= m < sqrt(2); log m = 2 atanh f with f = (m - 1)/(m + 1), |f| < 0.1716:
+ *          2 f (1 + s times a polynomial of degree 6 in s = f^2, error 4.4e-18).
  *   log1p  log(1 + x) times what the rounding of 1 + x did to x (Higham, "Accuracy and Stability of Numerical
  *          Algorithms", SIAM 2002, 1.14.1).
  *   atan2  the smaller part over the larger, its angle halved twice: |t| < 0.199, twelve terms.
  *
- * log 2 is split so that k times the first part is exact. The polynomials of exp and log interpolate at Chebyshev's
- * nodes; all are summed in pairs, for short chains. */
+ * log 2 is split so that k times the first part is exact. The polynomials of exp and log interpolate at
+ * Chebyshev's nodes; all are summed in pairs, for short chains. */
 #ifndef VNDF_MATH_ELEMENTARY_H
 #define VNDF_MATH_ELEMENTARY_H
 
@@ -67,7 +68,8 @@ VNDF_INLINE double vndf_log(double x)
     double m;
     memcpy(&m, &bits, sizeof m);
     double f = (m - 1.0) / (m + 1.0), s = f * f, s2 = s * s;
-    double low = (0.333333333333333485 + s * 0.199999999999494453) + s2 * (0.142857143131269188 + s * 0.111111055446897481);
+    double low = (0.333333333333333485 + s * 0.199999999999494453) +
+                 s2 * (0.142857143131269188 + s * 0.111111055446897481);
     double high = (0.090914462162684356 + s * 0.0766580586102750395) + s2 * 0.0730890357670866241;
     return k * vndf_log2_high + (2.0 * f + (2.0 * f * s * (low + s2 * s2 * high) + k * vndf_log2_low));
 }

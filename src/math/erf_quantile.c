@@ -1,8 +1,9 @@
 /* With t = 2u - 1 = erf y, the ratio y/t is a smooth even function of t, best written in
  * w = -log(1 - t^2) = -log(4 u (1 - u)) (Giles, "Approximating the erfinv function", GPU Computing Gems 2, 2011);
  * w is taken from u, so nothing is lost in the tails. w < 6 (99.9% of the mass): a polynomial of degree 10,
- * relative error 5.1e-9. Beyond: y/(t sqrt(w)) is a polynomial in 1/sqrt(w) with error 1.6e-6, and one Newton step on
- * erfc|y| = 2 min(u, 1 - u) squares it. Both fitted for the least largest relative error against 40 digits. */
+ * relative error 5.1e-9. Beyond: y/(t sqrt(w)) is a polynomial in 1/sqrt(w) with error 1.6e-6, and one Newton
+ * step on erfc|y| = 2 min(u, 1 - u) squares it. Both fitted for the least largest relative error against 40
+ * digits. */
 #include "math/erf_quantile.h"
 
 #include <math.h>

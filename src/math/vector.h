@@ -15,8 +15,8 @@ VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in double,
- * and so is what the first sum loses (Knuth's TwoSum): one rounding is left, however much cancels. */
+/* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in
+ * double, and so is what the first sum loses (Knuth's TwoSum): one rounding is left, however much cancels. */
 VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
 {
     double x = (double)a.x * b.x, y = (double)a.y * b.y, z = (double)a.z * b.z, level = x + y, back = level - x;
@@ -74,8 +74,9 @@ VNDF_INLINE float vndf_finite(float x)
     return x < 3.402823466e38f ? x : (x > 0.0f ? 3.402823466e38f : 0.0f);
 }
 
-/* The density of a normal that is drawn: as above, but at least the least normal float, so that no sample comes with
- * density 0 and no quotient by it is infinite. What is smaller is the rim of a lobe, or lost to single precision. */
+/* The density of a normal that is drawn: as above, but at least the least normal float, so that no sample comes
+ * with density 0 and no quotient by it is infinite. What is smaller is the rim of a lobe, or lost to single
+ * precision. */
 VNDF_INLINE float vndf_positive(float x)
 {
     return x > 1.17549435e-38f ? vndf_finite(x) : 1.17549435e-38f;

@@ -1,7 +1,7 @@
-/* Stage 1 of the engine, in the wedge: an azimuth p in [0, pi/2] from a mix of three rows of cells.
+/* Stage 1 of the engine, in the wedge: an azimuth phi in [0, pi/2] from a mix of three rows of cells.
  *
  * The rows' variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
- * the density:  (cos, sin) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
+ * the density:  (cos phi, sin phi) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
  *               dphi/dq = 2 p r (1 + q^2) / N^2.
  * With p = r this is the plain half-angle tangent. */
 #ifndef VNDF_SAMPLER_AZIMUTH_H
@@ -31,7 +31,8 @@ typedef struct vndf_azimuth {
     float c, s, n, density;
 } vndf_azimuth;
 
-VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c, uint32_t j)
+VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c,
+                                   uint32_t j)
 {
     return row->a.weight * a[j] + row->b.weight * b[j] + row->c.weight * c[j];
 }
@@ -73,8 +74,9 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float ta
     return vndf_azimuth_at(row, row->q[j] + in.xi * width, in.density, width);
 }
 
-/* Place of the azimuth (cos, sin) in the row: q, its cell and xi within. */
-VNDF_INLINE float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j, float *xi)
+/* Place of the azimuth (cos, sin) in the row: its cell of q, and xi within. */
+VNDF_INLINE void vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j,
+                                    float *xi)
 {
     float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
     uint32_t count = 0;
@@ -84,7 +86,6 @@ VNDF_INLINE float vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi,
     float at = (q - row->q[count]) / (row->q[count + 1] - row->q[count]);
     *j = count;
     *xi = at > 0.0f ? (at < 1.0f ? at : 1.0f) : 0.0f;
-    return q;
 }
 
 /* Mass before an azimuth. */

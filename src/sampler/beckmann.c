@@ -18,8 +18,8 @@
  * Starting values. m^2 = (2 sqrt(pi)/s) F(K) exp(K^2) and rho^2 = -log u1. Near the end d = m rho; at K = 0
  * d = rho exactly. K <= 0: exponents compared, d^2 - 2 K d = rho^2 - 2 K m rho/(1 + b rho), where b is nearly
  * constant in rho. 0 < K < 5/4: d = rho m (1 + b rho)/(1 + b m rho), b = 0.8. Above: the shift by
- * h = 1/(2K) that Taylor's formula gives, q = erfinv(2 u1 F(K)/c - 1) - h and x = q/(1 + h^2), damped in the tail where that
- * goes too far; except close to the end, where m rho = d exp(2 K d/3). */
+ * h = 1/(2K) that Taylor's formula gives, q = erfinv(2 u1 F(K)/c - 1) - h and x = q/(1 + h^2), damped in the tail
+ * where that goes too far; except close to the end, where m rho = d exp(2 K d/3). */
 #include "sampler/beckmann.h"
 
 #include <math.h>

@@ -12,8 +12,8 @@ float vndf_beckmann_area(float s, float c);
 /* A visible normal: unit, z >= 0, s x + c z >= 0. Slopes are (-x/z, -y/z): u1 moves the first from -infinity
  * (normals leaning towards the incident direction) up to c/s, u2 moves the second, on its own, from -infinity
  * to infinity. Both are monotone, continuous inversions. The error in u1 is below 1e-7, absolute and
- * relative, for every direction, 180 degrees included; rounding the normal to float comes on top and is worth up to
- * some 1e-7 (1 + (c/s)^2) below the horizon, where all visible slopes crowd at c/s. Numbers below 2^-64
+ * relative, for every direction, 180 degrees included; rounding the normal to float comes on top and is worth up
+ * to some 1e-7 (1 + (c/s)^2) below the horizon, where all visible slopes crowd at c/s. Numbers below 2^-64
  * count as 2^-64, and 1 as 1 - 2^-26, which bounds slopes that nothing else would. */
 vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2);
 

@@ -68,7 +68,7 @@ VNDF_INLINE double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_normal wm)
     return vndf_inverse_pi * (a * a * a) / (q * q);
 }
 
-/* Where facing = wi . wm > 0; relative error below 1e-6, that of the view, at every angle. 0 where s is 0. */
+/* Where facing = wi . wm > 0; relative error below 1e-6 at every angle. 0 where s is 0. */
 VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double s = view->s, c = view->c;
@@ -107,11 +107,11 @@ VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm
     return vndf_beckmann_scaled(a, r, (across * across + along) / (p * p + q * q) * r);
 }
 
-/* Where facing = wi . wm > 0; relative error below 1e-6, that of the view, at every angle. 0 where s is 0. */
+/* Where facing = wi . wm > 0; relative error below 1e-6, that of the area, at every angle. 0 where s is 0. */
 VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     double weight = facing * view->per_length, s = view->s;
-    if (view->c >= 0.0f)
+    if (view->c >= 0.0)
         return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
     if (!(s > 0.0))
         return 0.0;

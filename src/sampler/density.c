@@ -1,13 +1,14 @@
 /* The density of a given normal, and D, in double from the very numbers that came in. In float three things would
  * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D
- * is steep; and the distance to the side of wi, where the azimuth's density ends. None of them has to be formed
- * in the turned frame:
+ * is steep; and the distance to a right angle from wi, where the azimuth's density ends below the horizon. None of
+ * them has to be formed in the turned frame:
  *
  *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
  *
- * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch. Cells are those of
- * math/rational_cell.h, math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below
- * 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+ * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
+ * stretched direction before per_length brings it to s + |c| = 1. Cells are those of math/rational_cell.h,
+ * math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5 of the density
+ * that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"

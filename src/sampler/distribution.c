@@ -2,11 +2,11 @@
 #include "table/table.h"
 
 static const vndf_distribution ggx = {
-    .kind = VNDF_KIND_GGX, .scale = 1.0f, .normalization = 1.0, .scale_exact = 1.0,
+    .kind = VNDF_KIND_GGX, .normalization = 1.0, .scale = 1.0,
     .source = "--family ggx", .tool = "vndf " VNDF_VERSION};
 
 static const vndf_distribution beckmann = {
-    .kind = VNDF_KIND_BECKMANN, .scale = 1.0f, .normalization = 1.0, .scale_exact = 0.83255461115769776,
+    .kind = VNDF_KIND_BECKMANN, .normalization = 1.0, .scale = 0.83255461115769776,
     .source = "--family beckmann", .tool = "vndf " VNDF_VERSION};
 
 const vndf_distribution *vndf_ggx(void)
@@ -21,7 +21,8 @@ const vndf_distribution *vndf_beckmann(void)
 
 vndf_info vndf_distribution_info(const vndf_distribution *d)
 {
-    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, (size_t)d->above.row_count + d->below.row_count,
-                      d->above.cell_count, d->normalization, d->scale_exact, d->certificate};
+    size_t rows = (size_t)d->above.row_count + d->below.row_count;
+    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, rows, d->above.cell_count,
+                      d->normalization, d->scale, d->certificate};
     return info;
 }

@@ -72,7 +72,8 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     return wm;
 }
 
-/* Above the horizon, where W is no small difference and the azimuth not one where W may be small for all normals. */
+/* Above the horizon, where W is no small difference and the azimuth not one where W may be small for all
+ * normals. */
 VNDF_INLINE int is_plain(const vndf_view *view, const vndf_azimuth *a, float x, float z)
 {
     float s = (float)view->s, across = s * x * a->n, along = s * x * a->c, up = (float)view->c * z * a->n;
@@ -96,7 +97,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    int plain = is_plain(view, &a, x, z) && fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
+    int plain = is_plain(view, &a, x, z) && fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f &&
+                !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r, a.c >= 0.0f))
         return sample_delicate(view, wm, pdf);
     if (pdf)
@@ -128,7 +130,8 @@ static vndf_radius radius_of(const vndf_distribution *d, float x, float z)
 static place place_of(const vndf_view *view, vndf_vec3 normal)
 {
     float x = vndf_length2(normal.x, normal.y), per = x > 0.0f ? 1.0f / x : 0.0f;
-    place p = {x > 0.0f ? normal.x * per : 1.0f, fabsf(normal.y) * per, radius_of(view->distribution, x, normal.z)};
+    place p = {x > 0.0f ? normal.x * per : 1.0f, fabsf(normal.y) * per,
+               radius_of(view->distribution, x, normal.z)};
     return p;
 }
 

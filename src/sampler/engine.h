@@ -14,14 +14,31 @@
  *     a front half (c >= 0, cos a >= 0):   c F0(inf) + s cos(a) F1(inf)                               (2)
  *     the wedge above (c > 0, cos a < 0):  c (F0(rho) - F1(rho)/rho),   rho = c/(s |cos a|)           (3)
  *     the wedge below (c < 0, cos a > 0):  k (T1(rho) - rho T0(rho)),   T_n = F_n(inf) - F_n          (4)
- * (2) is Kepler's equation with two numbers of D, which is solved to float precision (front.h). (3) and (4) are integrals
- * of D over a half plane's strip, twice smoother than D: here, and only here, a 2D table stands (vndf_wedge): rows over
- * the angle of incidence of mass and density on cells of a half-angle tangent q, mixed by quadratic Bezier weights.
- * Linear mixing left twice the error at 64 KiB; higher orders may leave the positive numbers.
+ * u1 goes round from behind wi (0) through its side (1/2) and back (1): |2 u1 - 1| is the part of a half turn's
+ * mass between the side of wi and |a|. Above the horizon the front comes first and then the wedge, by their two
+ * masses; below it the wedge is all there is.
  *
- * The wedges and the radius are drawn from piecewise densities that are *defined* by the numbers of the table (cells of
- * math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same cells: the
- * density is known whatever the size of the table, only its distance to (1) shrinks with it.
+ * The front. (2) needs two numbers of D and no table; its integral is Kepler's equation, solved to float
+ * precision by one step from a closed start (front.h).
+ *
+ * The wedge. (3) and (4) are integrals of D over a half plane's strip, twice smoother than D. Their masses over
+ * the angle of incidence are quintic splines (table/area_piece.h); the one below also gives areas, Lambda and
+ * G1, since A(w) - A(-w) = c. For what is inside a wedge, here and only here, a 2D table stands (vndf_wedge):
+ * rows over the angle of incidence of mass and density on cells of a half-angle tangent q (azimuth.h), three of
+ * which a direction mixes by quadratic Bezier weights (wedge.h). Linear mixing left twice the error at 64 KiB;
+ * higher orders may leave the positive numbers.
+ *
+ * The wedges and the radius (radial.h) are drawn from piecewise densities that are *defined* by the numbers of
+ * the table (cells of math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same
+ * cells: the density is known whatever the size of the table, only its distance to (1) shrinks with it.
+ *
+ * Drawing is in float: a place that is off by a rounding is as good as the one asked for, and where the density
+ * changes little from a normal to its rounded self, that of the place comes for nothing (engine.c). The density
+ * of a *given* normal has no such freedom: its place has to be found from the normal, and in float W at the
+ * cut, the slope in a narrow cell and the angle to a right angle from wi are differences that may lose every
+ * digit where the density is steep or ends. So it is computed in double from wi, wm and the roughness as they
+ * were given (density.c), by the same cells; and where rounding would show, that is also the density that a
+ * sample comes with.
  *
  * Why this and not the other orders, both measured on prototypes of 16 KiB: slope x first, then y given x, needs a
  * 2D table of D itself and leaves a total variation of 5e-2 on a ring and 1e-1 on a disc; radius first needs
@@ -30,12 +47,14 @@
 #ifndef VNDF_SAMPLER_ENGINE_H
 #define VNDF_SAMPLER_ENGINE_H
 
-#include "sampler/radial.h"
+#include <stdint.h>
+
+#include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
 double vndf_unit_area(const vndf_distribution *d, double s, double c);
 
-/* What follows is for tables, whose views have s + |c| = 1. */
+/* What follows is for tables, whose views have s + |c| = 1: drawing in engine.c, densities and D in density.c. */
 
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);

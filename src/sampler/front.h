@@ -26,11 +26,6 @@ VNDF_INLINE vndf_front vndf_front_of(const vndf_distribution *d, float s, float 
     return front;
 }
 
-VNDF_INLINE float vndf_front_mass(vndf_front front)
-{
-    return front.even * VNDF_QUARTER_TURN + front.odd;
-}
-
 VNDF_INLINE float vndf_front_density(vndf_front front, float cos_phi)
 {
     return front.even + front.odd * cos_phi;
@@ -51,7 +46,8 @@ VNDF_INLINE float vndf_front_rest(vndf_front front, float cos_phi, float sin_phi
     return vndf_front_beyond(front, y, y * y);
 }
 
-/* The azimuth with mass `rest` beyond it; per_mass is 1/vndf_front_mass. The third power of the step is 1e-8. */
+/* The azimuth with mass `rest` beyond it; per_mass is one over the mass of the whole front, A pi/2 + B. The third
+ * power of the step is 1e-8. */
 VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, float rest, float per_mass)
 {
     const float tiny = 1e-30f; /* quotients of nothing become 0, here and below */

@@ -43,9 +43,9 @@ typedef struct vndf_half_angle {
 } vndf_half_angle;
 
 /* sin and cos of theta/2 times sqrt(2) 2^30: the larger by the sum, the smaller by s, so that both keep their
- * digits. The factor is in T and the sum too, where it keeps v C from being a denormal float; otherwise it does not
- * matter. In double, as all from here to the normal: near a corner of the square below the horizon, u1 = 0 or 1 and
- * u2 = 1, roundings of float would come to a dozen steps of u2. */
+ * digits. The factor is in T and the sum too, where it keeps v C from being a denormal float; otherwise it does
+ * not matter. In double, as all from here to the normal: near a corner of the square below the horizon, u1 = 0 or
+ * 1 and u2 = 1, roundings of float would come to a dozen steps of u2. */
 VNDF_INLINE vndf_half_angle vndf_half_angle_of(float s, float c)
 {
     double root = sqrt(0x1p60 + 0x1p60 * fabsf(c)), other = 0x1p60 * s / root;

@@ -27,8 +27,8 @@
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
     float c, k;               /* weights of Z and X */
-    float scale;              /* by which they were multiplied */
-    float gain;               /* factor of all masses; with the scale 0 if nothing is visible: the horizon stands for it */
+    float scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
+    float gain;               /* factor of all masses: 1 above the horizon */
     uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
     float part;               /* length of that cell's visible part in xi; without a cut 0 */
     float part_mass;          /* its mass, less the gain */
@@ -160,7 +160,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, floa
 typedef struct vndf_radial_piece {
     vndf_rational_cell cell; /* in xi of the part, or in zeta of V if weighted */
     int weighted;
-    float w0, w1, v0, v1, begin, length; /* W and V at the ends of the part */
+    float v0, v1, begin, length; /* V at the ends of the part */
 } vndf_radial_piece;
 
 /* Away from the cut, where W > 0 without a guard. */
@@ -171,7 +171,7 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law
     float w0 = law->c * k->z[j] + law->k * k->x[j], w1 = law->c * k->z[j + 1] + law->k * k->x[j + 1];
     float g0 = law->gain * w0, g1 = law->gain * w1;
     vndf_radial_piece piece = {{cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1},
-                               0, w0, w1, 0.0f, 0.0f, 0.0f, 1.0f};
+                               0, 0.0f, 0.0f, 0.0f, 1.0f};
     return piece;
 }
 
@@ -186,20 +186,19 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
 {
     float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
     vndf_radial_piece piece = {{law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass},
-                               1, w0, w1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
+                               1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
     return piece;
 }
 
 /* One of the two cells beside it; without a cut the last two, where W may vanish. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece)
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j,
+                                                       vndf_radial_piece piece)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
     int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;
-    float w0 = piece.w0 > 0.0f ? piece.w0 : 0.0f, w1 = piece.w1 > 0.0f ? piece.w1 : 0.0f; /* rounding at the cut */
+    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
     float way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
     piece.weighted = 1;
-    piece.w0 = w0;
-    piece.w1 = w1;
     piece.v0 = beyond ? w0 - change : w0;
     piece.v1 = beyond ? w1 : w1 + change;
     float half = law->gain * (0.5f * (piece.v0 + piece.v1));

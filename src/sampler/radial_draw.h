@@ -1,5 +1,6 @@
-/* Drawing the slope length: search for the cell, then its inverse. One function for each of the three kinds of laws
- * (radial.h); they take the weights before scaling, so that the search need not wait for the division by the mass. */
+/* Drawing the slope length: search for the cell, in a window of eight knots (table/window.h) or by blocks, then
+ * its inverse. One function for each of the three kinds of laws (radial.h); they take the weights before scaling,
+ * so that the search need not wait for the division by the mass. */
 #ifndef VNDF_SAMPLER_RADIAL_DRAW_H
 #define VNDF_SAMPLER_RADIAL_DRAW_H
 
@@ -14,7 +15,8 @@ typedef struct vndf_radial_drawn {
 } vndf_radial_drawn;
 
 /* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
-VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n,
+                                              float c, float k, float target)
 {
     const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
     uint32_t count = 0;
@@ -26,7 +28,8 @@ VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t 
 }
 
 /* The same in a window, for c, k >= 0. */
-VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from,
+                                             float c, float k, float target)
 {
     const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
     uint32_t count = 0;
@@ -36,7 +39,8 @@ VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t f
 }
 
 /* How many have more than `target` beyond them (c < 0). */
-VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n,
+                                              float c, float k, float target)
 {
     const float *z = knots->z + from, *x = knots->x + from, *s = knots->s + from, *t = knots->t + from;
     uint32_t count = 0;
@@ -47,7 +51,8 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t 
     return count;
 }
 
-/* Where no window is known: first the block, then within. Returns the last knot with no more than target before it. */
+/* Where no window is known: first the block, then within. Returns the last knot with no more than target before
+ * it. */
 VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
 {
     uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
@@ -56,11 +61,13 @@ VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c
     return j > 0 ? j - 1 : 0;
 }
 
-/* The cell of a mass below the horizon, counted from infinity inwards; a knot that is not visible counts as the cut. */
+/* The cell of a mass below the horizon, counted from infinity inwards; a knot that is not visible counts as the
+ * cut. */
 VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float target)
 {
     const vndf_distribution *d = law->table;
-    uint32_t last = d->radial_count - 1, block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law->c, law->k, target);
+    uint32_t last = d->radial_count - 1;
+    uint32_t block = vndf_radial_count_beyond(&d->blocks, 0, d->blocks.count, law->c, law->k, target);
     block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
     uint32_t j = block + vndf_radial_count_beyond(&d->knots, block, VNDF_BLOCK, law->c, law->k, target);
     j = j > 0 ? j - 1 : 0;
@@ -69,7 +76,8 @@ VNDF_INLINE uint32_t vndf_radial_search_beyond(const vndf_radial_law *law, float
 }
 
 /* The place with a mass `rest` of cell j before it. */
-VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece, float rest)
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, uint32_t j, vndf_radial_piece piece,
+                                                  float rest)
 {
     vndf_radial_drawn r = {{j, 1.0f, 0.0f}, piece, vndf_rational_invert(&piece.cell, rest > 0.0f ? rest : 0.0f)};
     float xi = r.inside.xi, eta = 1.0f - xi;
@@ -120,24 +128,27 @@ VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, f
     vndf_radial_law law = vndf_radial_law_for(d, c, k);
     uint32_t j = law.gain > 0.0f ? vndf_radial_search_beyond(&law, (1.0f - u) / law.gain) : law.cut;
     vndf_radial_piece piece = vndf_radial_piece_of(&law, j);
-    return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - law.gain * vndf_radial_beyond(&law, j + 1)));
+    float beyond = law.gain * vndf_radial_beyond(&law, j + 1);
+    return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - beyond));
 }
 
-/* Whether the density changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell, or what
- * it has at the place, about. */
+/* Whether the density changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell,
+ * or what it has at the place, about. */
 VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
-    const vndf_knots *k = &d->knots;
-    float rise = r->piece.cell.e1 - r->piece.cell.e0, here = r->piece.cell.e0 + rise * r->inside.xi;
-    float change = fabsf(rise) * k->x[r->at.cell + 1] * k->z[r->at.cell], least = here < r->piece.cell.mass ? here : r->piece.cell.mass;
+    const vndf_rational_cell *cell = &r->piece.cell;
+    float rise = cell->e1 - cell->e0, here = cell->e0 + rise * r->inside.xi;
+    float change = fabsf(rise) * d->knots.x[r->at.cell + 1] * d->knots.z[r->at.cell];
+    float least = here < cell->mass ? here : cell->mass;
     return change > 10.0f * least * d->cells[r->at.cell].width;
 }
 
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep, and
- * beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep,
+ * and beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
 VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
 {
-    return fabsf(r->at.xi - 0.5f) > 0.499f || (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
+    return fabsf(r->at.xi - 0.5f) > 0.499f ||
+           (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
 }
 
 #endif

@@ -21,7 +21,8 @@ double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_ve
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
     double ax, ay;
-    if (!vndf_surface_scaled(surface, &ax, &ay) || !(wm.z >= 0.0f) || !(vndf_dot(wm, wm) > 0.0f) || !(vndf_dot(wm, wm) < HUGE_VALF))
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !(wm.z >= 0.0f) || !(vndf_dot(wm, wm) > 0.0f) ||
+        !(vndf_dot(wm, wm) < HUGE_VALF))
         return 0.0f; /* also for NaN */
     return vndf_density_from(vndf_ndf_scaled(surface->distribution, ax, ay, wm));
 }
@@ -62,7 +63,8 @@ float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
     vndf_view view = vndf_view_from(surface, w);
-    double g1 = view.distribution && view.c > 0.0 ? view.c / vndf_unit_area(view.distribution, view.s, view.c) : 0.0;
+    int seen = view.distribution && view.c > 0.0;
+    double g1 = seen ? view.c / vndf_unit_area(view.distribution, view.s, view.c) : 0.0;
     return g1 < 1.0 ? (float)g1 : 1.0f;
 }
 

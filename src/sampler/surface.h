@@ -12,7 +12,7 @@ VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, dou
     if (!surface || !surface->distribution)
         return 0;
     const vndf_distribution *d = surface->distribution;
-    double scale = d->kind == VNDF_KIND_TABLE ? d->scale_exact : 1.0;
+    double scale = d->kind == VNDF_KIND_TABLE ? d->scale : 1.0;
     *ax = surface->alpha_x * scale;
     *ay = surface->alpha_y * scale;
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;

@@ -15,8 +15,8 @@ static int is_usable_direction(vndf_vec3 w)
 }
 
 /* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form: s and c, the factor that brings it to them, and azimuth. With
- * s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms. In double: no length or roughness is out of range, and the
- * digits are there that an area takes which falls as fast as the normals of a Beckmann do. */
+ * s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms. In double: no length or roughness is out of
+ * range, and the digits are there that an area takes which falls as fast as the normals of a Beckmann do. */
 typedef struct polar {
     double s, c, per_length;
     float cos_phi, sin_phi;
@@ -47,8 +47,8 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
         w = vndf_wedge_view_at(d, p.s, p.c);
     else
         w.area = (float)vndf_unit_area(d, p.s, p.c);
-    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, 1.0f / (float)ax, 1.0f / (float)ay, p.cos_phi, p.sin_phi,
-                      w.area, w.front, w.wedge};
+    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, 1.0f / (float)ax, 1.0f / (float)ay,
+                      p.cos_phi, p.sin_phi, w.area, w.front, w.wedge};
     return view;
 }
 
@@ -76,8 +76,8 @@ VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
                                                : vndf_beckmann_visible(view, n, facing)));
 }
 
-/* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding: a
- * step that is small only beside 1 would leave the lobe of a Beckmann. */
+/* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding:
+ * a step that is small only beside 1 would leave the lobe of a Beckmann. */
 static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
 {
     double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, highest = level / -(double)view->wi.z;
@@ -88,8 +88,9 @@ static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample((float)view->s, (float)view->c, u1, u2)
-                                                             : vndf_beckmann_sample((float)view->s, (float)view->c, u1, u2);
+    float s = (float)view->s, c = (float)view->c;
+    vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(s, c, u1, u2)
+                                                            : vndf_beckmann_sample(s, c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(view, n));
     if (!(vndf_facing(view, vndf_normal_of(wm)) > 0.0))
         wm = turn_closed(view, wm);

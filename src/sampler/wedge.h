@@ -1,8 +1,7 @@
-/* The part of the circle that the horizon of wi cuts: its mass, its rows, and what a view holds of them. */
+/* The wedge, the part of the circle that the horizon of wi cuts: its mass, its row for a direction, and what a
+ * view holds of the two masses of a half turn. */
 #ifndef VNDF_SAMPLER_WEDGE_H
 #define VNDF_SAMPLER_WEDGE_H
-
-#include <math.h>
 
 #include "sampler/azimuth.h"
 #include "sampler/front.h"
@@ -32,20 +31,13 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
     return c >= 0.0 ? &d->above : &d->below;
 }
 
-/* One piece of the mass at t in [0, 1] (table/area_piece.h). In double: near the horizon the mass above it falls as c^3, and a
- * narrow lobe makes up for that. */
-VNDF_INLINE double vndf_wedge_bezier(const double *b, double t)
-{
-    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
-    return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
-}
-
-/* Mass of half a wedge at y, per (s + |c|). Where D falls fast a rounding of y to the float of the guide would show. */
+/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
+ * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
 VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 {
     const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
     span -= y < span->begin;
-    return vndf_wedge_bezier(span->coefficient, (y - span->begin) * span->per_width);
+    return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
 }
 
 /* The wedge's coordinate of a direction with s + |c| = 1. */
@@ -63,8 +55,8 @@ VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, doubl
     return view;
 }
 
-/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. Not part of the view, since three of four
- * samples are in front. */
+/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. Not part of the view, since three
+ * of four samples are in front. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
 {
     const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
@@ -75,7 +67,8 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
     const float *p = w->aspect_p + 2 * (size_t)i, *r = w->aspect_r + 2 * (size_t)i;
     vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
                             {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
-                            {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends, share.last},
+                            {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends,
+                             share.last},
                             w->q, w->cell_count, w->stride,
                             share.first * p[0] + share.middle * p[1] + share.last * p[2],
                             share.first * r[0] + share.middle * r[1] + share.last * r[2]};

@@ -1,7 +1,7 @@
-/* One piece of the spline of a wedge's mass: the quintic with given values, slopes and second derivatives at its ends,
- * as Bernstein coefficients times their binomials. None is below the one before: so the mass ascends, as it must, and
- * nothing cancels where it changes by orders of magnitude within a piece. The mass is twice an integral of D along lines: its second derivative
- * is a plain integral of D, and known. */
+/* One piece of the spline of a wedge's mass: the quintic with given values, slopes and second derivatives at its
+ * ends, as Bernstein coefficients times their binomials. None is below the one before: so the mass ascends, as it
+ * must, and nothing cancels where it changes by orders of magnitude within a piece. The mass is twice an integral
+ * of D along lines: its second derivative is a plain integral of D, and known. */
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
@@ -17,10 +17,12 @@ VNDF_INLINE double vndf_area_between(double value, double least, double most)
     return value > least ? (value < most ? value : most) : least;
 }
 
-VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot b, double coefficient[VNDF_AREA_ORDER])
+VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot b,
+                                 double coefficient[VNDF_AREA_ORDER])
 {
     double a1 = a.mass + width * a.slope / 5, b1 = b.mass - width * b.slope / 5;
-    double a2 = 2 * a1 - a.mass + width * width * a.curve / 20, b2 = 2 * b1 - b.mass + width * width * b.curve / 20;
+    double a2 = 2 * a1 - a.mass + width * width * a.curve / 20;
+    double b2 = 2 * b1 - b.mass + width * width * b.curve / 20;
     a1 = vndf_area_between(a1, a.mass, b.mass);
     a2 = vndf_area_between(a2, a1, b.mass);
     b1 = vndf_area_between(b1, a2, b.mass);
@@ -28,6 +30,14 @@ VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot 
     double made[VNDF_AREA_ORDER] = {a.mass, 5 * a1, 10 * a2, 10 * b2, 5 * b1, b.mass};
     for (int i = 0; i < VNDF_AREA_ORDER; i++)
         coefficient[i] = made[i];
+}
+
+/* The piece at t in [0, 1]. */
+VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER], double t)
+{
+    const double *b = coefficient;
+    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
+    return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
 #endif

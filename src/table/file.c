@@ -64,7 +64,7 @@ static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t 
     vndf_write_u32(w, VERSION);
     vndf_write_u32(w, size);
     vndf_write_f64(w, table->normalization);
-    vndf_write_f64(w, table->scale_exact);
+    vndf_write_f64(w, table->scale);
     vndf_write_u32(w, table->radial_count);
     vndf_write_u32(w, table->above.cell_count);
     vndf_write_u32(w, table->above.row_count);
@@ -240,7 +240,7 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     }
     if (check_frame(bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader r = {bytes, size, 16, 0};
+    vndf_reader r = {bytes, size, HEAD, 0};
     double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
     vndf_table_size counts = read_counts(&r);
     if (!counts_valid(counts)) {
@@ -253,8 +253,7 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
         return NULL;
     }
     table->normalization = normalization;
-    table->scale_exact = scale;
-    table->scale = (float)scale;
+    table->scale = scale;
     table->bytes = size;
     int whole = read_body(&r, table);
     const char *why = whole ? vndf_table_invalid(table) : r.failed ? "its parts do not fill the file" : NULL;

@@ -25,7 +25,8 @@ void vndf_guide_free(vndf_guide *guide);
  * branch to mispredict is enough for nearly every value. */
 VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 {
-    uint32_t bits = vndf_float_bits(value), above = bits > guide->low ? bits - guide->low : 0, bucket = above >> guide->shift;
+    uint32_t bits = vndf_float_bits(value), above = bits > guide->low ? bits - guide->low : 0;
+    uint32_t bucket = above >> guide->shift;
     uint32_t i = guide->first[bucket < guide->last ? bucket : guide->last];
     i += bits >= guide->next[i];
     while (bits >= guide->next[i])

@@ -103,7 +103,8 @@ static double width_of(const vndf_knots *k, uint32_t j)
     return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
 }
 
-/* Whether |e1 - e0| X1 Z0 <= 9 min(e0, e1, mass) width for W1/W0 = ratio; convex in it, as W1/W0 is between two. */
+/* Whether |e1 - e0| X1 Z0 <= 9 min(e0, e1, mass) width for W1/W0 = ratio; convex in it, as W1/W0 is between
+ * two. */
 static int is_calm_at(const vndf_radial_cell *cell, double reach, double ratio)
 {
     double e0 = cell->f0, e1 = cell->f1 * ratio, mass = cell->mu0 + cell->mu1 * ratio;
@@ -118,8 +119,10 @@ static void derive_cells(vndf_distribution *table)
         cell->a = (float)cubic.a;
         cell->b = (float)cubic.b;
         cell->width = (float)width_of(&table->knots, j);
-        double x0 = table->knots.x[j], x1 = table->knots.x[j + 1], z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
-        cell->calm = x0 > 0.0 && z1 > 0.0 && is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
+        double x0 = table->knots.x[j], x1 = table->knots.x[j + 1];
+        double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
+        cell->calm = x0 > 0.0 && z1 > 0.0 && is_calm_at(cell, x1 * z0, z1 / z0) &&
+                     is_calm_at(cell, x1 * z0, x1 / x0);
     }
 }
 

@@ -25,8 +25,8 @@ static inline uint32_t vndf_row_knots(uint32_t rows)
 vndf_distribution *vndf_table_allocate(vndf_table_size size);
 
 /* After the arrays of the file are filled (knots.x and knots.z, cells' f0 f1 mu0 mu1, rows' cell_mass and
- * density, area splines): prefix sums, cubic coefficients, guides. In double where sums are long. 0 if
- * there is no memory. */
+ * density, area splines): prefix sums, coefficients of cubics and area pieces, windows, guides. In double where
+ * sums are long. 0 if there is no memory. */
 int vndf_table_derive(vndf_distribution *table);
 
 #endif

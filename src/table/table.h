@@ -6,13 +6,14 @@
  * Radial cells. The slope length R = X/Z is cut by knots (X_j, Z_j), X + Z = 1, from (0, 1) to (1, 0);
  *   inside a cell X and Z are linear in xi in [0, 1]. The mass of normals at R, P22(R) R dR = f(xi) Z dxi
  *   per radian of azimuth, is held as a cubic f through the end values f0, f1 and the two moments
- *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so the weighted
- *   mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
+ *   mu0 = integral f (1-xi), mu1 = integral f xi. Any weight c Z + k X is linear in xi, W0 (1-xi) + W1 xi, so
+ *   the weighted mass of a cell is W0 mu0 + W1 mu1: a sum of positive terms for whatever direction.
  * Sums over the cells, from the pole and from the tail (vndf_knots).
  * Wedges, one above the horizon (pole) and one below (tail): the azimuth density of the part of the
  *   circle that the horizon of wi cuts, as rows over the angle of incidence, all on the same cells of q.
  *
- * Floats on disk are cells and rows alone; prefix sums, guides and cubic coefficients follow from them. */
+ * On disk are knots, cells, rows and the values of the area splines; prefix sums, windows, guides and coefficients
+ * follow from them. */
 #ifndef VNDF_TABLE_TABLE_H
 #define VNDF_TABLE_TABLE_H
 
@@ -25,40 +26,43 @@ enum {
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
-    VNDF_BLOCK = 16, /* radial knots are searched by blocks */
-    VNDF_WINDOW = 8, /* or by a window of knots, where one is known to hold the cell (table/window.h): */
-    VNDF_RANGES = 64, /* for this many ranges of u */
-    VNDF_RATIOS = 18, /* and of k/c */
-    VNDF_NO_WINDOW = 0xffff,
-    VNDF_LANES = 4,  /* arrays that are counted through are padded to a multiple of this */
-    VNDF_AREA_ORDER = 6 /* coefficients of a piece of an area's spline */
+    VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
+    VNDF_WINDOW = 8,         /* or by a window of knots, where one is known to hold the cell (table/window.h): */
+    VNDF_RANGES = 64,        /* for this many ranges of u */
+    VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
+    VNDF_NO_WINDOW = 0xffff, /* a window would be too narrow */
+    VNDF_LANES = 4,          /* arrays that are counted through are padded to a multiple of this */
+    VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
  *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
- * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count through sixteen knots at once; `count` includes padding: what
- * lies beyond the last knot has sums that no search reaches. */
+ * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
+ * through all knots of a block or a window at once; `count` includes padding: what lies beyond the last knot has
+ * sums that no search reaches. f0 and f1 of blocks are not filled. */
 typedef struct vndf_knots {
     uint32_t count;
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. 32 bytes. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi.
+ * 32 bytes. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1, a, b, width;
     uint32_t calm; /* the density changes little in it for every law with c, k >= 0 (sampler/radial_draw.h) */
 } vndf_radial_cell;
 
-/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps (table/guide.h). */
+/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
+ * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
     uint16_t *first;
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
 } vndf_guide;
 
-/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: one line of the cache. */
+/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
 typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
@@ -66,8 +70,8 @@ typedef struct vndf_area_span {
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
- * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|) is a
- * quintic spline on knots of its own (table/area_piece.h). */
+ * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|)
+ * is a quintic spline on knots of its own (table/area_piece.h). */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     float *q;                            /* cell_count + 1, from 0 to 1 */
@@ -85,7 +89,6 @@ typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vn
 
 struct vndf_distribution {
     vndf_kind kind;
-    float scale;               /* canonical slope 1 is this slope of the source */
     uint32_t radial_count;     /* cells */
     float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_knots knots;          /* radial_count + 1 and padding */
@@ -94,7 +97,8 @@ struct vndf_distribution {
     vndf_radial_cell *cells;   /* radial_count */
     vndf_guide slope_guide;
     vndf_wedge above, below;
-    double normalization, scale_exact;
+    double normalization;      /* the source was multiplied by it */
+    double scale;              /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */

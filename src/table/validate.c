@@ -44,7 +44,8 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     if (!ascending(wedge->q, cells + 1))
         return "the azimuth cells do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride, *density = wedge->density + (size_t)i * (cells + 1);
+        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride;
+        const float *density = wedge->density + (size_t)i * (cells + 1);
         double total = 0.0;
         for (uint32_t j = 0; j <= cells; j++) {
             if (!in_range(density[j], 0.0f, 1e6f) || (j < cells && !in_range(mass[j], 1e-12f, 1.0f)))
@@ -56,7 +57,9 @@ static const char *rows_invalid(const vndf_wedge *wedge)
         if (!in_range(wedge->aspect_p[i], i ? 1e-12f : 0.0f, 2.0f) || !in_range(wedge->aspect_r[i], 1e-12f, 2.0f))
             return "the aspect of an azimuth row is out of range";
     }
-    return ascending(wedge->row_y, vndf_row_knots(wedge->row_count)) ? NULL : "the azimuth rows do not ascend from 0 to 1";
+    if (!ascending(wedge->row_y, vndf_row_knots(wedge->row_count)))
+        return "the azimuth rows do not ascend from 0 to 1";
+    return NULL;
 }
 
 /* Knots from 0 to 1, and masses that grow. */
@@ -79,11 +82,13 @@ const char *vndf_table_invalid(const vndf_distribution *table)
 {
     const char *why = radial_invalid(table);
     const vndf_certificate *c = &table->certificate;
-    const float claims[] = {c->tv, c->tv_theta, c->max_weight, c->weight_bounded, c->area_error, c->consistency, c->ndf_error};
+    const float claims[] = {c->tv, c->tv_theta, c->max_weight, c->weight_bounded, c->area_error, c->consistency,
+                            c->ndf_error};
     for (unsigned i = 0; i < sizeof claims / sizeof *claims; i++)
         if (!in_range(claims[i], 0.0f, HUGE_VALF))
             return "the certificate holds what is no measurement";
-    if (!(table->scale > 1e-18f && table->scale < 1e18f) || !(table->normalization > 0.0) || !isfinite(table->normalization))
+    if (!(table->scale > 1e-18 && table->scale < 1e18) || !(table->normalization > 0.0) ||
+        !isfinite(table->normalization))
         return "the scale or normalization is out of range";
     if (!why)
         why = rows_invalid(&table->above);
@@ -112,5 +117,7 @@ const char *vndf_table_invalid_derived(const vndf_distribution *table)
         if (!cubic_positive(&table->cells[j]))
             return "the density of a radial cell falls below zero";
     }
-    return isfinite(table->f0_total) && isfinite(table->f1_total) ? NULL : "the moments of the table are not finite";
+    if (!isfinite(table->f0_total) || !isfinite(table->f1_total))
+        return "the moments of the table are not finite";
+    return NULL;
 }

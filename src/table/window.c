@@ -7,14 +7,15 @@ static double before(const vndf_knots *knots, double c, double k, uint32_t j)
     return c * knots->e[j] + (w > 0.0 ? w : 0.0) * knots->g[j];
 }
 
-/* Cells of the masses u_i = i/VNDF_RANGES, i = 0 ... VNDF_RANGES, of a law; `side` is -1 for the lowest that rounding and
- * the cell of the cut allow, 1 for the highest. */
+/* Cells of the masses u_i = i/VNDF_RANGES, i = 0 ... VNDF_RANGES, of a law; `side` is -1 for the lowest that
+ * rounding and the cell of the cut allow, 1 for the highest. */
 static void quantiles(const vndf_distribution *d, double c, double k, int side, uint32_t *cell)
 {
     uint32_t last = d->radial_count - 1, cut = 0, j = 0;
     while (cut < last && c * d->knots.z[cut + 1] + k * d->knots.x[cut + 1] > 0.0)
         cut++;
-    double least = before(&d->knots, c, k, cut), most = before(&d->knots, c, k, cut + 1); /* the latter is c e beyond the cut */
+    double least = before(&d->knots, c, k, cut);
+    double most = before(&d->knots, c, k, cut + 1); /* beyond the cut that is c e */
     double total = (k < 0.0 && side < 0 ? least : most) * (1.0 + side * 1e-5);
     for (uint32_t i = 0; i <= VNDF_RANGES; i++) {
         while (j < cut && before(&d->knots, c, k, j + 1) <= total * i / VNDF_RANGES)

@@ -17,6 +17,7 @@ int main(void)
     const double p22 = source ? vndf_source_p22(source, 0.0) : 0.0;
 
     vndf_source_free(source);
-    printf("vndf %s: %.6f %.6f %.6f pdf %.6f\n", VNDF_VERSION, (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf);
+    printf("vndf %s: %.6f %.6f %.6f pdf %.6f\n", VNDF_VERSION, (double)wm.x, (double)wm.y, (double)wm.z,
+           (double)pdf);
     return !(difference > -1e-6 && difference < 1e-6 && p22 > 0.999999 && p22 < 1.000001);
 }
