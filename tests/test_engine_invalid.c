@@ -128,7 +128,8 @@ static horizon horizon_of(const vndf_surface *surface, float zero, float u1, flo
 {
     vndf_vec3 wi = {-0.6f, 0.8f, zero};
     vndf_view view = vndf_view_from(surface, wi);
-    horizon h = {.area = vndf_projected_area(surface, wi), .lambda = vndf_lambda(surface, wi), .g1 = vndf_g1(surface, wi)};
+    horizon h = {.area = vndf_projected_area(surface, wi), .lambda = vndf_lambda(surface, wi)};
+    h.g1 = vndf_g1(surface, wi);
     h.wm = vndf_sample(&view, u1, u2, &h.pdf);
     h.again = vndf_pdf(&view, h.wm);
     h.visible = vndf_visible(&view, h.wm);

@@ -1,7 +1,7 @@
-/* At a jump of D, where rounding may bring a normal to the other side, the density that comes with a sample is still
- * that of the normal that comes with it, within 1e-5. Uniform numbers are sought, by bisection of u2, whose normals
- * lie beside the jump, and their neighbours within 16 steps of float are tried; on both sides of the jump there are
- * some, and its two densities differ by half. */
+/* At a jump of D, where rounding may bring a normal to the other side, the density that comes with a sample is
+ * still that of the normal that comes with it, within 1e-5. Uniform numbers are sought, by bisection of u2, whose
+ * normals lie beside the jump, and their neighbours within 16 steps of float are tried; there are some on both
+ * sides of the jump, whose two densities differ by a factor of 2. */
 #include "oracle.h"
 #include "test.h"
 
@@ -57,8 +57,9 @@ static void test_view(const vndf_surface *surface, vndf_vec3 wi, unsigned long l
     for (int i = 0; i < (oracle_quick() ? 100 : 1000); i++)
         worst = fmax(worst, test_azimuth(surface, &view, test_uniform(state), &inside, &outside));
     if (!(TEST(worst <= 1e-5) & TEST(inside > 100) & TEST(outside > 100)))
-        fprintf(stderr, "  alpha %g %g, wi %g %g %g: worst %.3g, %d inside, %d outside\n", (double)surface->alpha_x,
-                (double)surface->alpha_y, (double)wi.x, (double)wi.y, (double)wi.z, worst, inside, outside);
+        fprintf(stderr, "  alpha %g %g, wi %g %g %g: worst %.3g, %d inside, %d outside\n",
+                (double)surface->alpha_x, (double)surface->alpha_y, (double)wi.x, (double)wi.y, (double)wi.z, worst,
+                inside, outside);
 }
 
 int main(void)
