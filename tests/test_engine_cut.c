@@ -106,10 +106,12 @@ static void test_size(const oracle *o, size_t bytes)
     vndf_free(d);
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
     for (size_t i = 0; i < ORACLE_COUNT; i++) {
         oracle o = oracle_get(i);
+        if (!oracle_wanted(arguments, argument, i, oracle_name(&o)))
+            continue;
         test_size(&o, 2048);
         test_size(&o, 0);
     }

@@ -1,6 +1,7 @@
-/* Invalid input has its documented result: an invalid view, of which vndf_sample gives (0, 0, 1) with density 0
- * and every other call 0; uniform numbers outside [0, 1] are clamped and NaN counts as 0. */
+/* Invalid input has its documented result: an invalid view, of which vndf_sample gives (0, 0, 1) with density 0 and
+ * every other call 0; uniform numbers outside [0, 1] are clamped and NaN counts as 0; both zeros are the horizon. */
 #include <float.h>
+#include <string.h>
 
 #include "oracle.h"
 #include "test.h"
@@ -98,8 +99,7 @@ static void test_lengths(const vndf_distribution *d)
     vndf_vec3 unit = {0.6f, 0, 0.8f};
     for (int i = 0; i < 4; i++) {
         vndf_vec3 wi = {0.6f * lengths[i], 0, 0.8f * lengths[i]};
-        TEST_RELATIVE((double)vndf_projected_area(&surface, wi), (double)vndf_projected_area(&surface, unit),
-                      1e-6);
+        TEST_RELATIVE((double)vndf_projected_area(&surface, wi), (double)vndf_projected_area(&surface, unit), 1e-6);
     }
 }
 
@@ -118,6 +118,37 @@ static void test_blind(const vndf_distribution *d)
     }
 }
 
+/* From the horizon, wi.z of one sign of zero. */
+typedef struct horizon {
+    vndf_vec3 wm;
+    float pdf, again, visible, u1, u2, area, lambda, g1;
+} horizon;
+
+static horizon horizon_of(const vndf_surface *surface, float zero, float u1, float u2)
+{
+    vndf_vec3 wi = {-0.6f, 0.8f, zero};
+    vndf_view view = vndf_view_from(surface, wi);
+    horizon h = {.area = vndf_projected_area(surface, wi), .lambda = vndf_lambda(surface, wi)};
+    h.g1 = vndf_g1(surface, wi);
+    h.wm = vndf_sample(&view, u1, u2, &h.pdf);
+    h.again = vndf_pdf(&view, h.wm);
+    h.visible = vndf_visible(&view, h.wm);
+    vndf_invert(&view, h.wm, &h.u1, &h.u2);
+    return h;
+}
+
+/* -0 is the horizon as 0 is, seen from above: the same bits. */
+static void test_horizon(const vndf_distribution *d)
+{
+    vndf_surface surface = {d, 0.5f, 0.2f};
+    for (int i = 0; i < 64; i++) {
+        float u1 = (float)(i % 8) / 7, u2 = (float)(i / 8) / 7;
+        horizon above = horizon_of(&surface, 0.0f, u1, u2), below = horizon_of(&surface, -0.0f, u1, u2);
+        if (!TEST(memcmp(&above, &below, sizeof above) == 0))
+            fprintf(stderr, "  u %g %g\n", (double)u1, (double)u2);
+    }
+}
+
 int main(void)
 {
     oracle o = oracle_get(ORACLE_LAPLACE);
@@ -130,6 +161,7 @@ int main(void)
         test_uniforms(all[i]);
         test_lengths(all[i]);
         test_blind(all[i]);
+        test_horizon(all[i]);
     }
     vndf_free(table);
     return test_done();

@@ -85,13 +85,15 @@ static void test_worst(double *most)
     TEST(lines > 20 && counted >= lines - lines / 10);
 }
 
-int main(void)
+int main(int arguments, char **argument)
 {
     double most[FLOAT_COUNT] = {0}, again = 0;
     size_t points = 0;
-    for (int i = 0; i < SUBJECTS; i++)
-        test_subject(subjects[i], most, &points);
-    test_worst(&again);
+    for (size_t i = 0; i < SUBJECTS; i++)
+        if (oracle_wanted(arguments, argument, i, subjects[i]))
+            test_subject(subjects[i], most, &points);
+    if (oracle_wanted(arguments, argument, SUBJECTS, "worst"))
+        test_worst(&again);
     fprintf(stderr, "%lu points, each for", (unsigned long)points);
     for (int id = 0; id < FLOAT_COUNT; id++)
         fprintf(stderr, " %s within %.2g,", float_quantity_name((float_quantity)id), most[id]);

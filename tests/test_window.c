@@ -1,0 +1,71 @@
+/* Windows of the radial search hold the cell that a search of all knots finds, whatever the weights of the law
+ * and the part of its mass: random ones, and those beside the borders of the ranges of u and of |k|/c. */
+#include "oracle.h"
+#include "sampler/radial_draw.h"
+#include "test.h"
+
+/* Whether that cell is the first of the window or one of the eight that follow. */
+static int is_inside(const vndf_distribution *d, float c, float k, float u)
+{
+    uint32_t start = vndf_window_of(d, c, k, u), last = d->radial_count - 1, count;
+    float total = c * d->f0_total + k * d->f1_total;
+    if (start == VNDF_NO_WINDOW)
+        return 1;
+    if (k < 0.0f) {
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+        last = law.cut;
+        count = vndf_radial_count_before(&d->knots, 0, d->radial_count + 1, c, k, u * total);
+    } else {
+        count = 0;
+        for (uint32_t j = 0; j <= d->radial_count; j++)
+            count += c * d->knots.f0[j] + k * d->knots.f1[j] <= u * total;
+    }
+    uint32_t cell = count > 0 ? count - 1 : 0;
+    cell = cell < last ? cell : last;
+    return start <= cell && cell <= start + VNDF_WINDOW;
+}
+
+/* |k|/c from 1/64 to 64, or a step of float beside a power of sqrt(2), as far as bits tell. */
+static float ratio(unsigned long long *state)
+{
+    float wide = (float)pow(2, 12 * test_uniform_double(state) - 6);
+    float border = (float)pow(2, floor(24 * test_uniform_double(state) - 12) / 2);
+    return test_uniform(state) < 0.5f ? wide : border * (1 + (test_uniform(state) - 0.5f) * 0.15f);
+}
+
+static float part(unsigned long long *state)
+{
+    float u = test_uniform(state);
+    float border = floorf(u * VNDF_RANGES) / VNDF_RANGES, beside = border + (test_uniform(state) - 0.5f) * 1e-4f;
+    return test_uniform(state) < 0.5f ? u : fminf(fmaxf(beside, 0), 1);
+}
+
+static void test_table(const vndf_distribution *d, const char *name)
+{
+    unsigned long long state = 11;
+    size_t missed = 0, draws = oracle_quick() ? 100000 : 1000000, held = 0;
+    for (size_t i = 0; i < draws; i++) {
+        float c = 1 / (1 + ratio(&state)), k = test_uniform(&state) < 0.5f ? 1 - c : c - 1, u = part(&state);
+        held += vndf_window_of(d, c, k, u) != VNDF_NO_WINDOW;
+        missed += !is_inside(d, c, k, u);
+    }
+    if (!(TEST(missed == 0) & TEST(held > draws / 10)))
+        fprintf(stderr, "  %s: %lu of %lu cells outside their windows, %lu have one\n", name,
+                (unsigned long)missed, (unsigned long)draws, (unsigned long)held);
+}
+
+int main(void)
+{
+    static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "student-t-1.8",
+                                        "example"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[4096];
+        vndf_error error = {VNDF_OK, ""};
+        snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", names[i]);
+        vndf_distribution *table = vndf_load(path, &error);
+        if (TEST(table != NULL))
+            test_table(table, names[i]);
+        vndf_free(table);
+    }
+    return test_done();
+}
