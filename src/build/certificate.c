@@ -119,7 +119,8 @@ typedef struct quarter {
 } quarter;
 
 /* Gauss point g of a part of a cell. */
-static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts, uint32_t g)
+static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
+                  uint32_t g)
 {
     double width = ((double)turn->node[cell + 1] - turn->node[cell]) / parts;
     double q = turn->node[cell] + width * (part + vndf_gauss_coarse_node[g]), p = turn->p, r = turn->r;
@@ -129,8 +130,8 @@ static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uin
     return at;
 }
 
-/* What the few rays of add_quarter take the mass of all azimuths for too little: without the radius many more can be
- * had, and cells of a jump's azimuth are steep. */
+/* What the few rays of add_quarter take the mass of all azimuths for too little: without the radius many more can
+ * be had, and cells of a jump's azimuth are steep. */
 static double azimuth_lack(const vndf_view *view, const quarter *turn, double taken)
 {
     enum { PARTS = 64 };

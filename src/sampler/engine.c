@@ -97,8 +97,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    int plain = is_plain(view, &a, x, z) && fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f &&
-                !r.piece.weighted;
+    int plain = is_plain(view, &a, x, z) &&
+                fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r, a.c >= 0.0f))
         return sample_delicate(view, wm, pdf);
     if (pdf)
