@@ -132,6 +132,7 @@ typedef struct vndf_info {
     vndf_certificate certificate;
 } vndf_info;
 
+/* Of NULL: empty texts and zeros. */
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */

@@ -164,5 +164,6 @@ int main(void)
         test_horizon(all[i]);
     }
     vndf_free(table);
+    TEST(vndf_distribution_info(NULL).bytes == 0 && vndf_distribution_info(NULL).source[0] == '\0');
     return test_done();
 }

@@ -278,10 +278,67 @@ static double ndf_error(const survey *v)
     return worst;
 }
 
+/* ---- directions ---- */
+
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
 static const double ANGLES[] = {0,    10, 20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9, 90,
                                 90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
 static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
+enum { ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES, ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS };
+
+/* More directions where the total variation is large, so that its maximum is not missed between two: small tables have
+ * few rows, hence broad maxima, and cost little. */
+enum { MORE = 12, MORE_IF_SMALL = 60, SMALL_RADIAL_CELLS = 64 };
+enum { DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + MORE_IF_SMALL };
+
+typedef struct direction {
+    double angle; /* of incidence at canonical scale, in [0, pi] */
+    finding found;
+} direction;
+
+typedef struct circle {
+    direction at[DIRECTIONS_MOST]; /* ascending */
+    int count;
+} circle;
+
+static void add_direction(circle *all, survey *v, double s, double c)
+{
+    int i = all->count++;
+    direction made = {atan2(s, c), survey_direction(v, s, c)};
+    for (; i > 0 && all->at[i - 1].angle > made.angle; i--)
+        all->at[i] = all->at[i - 1];
+    all->at[i] = made;
+}
+
+static void add_grid(circle *all, survey *v)
+{
+    for (int i = 0; i < ANGLE_COUNT; i++) {
+        double theta = ANGLES[i] * PI / 180, s = sin(theta) * v->profile->scale, c = ANGLES[i] == 90 ? 0 : cos(theta);
+        double length = hypot(s, c);
+        add_direction(all, v, s / length, c / length);
+    }
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i++) {
+        double k = ELEVATIONS[i / 2] * (i % 2 ? -1 : 1), length = hypot(1, k);
+        add_direction(all, v, 1 / length, k / length);
+    }
+}
+
+/* Between the two neighbours that promise most. */
+static void add_between(circle *all, survey *v)
+{
+    int best = 0;
+    double most = -1.0;
+    for (int i = 0; i + 1 < all->count; i++) {
+        double tv = fmax(all->at[i].found.tv, all->at[i + 1].found.tv);
+        double promise = tv * sqrt(all->at[i + 1].angle - all->at[i].angle);
+        if (promise > most) {
+            most = promise;
+            best = i;
+        }
+    }
+    double angle = (all->at[best].angle + all->at[best + 1].angle) / 2;
+    add_direction(all, v, sin(angle), cos(angle));
+}
 
 static void take(vndf_certificate *c, finding f, double theta)
 {
@@ -294,6 +351,23 @@ static void take(vndf_certificate *c, finding f, double theta)
     c->max_weight = fmaxf(c->max_weight, (float)f.max_weight);
     c->area_error = fmaxf(c->area_error, (float)f.area_error);
     c->consistency = fmaxf(c->consistency, (float)f.consistency);
+}
+
+/* Largest relative error of the area at places of every piece of the spline below the horizon, from which all areas
+ * come. */
+static double area_error(const survey *v)
+{
+    static const double places[] = {0.15, 0.35, 0.5, 0.65, 0.85};
+    const vndf_wedge *below = &v->table->below;
+    double worst = 0.0;
+    for (uint32_t i = 0; i + 1 < below->knot_count; i++)
+        for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
+            double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
+            double area = vndf_profile_area(v->profile, y, y - 1);
+            if (area > AREA_LEAST * v->profile->f1)
+                worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
+        }
+    return worst;
 }
 
 /* D may be unbounded at the pole or fall so slowly that it is at the horizon; a cell is bounded. */
@@ -314,16 +388,14 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
     v.samples = malloc(v.capacity * sizeof *v.samples);
     if (!v.samples)
         return 0;
+    circle all = {.count = 0};
+    add_grid(&all, &v);
+    for (int i = 0; i < (table->radial_count <= SMALL_RADIAL_CELLS ? MORE_IF_SMALL : MORE); i++)
+        add_between(&all, &v);
     *c = none;
-    for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i++) {
-        double theta = ANGLES[i] * PI / 180, x = sin(theta) * profile->scale, y = ANGLES[i] == 90 ? 0 : cos(theta);
-        double l = hypot(x, y);
-        take(c, survey_direction(&v, x / l, y / l), ANGLES[i]);
-    }
-    for (size_t i = 0; i < 2 * (sizeof ELEVATIONS / sizeof *ELEVATIONS); i++) {
-        double k = ELEVATIONS[i / 2] * (i % 2 ? -1 : 1), l = hypot(1, k);
-        take(c, survey_direction(&v, 1 / l, k / l), atan2(1, k * profile->scale) * 180 / PI);
-    }
+    for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
+        take(c, all.at[i].found, atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
+    c->area_error = fmaxf(c->area_error, (float)area_error(&v));
     c->weight_bounded = (float)is_bounded(profile);
     c->ndf_error = (float)ndf_error(&v);
     free(v.samples);

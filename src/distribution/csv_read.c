@@ -109,6 +109,7 @@ static vndf_status read_header(reader *r)
     span line, field[2] = { { NULL, 0 }, { NULL, 0 } };
     size_t first = 0, second = 0;
     vndf_status status = next_line(r, &line);
+    r->line += status == VNDF_OK && r->line == 0; /* of an empty file: where it should be */
     if (status == VNDF_OK && line.size == 0)
         return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
     if (status == VNDF_OK)

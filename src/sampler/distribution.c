@@ -21,6 +21,10 @@ const vndf_distribution *vndf_beckmann(void)
 
 vndf_info vndf_distribution_info(const vndf_distribution *d)
 {
+    if (!d) {
+        vndf_info nothing = {.source = "", .tool = ""};
+        return nothing;
+    }
     size_t rows = (size_t)d->above.row_count + d->below.row_count;
     vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, rows, d->above.cell_count,
                       d->normalization, d->scale, d->certificate};
