@@ -184,7 +184,7 @@ static void test_error(const char *text, const char *message)
 
 static void test_errors(void)
 {
-    test_error("", "t.csv: line 0: no header line");
+    test_error("", "t.csv: line 1: no header line");
     test_error("# only\n\n", "no header line");
     test_error("slope\n0\n", "line 1: 1 field; two are needed");
     test_error("slope,p22,x\n", "line 1: 3 fields");

@@ -25,13 +25,14 @@ static uint32_t parts_for(uint32_t cells, uint32_t least)
     return (least + cells - 1) / cells;
 }
 
-/* Slope at part/parts of a radial cell in xi. */
+/* Slope at part/parts of a radial cell in xi. In double at the knots too: what is seen beyond a cut may be so narrow that
+ * a rounding of its end shows. */
 static double part_of(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
 {
     double xi = (double)part / parts, x0 = d->knots.x[cell], z0 = d->knots.z[cell];
-    if (part == 0 || part == parts)
-        return d->slope[cell + (part > 0)];
-    return (x0 + xi * (d->knots.x[cell + 1] - x0)) / (z0 + xi * (d->knots.z[cell + 1] - z0));
+    double x = part < parts ? x0 + xi * (d->knots.x[cell + 1] - x0) : d->knots.x[cell + 1];
+    double z = part < parts ? z0 + xi * (d->knots.z[cell + 1] - z0) : d->knots.z[cell + 1];
+    return z > 0 ? x / z : HUGE_VAL;
 }
 
 /* One Gauss point of a direction. */
