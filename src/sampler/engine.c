@@ -57,8 +57,13 @@ VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azim
 {
     const vndf_distribution *d = view->distribution;
     float c = (float)view->c * a->n + 0.0f, k = (float)view->s * a->c; /* what rounds to -0 is the horizon */
-    if (c < 0.0f)
-        return vndf_radial_draw_below(d, c, k, u);
+    if (c < 1e-20f) {
+        if (c < 0.0f)
+            return vndf_radial_draw_below(d, c, k, u);
+        float sum = c + fabsf(k); /* grazing; if it vanishes, at a right angle from wi, any ratio is a limit */
+        c = sum > 0.0f ? c / sum : 0.0f;
+        k = sum > 0.0f ? k / sum : 1.0f;
+    }
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
 }
 
