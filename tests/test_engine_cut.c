@@ -1,7 +1,8 @@
 /* The law of the slope length follows its cut, wherever that stands. As the cut passes a knot of the table no
  * part of the law jumps by more than 1e-4 of u2, though the cells beside it are drawn in another way than those
- * away from it. And where the cut lies at slopes of 1e10, at 179.9 degrees with a roughness of 1e-8, samples
- * have their density and come back through vndf_invert within 1e-3. */
+ * away from it. Where the cut lies at slopes of 1e10, at 179.9 degrees with a roughness of 1e-8, samples
+ * have their density and come back through vndf_invert within 1e-3. And at grazing, where the law of an azimuth
+ * at a right angle from wi has next to no mass or none, slopes still grow with u2, and none is infinite. */
 #include <float.h>
 
 #include "oracle.h"
@@ -93,16 +94,41 @@ static void test_far(const vndf_distribution *d, const char *name, double theta,
                 worst2);
 }
 
+/* ---- grazing ---- */
+
+/* 2e-6 is for rounding. */
+static void test_grazing(const vndf_distribution *d, const char *name, float c, float u1)
+{
+    vndf_surface surface = {d, 1, 1};
+    vndf_vec3 wi = {1, 0, c};
+    vndf_view view = vndf_view_from(&surface, wi);
+    double last = 0;
+    int falls = 0, level = 0;
+    for (int i = 1; i < 400; i++) {
+        vndf_vec3 wm = vndf_sample(&view, u1, (float)i / 400, NULL);
+        double slope = wm.z > 0 ? hypot(wm.x, wm.y) / wm.z : HUGE_VAL;
+        falls += slope < last * (1 - 2e-6);
+        level += !(wm.z > 0);
+        last = slope;
+    }
+    if (!(TEST(falls == 0) & TEST(level == 0)))
+        fprintf(stderr, "  %s (%lu bytes), wi.z %g, u1 %g: slopes fall %d times, %d are infinite\n", name,
+                (unsigned long)vndf_distribution_info(d).bytes, (double)c, (double)u1, falls, level);
+}
+
 static void test_size(const oracle *o, size_t bytes)
 {
     static const double thetas[] = {91, 100, 130, 175, 179.9};
     static const float alphas[] = {1, 1e-2f, 1e-4f, 1e-6f, 1e-8f};
+    static const float heights[] = {0, 1e-45f, 1e-38f, 1e-30f, 1e-20f, 1e-10f, -1e-10f};
     vndf_distribution *d = oracle_build(o, bytes, NULL);
     if (!TEST(d != NULL))
         return;
     test_knots(d, oracle_name(o));
     for (int i = 0; i < 25; i++)
         test_far(d, oracle_name(o), thetas[i / 5], alphas[i % 5]);
+    for (int i = 0; i < 21; i++)
+        test_grazing(d, oracle_name(o), heights[i / 3], 0.5f * (float)(i % 3));
     vndf_free(d);
 }
 

@@ -57,8 +57,13 @@ VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azim
 {
     const vndf_distribution *d = view->distribution;
     float c = (float)view->c * a->n + 0.0f, k = (float)view->s * a->c; /* what rounds to -0 is the horizon */
-    if (c < 0.0f)
-        return vndf_radial_draw_below(d, c, k, u);
+    if (c < 1e-20f) {
+        if (c < 0.0f)
+            return vndf_radial_draw_below(d, c, k, u);
+        float sum = c + fabsf(k); /* grazing; if it vanishes, at a right angle from wi, any ratio is a limit */
+        c = sum > 0.0f ? c / sum : 0.0f;
+        k = sum > 0.0f ? k / sum : 1.0f;
+    }
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
 }
 
@@ -72,14 +77,16 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     return wm;
 }
 
-/* Above the horizon, where W is no small difference and the azimuth not one where W may be small for all
- * normals. */
-VNDF_INLINE int is_plain(const vndf_view *view, const vndf_azimuth *a, float x, float z)
+/* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
+ * azimuth, a part of `across`, does to it; in a wedge where not all normals have a small W. Rounding must not take
+ * the azimuth from the front to the wedge or back either, as the wedge's density is the table's. */
+VNDF_INLINE int is_plain(const vndf_view *view, float cos_phi, float x, float z)
 {
-    float s = (float)view->s, across = s * x * a->n, along = s * x * a->c, up = (float)view->c * z * a->n;
-    if (a->c >= 0.0f)
-        return view->c >= (a->c < 0.05f * a->n ? 0.25 : 0.0);
-    return view->c >= 0.25 && along + up > 0.1f * (across + up);
+    const float side = 1e-6f;
+    float across = (float)view->s * x, along = across * cos_phi, up = (float)view->c * z;
+    if (cos_phi >= 0.0f)
+        return view->c >= 0.0 && (cos_phi > 0.05f || (cos_phi > side && along + up > 0.05f * across));
+    return view->c >= 0.25 && cos_phi < -side && along + up > 0.1f * (across + up);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -97,7 +104,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
     float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
     vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    int plain = is_plain(view, &a, x, z) &&
+    int plain = is_plain(view, cos_phi, x, z) &&
                 fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
     if (!plain || vndf_radial_is_delicate(d, &r, a.c >= 0.0f))
         return sample_delicate(view, wm, pdf);

@@ -132,19 +132,22 @@ VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, f
     return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - beyond));
 }
 
-/* Whether the density changes by more than a factor e^10 per e-fold of the slope - per mean density of the cell,
- * or what it has at the place, about. */
+/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
+ * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
+ * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
+ * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
+ * rounding of its ends shows in its mass, the second rules. */
 VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
 {
     const vndf_rational_cell *cell = &r->piece.cell;
-    float rise = cell->e1 - cell->e0, here = cell->e0 + rise * r->inside.xi;
-    float change = fabsf(rise) * d->knots.x[r->at.cell + 1] * d->knots.z[r->at.cell];
-    float least = here < cell->mass ? here : cell->mass;
-    return change > 10.0f * least * d->cells[r->at.cell].width;
+    float rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
+    float reach = d->knots.x[r->at.cell + 1] * d->knots.z[r->at.cell], width = d->cells[r->at.cell].width;
+    float here = cell->e0 + rise * r->inside.xi, least = here < cell->mass ? here : cell->mass;
+    return reach > VNDF_NARROW * width || (fabsf(rise) + 3.0f * fabsf(bend)) * reach > 10.0f * least * width;
 }
 
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep,
- * and beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
+/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep
+ * or the cell narrow, and beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
 VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
 {
     return fabsf(r->at.xi - 0.5f) > 0.499f ||

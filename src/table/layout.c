@@ -103,12 +103,13 @@ static double width_of(const vndf_knots *k, uint32_t j)
     return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
 }
 
-/* Whether |e1 - e0| X1 Z0 <= 9 min(e0, e1, mass) width for W1/W0 = ratio; convex in it, as W1/W0 is between
- * two. */
+/* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= 9 min(e0, e1, mass) width for W1/W0 = ratio; convex in it,
+ * as W1/W0 is between two. */
 static int is_calm_at(const vndf_radial_cell *cell, double reach, double ratio)
 {
     double e0 = cell->f0, e1 = cell->f1 * ratio, mass = cell->mu0 + cell->mu1 * ratio;
-    return fabs(e1 - e0) * reach <= 9.0 * fmin(fmin(e0, e1), mass) * cell->width;
+    double change = fabs(e1 - e0) + 3.0 * fabs(e0 + e1 - 2.0 * mass);
+    return change * reach <= 9.0 * fmin(fmin(e0, e1), mass) * cell->width;
 }
 
 static void derive_cells(vndf_distribution *table)
@@ -121,8 +122,8 @@ static void derive_cells(vndf_distribution *table)
         cell->width = (float)width_of(&table->knots, j);
         double x0 = table->knots.x[j], x1 = table->knots.x[j + 1];
         double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
-        cell->calm = x0 > 0.0 && z1 > 0.0 && is_calm_at(cell, x1 * z0, z1 / z0) &&
-                     is_calm_at(cell, x1 * z0, x1 / x0);
+        cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
+                     is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
     }
 }
 

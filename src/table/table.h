@@ -31,6 +31,7 @@ enum {
     VNDF_RANGES = 64,        /* for this many ranges of u */
     VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
     VNDF_NO_WINDOW = 0xffff, /* a window would be too narrow */
+    VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_LANES = 4,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
