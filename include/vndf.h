@@ -189,6 +189,52 @@ VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float 
 /* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. For the closed forms this is vndf_pdf, FLT_MIN included. */
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
+/* ---- many at once ------------------------------------------------------------------------------ */
+
+/* The instruction sets that batches are compiled for. */
+typedef enum vndf_instructions {
+    VNDF_INSTRUCTIONS_BEST,     /* the best that this machine has */
+    VNDF_INSTRUCTIONS_PORTABLE, /* what the compiler was told to use for all */
+    VNDF_INSTRUCTIONS_AVX2,     /* 8 lanes */
+    VNDF_INSTRUCTIONS_AVX512    /* 16 lanes; needs AVX-512 F, DQ, BW and VL */
+} vndf_instructions;
+
+/* What a batch runs on if it may go up to `limit`: one of the last three. */
+VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
+
+/* `count` surfaces and incident directions, structure of arrays: what vndf_view_from takes. An array is of `count`
+ * numbers, or, where `shared` has its bit, points to the one number that serves all. A plain value; no array needs
+ * an alignment. */
+enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
+
+typedef struct vndf_batch {
+    const vndf_distribution *distribution;
+    size_t count;
+    unsigned shared;                 /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
+    vndf_instructions limit;         /* 0: the best there is; results are the same */
+    const float *alpha_x, *alpha_y;
+    const float *wi_x, *wi_y, *wi_z;
+} vndf_batch;
+
+/* Normals, structure of arrays, `count` each. */
+typedef struct vndf_normals {
+    float *x, *y, *z;
+} vndf_normals;
+
+/* Element i is to the bit what the call of one gives for element i: vndf_sample, vndf_pdf and so on, of
+ * vndf_view_from or of the surface. In place is allowed: an array of results may be one of those that are read, if
+ * that is not shared; otherwise arrays must not overlap. `pdf` of vndf_sample_n may be NULL. Where the direction and
+ * roughness are shared the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and
+ * vndf_projected_area_n are of the directions wi. */
+VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm, float *pdf);
+VNDF_API void vndf_pdf_n(const vndf_batch *batch, vndf_normals wm, float *pdf);
+VNDF_API void vndf_visible_n(const vndf_batch *batch, vndf_normals wm, float *visible);
+VNDF_API void vndf_invert_n(const vndf_batch *batch, vndf_normals wm, float *u1, float *u2);
+VNDF_API void vndf_ndf_n(const vndf_batch *batch, vndf_normals wm, float *ndf);
+VNDF_API void vndf_projected_area_n(const vndf_batch *batch, float *area);
+VNDF_API void vndf_lambda_n(const vndf_batch *batch, float *lambda);
+VNDF_API void vndf_g1_n(const vndf_batch *batch, float *g1);
+
 /* ---- the distribution itself ------------------------------------------------------------------- */
 
 /* D(wm) per steradian; 0 for wm.z < 0. wm is unit. */
