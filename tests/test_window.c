@@ -12,7 +12,8 @@ static int is_inside(const vndf_distribution *d, float c, float k, float u)
     if (start == VNDF_NO_WINDOW)
         return 1;
     if (k < 0.0f) {
-        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+        lanes_m found = 1;
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
         last = law.cut;
         count = vndf_radial_count_before(&d->knots, 0, d->radial_count + 1, c, k, u * total);
     } else {

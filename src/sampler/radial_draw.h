@@ -4,7 +4,7 @@
 #ifndef VNDF_SAMPLER_RADIAL_DRAW_H
 #define VNDF_SAMPLER_RADIAL_DRAW_H
 
-#include "sampler/radial.h"
+#include "sampler/radial_cut.h"
 #include "table/window.h"
 
 /* A drawn place, its piece, and the place in the piece's rational cell. */
@@ -13,30 +13,6 @@ typedef struct vndf_radial_drawn {
     vndf_radial_piece piece;
     vndf_rational_place inside;
 } vndf_radial_drawn;
-
-/* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
-VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n,
-                                              float c, float k, float target)
-{
-    const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        float w = c * z[i] + k * x[i];
-        count += c * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= target;
-    }
-    return count;
-}
-
-/* The same in a window, for c, k >= 0. */
-VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from,
-                                             float c, float k, float target)
-{
-    const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < VNDF_WINDOW; i++)
-        count += c * f0[i] + k * f1[i] <= target;
-    return count;
-}
 
 /* How many have more than `target` beyond them (c < 0). */
 VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n,
@@ -93,25 +69,34 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
     return r;
 }
 
-/* The place with a part u of the mass before it; c, k >= 0. */
-VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u)
+/* The place with a part u of the mass before it; c, k >= 0. `scaled`: the mass of the piece is to be a part of 1,
+ * not of the law's own. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u,
+                                                     int scaled)
 {
     uint32_t start = vndf_window_of(d, c, k, u), last = d->radial_count - 1, j;
-    float target = u * (c * d->f0_total + k * d->f1_total);
+    float total = vndf_radial_total(d, c, k), target = u * total;
     if (start != VNDF_NO_WINDOW)
         j = start + vndf_radial_count_whole(&d->knots, start + 1, c, k, target);
     else
         j = vndf_radial_search_before(d, c, k, target);
     j = j < last ? j : last;
     vndf_radial_law law = vndf_radial_law_whole(d, c, k);
-    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before_whole(&law, j));
+    if (scaled || total < VNDF_RADIAL_MASS_PLAIN) {
+        law = vndf_radial_scaled(law, total);
+        target = u;
+    }
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j),
+                               target - vndf_radial_before_whole(&law, &cell));
 }
 
 /* c > 0 > k. */
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d, float c, float k, float u)
 {
     float total;
-    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+    lanes_m found = 1;
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
     uint32_t start = vndf_window_of(d, c, k, u), j;
     if (start != VNDF_NO_WINDOW)
         j = start + vndf_radial_count_before(&d->knots, start + 1, VNDF_WINDOW, c, k, u * total);
@@ -119,7 +104,8 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d,
         j = vndf_radial_search_before(d, c, k, u * total);
     j = j < law.cut ? j : law.cut;
     law = vndf_radial_scaled(law, total);
-    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before(&law, j));
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before(&law, &cell));
 }
 
 /* c < 0, k > 0; or k = 0 and nothing is visible. Mass is counted from infinity inwards. */
@@ -130,28 +116,6 @@ VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, f
     vndf_radial_piece piece = vndf_radial_piece_of(&law, j);
     float beyond = law.gain * vndf_radial_beyond(&law, j + 1);
     return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - beyond));
-}
-
-/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
- * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
- * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
- * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
- * rounding of its ends shows in its mass, the second rules. */
-VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
-{
-    const vndf_rational_cell *cell = &r->piece.cell;
-    float rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
-    float reach = d->knots.x[r->at.cell + 1] * d->knots.z[r->at.cell], width = d->cells[r->at.cell].width;
-    float here = cell->e0 + rise * r->inside.xi, least = here < cell->mass ? here : cell->mass;
-    return reach > VNDF_NARROW * width || (fabsf(rise) + 3.0f * fabsf(bend)) * reach > 10.0f * least * width;
-}
-
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep
- * or the cell narrow, and beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
-{
-    return fabsf(r->at.xi - 0.5f) > 0.499f ||
-           (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
 }
 
 #endif

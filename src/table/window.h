@@ -17,19 +17,20 @@
 void vndf_windows_make(vndf_distribution *d);
 
 /* 0 for |k|/c below 1/16, the last for 16 and above; c and |k| at most 4. */
-VNDF_INLINE uint32_t vndf_window_ratio(float c, float k)
+VNDF_INLINE lanes_u vndf_window_ratio(lanes_f c, lanes_f k)
 {
-    int32_t half_octave = 1 << 22, apart = (int32_t)(vndf_float_bits(fabsf(k)) - vndf_float_bits(c));
-    int32_t above = apart + VNDF_RATIOS / 2 * half_octave;
-    int32_t ratio = (above > 0 ? above : 0) / half_octave;
-    return ratio < VNDF_RATIOS ? (uint32_t)ratio : VNDF_RATIOS - 1;
+    const uint32_t half_octave = 1u << 22;
+    lanes_u bits = lanes_bits(lanes_abs(k)) + VNDF_RATIOS / 2 * half_octave, least = lanes_bits(c);
+    lanes_u above = lanes_pick_u(lanes_at_most_u(least, bits), bits - least, lanes_set_u(0));
+    return lanes_limit_u(above >> 22, lanes_set_u(VNDF_RATIOS - 1));
 }
 
 /* The first cell of the window, or VNDF_NO_WINDOW where eight knots are not enough; u in [0, 1]. */
-VNDF_INLINE uint32_t vndf_window_of(const vndf_distribution *d, float c, float k, float u)
+VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
-    uint32_t range = (uint32_t)(u * (VNDF_RANGES - 1e-5f)); /* below VNDF_RANGES for u = 1 */
-    return d->windows[k < 0.0f][vndf_window_ratio(c, k)][range];
+    lanes_u range = lanes_whole(u * (VNDF_RANGES - 1e-5f)); /* below VNDF_RANGES for u = 1 */
+    lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
+    return lanes_gather_u16(d->windows[0][0], (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + range);
 }
 
 #endif
