@@ -49,6 +49,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return copysignf(x, y);
 }
 
+VNDF_INLINE lanes_m lanes_all(void)
+{
+    return 1;
+}
+
+VNDF_INLINE lanes_m lanes_none(void)
+{
+    return 0;
+}
+
 VNDF_INLINE lanes_m lanes_less(lanes_f a, lanes_f b)
 {
     return a < b;
@@ -183,6 +193,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
         _mm512_ternarylogic_epi32(sign, _mm512_castps_si512(y), _mm512_castps_si512(x), 0xca));
 }
 
+VNDF_INLINE lanes_m lanes_all(void)
+{
+    return 0xffff;
+}
+
+VNDF_INLINE lanes_m lanes_none(void)
+{
+    return 0;
+}
+
 VNDF_INLINE lanes_m lanes_less(lanes_f a, lanes_f b)
 {
     return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
@@ -300,6 +320,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
 {
     const __m256 sign = _mm256_set1_ps(-0.0f);
     return _mm256_or_ps(_mm256_and_ps(sign, y), _mm256_andnot_ps(sign, x));
+}
+
+VNDF_INLINE lanes_m lanes_all(void)
+{
+    return _mm256_set1_epi32(-1);
+}
+
+VNDF_INLINE lanes_m lanes_none(void)
+{
+    return _mm256_setzero_si256();
 }
 
 VNDF_INLINE lanes_m lanes_less(lanes_f a, lanes_f b)

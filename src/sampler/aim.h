@@ -10,25 +10,22 @@
 #include "sampler/wedge.h"
 
 typedef struct vndf_aim {
-    lanes_f ax, ay;           /* roughness times the table's scale */
     lanes_f s, c, cos_phi, sin_phi;
-    lanes_f front, wedge;     /* masses */
+    lanes_f front, wedge; /* masses; below the horizon 0 and 1 */
+    lanes_f area;         /* of the unit problem */
 } vndf_aim;
 
 /* From the stretched direction (x, y, z), as far as *ready stays: elsewhere this is not good enough. */
-VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy,
-                                 lanes_f z, lanes_m *ready)
+VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
 {
-    lanes_f x = ax * wx, y = ay * wy, across2 = x * x + y * y, across = lanes_root(across2), sum = across + z;
+    lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z;
     lanes_f per = 1.0f / (across * sum); /* of both at once */
-    vndf_aim aim = {.ax = ax, .ay = ay, .s = across2 * per, .c = z * (across * per), .cos_phi = x * (sum * per),
-                    .sin_phi = y * (sum * per)};
     *ready = lanes_both(*ready, lanes_both(lanes_less(lanes_set(1e-24f), across2),
                                            lanes_both(lanes_less(lanes_set(1e-6f) * sum, z),
                                                       lanes_less(sum, lanes_set(1e12f)))));
-    aim.c = lanes_pick(*ready, aim.c, lanes_set(0.5f)); /* so that what is looked up exists */
-    aim.front = vndf_front_mass(vndf_front_of(d, aim.s, aim.c));
-    aim.wedge = vndf_wedge_quick(&d->above, aim.c, ready);
+    lanes_f s = across2 * per, c = lanes_pick(*ready, z * (across * per), lanes_set(0.5f)); /* to be looked up */
+    lanes_f front = vndf_front_mass(vndf_front_of(d, s, c)), wedge = vndf_wedge_quick(&d->above, c, ready);
+    vndf_aim aim = {s, c, x * (sum * per), y * (sum * per), front, wedge, 2.0f * (front + wedge)};
     return aim;
 }
 

@@ -73,6 +73,24 @@ VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, f
     return count;
 }
 
+VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f target)
+{
+#if VNDF_LANES == 1
+    return vndf_azimuth_count(row->wedge, row->row, row->first, row->middle, row->last, target);
+#else
+    uint32_t rows[VNDF_LANES];
+    float first[VNDF_LANES], middle[VNDF_LANES], last[VNDF_LANES], targets[VNDF_LANES];
+    lanes_store_u(rows, row->row);
+    lanes_store(first, row->first);
+    lanes_store(middle, row->middle);
+    lanes_store(last, row->last);
+    lanes_store(targets, target);
+    for (int i = 0; i < VNDF_LANES; i++)
+        rows[i] = vndf_azimuth_count(row->wedge, rows[i], first[i], middle[i], last[i], targets[i]);
+    return lanes_load_u(rows);
+#endif
+}
+
 /* The azimuth with mass `target` before it, in the last of `count` cells. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target)
 {

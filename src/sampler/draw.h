@@ -6,26 +6,17 @@
 #include "sampler/aim.h"
 #include "sampler/radial.h"
 
-/* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's mass
- * is between the side of wi and it. */
-VNDF_INLINE lanes_f vndf_aim_wedge_part(lanes_f half, lanes_f front, lanes_f wedge)
-{
-    lanes_f rest = (half * (front + wedge) - front) / wedge;
-    return lanes_pick(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest, lanes_set(0.0f));
-}
-
-/* The horizontal unit vector at an azimuth of the turned frame, stretched back; its square, and cos a. */
+/* The horizontal unit vector at an azimuth of the turned frame, stretched back; and its square. */
 typedef struct vndf_level {
-    lanes_f x, y, square, cosine;
+    lanes_f x, y, square;
 } vndf_level;
 
 /* `half` has the sign of the azimuth. */
-VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, lanes_f sin_phi,
-                                     const vndf_azimuth *a, lanes_f half)
+VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, lanes_f sin_phi, lanes_f cosine,
+                                     lanes_f sine, lanes_f half)
 {
-    lanes_f per = 1.0f / a->n, cosine = a->c * per, sine = lanes_sign(a->s, half) * per;
-    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine), cosine,
-                        cosine};
+    sine = lanes_sign(sine, half);
+    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine), cosine};
     level.square = level.x * level.x + level.y * level.y;
     return level;
 }
@@ -38,11 +29,11 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
  * table's. */
 static const float VNDF_PLAIN_SIDE = 1e-6f;
 
-VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, const vndf_azimuth *a, lanes_f x, lanes_f z)
+VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
 {
-    lanes_f across = s * x, along = across * a->c, up = c * z;
-    lanes_m unscaled = lanes_at_most(lanes_set(VNDF_RADIAL_MASS_PLAIN), a->density);
-    return lanes_both(lanes_both(unscaled, lanes_less(lanes_set(VNDF_PLAIN_SIDE), a->c)),
+    lanes_f across = s * x, along = across * cosine, up = c * z;
+    lanes_m unscaled = lanes_at_most(lanes_set(VNDF_RADIAL_MASS_PLAIN), total);
+    return lanes_both(lanes_both(unscaled, lanes_less(lanes_set(VNDF_PLAIN_SIDE), cosine)),
                       lanes_less(0.05f * across, along + up));
 }
 
@@ -82,6 +73,72 @@ VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, lanes_f x, lanes_f
     lanes_f density = (above * square) * (length * (length * both));
     vndf_drawn n = {x * level->x * per, x * level->y * per, z * per, density};
     return n;
+}
+
+/* ---- all of it, where it is plain ---- */
+
+/* Surface and direction of a sample. */
+typedef struct vndf_incidence {
+    lanes_f ax, ay, s, c, cos_phi, sin_phi, front, wedge, spread;
+    lanes_m plain;
+} vndf_incidence;
+
+VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
+{
+    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->front, aim->wedge,
+                        aim->area * (ax * ay), vndf_aim_is_plain(ax, ay, aim->c)};
+    return w;
+}
+
+/* Mass between the side of wi and the azimuth, of half a turn; `half` = 2 u1 - 1. */
+VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
+{
+    return lanes_abs(half) * (w->front + w->wedge);
+}
+
+/* A normal in front of wi, good where *plain stays. */
+VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2,
+                                       lanes_m *plain)
+{
+    lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front);
+    vndf_level level = vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half);
+    lanes_f c = w->c, k = w->s * a.c, total = vndf_radial_total(d, c, k), target = u2 * total;
+    vndf_radial_law law = vndf_radial_law_whole(d, c, k);
+    lanes_u j = vndf_radial_find(d, vndf_window_of(d, c, k, u2), c, k, target, 1);
+    j = lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_rational_cell law_in = vndf_radial_plain(&law, &cell);
+    lanes_f before = vndf_radial_before_whole(&law, &cell);
+    vndf_rational_place in = vndf_rational_invert(&law_in, lanes_positive(target - before));
+    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, c, a.c, total, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &law_in, in.xi, lanes_all()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count))); /* radial_cut.h */
+    return vndf_drawn_at(&level, x, z, in.root, in.below * (w->spread * x * cell.width));
+}
+
+/* A normal in the wedge above the horizon, good where *plain stays. */
+VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2,
+                                       lanes_m *plain)
+{
+    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c, plain);
+    lanes_f part = vndf_wedge_part(lanes_abs(half), w->front, w->wedge), total;
+    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
+    lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c;
+    vndf_level level = vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half);
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, plain);
+    lanes_u j = lanes_limit_u(vndf_radial_find(d, vndf_window_of(d, c, k, u2), c, k, u2 * total, 0), law.cut);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    law = vndf_radial_scaled(law, total);
+    vndf_rational_cell law_in = vndf_radial_plain(&law, &cell);
+    lanes_f before = vndf_radial_before(&law, &cell);
+    vndf_rational_place in = vndf_rational_invert(&law_in, lanes_positive(u2 - before));
+    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, cosine, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &law_in, in.xi, lanes_none()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut)); /* radial_cut.h */
+    return vndf_drawn_at(&level, x, z, a.density * w->wedge * in.root, in.below * (w->spread * x * cell.width));
 }
 
 #endif

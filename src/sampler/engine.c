@@ -31,33 +31,36 @@ VNDF_INLINE const vndf_wedge *wedge_of(const vndf_view *view)
     return vndf_is_below(view) ? &view->distribution->below : &view->distribution->above;
 }
 
-/* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
-VNDF_INLINE vndf_azimuth draw_wedge(const vndf_view *view, float half)
+/* |a| where the part `half` of a half turn's mass lies between the side of wi and a. */
+static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 {
-    const vndf_wedge *wedge = wedge_of(view);
+    int below = vndf_is_below(view);
     lanes_m found = 1;
-    vndf_azimuth_row row = vndf_wedge_row(wedge, !vndf_is_below(view) ? view->c : view->s, &found);
-    float target = !vndf_is_below(view) ? vndf_aim_wedge_part(half, view->front, view->wedge) : half;
-    vndf_azimuth at = vndf_azimuth_draw(
-        &row, vndf_azimuth_count(wedge, row.row, row.first, row.middle, row.last, target), target);
-    if (!vndf_is_below(view))
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c, &found);
+    float target = below ? half : vndf_wedge_part(half, view->front, view->wedge);
+    vndf_azimuth at = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, target), target);
+    if (!below)
         at.c = -at.c;
     else
         at.c = at.c > 1e-7f * at.n ? at.c : 1e-7f * at.n; /* at a right angle from wi nothing is visible */
-    at.density *= view->wedge;
     return at;
 }
 
-VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
+static int is_drawn_in_front(const vndf_view *view, float half)
+{
+    return !vndf_is_below(view) && (half * (view->front + view->wedge) < view->front || !(view->wedge > 0.0f));
+}
+
+static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
     float target = half * (view->front + view->wedge);
-    if (!vndf_is_below(view) && (target < view->front || !(view->wedge > 0.0f)))
+    if (is_drawn_in_front(view, half))
         return vndf_front_draw(front_of(view), lanes_positive(view->front - target), view->front);
     return draw_wedge(view, half);
 }
 
 /* The slope length for an azimuth, from n times the direction. */
-VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
+static vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
     float c = view->c * a->n + 0.0f, k = view->s * a->c; /* what rounds to -0 is the horizon */
@@ -68,13 +71,21 @@ VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azim
         c = sum > 0.0f ? c / sum : 0.0f;
         k = sum > 0.0f ? k / sum : 1.0f;
     }
-    return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u)
-                                 : vndf_radial_draw_whole(d, c, k, u, a->c < 0.0f);
+    return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
 }
 
-/* A normal whose rounding shows in its density, or turns it away: the density is that of the rounded normal. */
-static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf)
+/* Any direction and any place: the density is that of the normal as it was rounded, in double. */
+VNDF_RARE vndf_vec3 sample_carefully(const vndf_view *view, float half, float u2, float *pdf)
 {
+    vndf_azimuth a = draw_azimuth(view, fabsf(half));
+    float per_n = 1.0f / a.n;
+    vndf_level level =
+        vndf_level_at(view->ax, view->ay, view->cos_phi, view->sin_phi, a.c * per_n, a.s * per_n, half);
+    vndf_radial_drawn r = draw_radius(view, &a, u2);
+    vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
+    float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
+    float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
+    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
     if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
@@ -82,26 +93,23 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     return wm;
 }
 
+VNDF_INLINE vndf_incidence incidence_of(const vndf_view *v)
+{
+    vndf_incidence w = {v->ax, v->ay, v->s, v->c, v->cos_phi, v->sin_phi, v->front, v->wedge, v->spread, v->plain};
+    return w;
+}
+
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
-    vndf_azimuth a = draw_azimuth(view, fabsf(half));
-    vndf_level level = vndf_level_at(view->ax, view->ay, view->cos_phi, view->sin_phi, &a, half);
-    vndf_radial_drawn r = draw_radius(view, &a, u2);
-    vndf_radial_lanes cell = vndf_radial_load(d, r.at.cell);
-    float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
-    int front = a.c >= 0.0f, plain = view->plain & !r.piece.weighted;
-    plain &= front ? vndf_plain_in_front(view->s, view->c, &a, x, z)
-                   : vndf_plain_in_wedge(view->s, view->c, view->front, view->wedge, level.cosine, x, z);
-    plain &= vndf_plain_place(half, u2, &cell, &r.piece.cell, r.inside.xi, front);
-    if (!plain) {
-        float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
-        vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-        return sample_delicate(view, wm, pdf);
-    }
-    vndf_drawn n = vndf_drawn_at(&level, x, z, front ? r.inside.root : a.density * r.inside.root,
-                                 r.inside.below * (view->spread * x * cell.width));
+    vndf_incidence w = incidence_of(view);
+    lanes_m plain = view->plain;
+    if (!plain)
+        return sample_carefully(view, half, u2, pdf);
+    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? vndf_draw_front(view->distribution, &w, half, u2, &plain)
+                                                        : vndf_draw_wedge(view->distribution, &w, half, u2, &plain);
+    if (!plain)
+        return sample_carefully(view, half, u2, pdf);
     if (pdf)
         *pdf = n.density;
     vndf_vec3 wm = {n.x, n.y, n.z};

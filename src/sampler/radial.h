@@ -17,9 +17,11 @@
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
+#include "math/lanes_lines.h"
 #include "math/rational_cell.h"
 #include "table/guide.h"
 #include "table/table.h"
+#include "table/window.h"
 
 /* The law of R: everything that does not depend on the uniform number. Above the horizon the weights are scaled so
  * that its mass is 1, where it may be small: no square of a mass vanishes where next to nothing is visible. Below
@@ -146,28 +148,81 @@ VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, con
 
 /* ---- search, one lane at a time ---- */
 
-/* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
-VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n,
-                                              float c, float k, float target)
+/* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
+VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k, float target)
 {
     const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < VNDF_WINDOW; i++) {
         float w = c * z[i] + k * x[i];
         count += c * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= target;
     }
     return count;
 }
 
-/* The same in a window, for c, k >= 0. */
-VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from,
-                                             float c, float k, float target)
+/* The same for c, k >= 0. */
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
 {
     const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
     uint32_t count = 0;
     for (uint32_t i = 0; i < VNDF_WINDOW; i++)
         count += c * f0[i] + k * f1[i] <= target;
     return count;
+}
+
+/* A wide window narrowed to eight cells: of its knots every step-th is looked at. */
+VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, float c, float k, float target)
+{
+    for (; w.step > 1; w.step /= VNDF_WINDOW) {
+        uint32_t count = 0;
+        for (uint32_t i = 1; i < VNDF_WINDOW; i++) {
+            uint32_t at = w.first + i * w.step, j = at < knots->count ? at : knots->count - 1;
+            float weight = c * knots->z[j] + k * knots->x[j];
+            count += (k < 0.0f ? c * knots->e[j] + (weight > 0.0f ? weight : 0.0f) * knots->g[j]
+                               : c * knots->f0[j] + k * knots->f1[j]) <= target;
+        }
+        w.first += count * w.step;
+    }
+    return w.first;
+}
+
+/* The cell in which the mass `target` ends, by its window. */
+VNDF_INLINE uint32_t vndf_radial_find_whole(const vndf_distribution *d, uint32_t code, float c, float k,
+                                            float target)
+{
+    vndf_window w = vndf_window_from(code);
+    if (w.step > 1)
+        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
+    return w.first + vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target);
+}
+
+VNDF_INLINE uint32_t vndf_radial_find_above(const vndf_distribution *d, uint32_t code, float c, float k,
+                                            float target)
+{
+    vndf_window w = vndf_window_from(code);
+    if (w.step > 1)
+        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
+    return w.first + vndf_radial_count_above(&d->knots, w.first + 1, c, k, target);
+}
+
+/* All lanes, one after the other; `whole` for c, k >= 0, else c > 0 > k. */
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
+                                     int whole)
+{
+#if VNDF_LANES == 1
+    return whole ? vndf_radial_find_whole(d, code, c, k, target) : vndf_radial_find_above(d, code, c, k, target);
+#else
+    uint32_t codes[VNDF_LANES];
+    float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
+    lanes_store_u(codes, code);
+    lanes_store(cs, c);
+    lanes_store(ks, k);
+    lanes_store(targets, target);
+    for (int i = 0; i < VNDF_LANES; i++)
+        codes[i] = whole ? vndf_radial_find_whole(d, codes[i], cs[i], ks[i], targets[i])
+                         : vndf_radial_find_above(d, codes[i], cs[i], ks[i], targets[i]);
+    return lanes_load_u(codes);
+#endif
 }
 
 /* ---- where the density of a place is that of its rounded normal ---- */

@@ -1,11 +1,10 @@
-/* Drawing the slope length: search for the cell, in a window of eight knots (table/window.h) or by blocks, then
+/* Drawing the slope length: search for the cell, in a window of knots (table/window.h) or by blocks, then
  * its inverse. One function for each of the three kinds of laws (radial.h); they take the weights before scaling,
  * so that the search need not wait for the division by the mass. */
 #ifndef VNDF_SAMPLER_RADIAL_DRAW_H
 #define VNDF_SAMPLER_RADIAL_DRAW_H
 
 #include "sampler/radial_cut.h"
-#include "table/window.h"
 
 /* A drawn place, its piece, and the place in the piece's rational cell. */
 typedef struct vndf_radial_drawn {
@@ -25,16 +24,6 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t 
         count += k * s[i] + (w > 0.0f ? w : 0.0f) * t[i] > target;
     }
     return count;
-}
-
-/* Where no window is known: first the block, then within. Returns the last knot with no more than target before
- * it. */
-VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
-{
-    uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
-    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-    uint32_t j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, c, k, target);
-    return j > 0 ? j - 1 : 0;
 }
 
 /* The cell of a mass below the horizon, counted from infinity inwards; a knot that is not visible counts as the
@@ -69,26 +58,17 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
     return r;
 }
 
-/* The place with a part u of the mass before it; c, k >= 0. `scaled`: the mass of the piece is to be a part of 1,
- * not of the law's own. */
-VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u,
-                                                     int scaled)
+/* The place with a part u of the mass before it; c, k >= 0. */
+VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u)
 {
-    uint32_t start = vndf_window_of(d, c, k, u), last = d->radial_count - 1, j;
     float total = vndf_radial_total(d, c, k), target = u * total;
-    if (start != VNDF_NO_WINDOW)
-        j = start + vndf_radial_count_whole(&d->knots, start + 1, c, k, target);
-    else
-        j = vndf_radial_search_before(d, c, k, target);
+    uint32_t last = d->radial_count - 1, j = vndf_radial_find_whole(d, vndf_window_of(d, c, k, u), c, k, target);
     j = j < last ? j : last;
     vndf_radial_law law = vndf_radial_law_whole(d, c, k);
-    if (scaled || total < VNDF_RADIAL_MASS_PLAIN) {
-        law = vndf_radial_scaled(law, total);
-        target = u;
-    }
+    law = vndf_radial_scaled(law, total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j),
-                               target - vndf_radial_before_whole(&law, &cell));
+                               u - vndf_radial_before_whole(&law, &cell));
 }
 
 /* c > 0 > k. */
@@ -97,11 +77,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d,
     float total;
     lanes_m found = 1;
     vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
-    uint32_t start = vndf_window_of(d, c, k, u), j;
-    if (start != VNDF_NO_WINDOW)
-        j = start + vndf_radial_count_before(&d->knots, start + 1, VNDF_WINDOW, c, k, u * total);
-    else
-        j = vndf_radial_search_before(d, c, k, u * total);
+    uint32_t j = vndf_radial_find_above(d, vndf_window_of(d, c, k, u), c, k, u * total);
     j = j < law.cut ? j : law.cut;
     law = vndf_radial_scaled(law, total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);

@@ -23,50 +23,40 @@ static vndf_view invalid_view(void)
 
 /* From doubles: for the closed forms, and where a table's aim cannot be had in float - below the horizon, along z, at
  * extremes. */
-static void aim_exactly(vndf_view *view)
+VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    const vndf_distribution *d = view->distribution;
-    vndf_stretched w = vndf_stretched_of(view);
+    vndf_stretched w = vndf_stretch(wi, ax, ay, d->kind == VNDF_KIND_TABLE);
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
-    view->s = (float)w.s;
-    view->c = (float)w.c;
-    view->cos_phi = across > 0.0 ? (float)(w.x * per) : 1.0f;
-    view->sin_phi = (float)(w.y * per);
+    vndf_aim aim = {(float)w.s, (float)w.c, across > 0.0 ? (float)(w.x * per) : 1.0f, (float)(w.y * per), 0, 0, 0};
     if (d->kind != VNDF_KIND_TABLE) {
-        view->area = (float)vndf_unit_area(d, w.s, w.c);
-        return;
+        aim.area = (float)vndf_unit_area(d, w.s, w.c);
+        return aim;
     }
     double mass = vndf_wedge_mass(vndf_wedge_of(d, w.c), vndf_wedge_y(w.s, w.c));
     double front = w.c >= 0.0 ? w.c * (d->f0_total * VNDF_QUARTER_TURN) + w.s * d->f1_total : 0.0;
-    view->front = (float)front;
-    view->area = (float)(2.0 * (front + mass));
-    view->wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f; /* its part below: the mass may underflow */
+    aim.front = (float)front;
+    aim.area = (float)(2.0 * (front + mass));
+    aim.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f; /* its part below: the mass may underflow */
+    return aim;
 }
 
-VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
+VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
 {
-    vndf_view view = {.distribution = d, .wi = wi, .alpha_x = ax, .alpha_y = ay, .ax = (float)ax, .ay = (float)ay};
-    lanes_m ready = d->kind == VNDF_KIND_TABLE;
-    if (ready) {
-        vndf_aim aim = vndf_aim_at(d, view.ax, view.ay, wi.x, wi.y, wi.z, &ready);
-        view.s = aim.s;
-        view.c = aim.c;
-        view.cos_phi = aim.cos_phi;
-        view.sin_phi = aim.sin_phi;
-        view.front = aim.front;
-        view.wedge = aim.wedge;
-        view.area = 2.0f * (aim.front + aim.wedge);
-    }
-    if (!ready)
-        aim_exactly(&view);
-    view.spread = view.area * (view.ax * view.ay);
-    view.plain = vndf_aim_is_plain(view.ax, view.ay, view.c);
+    lanes_m ready = 1;
+    vndf_aim aim;
+    if (d->kind == VNDF_KIND_TABLE)
+        aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
+    if (d->kind != VNDF_KIND_TABLE || !ready)
+        aim = aim_exactly(d, ax, ay, wi);
+    vndf_view view = {d, wi, ax, ay, x, y, aim.s, aim.c, aim.cos_phi, aim.sin_phi, aim.front, aim.wedge,
+                      aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c)};
     return view;
 }
 
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    return view_scaled(d, ax, ay, wi);
+    return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
@@ -74,7 +64,10 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
         return invalid_view();
-    return view_scaled(surface->distribution, ax, ay, wi);
+    float scale = vndf_unit_scale_float(surface->distribution); /* lanes have no double */
+    float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
+    float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
+    return view_scaled(surface->distribution, ax, ay, x, y, wi);
 }
 
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)

@@ -213,8 +213,6 @@ static void derive_blocks(vndf_distribution *table)
         uint32_t j = i * VNDF_BLOCK;
         b->x[i] = k->x[j];
         b->z[i] = k->z[j];
-        b->e[i] = k->e[j];
-        b->g[i] = k->g[j];
         b->s[i] = k->s[j];
         b->t[i] = k->t[j];
     }

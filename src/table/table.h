@@ -22,15 +22,15 @@
 #include "vndf.h"
 
 enum {
-    VNDF_RADIAL_CELLS_MAX = 8192,
+    VNDF_RADIAL_CELLS_MAX = 8192, /* 2^VNDF_WINDOW_SHIFT */
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
-    VNDF_WINDOW = 8,         /* or by a window of knots, where one is known to hold the cell (table/window.h): */
-    VNDF_RANGES = 64,        /* for this many ranges of u */
+    VNDF_WINDOW = 8,         /* above the horizon by a window of so many (table/window.h), */
+    VNDF_RANGES = 64,        /* one for each of this many ranges of u */
     VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
-    VNDF_NO_WINDOW = 0xffff, /* a window would be too narrow */
+    VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 4,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
@@ -42,7 +42,7 @@ enum {
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
  * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
  * through all knots of a block or a window at once; `count` includes padding: what lies beyond the last knot has
- * sums that no search reaches. f0 and f1 of blocks are not filled. */
+ * sums that no search reaches. Of blocks x, z, s and t are filled: they are for directions below the horizon. */
 typedef struct vndf_knots {
     uint32_t count;
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
@@ -105,7 +105,7 @@ struct vndf_distribution {
     float *slope;              /* X/Z of the knots, ascending, last is infinite */
     vndf_radial_cell *cells;   /* radial_count, on borders of lines of the cache in cells_memory */
     void *cells_memory;
-    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* first cells; the second half for k < 0 */
+    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* the second half for k < 0 */
     vndf_guide slope_guide;    /* not last: lanes read a half word beyond the windows */
     vndf_wedge above, below;
     double normalization;      /* the source was multiplied by it */
