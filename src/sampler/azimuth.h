@@ -9,6 +9,7 @@
 
 #include <stdint.h>
 
+#include "math/count.h"
 #include "math/rational_cell.h"
 #include "table/table.h"
 
@@ -68,8 +69,8 @@ VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, f
 {
     const float *a = wedge->cdf + (size_t)row * wedge->stride, *b = a + wedge->stride, *c = b + wedge->stride;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < wedge->stride; i++)
-        count += first * a[i] + middle * b[i] + last * c[i] <= target;
+    for (uint32_t i = 0; i < wedge->stride; i += VNDF_PADDING)
+        count += vndf_count_three(a + i, b + i, c + i, first, middle, last, target);
     return count;
 }
 

@@ -96,49 +96,83 @@ VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
     return lanes_abs(half) * (w->front + w->wedge);
 }
 
-/* A normal in front of wi, good where *plain stays. */
-VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2,
-                                       lanes_m *plain)
+/* A sample whose azimuth is drawn: what its radius and its normal take. */
+typedef struct vndf_bearing {
+    vndf_level level;
+    lanes_f cosine, c, k;    /* of the azimuth; weights of the law of the radius */
+    lanes_f total, density;  /* the law's mass; mass per radian of the azimuth, in the wedge */
+    lanes_u code;            /* of the window where the radius is */
+} vndf_bearing;
+
+/* ---- in front of wi ---- */
+
+VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2)
 {
     lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
     vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front);
-    vndf_level level = vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half);
-    lanes_f c = w->c, k = w->s * a.c, total = vndf_radial_total(d, c, k), target = u2 * total;
-    vndf_radial_law law = vndf_radial_law_whole(d, c, k);
-    lanes_u j = vndf_radial_find(d, vndf_window_of(d, c, k, u2), c, k, target, 1);
-    j = lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell law_in = vndf_radial_plain(&law, &cell);
-    lanes_f before = vndf_radial_before_whole(&law, &cell);
-    vndf_rational_place in = vndf_rational_invert(&law_in, lanes_positive(target - before));
-    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
-    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, c, a.c, total, x, z));
-    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &law_in, in.xi, lanes_all()));
-    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count))); /* radial_cut.h */
-    return vndf_drawn_at(&level, x, z, in.root, in.below * (w->spread * x * cell.width));
+    lanes_f k = w->s * a.c;
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half), a.c, w->c, k,
+                      vndf_radial_total(d, w->c, k), a.c, vndf_window_of(d, w->c, k, u2)};
+    return b;
 }
 
-/* A normal in the wedge above the horizon, good where *plain stays. */
-VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2,
+VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2)
+{
+    lanes_u j = vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 1);
+    return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
+}
+
+/* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */
+VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                       lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
+{
+    vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
+    lanes_f before = vndf_radial_before_whole(&law, &cell);
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
+    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, w->c, b->cosine, b->total, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_all()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
+    return vndf_drawn_at(&b->level, x, z, in.root, in.below * (w->spread * x * cell.width));
+}
+
+/* ---- in the wedge above the horizon ---- */
+
+/* From the row, the part of its mass and the count of its cells before that; *law is not scaled yet. */
+VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_azimuth_row *row, lanes_f part, lanes_u count, lanes_f half,
+                                         lanes_f u2, vndf_radial_law *law, lanes_m *plain)
+{
+    vndf_azimuth a = vndf_azimuth_draw(row, count, part);
+    lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c, total;
+    *law = vndf_radial_law_above(d, c, k, &total, plain);
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half), cosine, c, k,
+                      total, a.density * w->wedge, vndf_window_of(d, c, k, u2)};
+    return b;
+}
+
+VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2, lanes_u cut)
+{
+    return lanes_limit_u(vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 0), cut);
+}
+
+VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                       const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
                                        lanes_m *plain)
 {
-    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c, plain);
-    lanes_f part = vndf_wedge_part(lanes_abs(half), w->front, w->wedge), total;
-    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
-    lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c;
-    vndf_level level = vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half);
-    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, plain);
-    lanes_u j = lanes_limit_u(vndf_radial_find(d, vndf_window_of(d, c, k, u2), c, k, u2 * total, 0), law.cut);
+    vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    law = vndf_radial_scaled(law, total);
-    vndf_rational_cell law_in = vndf_radial_plain(&law, &cell);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
     lanes_f before = vndf_radial_before(&law, &cell);
-    vndf_rational_place in = vndf_rational_invert(&law_in, lanes_positive(u2 - before));
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
     lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
-    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, cosine, x, z));
-    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &law_in, in.xi, lanes_none()));
-    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut)); /* radial_cut.h */
-    return vndf_drawn_at(&level, x, z, a.density * w->wedge * in.root, in.below * (w->spread * x * cell.width));
+    *plain = lanes_both(lanes_both(*plain, w->plain),
+                        vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_none()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
+    return vndf_drawn_at(&b->level, x, z, b->density * in.root, in.below * (w->spread * x * cell.width));
 }
 
 #endif

@@ -99,15 +99,33 @@ VNDF_INLINE vndf_incidence incidence_of(const vndf_view *v)
     return w;
 }
 
+VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
+                                     lanes_m *plain)
+{
+    vndf_bearing b = vndf_bear_front(d, w, half, u2);
+    return vndf_draw_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
+}
+
+VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
+                                     lanes_m *plain)
+{
+    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c, plain);
+    float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
+    vndf_radial_law law;
+    vndf_bearing b = vndf_bear_wedge(d, w, &row, part, vndf_azimuth_find(&row, part), half, u2, &law, plain);
+    return vndf_draw_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
+}
+
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = incidence_of(view);
     lanes_m plain = view->plain;
     if (!plain)
         return sample_carefully(view, half, u2, pdf);
-    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? vndf_draw_front(view->distribution, &w, half, u2, &plain)
-                                                        : vndf_draw_wedge(view->distribution, &w, half, u2, &plain);
+    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? draw_in_front(d, &w, half, u2, &plain)
+                                                        : draw_in_wedge(d, &w, half, u2, &plain);
     if (!plain)
         return sample_carefully(view, half, u2, pdf);
     if (pdf)

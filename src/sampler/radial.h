@@ -17,6 +17,7 @@
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
+#include "math/count.h"
 #include "math/lanes_lines.h"
 #include "math/rational_cell.h"
 #include "table/guide.h"
@@ -151,23 +152,13 @@ VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, con
 /* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
 VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k, float target)
 {
-    const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < VNDF_WINDOW; i++) {
-        float w = c * z[i] + k * x[i];
-        count += c * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= target;
-    }
-    return count;
+    return vndf_count_positive(knots->z + from, knots->x + from, knots->e + from, knots->g + from, c, k, target);
 }
 
 /* The same for c, k >= 0. */
 VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
 {
-    const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < VNDF_WINDOW; i++)
-        count += c * f0[i] + k * f1[i] <= target;
-    return count;
+    return vndf_count_two(knots->f0 + from, knots->f1 + from, c, k, target);
 }
 
 /* A wide window narrowed to eight cells: of its knots every step-th is looked at. */
