@@ -101,7 +101,8 @@ static void check_density(const closed_form *form, const vndf_view *view, float 
     vndf_vec3 wm = vndf_sample(view, u1, u2, &pdf);
     double facing = dot(view->wi, wm);
     TEST(fabs(dot(wm, wm) - 1.0) < 1e-6 && wm.z >= 0.0f && facing > -2e-7);
-    TEST(pdf >= 0.0f && isfinite(pdf) && vndf_pdf(view, wm) == pdf && vndf_visible(view, wm) == pdf);
+    TEST(pdf >= 0.0f && isfinite(pdf) && vndf_visible(view, wm) == vndf_pdf(view, wm));
+    TEST_RELATIVE((double)pdf, (double)vndf_pdf(view, wm), 6e-6); /* that of the place, where GGX is plain */
     if (!(facing > 0.0) || !(wm.z > 0.0f)) {
         found->away++;
         return;

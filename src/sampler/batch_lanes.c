@@ -1,7 +1,7 @@
 /* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
 #include "sampler/batch_lanes.h"
 
-#include "sampler/draw.h"
+#include "sampler/ggx_draw.h"
 #include "sampler/surface.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
@@ -46,21 +46,13 @@ VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, lanes_m m, uint32_t 
     return count;
 }
 
-static vndf_incidence shared_incidence(const vndf_view *v)
-{
-    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
-                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->front), lanes_set(v->wedge),
-                        lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
-    return w;
-}
-
 /* Of samples from `i` on; plain only where a view in float is good enough. */
 VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, float scale)
 {
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     lanes_m ready = lanes_all();
-    vndf_aim aim = vndf_aim_at(d, ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i), lanes_load(b->wi_z + i),
-                               &ready);
+    lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
+    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
     vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
     w.plain = lanes_both(w.plain, ready);
     return w;
@@ -99,7 +91,7 @@ VNDF_INLINE void aim(const vndf_distribution *d, const vndf_sample_block *b, wor
     float scale = vndf_unit_scale_float(d);
     vndf_incidence shared;
     if (b->view)
-        shared = shared_incidence(b->view);
+        shared = vndf_incidence_of(b->view);
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
         uint32_t i = g * VNDF_LANES;
         w->at[g] = b->view ? shared : incidence_at(d, b, i, scale);
@@ -179,21 +171,46 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
     }
 }
 
-#if VNDF_LANES == 16
-void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
-#else
-void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
-#endif
+/* ---- GGX ---- */
+
+VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+{
+    vndf_incidence shared;
+    if (b->view)
+        shared = vndf_incidence_of(b->view);
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
+        lanes_m plain = lanes_all();
+        vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)), &plain);
+        store(b, i, &n);
+        b->left_count = append(b->left, b->left_count, lanes_without(lanes_all(), plain), i, b->count);
+    }
+}
+
+static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     work all;
     wedge_work wedges;
-    all.wedge_count = b->left_count = 0;
+    all.wedge_count = 0;
     aim(d, b, &all);
     draw_fronts(d, b, &all);
     for (uint32_t i = 0; i < VNDF_LANES; i++) /* lanes that are not needed repeat a sample */
         all.wedge[all.wedge_count + i] = 0;
     gather_wedges(d, b, &all, &wedges);
     draw_wedges(d, b, &all, &wedges);
+}
+
+#if VNDF_LANES == 16
+void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
+#else
+void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
+#endif
+{
+    b->left_count = 0;
+    if (d->kind == VNDF_KIND_GGX)
+        draw_ggx(d, b);
+    else
+        draw_table(d, b);
 }
 
 #endif

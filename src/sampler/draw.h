@@ -90,6 +90,15 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
     return w;
 }
 
+/* Of a view, the same in all lanes. */
+VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
+{
+    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
+                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->front), lanes_set(v->wedge),
+                        lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
+    return w;
+}
+
 /* Mass between the side of wi and the azimuth, of half a turn; `half` = 2 u1 - 1. */
 VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
 {

@@ -93,12 +93,6 @@ VNDF_RARE vndf_vec3 sample_carefully(const vndf_view *view, float half, float u2
     return wm;
 }
 
-VNDF_INLINE vndf_incidence incidence_of(const vndf_view *v)
-{
-    vndf_incidence w = {v->ax, v->ay, v->s, v->c, v->cos_phi, v->sin_phi, v->front, v->wedge, v->spread, v->plain};
-    return w;
-}
-
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
                                      lanes_m *plain)
 {
@@ -120,7 +114,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 {
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
-    vndf_incidence w = incidence_of(view);
+    vndf_incidence w = vndf_incidence_of(view);
     lanes_m plain = view->plain;
     if (!plain)
         return sample_carefully(view, half, u2, pdf);
