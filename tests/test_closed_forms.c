@@ -91,7 +91,7 @@ static double dot(vndf_vec3 a, vndf_vec3 b)
 /* ---- density ---- */
 
 typedef struct findings {
-    double worst;   /* difference of logarithms */
+    double worst;   /* difference of logarithms, vndf_pdf */
     int dark, away; /* views where float has no such density; normals that rounding turned away */
 } findings;
 
@@ -109,7 +109,7 @@ static void check_density(const closed_form *form, const vndf_view *view, float 
     }
     double want = (double)log_visible(form, view, wm);
     if (want > -80.0 && want < 88.0)
-        found->worst = fmax(found->worst, fabs(log((double)pdf) - want));
+        found->worst = fmax(found->worst, fabs(log((double)vndf_pdf(view, wm)) - want));
     else
         found->dark++;
 }

@@ -10,8 +10,7 @@ static int is_found(const vndf_distribution *d, float c, float k, float u)
     uint32_t code = vndf_window_of(d, c, k, u), last = d->radial_count - 1, count = 0, found;
     float total = c * d->f0_total + k * d->f1_total;
     if (k < 0.0f) {
-        lanes_m ready = 1;
-        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &ready);
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
         last = law.cut;
         for (uint32_t j = 0; j <= d->radial_count; j += VNDF_WINDOW)
             count += vndf_radial_count_above(&d->knots, j, c, k, u * total);

@@ -49,6 +49,11 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return copysignf(x, y);
 }
 
+VNDF_INLINE int lanes_any(lanes_m m)
+{
+    return m;
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return 1;
@@ -403,6 +408,12 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 }
 
 #  endif
+
+VNDF_INLINE int lanes_any(lanes_m m)
+{
+    return lanes_mask_bits(m) != 0;
+}
+
 #endif
 
 /* ---- whatever the width ---- */

@@ -161,9 +161,11 @@ static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t firs
 static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
     for (uint32_t n = 0; n < block->left_count; n++) {
-        uint32_t i = block->left[n];
+        uint32_t i = block->left[n] % VNDF_DELICATE;
         vndf_view own = block->view ? *block->view : view_at(b, first + i);
-        vndf_vec3 wm = vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
+        vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
+                           ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
+                           : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
         block->x[i] = wm.x;
         block->y[i] = wm.y;
         block->z[i] = wm.z;

@@ -46,6 +46,16 @@ VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, lanes_m m, uint32_t 
     return count;
 }
 
+/* Those that cannot be drawn here, and those that the call of one would draw and then do carefully. */
+VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
+{
+    b->left_count = append(b->left, b->left_count, unready, first, b->count);
+    uint32_t from = b->left_count;
+    b->left_count = append(b->left, from, delicate, first, b->count);
+    for (; from < b->left_count; from++)
+        b->left[from] |= VNDF_DELICATE;
+}
+
 /* Of samples from `i` on; plain only where a view in float is good enough. */
 VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, float scale)
 {
@@ -112,9 +122,8 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
         lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
         vndf_drawn n = vndf_draw_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &plain);
         store(b, g * VNDF_LANES, &n);
-        lanes_m wedge = lanes_without(usable, front), good = lanes_either(plain, wedge);
-        w->wedge_count = append(w->wedge, w->wedge_count, wedge, g * VNDF_LANES, b->count);
-        b->left_count = append(b->left, b->left_count, lanes_without(lanes_all(), good), g * VNDF_LANES, b->count);
+        w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
+        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain), g * VNDF_LANES);
     }
 }
 
@@ -128,7 +137,7 @@ VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_blo
         w->half[g] = gathered(from->half, sizeof *from->half, index);
         w->u2[g] = gathered(from->u2, sizeof *from->u2, index);
         w->plain[g] = lanes_all();
-        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c, &w->plain[g]);
+        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c);
         w->part[g] = vndf_wedge_part(lanes_abs(w->half[g]), w->at[g].front, w->at[g].wedge);
     }
 }
@@ -148,7 +157,7 @@ VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t c
         b->y[to] = out[1][lane];
         b->z[to] = out[2][lane];
         b->density[to] = out[3][lane];
-        b->left[b->left_count] = to;
+        b->left[b->left_count] = to | VNDF_DELICATE;
         b->left_count += !(bits >> lane & 1);
     }
 }
@@ -160,7 +169,7 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
         w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
     for (uint32_t g = 0; g < groups; g++)
         w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->row[g], w->part[g], w->count[g], w->half[g], w->u2[g],
-                                        &w->law[g], &w->plain[g]);
+                                        &w->law[g]);
     for (uint32_t g = 0; g < groups; g++)
         w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
@@ -183,7 +192,7 @@ VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
         lanes_m plain = lanes_all();
         vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)), &plain);
         store(b, i, &n);
-        b->left_count = append(b->left, b->left_count, lanes_without(lanes_all(), plain), i, b->count);
+        leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
     }
 }
 

@@ -13,14 +13,14 @@
 #  define VNDF_HAS_LANES 0
 #endif
 
-enum { VNDF_BLOCK_SAMPLES = 256 };
+enum { VNDF_BLOCK_SAMPLES = 256, VNDF_DELICATE = 1 << 16 };
 
 /* Samples of a block: what they are given, arrays that lanes may read to the end of the last group; what is drawn. */
 typedef struct vndf_sample_block {
     const float *alpha_x, *alpha_y, *wi_x, *wi_y, *wi_z, *u1, *u2;
     const vndf_view *view;             /* of all, then alpha and wi are not read; or NULL */
     uint32_t count, left_count;
-    uint32_t left[VNDF_BLOCK_SAMPLES]; /* indices of those that are not drawn */
+    uint32_t left[VNDF_BLOCK_SAMPLES]; /* indices of those that are not drawn, VNDF_DELICATE added if that was tried */
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
 } vndf_sample_block;
 

@@ -152,11 +152,11 @@ VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_in
 /* From the row, the part of its mass and the count of its cells before that; *law is not scaled yet. */
 VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
                                          const vndf_azimuth_row *row, lanes_f part, lanes_u count, lanes_f half,
-                                         lanes_f u2, vndf_radial_law *law, lanes_m *plain)
+                                         lanes_f u2, vndf_radial_law *law)
 {
     vndf_azimuth a = vndf_azimuth_draw(row, count, part);
     lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c, total;
-    *law = vndf_radial_law_above(d, c, k, &total, plain);
+    *law = vndf_radial_law_above(d, c, k, &total);
     vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half), cosine, c, k,
                       total, a.density * w->wedge, vndf_window_of(d, c, k, u2)};
     return b;

@@ -42,21 +42,18 @@ typedef struct vndf_radial_law {
 
 /* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
 typedef struct vndf_radial_lanes {
-    lanes_f f0, f1, mu0, mu1, a, b, width, calm, x0, x1, z0, z1, before0, before1, e, g;
+    lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, calm, a, b, e, g;
 } vndf_radial_lanes;
 
+/* What is not used of it is not loaded. */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-#if VNDF_LANES == 1
-    const vndf_radial_cell *c = &d->cells[j];
-    vndf_radial_lanes cell = {c->f0, c->f1, c->mu0, c->mu1, c->a, c->b, c->width, c->calm,
-                              c->x0, c->x1, c->z0, c->z1, c->before0, c->before1, c->e, c->g};
+    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
+    lanes_four f = lanes_load_four(&lines, 0), knots = lanes_load_four(&lines, 4);
+    lanes_four whole = lanes_load_four(&lines, 8), cut = lanes_load_four(&lines, 12);
+    vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
+                              whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
     return cell;
-#else
-    vndf_radial_lanes cell;
-    lanes_load_lines(&d->cells->f0, j, &cell.f0);
-    return cell;
-#endif
 }
 
 /* f at xi from the cubic. */
@@ -121,11 +118,10 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, la
 }
 
 /* c > 0 > k; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total,
-                                                  lanes_m *found)
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
 {
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k, found);
+    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
     lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;

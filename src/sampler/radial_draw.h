@@ -75,8 +75,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d,
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d, float c, float k, float u)
 {
     float total;
-    lanes_m found = 1;
-    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
     uint32_t j = vndf_radial_find_above(d, vndf_window_of(d, c, k, u), c, k, u * total);
     j = j < law.cut ? j : law.cut;
     law = vndf_radial_scaled(law, total);

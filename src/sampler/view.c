@@ -108,6 +108,15 @@ static vndf_vec3 sample_closed_carefully(const vndf_view *view, float u1, float 
     return wm;
 }
 
+vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return vndf_engine_sample_carefully(view, u1, u2, pdf);
+    return sample_closed_carefully(view, u1, u2, pdf);
+}
+
 static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_incidence w = vndf_incidence_of(view);

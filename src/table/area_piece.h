@@ -5,7 +5,7 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
-#include "math/lanes.h"
+#include "math/lanes_lines.h"
 #include "table/table.h"
 
 typedef struct vndf_area_knot {
@@ -43,12 +43,10 @@ VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER],
 /* In float, within 6e-7 of the mass but for the rounding of y: piece i. */
 VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y)
 {
-    const float *b = piece->coefficient;
-    lanes_u at = i * 8u;
-    lanes_f t = (y - lanes_gather(b + 6, at)) * lanes_gather(b + 7, at);
-    lanes_f u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
-    lanes_f low = uu * lanes_gather(b, at) + (ut * lanes_gather(b + 1, at) + tt * lanes_gather(b + 2, at));
-    lanes_f high = uu * lanes_gather(b + 3, at) + (ut * lanes_gather(b + 4, at) + tt * lanes_gather(b + 5, at));
+    lanes_lines lines = lanes_lines_at(piece->coefficient, sizeof *piece / sizeof(float), i);
+    lanes_four from = lanes_load_four(&lines, 0), to = lanes_load_four(&lines, 4);
+    lanes_f t = (y - to.c) * to.d, u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
+    lanes_f low = uu * from.a + (ut * from.b + tt * from.c), high = uu * from.d + (ut * to.a + tt * to.b);
     return uu * u * low + tt * t * high;
 }
 

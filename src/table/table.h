@@ -51,10 +51,11 @@ typedef struct vndf_knots {
 /* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. Beside it
  * what the sampler wants of its knots: 64 bytes, a line of the cache, all floats. */
 typedef struct vndf_radial_cell {
-    float f0, f1, mu0, mu1, a, b, width;
-    float calm;           /* 1 if the density changes little in it for every law with c, k >= 0 (sampler/radial.h) */
-    float x0, x1, z0, z1; /* the knots */
-    float before0, before1, e, g; /* sums up to the first (vndf_knots): F0, F1, e, g */
+    float f0, f1, mu0, mu1;
+    float x0, x1, z0, z1;        /* the knots */
+    float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h) */
+    float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
 
 /* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
