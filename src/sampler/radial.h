@@ -173,44 +173,51 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
     return w.first;
 }
 
-/* The cell in which the mass `target` ends, by its window. */
-VNDF_INLINE uint32_t vndf_radial_find_whole(const vndf_distribution *d, uint32_t code, float c, float k,
-                                            float target)
+/* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */
+VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k, float target,
+                                          int whole)
 {
     vndf_window w = vndf_window_from(code);
     if (w.step > 1)
         w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
-    return w.first + vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target);
+    return w.first + (whole ? vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target)
+                            : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-VNDF_INLINE uint32_t vndf_radial_find_above(const vndf_distribution *d, uint32_t code, float c, float k,
-                                            float target)
-{
-    vndf_window w = vndf_window_from(code);
-    if (w.step > 1)
-        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
-    return w.first + vndf_radial_count_above(&d->knots, w.first + 1, c, k, target);
-}
+#if VNDF_LANES == 1
 
-/* All lanes, one after the other; `whole` for c, k >= 0, else c > 0 > k. */
 VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
                                      int whole)
 {
-#if VNDF_LANES == 1
-    return whole ? vndf_radial_find_whole(d, code, c, k, target) : vndf_radial_find_above(d, code, c, k, target);
+    return vndf_radial_find_one(d, code, c, k, target, whole);
+}
+
 #else
-    uint32_t codes[VNDF_LANES];
+
+/* All lanes, one after the other: the wide windows first, which are few. */
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
+                                     int whole)
+{
+    const vndf_knots knots = d->knots;
+    uint32_t first[VNDF_LANES], found[VNDF_LANES];
     float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
-    lanes_store_u(codes, code);
+    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
+    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
+    lanes_store_u(first, code);
     lanes_store(cs, c);
     lanes_store(ks, k);
     lanes_store(targets, target);
+    for (; wide != 0; wide &= wide - 1) {
+        int i = __builtin_ctz(wide);
+        first[i] = vndf_radial_narrow(&knots, vndf_window_from(first[i]), cs[i], ks[i], targets[i]);
+    }
     for (int i = 0; i < VNDF_LANES; i++)
-        codes[i] = whole ? vndf_radial_find_whole(d, codes[i], cs[i], ks[i], targets[i])
-                         : vndf_radial_find_above(d, codes[i], cs[i], ks[i], targets[i]);
-    return lanes_load_u(codes);
-#endif
+        found[i] = first[i] + (whole ? vndf_radial_count_whole(&knots, first[i] + 1, cs[i], ks[i], targets[i])
+                                     : vndf_radial_count_above(&knots, first[i] + 1, cs[i], ks[i], targets[i]));
+    return lanes_load_u(found);
 }
+
+#endif
 
 /* ---- where the density of a place is that of its rounded normal ---- */
 

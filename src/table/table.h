@@ -28,7 +28,8 @@ enum {
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
     VNDF_WINDOW = 8,         /* above the horizon by a window of so many (table/window.h), */
-    VNDF_RANGES = 64,        /* one for each of this many ranges of u */
+    VNDF_RANGES = 94,        /* one for each of this many ranges of u */
+    VNDF_RANGES_END = 16,    /* the first and last so many are half octaves of u and of 1 - u */
     VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
