@@ -424,6 +424,12 @@ VNDF_INLINE lanes_f lanes_positive(lanes_f x)
     return lanes_pick(lanes_less(lanes_set(0.0f), x), x, lanes_set(0.0f));
 }
 
+/* min(a, b), b for NaN. */
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return lanes_pick(lanes_less(a, b), a, b);
+}
+
 /* min(x, most), most for NaN. */
 VNDF_INLINE lanes_f lanes_limit(lanes_f x, float most)
 {

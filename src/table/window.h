@@ -32,8 +32,9 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
 {
     const float end = 0x1p-6f;
     lanes_f rest = 1.0f - u;
-    lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), lanes_pick(low, u, rest));
-    lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_limit(lanes_pick(low, u, rest), end));
+    lanes_f near = lanes_least(u, rest); /* to an end */
+    lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), near);
+    lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_limit(near, end));
     lanes_u half_octave = lanes_limit_u(apart >> 22, lanes_set_u(VNDF_RANGES_END - 1));
     lanes_u outer = lanes_pick_u(low, VNDF_RANGES_END - 1u - half_octave, VNDF_RANGES - VNDF_RANGES_END + half_octave);
     return lanes_pick_u(inner, lanes_whole(u * 64.0f) + (VNDF_RANGES_END - 1u), outer);
