@@ -134,6 +134,12 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return base[index];
 }
 
+/* One of sixteen numbers, in registers. */
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    return table[index];
+}
+
 #else
 
 #  include <immintrin.h>
@@ -279,6 +285,11 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
 
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
+}
+
 #  else
 
 VNDF_INLINE lanes_f lanes_set(float x)
@@ -405,6 +416,13 @@ VNDF_INLINE lanes_u lanes_gather_u(const uint32_t *base, lanes_u index)
 VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 {
     return (lanes_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 2) & 0xffffu;
+}
+
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+    __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), (__m256i)index);
+    return _mm256_blendv_ps(low, high, _mm256_castsi256_ps((__m256i)(index << 28)));
 }
 
 #  endif

@@ -187,9 +187,9 @@ static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view),
                                           !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
-    float width, xi = place_in_row(&row, cos_phi, sin_phi, &j);
-    vndf_rational_cell cell = vndf_azimuth_cell(&row, j, &width);
-    return vndf_azimuth_before(&row, j) + vndf_rational_cdf(&cell, xi);
+    float xi = place_in_row(&row, cos_phi, sin_phi, &j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
+    return cell.before + vndf_rational_cdf(&cell.cell, xi);
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */

@@ -34,6 +34,7 @@ enum {
     VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
+    VNDF_FEW = 16,           /* so many numbers are looked up in registers */
     VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
 
@@ -77,6 +78,11 @@ typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
 
+/* A cell of a row as the sampler wants it: 16 bytes. */
+typedef struct vndf_row_cell {
+    float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
+} vndf_row_cell;
+
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
@@ -93,6 +99,8 @@ typedef struct vndf_wedge {
     float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
+    float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
