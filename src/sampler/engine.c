@@ -85,7 +85,7 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
     vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
     float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
     float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
-    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
+    vndf_vec3 wm = vndf_vec3_of(x * level.x * per, x * level.y * per, z * per);
     if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
@@ -127,8 +127,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
-    vndf_vec3 wm = {n.x, n.y, n.z};
-    return wm;
+    return vndf_vec3_of(n.x, n.y, n.z);
 }
 
 /* ---- inverse ---- */
