@@ -11,7 +11,7 @@
  * over the samples. Where the density told is not the one drawn, histograms of the samples and of the truth's are
  * compared instead, half the sum of differences: with 384 bins that floors at some 0.005.
  *
- * Points are Hammersley's in replicates of 4096 with random shifts: means converge fast, their noise is seen from
+ * Points are Hammersley's in replicates of 1024 with random shifts: means converge fast, their noise is seen from
  * replicate to replicate, and the variance of one sample is what it is. */
 #include <math.h>
 #include <stdlib.h>
@@ -128,12 +128,12 @@ static void add_block(const integral *x, sums *s)
 
 static void run_blocks(const integral *x, sums *s, size_t replicates)
 {
-    method_inputs in = bench_block_inputs(x->block);
     method_outputs out = bench_block_outputs(x->block);
     memset(s, 0, sizeof *s);
     bench_block_aim(x->block, x->wi, x->alpha);
     for (size_t i = 0; i < replicates; i++) {
         bench_block_spread(x->block, 77 + i);
+        method_inputs in = bench_block_inputs(x->block);
         x->m->each(x->m, &in, &out);
         add_block(x, s);
     }

@@ -83,7 +83,7 @@ static inline method_inputs caps_rest_load(caps_rest *rest, const method_inputs 
         for (size_t j = 0; j < LANES; j++)
             rest->in[k][j] = from[k][k < shared ? 0 : i + j < in->count ? i + j : i];
     return (method_inputs){LANES, rest->in[0], rest->in[1], rest->in[2], rest->in[3], rest->in[4], rest->in[5],
-                           NULL, NULL, NULL};
+                           NULL, NULL, NULL, NULL, NULL};
 }
 
 static inline void caps_rest_store(const caps_rest *rest, const method_outputs *out, size_t i, size_t count)

@@ -86,9 +86,9 @@ static void fill_cdf(radial_cdf *t, const method_truth *truth, double *mass)
 static void each_ggx(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_ggx(m, &at, &pdf);
+        vndf_vec3 wm = draw_ggx(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -96,9 +96,9 @@ static void each_ggx(const method *m, const method_inputs *in, const method_outp
 static void each_beckmann(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_beckmann(m, &at, &pdf);
+        vndf_vec3 wm = draw_beckmann(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -106,9 +106,9 @@ static void each_beckmann(const method *m, const method_inputs *in, const method
 static void each_any(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_any(m, &at, &pdf);
+        vndf_vec3 wm = draw_any(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
