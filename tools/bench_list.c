@@ -28,7 +28,12 @@ static int wanted(const bench_plan *plan, const char *method_name, const char *s
            strstr(instructions, plan->only);
 }
 
-static void describe(bench_entry *e, const char *subject)
+static const char *distribution_name(const bench_list *list, bench_subject subject, const method *m)
+{
+    return m->kind == BENCH_MOVE ? "-" : list->name[subject];
+}
+
+static void describe(bench_entry *e, const char *distribution)
 {
     bench_row *row = &e->row;
     *row = (bench_row){.kind = e->m.kind, .bytes = e->m.bytes};
@@ -36,14 +41,15 @@ static void describe(bench_entry *e, const char *subject)
     row->tv = row->tv_theta = row->max_weight = row->efficiency_light = NAN;
     row->efficiency[0] = row->efficiency[1] = row->bias[0] = row->bias[1] = NAN;
     snprintf(row->method, sizeof row->method, "%s", e->m.name);
-    snprintf(row->distribution, sizeof row->distribution, "%s", e->m.kind == BENCH_MOVE ? "-" : subject);
+    snprintf(row->distribution, sizeof row->distribution, "%s", distribution);
     snprintf(row->instructions, sizeof row->instructions, "%s", e->m.instructions);
 }
 
 /* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
 static void add(bench_list *list, const bench_plan *plan, bench_subject subject, method m, int yardstick)
 {
-    int shown = wanted(plan, m.name, list->name[subject], m.instructions);
+    const char *distribution = distribution_name(list, subject, &m);
+    int shown = wanted(plan, m.name, distribution, m.instructions);
     if (!m.each || !(shown || yardstick) || list->count == BENCH_ENTRIES_MAX) {
         if (m.release && m.state)
             m.release((void *)m.state);
@@ -51,7 +57,7 @@ static void add(bench_list *list, const bench_plan *plan, bench_subject subject,
     }
     bench_entry *e = &list->entry[list->count++];
     *e = (bench_entry){.m = m, .subject = subject, .shown = shown};
-    describe(e, list->name[subject]);
+    describe(e, distribution);
 }
 
 static void add_ours(bench_list *list, const bench_plan *plan, bench_subject subject, const vndf_distribution *d,
