@@ -135,12 +135,24 @@ static int complete(const vndf_distribution *table, size_t limit)
     return vndf_distribution_info(table).bytes < limit / 10 * 7;
 }
 
+/* That which the caller has built under this limit; NULL if there is none. */
+static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
+{
+    for (size_t i = 0; i < plan->ready_count; i++)
+        if (plan->ready_limits[i] == bytes)
+            return plan->ready[i];
+    return NULL;
+}
+
 static vndf_status build_tables(bench_list *list, const bench_clock *at, size_t fine, int any, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
         if (!(any && i == fine) && !table_wanted(list, at->plan, i))
             continue;
-        vndf_distribution *table = build(at, tables[i].bytes, error);
+        const vndf_distribution *table = list->borrowed ? find_ready(at->plan, tables[i].bytes)
+                                                        : build(at, tables[i].bytes, error);
+        if (!table && list->borrowed)
+            continue;
         if (!table)
             return error->status;
         size_t slot = list->table_count++;
@@ -205,7 +217,7 @@ static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
 
 vndf_status bench_list_make(bench_list *list, const bench_clock *at, vndf_error *error)
 {
-    *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}};
+    *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}, .borrowed = at->plan->ready_count > 0};
     list->truth[BENCH_GGX] = truth_of(vndf_ggx(), 1);
     list->truth[BENCH_BECKMANN] = truth_of(vndf_beckmann(), 1);
     add_ggx(list, at->plan);
@@ -225,8 +237,8 @@ void bench_list_free(bench_list *list)
     for (size_t i = 0; i < list->count; i++)
         if (list->entry[i].m.release && list->entry[i].m.state)
             list->entry[i].m.release((void *)list->entry[i].m.state);
-    for (size_t i = 0; i < list->table_count; i++)
-        vndf_free(list->table[i]);
+    for (size_t i = 0; i < list->table_count && !list->borrowed; i++)
+        vndf_free((vndf_distribution *)list->table[i]);
     list->count = list->table_count = 0;
 }
 
