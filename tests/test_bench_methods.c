@@ -1,6 +1,6 @@
 /* The methods that the benchmark sets ours against are what they are said to be: the exact ones draw the visible
- * normals of GGX and Beckmann (chi-square and Kolmogorov-Smirnov, fixed seeds, chance of a false alarm 1e-6 for each),
- * those for any D tell the density with which they draw, and tables of inverse CDFs are biased. */
+ * normals of GGX and Beckmann (chi-square and Kolmogorov-Smirnov, fixed seeds, chance of a false alarm 1e-6 for
+ * each), those for any D tell the density with which they draw, and tables of inverse CDFs are biased. */
 #include <stdlib.h>
 
 #include "bench_parts.h"
@@ -115,7 +115,7 @@ static double law_of_beckmann(double slope2)
     return 1 - exp(-slope2);
 }
 
-/* Kolmogorov-Smirnov of one block's slopes; the density told is that of D cos, or on average the normalised one. */
+/* Kolmogorov-Smirnov of one block's slopes; the density told is that of D cos, within the tolerance. */
 static void test_all_normals(method m, const vndf_surface *surface, double law(double), double density_tolerance)
 {
     static double value[BENCH_BLOCK];
@@ -227,7 +227,8 @@ static void test_fresnel(void)
 {
     TEST_NEAR(bench_fresnel(1, 0.43, 2.455), (0.57 * 0.57 + 2.455 * 2.455) / (1.43 * 1.43 + 2.455 * 2.455), 1e-14);
     TEST_NEAR(bench_fresnel(0, 0.43, 2.455), 1, 1e-14);
-    TEST_NEAR(bench_fresnel(1 / sqrt(1 + 2.25), 1.5, 0), 0.5 * (1.25 / 3.25) * (1.25 / 3.25), 1e-14); /* Brewster */
+    double brewster = 1 / sqrt(1 + 2.25), across = 1.25 / 3.25;
+    TEST_NEAR(bench_fresnel(brewster, 1.5, 0), 0.5 * across * across, 1e-14);
 }
 
 /* ---- verification ------------------------------------------------------------------------------ */
@@ -278,14 +279,19 @@ static vndf_distribution *table_of(const vndf_source *source, size_t bytes)
     return vndf_build(source, &options, NULL, NULL);
 }
 
+static method_truth truth_of(const vndf_distribution *d)
+{
+    float scale = (float)vndf_distribution_info(d).scale;
+    return (method_truth){{d, 1 / scale, 1 / scale}, scale};
+}
+
 static void test_any(void)
 {
     vndf_source *source = vndf_source_family("student-t:2.5", NULL), *ggx = vndf_source_family("ggx", NULL);
-    vndf_distribution *fine = table_of(source, 16384), *small = table_of(source, 2048), *same = table_of(ggx, 16384);
+    vndf_distribution *fine = table_of(source, 16384), *small = table_of(source, 2048);
+    vndf_distribution *same = table_of(ggx, 16384);
     if (TEST(fine && small && same)) {
-        float scale = (float)vndf_distribution_info(fine).scale, scale_ggx = (float)vndf_distribution_info(same).scale;
-        method_truth truth = {{fine, 1 / scale, 1 / scale}, scale};
-        method_truth truth_ggx = {{same, 1 / scale_ggx, 1 / scale_ggx}, scale_ggx};
+        method_truth truth = truth_of(fine), truth_ggx = truth_of(same);
         method normals = method_any_all_normals(&truth_ggx);
         test_all_normals(normals, &(vndf_surface){same, 0.5f, 0.5f}, law_of_ggx, 0.5);
         release(&normals);

@@ -7,10 +7,11 @@
  * of gold at 550 nm, n = 0.43, k = 2.455 (P. Johnson, R. Christy, Phys. Rev. B 6, 1972). The same where wo falls
  * into a cone of 5 degrees and 0 elsewhere is that of a small light's radiance. D and Lambda are the truth's.
  *
- * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of max(0, 1 - Dv/p)
- * over the samples. Where the density told is not the one drawn, histograms of the samples and of the truth's are
- * compared instead, half the sum of differences: with 384 bins and 64 replicates that floors at some 0.007, and the
- * largest weight, over bins that hold samples enough, at 1.1. A hole is a bin that no sample meets: infinite weight.
+ * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of
+ * max(0, 1 - Dv/p) over the samples. Where the density told is not the one drawn, histograms of the samples and of
+ * the truth's are compared instead, half the sum of differences: with 384 bins and 64 replicates that floors at
+ * some 0.007, and the largest weight, over bins that hold samples enough, at 1.1. A hole is a bin that no sample
+ * meets: infinite weight.
  *
  * Points are Hammersley's in replicates of 1024 with random shifts: means converge fast, their noise is seen from
  * replicate to replicate, and the variance of one sample is what it is. */
@@ -45,7 +46,8 @@ double bench_fresnel(double cosine, double n, double k)
     double c = fmin(fabs(cosine), 1), s2 = 1 - c * c, t = n * n - k * k - s2;
     double square = sqrt(t * t + 4 * n * n * k * k), a = sqrt(fmax(0.5 * (square + t), 0));
     double across = (square - 2 * a * c + c * c) / (square + 2 * a * c + c * c);
-    double along = across * (square * c * c - 2 * a * c * s2 + s2 * s2) / (square * c * c + 2 * a * c * s2 + s2 * s2);
+    double sum = square * c * c + s2 * s2, cross = 2 * a * c * s2;
+    double along = across * (sum - cross) / (sum + cross);
     return 0.5 * (across + along);
 }
 
@@ -54,7 +56,8 @@ double bench_fresnel(double cosine, double n, double k)
 static double dot_of(const integral *x, size_t i)
 {
     const bench_block *b = x->block;
-    return (double)b->x[i] * (double)x->wi.x + (double)b->y[i] * (double)x->wi.y + (double)b->z[i] * (double)x->wi.z;
+    return (double)b->x[i] * (double)x->wi.x + (double)b->y[i] * (double)x->wi.y +
+           (double)b->z[i] * (double)x->wi.z;
 }
 
 static void mirror(const integral *x)
@@ -194,7 +197,8 @@ int bench_integrate(const method *m, const method_truth *truth, double theta, si
                     bench_findings *findings)
 {
     const double degree = acos(-1.0) / 180;
-    integral x = {.m = m, .truth = *truth, .wi = direction_from(theta, 0), .light = direction_from(theta - 15, 160)};
+    integral x = {.m = m, .truth = *truth, .wi = direction_from(theta, 0)};
+    x.light = direction_from(fabs(theta - 15), 160);
     x.alpha = (float)alpha_measured / truth->scale;
     x.cone = (float)cos(5 * degree);
     vndf_surface surface = {truth->canonical.distribution, x.alpha, x.alpha};

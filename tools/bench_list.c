@@ -16,8 +16,9 @@ static const struct {
 
 enum { DEFAULT_TABLE = 2, FINE_TABLE = 3 };
 
-static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE, VNDF_INSTRUCTIONS_AVX2,
-                                         VNDF_INSTRUCTIONS_AVX512};
+/* The first stands for the scalar calls. */
+static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
+                                         VNDF_INSTRUCTIONS_AVX2, VNDF_INSTRUCTIONS_AVX512};
 enum { SETS = sizeof sets / sizeof *sets };
 
 /* ---- entries ----------------------------------------------------------------------------------- */
@@ -198,7 +199,8 @@ static int any_shown(const bench_list *list)
 /* Names that any row of the user's distribution may have: without one of them, no table is built. */
 static int user_wanted(const bench_list *list, const bench_plan *plan)
 {
-    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|inverse CDFs (2014), 2 x 256^2|"
+    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|"
+                        "inverse CDFs (2014), 2 x 256^2|"
                         "inverse CDFs (2014), 2 x 1024^2|bilinear warps, 8 x 32^2|bilinear warps, 8 x 128^2";
     for (size_t i = 0; i < BENCH_TABLES; i++)
         if (table_wanted(list, plan, i))
@@ -210,8 +212,8 @@ static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
 {
     bench_list_free(list);
     error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(error->message, sizeof error->message, "no method, distribution or instruction set has '%s' in its name",
-             only);
+    snprintf(error->message, sizeof error->message,
+             "no method, distribution or instruction set has '%s' in its name", only);
     return VNDF_ERROR_ARGUMENT;
 }
 

@@ -16,8 +16,8 @@ static const char *const headings[COLUMNS] = {"bytes", "ns", "quartiles", "share
 
 static const char legend[] =
     "ns: view, sample and density, a direction each (median of turns, quartiles); shared: many samples for one\n"
-    "direction; latency: each waits for the last; ratio: to spherical caps, scalar. TV: largest total variation to\n"
-    "the true visible normals; max weight: true over drawn density. eff: 1/(variance time) over that of all\n"
+    "direction; latency: each waits for the last; ratio: to spherical caps, scalar. TV: largest total variation\n"
+    "to the true visible normals; max weight: true over drawn density. eff: 1/(variance time) over that of all\n"
     "normals, for the albedo of gold at 60 and 85 degrees and under a small light; bias of the albedo.\n";
 
 /* A dash for what does not apply. */
@@ -150,8 +150,8 @@ static const char *kind_name(bench_kind kind)
 
 void bench_print_csv(FILE *file, const bench_rows *rows)
 {
-    fputs("method,distribution,instructions,kind,bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,tv_theta,"
-          "max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n", file);
+    fputs("method,distribution,instructions,kind,bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,"
+          "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n", file);
     for (size_t i = 0; i < rows->count; i++) {
         const bench_row *r = &rows->row[i];
         const double numbers[] = {r->ns, r->ns_low, r->ns_high, r->shared_ns, r->latency_ns, r->ratio, r->tv,

@@ -11,7 +11,7 @@ enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 /* Degrees; the first two are those of the albedo, the first that of the small light. */
 static const double angles[ANGLES] = {60, 85, 0, 30, 75, 89};
 
-static const double noise_limit = 6; /* standard errors, of 15 to 63 degrees of freedom, that a bias has to exceed */
+static const double noise_limit = 6; /* standard errors, of 15 to 63 degrees of freedom, that show a bias */
 
 /* Variances by subject and method that efficiencies are made of, until times are known. */
 typedef struct worth {

@@ -13,9 +13,10 @@ typedef struct disc_view {
 static inline disc_view view_from(vndf_vec3 wi, float alpha)
 {
     float x = alpha * wi.x, y = alpha * wi.y, length = sqrtf(x * x + y * y + wi.z * wi.z);
-    disc_view v = {wi, {x / length, y / length, wi.z / length}, {1, 0, 0}, {0, 1, 0}, alpha, 2.0f / (wi.z + length),
-                   0};
+    disc_view v = {.wi = wi, .w = {x / length, y / length, wi.z / length}, .t1 = {1, 0, 0}, .t2 = {0, 1, 0}};
     float across = v.w.x * v.w.x + v.w.y * v.w.y;
+    v.alpha = alpha;
+    v.per_area = 2.0f / (wi.z + length);
     v.squeeze = 0.5f * (1.0f + v.w.z);
     if (across > 0) {
         float per_across = 1.0f / sqrtf(across);

@@ -1,16 +1,16 @@
 /* A bilinear warp of the unit square per incident direction, as renderers have for measured materials: J. Dupuy,
  * W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", TOG 37(6), 2018.
  * Visible normals from SLICES directions are tabulated over (p, q), theta_m = p^2 pi/2 and azimuth from wi
- * (2 q - 1) pi, as densities on the square at side x side nodes with a bilinear interpolant between. The marginal of
- * p is then piecewise linear, the conditional of q at any p too: both are drawn by a binary search of their CDFs
- * and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
+ * (2 q - 1) pi, as densities on the square at side x side nodes with a bilinear interpolant between. The marginal
+ * of p is then piecewise linear, the conditional of q at any p too: both are drawn by a binary search of their
+ * CDFs and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
  *
  * The density told is that of the interpolant, the one with which is drawn. Against true visible normals it is
  * off, by direction and by the horizon, where normals may face away; where it is 0 and the truth is not, nothing
  * can be done.
  *
- * Departures: renderers have a table per material and neither roughness nor stretch; here it is a table of the unit
- * problem at median slope 1, and roughness stretches. Only even directions from 0 to 90 degrees of that problem. */
+ * Departures: renderers have a table per material and neither roughness nor stretch; here it is a table of the
+ * unit problem at median slope 1, and roughness stretches. Its directions are even, from 0 to 90 degrees. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -109,7 +109,7 @@ static inline size_t cell_of(const mix *x, size_t side, float value)
     return low;
 }
 
-/* The part of a cell below which `rest` of the integral lies, of a density linear from a to b, cells of length 1. */
+/* The part of a cell of length 1 below which `rest` of the integral lies, the density linear from a to b. */
 static inline float part_of(float a, float b, float rest)
 {
     float root = sqrtf(fmaxf(0.0f, a * a + 2.0f * rest * (b - a)));
