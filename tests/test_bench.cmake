@@ -89,7 +89,7 @@ foreach(line IN LISTS lines)
     if(line MATCHES "^[|]")
         string(REGEX MATCHALL "[|]" bars "${line}")
         list(LENGTH bars bar_count)
-        expect("${line} has ${bar_count} bars, not 17" bar_count EQUAL 17)
+        expect("${line} has ${bar_count} bars, not 16" bar_count EQUAL 16)
     endif()
 endforeach()
 foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"

@@ -5,7 +5,9 @@
  *     F(wi.wm) D(wm) G2(wi, wo) (wi.wm) / (wi.z pdf)      is an estimate of the albedo              (1)
  *
  * of gold at 550 nm, n = 0.43, k = 2.455 (P. Johnson, R. Christy, Phys. Rev. B 6, 1972). The same where wo falls
- * into a cone of 5 degrees and 0 elsewhere is that of a small light's radiance. D and Lambda are the truth's.
+ * into a cone of 5 degrees and 0 elsewhere is that of a small light's radiance. D and Lambda are the truth's. What
+ * (1) takes beside its normal and density costs all methods the same, and is no part of the time that efficiencies
+ * count.
  *
  * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of
  * max(0, 1 - Dv/p) over the samples. Where the density told is not the one drawn, histograms of the samples and of

@@ -130,12 +130,6 @@ static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 
-/* A table that stays far below what it may have is the best there is: larger limits give the same once more. */
-static int complete(const vndf_distribution *table, size_t limit)
-{
-    return vndf_distribution_info(table).bytes < limit / 10 * 7;
-}
-
 /* That which the caller has built under this limit; NULL if there is none. */
 static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
 {
@@ -145,26 +139,50 @@ static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
     return NULL;
 }
 
-static vndf_status build_tables(bench_list *list, const bench_clock *at, size_t fine, int any, vndf_error *error)
+static vndf_status table_at(const bench_list *list, const bench_clock *at, size_t i,
+                            const vndf_distribution **table, vndf_error *error)
+{
+    *table = list->borrowed ? find_ready(at->plan, tables[i].bytes) : build(at, tables[i].bytes, error);
+    return *table || list->borrowed ? VNDF_OK : error->status;
+}
+
+/* A larger limit that bought nothing: the table before once more. */
+static int repeats(const bench_list *list, const vndf_distribution *table)
+{
+    const vndf_distribution *last = list->table_count ? list->table[list->table_count - 1] : NULL;
+    return last && vndf_distribution_info(last).bytes == vndf_distribution_info(table).bytes;
+}
+
+static void keep(bench_list *list, const bench_plan *plan, const vndf_distribution *table, size_t i)
+{
+    if (repeats(list, table)) {
+        if (!list->borrowed)
+            vndf_free((vndf_distribution *)table);
+        return;
+    }
+    list->table[list->table_count++] = table;
+    add_ours(list, plan, BENCH_USER, table, tables[i].name);
+    if (i == DEFAULT_TABLE)
+        add_calls(list, plan, table);
+}
+
+/* Those that are wanted, and that which is to be the truth. */
+static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
-        if (!(any && i == fine) && !table_wanted(list, at->plan, i))
-            continue;
-        const vndf_distribution *table = list->borrowed ? find_ready(at->plan, tables[i].bytes)
-                                                        : build(at, tables[i].bytes, error);
-        if (!table && list->borrowed)
-            continue;
-        if (!table)
-            return error->status;
-        size_t slot = list->table_count++;
-        list->table[slot] = table;
-        add_ours(list, at->plan, BENCH_USER, table, tables[i].name);
-        if (i == DEFAULT_TABLE)
-            add_calls(list, at->plan, table);
-        if (complete(table, tables[i].bytes))
-            break;
+        const vndf_distribution *table = NULL;
+        vndf_status status = VNDF_OK;
+        if (i == fine || table_wanted(list, at->plan, i))
+            status = table_at(list, at, i, &table, error);
+        if (status != VNDF_OK)
+            return status;
+        if (table)
+            keep(list, at->plan, table, i);
     }
-    return VNDF_OK;
+    if (list->table_count)
+        return VNDF_OK;
+    snprintf(error->message, sizeof error->message, "none of the tables that are ready has a size that is timed");
+    return error->status = VNDF_ERROR_ARGUMENT;
 }
 
 /* ---- all of it --------------------------------------------------------------------------------- */
@@ -179,7 +197,7 @@ static method_truth truth_of(const vndf_distribution *d, double scale)
 static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error *error)
 {
     size_t fine = at->plan->seconds < 10 ? DEFAULT_TABLE : FINE_TABLE;
-    vndf_status status = build_tables(list, at, fine, 1, error);
+    vndf_status status = add_tables(list, at, fine, error);
     if (status != VNDF_OK)
         return status;
     const vndf_distribution *finest = list->table[list->table_count - 1];
