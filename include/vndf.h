@@ -154,6 +154,7 @@ typedef struct vndf_view {
     float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
     float area, spread;            /* projected area of the unit problem; times ax ay */
     int plain;                     /* densities may be formed in float */
+    double whole, line;            /* Beckmann: what its inversion wants of the direction */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the

@@ -30,7 +30,7 @@ VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay,
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
     vndf_aim aim = {(float)w.s, (float)w.c, across > 0.0 ? (float)(w.x * per) : 1.0f, (float)(w.y * per), 0, 0, 0};
     if (d->kind != VNDF_KIND_TABLE) {
-        aim.area = (float)vndf_unit_area(d, w.s, w.c);
+        aim.area = d->kind == VNDF_KIND_GGX ? vndf_ggx_area(aim.s, aim.c) : 0.0f; /* Beckmann: of its law */
         return aim;
     }
     double mass = vndf_wedge_mass(vndf_wedge_of(d, w.c), vndf_wedge_y(w.s, w.c));
@@ -52,8 +52,13 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
         aim = vndf_aim_unit(x * wi.x, y * wi.y, wi.z, &ready);
     if (d->kind == VNDF_KIND_BECKMANN || !ready)
         aim = aim_exactly(d, ax, ay, wi);
+    vndf_beckmann_law law = {0.0, 0.0, 0.0};
+    if (d->kind == VNDF_KIND_BECKMANN) {
+        law = vndf_beckmann_law_at(aim.s, aim.c);
+        aim.area = vndf_beckmann_area_of(&law, aim.s, aim.c);
+    }
     vndf_view view = {d, wi, ax, ay, x, y, aim.s, aim.c, aim.cos_phi, aim.sin_phi, aim.front, aim.wedge,
-                      aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c)};
+                      aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c), law.whole, law.line};
     return view;
 }
 
@@ -129,6 +134,31 @@ static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pd
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
+/* Where the density of a slope is that of the rounded normal: not far in the tail, and no small facing. */
+static int is_plain_beckmann(const vndf_view *view, const vndf_beckmann_slopes *at, double square)
+{
+    double s = view->s; /* below 1e-30 it is not what the law has */
+    return view->plain && square < 12.0 && s > 1e-20 && s * at->d > 0.1 * (s * (fabs(at->x) + fabs(at->y)) + view->c);
+}
+
+/* Density of the normal of length 1 over the third power of the length, from that of the slopes. */
+static vndf_vec3 sample_beckmann(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_beckmann_law law = {vndf_beckmann_bound(view->s, view->c), view->whole, view->line};
+    vndf_beckmann_slopes at = vndf_beckmann_draw(&law, u1, u2);
+    double square = at.x * at.x + at.y * at.y;
+    if (!is_plain_beckmann(view, &at, square))
+        return sample_closed_carefully(view, u1, u2, pdf);
+    float x = (float)-at.x, y = (float)-at.y;
+    float mx = view->ax * (view->cos_phi * x - view->sin_phi * y);
+    float my = view->ay * (view->sin_phi * x + view->cos_phi * y), length2 = mx * mx + my * my + 1.0f;
+    float length = sqrtf(length2), per = 1.0f / length;
+    double density = vndf_beckmann_p22(square) * (view->s * at.d / view->spread);
+    if (pdf)
+        *pdf = (float)density * (length2 * length);
+    return vndf_vec3_of(mx * per, my * per, per);
+}
+
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     u1 = vndf_clamp_unit(u1);
@@ -143,7 +173,7 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
         return vndf_engine_sample(view, u1, u2, pdf);
     if (view->distribution->kind == VNDF_KIND_GGX)
         return sample_ggx(view, u1, u2, pdf);
-    return sample_closed_carefully(view, u1, u2, pdf);
+    return sample_beckmann(view, u1, u2, pdf);
 }
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
