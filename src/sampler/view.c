@@ -22,8 +22,7 @@ static vndf_view invalid_view(void)
     return view;
 }
 
-/* From doubles: for the closed forms, and where a table's aim cannot be had in float - below the horizon, along z, at
- * extremes. */
+/* From doubles, where it cannot be had in float: below the horizon, along z, at extremes. */
 VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
     vndf_stretched w = vndf_stretch(wi, ax, ay, d->kind == VNDF_KIND_TABLE);
@@ -48,9 +47,9 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
     vndf_aim aim;
     if (d->kind == VNDF_KIND_TABLE)
         aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
-    else if (d->kind == VNDF_KIND_GGX)
+    else
         aim = vndf_aim_unit(x * wi.x, y * wi.y, wi.z, &ready);
-    if (d->kind == VNDF_KIND_BECKMANN || !ready)
+    if (!ready)
         aim = aim_exactly(d, ax, ay, wi);
     vndf_beckmann_law law = {0.0, 0.0, 0.0};
     if (d->kind == VNDF_KIND_BECKMANN) {
