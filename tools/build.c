@@ -2,13 +2,13 @@
  * builder, saves, prints what came out. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "arguments.h"
 #include "command.h"
 #include "describe.h"
 #include "output.h"
+#include "source_words.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf build";
@@ -36,7 +36,8 @@ static const char help[] =
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n";
 
 typedef struct build_words {
-    words ndf, slope, csv, family, set, list, bytes, tv, output;
+    source_words source;
+    words list, bytes, tv, output;
 } build_words;
 
 static int print_list(void)
@@ -48,52 +49,6 @@ static int print_list(void)
     for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
         puts(material);
     return STATUS_GOOD;
-}
-
-/* ---- the source ---------------------------------------------------------------------------------- */
-
-enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
-
-/* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
-static int read_parameter(const char *text, char storage[NAME_MAX_LENGTH], vndf_parameter *parameter)
-{
-    const char *equals = strchr(text, '=');
-    size_t length = equals ? (size_t)(equals - text) : 0;
-    if (length == 0 || length >= NAME_MAX_LENGTH) {
-        complain(name, "--set '%s' is not NAME=NUMBER", text);
-        return 0;
-    }
-    memcpy(storage, text, length);
-    storage[length] = '\0';
-    parameter->name = storage;
-    return parse_numbers(name, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
-}
-
-static vndf_source *source_from_expression(const build_words *given, vndf_error *error)
-{
-    vndf_parameter parameters[WORDS_MAX];
-    char names[WORDS_MAX][NAME_MAX_LENGTH];
-    for (size_t i = 0; i < given->set.count; i++)
-        if (!read_parameter(given->set.item[i], names[i], &parameters[i]))
-            return NULL;
-    if (given->ndf.count)
-        return vndf_source_ndf_expression(only_word(&given->ndf), parameters, given->set.count, error);
-    return vndf_source_slope_expression(only_word(&given->slope), parameters, given->set.count, error);
-}
-
-static vndf_source *source_from_words(const build_words *given)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source;
-    if (given->csv.count)
-        source = vndf_source_csv_file(only_word(&given->csv), &error);
-    else if (given->family.count)
-        source = vndf_source_family(only_word(&given->family), &error);
-    else
-        source = source_from_expression(given, &error);
-    if (!source && error.status != VNDF_OK)
-        complain(name, "%s", error.message);
-    return source;
 }
 
 /* ---- building ------------------------------------------------------------------------------------ */
@@ -163,12 +118,11 @@ static int build_and_save(const vndf_source *source, const build_words *given, u
 
 static int check_words(const build_words *given)
 {
-    size_t sources = given->ndf.count + given->slope.count + given->csv.count + given->family.count;
-    if (sources != 1)
-        return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
-                        sources ? "more than one" : "none");
-    if (given->set.count && !given->ndf.count && !given->slope.count)
-        return complain(name, "--set is for --ndf and --slope; the parameters of a family follow its name");
+    int checked = source_words_check(name, &given->source);
+    if (checked != PARSE_GO_ON)
+        return checked;
+    if (source_words_count(&given->source) == 0)
+        return complain(name, "none of --ndf, --slope, --csv and --family; exactly one is needed");
     if (!given->output.count)
         return complain(name, "-o FILE is missing");
     return PARSE_GO_ON;
@@ -179,9 +133,11 @@ int command_build(int argc, char **argv)
     build_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.ndf},         {"--slope", 1, 1, &given.slope},  {"--csv", 1, 1, &given.csv},
-        {"--family", 1, 1, &given.family},   {"--list", 0, 1, &given.list},    {"--set", 1, WORDS_MAX, &given.set},
-        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},    {"-o", 1, 1, &given.output},
+        {"--ndf", 1, 1, &given.source.ndf},  {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
+        {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
+        {"-o", 1, 1, &given.output},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
@@ -191,7 +147,7 @@ int command_build(int argc, char **argv)
         parsed = check_words(&given);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    vndf_source *source = source_from_words(&given);
+    vndf_source *source = source_from_words(name, &given.source);
     if (!source)
         return STATUS_USE;
     unsigned held = output_hold_signals();
