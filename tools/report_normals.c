@@ -1,0 +1,117 @@
+/* Density and samples: D itself, and the visible normals from three directions, for each distribution. */
+#include "chart.h"
+#include "distribution.h"
+#include "panels.h"
+#include "random.h"
+#include "report.h"
+
+enum { VIEWS = 3, NDF_STEPS = 90, DENSITY_STEP = 5, TURN_STEP = 15 };
+
+static const double thetas[VIEWS] = {0, 60, 100};
+
+static vndf_surface surface_of(const report_subject *s)
+{
+    vndf_surface surface = {s->table[s->chosen].table, 1, 1};
+    return surface;
+}
+
+static void begin_panel(FILE *file, double width, double height)
+{
+    fprintf(file, "<svg xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart panel\" width=\"%.0f\" "
+                  "height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n", width, height, width, height);
+}
+
+static int draw_subject(FILE *file, const report_subject *s)
+{
+    const panel_box left = {0, 0, 420, 400}, disc = {0, 0, 300, 320};
+    vndf_surface surface = surface_of(s);
+    int good = 1;
+    fputs("<h3>", file);
+    chart_escape(file, s->name);
+    fputs("</h3>\n<figure class=\"panels\">\n", file);
+    begin_panel(file, left.width, left.height);
+    panel_ndf(file, left, &surface);
+    fputs("</svg>\n", file);
+    for (unsigned v = 0; v < VIEWS && good; v++) {
+        begin_panel(file, disc.width, disc.height);
+        good = panel_disc(file, disc, &surface, thetas[v], v + 1);
+        fputs("</svg>\n", file);
+    }
+    fputs("</figure>\n", file);
+    return good;
+}
+
+/* ---- data ---------------------------------------------------------------------------------------- */
+
+static int write_ndf(report_page *page, const report *r)
+{
+    FILE *data = page_file_begin(page, "ndf.csv");
+    if (!data)
+        return 0;
+    fputs("distribution,theta_m_deg,ndf\n", data);
+    for (size_t k = 0; k < r->count; k++) {
+        vndf_surface surface = surface_of(&r->subject[k]);
+        for (int i = 0; i <= NDF_STEPS; i++) {
+            page_field(data, r->subject[k].name);
+            fprintf(data, ",%d,%.6g\n", i * 90 / NDF_STEPS,
+                    (double)vndf_ndf(&surface, direction_from(i * 90.0 / NDF_STEPS, 0)));
+        }
+    }
+    return page_data_end(page, "D against the angle of the normal");
+}
+
+/* The dots of panel_disc: the same numbers. */
+static int write_samples(report_page *page, const report *r)
+{
+    FILE *data = page_file_begin(page, "samples.csv");
+    if (!data)
+        return 0;
+    fputs("distribution,theta_deg,wm.x,wm.y,wm.z,pdf\n", data);
+    for (size_t k = 0; k < r->count; k++)
+        for (unsigned v = 0; v < VIEWS; v++) {
+            vndf_surface surface = surface_of(&r->subject[k]);
+            vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
+            random_stream stream = random_from(v + 1);
+            for (int i = 0; i < PANEL_DOTS; i++) {
+                float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
+                vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
+                page_field(data, r->subject[k].name);
+                fprintf(data, ",%g,%.6g,%.6g,%.6g,%.6g\n", thetas[v], (double)wm.x, (double)wm.y, (double)wm.z,
+                        (double)pdf);
+            }
+        }
+    return page_data_end(page, "the samples that are drawn as dots");
+}
+
+static int write_density(report_page *page, const report *r)
+{
+    FILE *data = page_file_begin(page, "density.csv");
+    if (!data)
+        return 0;
+    fputs("distribution,theta_deg,theta_m_deg,phi_m_deg,pdf\n", data);
+    for (size_t k = 0; k < r->count; k++)
+        for (int v = 0; v < VIEWS; v++) {
+            vndf_surface surface = surface_of(&r->subject[k]);
+            vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
+            for (int t = 0; t <= 90; t += DENSITY_STEP)
+                for (int p = 0; p <= (t > 0 ? 180 : 0); p += TURN_STEP) {
+                    page_field(data, r->subject[k].name);
+                    fprintf(data, ",%g,%d,%d,%.6g\n", thetas[v], t, p, (double)vndf_pdf(&view, direction_from(t, p)));
+                }
+        }
+    return page_data_end(page, "density of visible normals on a grid");
+}
+
+int report_write_normals(report_page *page, const report *r)
+{
+    page_section(page, "normals", "Density and samples",
+                 "D against the angle of the normal, and the normals visible from three directions, the last below the "
+                 "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "
+                 "seen from above in an equal-area projection. A ring or an arrow marks the incident direction.");
+    int good = 1;
+    for (size_t i = 0; i < r->count && good; i++)
+        good = draw_subject(page->html, &r->subject[i]);
+    good = good && write_ndf(page, r) && write_samples(page, r) && write_density(page, r);
+    page_section_end(page);
+    return good;
+}
