@@ -16,11 +16,13 @@ double chart_place(const chart_axis *axis, double value)
 void chart_fit(chart_axis *axis, double low, double high)
 {
     double base = axis->scale == CHART_BYTES ? 2 : 10;
-    double first = floor(log(low) / log(base) + 1e-3), last = ceil(log(high) / log(base) - 1e-3);
+    double loose = axis->scale == CHART_BYTES ? 0.06 : 1e-3; /* files stay a little below what they may have */
+    double first = floor(log(low) / log(base) + loose), last = ceil(log(high) / log(base) - loose);
     if (!(low > 0) || !(high < HUGE_VAL)) /* nothing is known */
         first = -1, last = 0;
-    axis->low = pow(base, first);
-    axis->high = pow(base, last > first ? last : first + 1);
+    double room = axis->scale == CHART_BYTES ? 1.15 : 1;
+    axis->low = pow(base, first) / room;
+    axis->high = pow(base, last > first ? last : first + 1) * room;
 }
 
 /* 10 to a power, with the digits above the line. */
@@ -31,14 +33,15 @@ static void name_power(char name[16], int power)
     snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "", digits[size % 10]);
 }
 
-/* Plain where that is short. */
-static void name_number(char name[16], double value)
+/* Powers on an axis that needs them, plain numbers on one that does not. */
+static void name_number(const chart_axis *axis, char name[16], double value)
 {
     double power = floor(log10(value) + 1e-9);
-    if (value > 0 && (value < 9e-3 || value > 1e5) && fabs(value / pow(10, power) - 1) < 1e-9)
+    int is_wide = axis->low < 9e-4 || axis->high > 2e5;
+    if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
         name_power(name, (int)power);
     else
-        snprintf(name, 16, "%.3g", value);
+        snprintf(name, 16, "%.6g", value);
 }
 
 static size_t add_tick(const chart_axis *axis, chart_tick *ticks, size_t count, double value, int named)
@@ -52,7 +55,7 @@ static size_t add_tick(const chart_axis *axis, chart_tick *ticks, size_t count, 
         snprintf(ticks[count].name, sizeof ticks[count].name, value < 1048576 ? "%.3g KiB" : "%.3g MiB",
                  value / (value < 1048576 ? 1024 : 1048576));
     else if (named && axis->scale == CHART_LOG)
-        name_number(ticks[count].name, value);
+        name_number(axis, ticks[count].name, value);
     else if (named)
         snprintf(ticks[count].name, sizeof ticks[count].name, "%.4g", value);
     return count + 1;

@@ -86,8 +86,11 @@ typedef struct report_watch {
 
 double report_theta(size_t angle);
 
-/* "16 KiB", "1 MiB", "3.99 KiB". */
+/* "16 KiB", "1 MiB", "25.8 KiB". */
 void report_bytes_text(char text[16], double bytes);
+
+/* The size of a table: that which was asked for, unless it is smaller by more than 3%. */
+void report_size_text(char text[16], const report_table *table);
 
 /* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
 

@@ -64,7 +64,7 @@ static void write_choice(FILE *html, const report_subject *s)
 {
     const report_table *t = &s->table[s->chosen];
     char size[16];
-    report_bytes_text(size, (double)t->info.bytes);
+    report_size_text(size, t);
     fputs("<p><strong>", html);
     chart_escape(html, s->name);
     fprintf(html, ": ship the table of %s.</strong> ", size);
@@ -88,7 +88,7 @@ static void write_advice(FILE *html, const report_subject *s)
     if (s->chosen > 0 && keeps_all(&s->table[s->chosen])) {
         char size[16];
         verdict v = judge(&s->table[s->chosen - 1]);
-        report_bytes_text(size, (double)s->table[s->chosen - 1].info.bytes);
+        report_size_text(size, &s->table[s->chosen - 1]);
         fprintf(html, " The next smaller one, %s, has ", size);
         write_broken(html, &v);
         fputs("; with the weight it is unbiased all the same.", html);
@@ -113,8 +113,9 @@ static void write_row(FILE *html, const report_table *t, int chosen)
 {
     char size[16];
     verdict v = judge(t);
-    report_bytes_text(size, (double)t->info.bytes);
+    report_size_text(size, t);
     fprintf(html, "<tr%s><td>%s%s</td>", chosen ? " class=\"chosen\"" : "", size, chosen ? " ✓" : "");
+    fprintf(html, "<td>%zu</td>", t->info.bytes);
     write_cell(html, "%.2e", v.value[2], v.kept[2]);
     write_cell(html, "%.3g", v.value[0], v.kept[0]);
     write_cell(html, "%.2g%%", 100 * v.value[1], v.kept[1]);
@@ -127,7 +128,7 @@ static void write_table(FILE *html, const report_subject *s)
 {
     fputs("<h3>", html);
     chart_escape(html, s->name);
-    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>total variation</th><th>largest weight</th>"
+    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th><th>total variation</th><th>largest weight</th>"
           "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
           "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n", html);
     for (size_t i = 0; i < s->count; i++)
@@ -160,8 +161,8 @@ int report_write_advice(report_page *page, const report *r)
 {
     page_section(page, "advice", "Which table to ship",
                  "Every table is exact with its weight; a small one costs noise. The advice is the smallest table with "
-                 "weights up to 2, at most 1% more variance, a total variation up to 1e-3 (so that the weight may be "
-                 "left out where a bias below half a step of 8 bits does not matter) and G1 within 1e-4, for every "
+                 "weights up to 2, at most 1% more variance, a total variation up to 0.001 (so that the weight may "
+                 "be left out where a bias below half a step of 8 bits does not matter) and G1 within 0.0001, for every "
                  "direction from 0 to 180 degrees.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++)

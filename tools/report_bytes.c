@@ -89,7 +89,7 @@ int report_write_bytes(report_page *page, const report *r)
     collect_others(&r->rows, &others);
     series[r->count] = (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE,
                                       others.text};
-    chart c = {NULL, "error against bytes", 900, 440, 250, {CHART_BYTES, 0, 0, 0, "size of the table"},
+    chart c = {NULL, "error against bytes", 1080, 460, 270, {CHART_BYTES, 0, 0, 0, "size of the table"},
                {CHART_LOG, 0, 0, 0, "total variation, worst angle"}, NULL, series, r->count + 1};
     fit_axes(&c);
     page_section(page, "bytes", "Error against bytes",

@@ -15,6 +15,12 @@ static vndf_surface surface_of(const report_subject *s)
     return surface;
 }
 
+static vndf_surface finest_of(const report_subject *s)
+{
+    vndf_surface surface = {s->table[s->count - 1].table, 1, 1};
+    return surface;
+}
+
 static void begin_panel(FILE *file, double width, double height)
 {
     fprintf(file, "<svg xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart panel\" width=\"%.0f\" "
@@ -23,14 +29,14 @@ static void begin_panel(FILE *file, double width, double height)
 
 static int draw_subject(FILE *file, const report_subject *s)
 {
-    const panel_box left = {0, 0, 420, 400}, disc = {0, 0, 300, 320};
-    vndf_surface surface = surface_of(s);
+    const panel_box left = {0, 0, 330, 320}, disc = {0, 0, 260, 282};
+    vndf_surface surface = surface_of(s), finest = finest_of(s);
     int good = 1;
     fputs("<h3>", file);
     chart_escape(file, s->name);
     fputs("</h3>\n<figure class=\"panels\">\n", file);
     begin_panel(file, left.width, left.height);
-    panel_ndf(file, left, &surface);
+    panel_ndf(file, left, &finest);
     fputs("</svg>\n", file);
     for (unsigned v = 0; v < VIEWS && good; v++) {
         begin_panel(file, disc.width, disc.height);
@@ -50,7 +56,7 @@ static int write_ndf(report_page *page, const report *r)
         return 0;
     fputs("distribution,theta_m_deg,ndf\n", data);
     for (size_t k = 0; k < r->count; k++) {
-        vndf_surface surface = surface_of(&r->subject[k]);
+        vndf_surface surface = finest_of(&r->subject[k]);
         for (int i = 0; i <= NDF_STEPS; i++) {
             page_field(data, r->subject[k].name);
             fprintf(data, ",%d,%.6g\n", i * 90 / NDF_STEPS,

@@ -96,6 +96,7 @@ static const char style[] =
     "th:first-child,td:first-child{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:normal}\n"
     "tr.chosen td{font-weight:600;background:var(--box)}.no{color:var(--bad)}.yes{color:var(--good)}\n"
     "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
+    ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
     ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"
     ".data{margin:.4em 0;font-size:.9em}.data pre{max-height:24em;overflow:auto;border:1px solid var(--rule);"
     "padding:.6em}summary{cursor:pointer;color:var(--quiet)}\n"

@@ -33,6 +33,12 @@ void report_bytes_text(char text[16], double bytes)
         snprintf(text, 16, "%.3g KiB", bytes / 1024);
 }
 
+void report_size_text(char text[16], const report_table *table)
+{
+    double bytes = (double)table->info.bytes, asked = (double)table->asked;
+    report_bytes_text(text, bytes > 0.97 * asked ? asked : bytes);
+}
+
 /* ---- error --------------------------------------------------------------------------------------- */
 
 typedef struct direction {

@@ -32,7 +32,7 @@ static void fill_curves(const report_subject *s, theta_curves *curves)
     curves->high = 0;
     for (size_t k = 0; k < curves->count; k++) {
         const report_table *t = &s->table[shown[k]];
-        report_bytes_text(curves->label[k], (double)t->info.bytes);
+        report_size_text(curves->label[k], t);
         for (size_t a = 0; a < REPORT_ANGLES; a++) {
             curves->x[a] = report_theta(a);
             curves->y[k][a] = t->error[a].tv;

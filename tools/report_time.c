@@ -130,9 +130,9 @@ report_time report_time_of(const vndf_distribution *distribution)
 
 enum { PARTS = 5, LINES_MAX = REPORT_SIZES + 2 };
 
-static const char *const part_names[PARTS] = {"view", "sample, density included", "density of a given normal (pdf)",
-                                              "batch, a direction each, all included",
-                                              "batch, one direction for all"};
+static const char *const part_names[PARTS] = {"view", "sample, density included", "density of a given normal",
+                                              "in a batch: view, sample, density",
+                                              "in a batch, one direction for all"};
 
 typedef struct time_line {
     char name[48];
@@ -153,7 +153,7 @@ static size_t lines_of(const report *r, time_line lines[LINES_MAX])
     lines[count++] = line_of("beckmann, closed form", &r->beckmann);
     for (size_t i = 0; i < r->subject[0].count; i++) {
         char size[16], name[48];
-        report_bytes_text(size, (double)r->subject[0].table[i].info.bytes);
+        report_size_text(size, &r->subject[0].table[i]);
         snprintf(name, sizeof name, "table, %s", size);
         lines[count++] = line_of(name, &r->subject[0].table[i].time);
     }
@@ -165,7 +165,7 @@ static double longest(const time_line *lines, size_t count)
     double most = 1;
     for (size_t i = 0; i < count; i++)
         most = fmax(most, fmax(lines[i].part[0] + lines[i].part[1] + lines[i].part[2],
-                               lines[i].part[3] + lines[i].part[4]));
+                               fmax(lines[i].part[3], lines[i].part[4])));
     return most;
 }
 
@@ -177,20 +177,20 @@ static double nice_step(double most)
     return power * (lead > 5 ? 10 : lead > 2 ? 5 : lead > 1 ? 2 : 1);
 }
 
-enum { ROW = 44, LEFT = 170, WIDE = 560 };
+enum { ROW = 54, BAR = 14, LEFT = 170, WIDE = 640, RIGHT = 120 };
 
-static void draw_bar(FILE *file, double y, double height, const time_line *line, int from, int to, double per_ns)
+/* Parts `from` to `to` end to end, and their lengths in numbers. */
+static void draw_bar(FILE *file, double y, const time_line *line, int from, int to, double per_ns)
 {
-    double x = LEFT, total = 0;
+    double x = LEFT;
     for (int p = from; p < to; p++) {
         fprintf(file, "<rect class=\"f%d\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n",
-                p, x, y, line->part[p] * per_ns, height);
-        x += line->part[p] * per_ns + 1;
-        total += line->part[p];
+                p, x, y, line->part[p] * per_ns, BAR - 2.0);
+        x += line->part[p] * per_ns;
     }
-    fprintf(file, "<text class=\"tick quiet\" x=\"%.1f\" y=\"%.1f\">", x + 4, y + height - 3);
+    fprintf(file, "<text class=\"tick quiet\" x=\"%.1f\" y=\"%.1f\">", x + 5, y + BAR - 3.5);
     for (int p = from; p < to; p++)
-        fprintf(file, "%s%.3g", p > from ? " + " : "", line->part[p]);
+        fprintf(file, "%s%.*f", p > from ? " + " : "", line->part[p] < 10, line->part[p]);
     fputs("</text>\n", file);
 }
 
@@ -219,16 +219,18 @@ static void draw_times(FILE *file, const time_line *lines, size_t count)
     most = step * ceil(most / step);
     per_ns = WIDE / most;
     double bottom = 56 + (double)ROW * (double)count;
-    fprintf(file, "<svg class=\"chart\" width=\"880\" height=\"%.0f\" viewBox=\"0 0 880 %.0f\" role=\"img\" "
-                  "aria-label=\"time of view, sample and pdf\">\n", bottom + 48, bottom + 48);
+    fprintf(file, "<svg class=\"chart\" width=\"%d\" height=\"%.0f\" viewBox=\"0 0 %d %.0f\" role=\"img\" "
+                  "aria-label=\"time of view, sample and pdf\">\n", LEFT + WIDE + RIGHT, bottom + 48,
+            LEFT + WIDE + RIGHT, bottom + 48);
     draw_legend(file, 16);
     draw_axis(file, most, step, bottom, per_ns);
     for (size_t i = 0; i < count; i++) {
         double y = 58 + (double)ROW * (double)i;
-        fprintf(file, "<text class=\"ink\" text-anchor=\"end\" x=\"%d\" y=\"%.1f\">%s</text>\n", LEFT - 8, y + 22,
+        fprintf(file, "<text class=\"ink\" text-anchor=\"end\" x=\"%d\" y=\"%.1f\">%s</text>\n", LEFT - 8, y + 25,
                 lines[i].name);
-        draw_bar(file, y, 15, &lines[i], 0, 3, per_ns);
-        draw_bar(file, y + 17, 15, &lines[i], 3, PARTS, per_ns);
+        draw_bar(file, y, &lines[i], 0, 3, per_ns);
+        draw_bar(file, y + BAR, &lines[i], 3, 4, per_ns);
+        draw_bar(file, y + 2 * BAR, &lines[i], 4, PARTS, per_ns);
     }
     fputs("</svg>\n", file);
 }
@@ -238,8 +240,9 @@ int report_write_time(report_page *page, const report *r)
     time_line lines[LINES_MAX];
     size_t count = lines_of(r, lines);
     page_section(page, "time", "Where the time goes",
-                 "Median nanoseconds on this machine, one thread, tables in cache. Upper bar: the calls of one by one, "
-                 "a direction each; a sample needs the first two. Lower bar: the batch calls.");
+                 "Median nanoseconds on this machine, one thread, tables in cache. First bar: the calls one by one, a "
+                 "direction each; a sample needs the first two parts, the third is for a normal from elsewhere. Second "
+                 "and third bar: a sample of a batch.");
     fputs("<figure class=\"scroll\">\n", page->html);
     draw_times(page->html, lines, count);
     fprintf(page->html, "<figcaption>Tables are those of ");

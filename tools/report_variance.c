@@ -177,7 +177,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, "cosine of wo");
     e = estimator_of(s, WAY_ALL_NORMALS, s->exact.distribution);
     add_noise(integral, &e, "all normals");
-    report_bytes_text(size, (double)first->info.bytes);
+    report_size_text(size, first);
     e = estimator_of(s, WAY_UNWEIGHTED, first->table);
     snprintf(text, sizeof text, "%s, no weight", size);
     add_noise(integral, &e, text);
@@ -185,7 +185,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, size);
     if (chosen == first)
         return;
-    report_bytes_text(size, (double)chosen->info.bytes);
+    report_size_text(size, chosen);
     e = estimator_of(s, WAY_WEIGHTED, chosen->table);
     add_noise(integral, &e, size);
 }
@@ -224,7 +224,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     }
     low = pow(10, floor(log10(fmax(low, 1e-7)) * 2) / 2);
     high = fmax(pow(10, ceil(log10(high) * 2) / 2), 10 * low);
-    chart c = {integral->title, NULL, CHART_WIDTH, CHART_HEIGHT, 120,
+    chart c = {integral->title, NULL, CHART_WIDTH, CHART_HEIGHT, 132,
                {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
                {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, series, integral->count};
     fputs("<figure>\n", file);
