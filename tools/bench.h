@@ -1,8 +1,8 @@
 /* What a visible normal costs, method by method: rows that `vndf bench` prints and `vndf report` draws.
  *
- * Three distributions are sampled: GGX and Beckmann by their closed forms, and one that the caller brings by tables
- * and by the other ways there are for any D. All methods run in one process and take turns; each is verified
- * before its time counts. What is measured, and how, stands with bench_row. */
+ * Three distributions are sampled: GGX and Beckmann by their closed forms, and one that the caller brings by
+ * tables and by the other ways there are for any D. All methods run in one process and take turns; each is
+ * verified before its time counts. What is measured, and how, stands with bench_row. */
 #ifndef TOOLS_BENCH_H
 #define TOOLS_BENCH_H
 
@@ -47,8 +47,11 @@ typedef struct bench_plan {
     const vndf_source *source; /* what the tables are of */
     const char *name;          /* what to call it */
     double seconds;            /* to spend in all, roughly; building the tables may take longer */
-    const char *only;          /* NULL, or a part of the method, distribution or instruction set of the rows wanted */
-    vndf_progress *progress;   /* may be NULL; asked every few milliseconds, some seconds apart while tables are built */
+    const char *only;          /* NULL, or a part of the method, distribution or instructions of the rows wanted */
+    const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others are used then */
+    const size_t *ready_limits;            /* the max_bytes of each, ascending */
+    size_t ready_count;                    /* 0: they are built here */
+    vndf_progress *progress;   /* may be NULL; asked every few milliseconds */
     void *progress_user;
 } bench_plan;
 

@@ -118,14 +118,14 @@ static int build_and_save(const vndf_source *source, const build_words *given, u
 
 static int check_words(const build_words *given)
 {
-    int checked = source_words_check(name, &given->source);
-    if (checked != PARSE_GO_ON)
-        return checked;
-    if (source_words_count(&given->source) == 0)
-        return complain(name, "none of --ndf, --slope, --csv and --family; exactly one is needed");
-    if (!given->output.count)
+    size_t sources = source_words_count(&given->source);
+    int set = source_words_check_set(name, &given->source);
+    if (sources != 1)
+        return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
+                        sources ? "more than one" : "none");
+    if (set == PARSE_GO_ON && !given->output.count)
         return complain(name, "-o FILE is missing");
-    return PARSE_GO_ON;
+    return set;
 }
 
 int command_build(int argc, char **argv)

@@ -61,7 +61,7 @@ void chart_style(FILE *file)
 
 static chart_frame frame_of(const chart *c)
 {
-    double band = c->zero ? 30 : 0, top = c->title ? 30 : 10;
+    double band = c->zero ? c->band : 0, top = c->title ? 30 : 10;
     chart_frame frame = {66, top, c->width - 66 - c->right, c->height - top - 50 - band, band};
     return frame;
 }
@@ -172,10 +172,28 @@ static void draw_mark(FILE *file, const chart_series *s, double x, double y)
                 s->mark == CHART_CROSS ? "mark l" : "f", s->colour, x, y, outlines[s->mark]);
 }
 
+/* Labels are to stay off a line. */
+static void take_line(chart_taken *taken, double x1, double y1, double x2, double y2)
+{
+    double steps = ceil(hypot(x2 - x1, y2 - y1) / 6);
+    for (double i = 0; i < steps; i++)
+        chart_take(taken, x1 + (x2 - x1) * i / steps, y1 + (y2 - y1) * i / steps, 3);
+}
+
+static void take_curve(const chart *c, const chart_frame *f, const chart_series *s, chart_taken *taken)
+{
+    for (size_t i = 0; i + 1 < s->count; i++)
+        if (is_inside(c, f, s->x[i], s->y[i]) && is_inside(c, f, s->x[i + 1], s->y[i + 1]))
+            take_line(taken, pixel_x(c, f, s->x[i]), pixel_y(c, f, s->y[i]), pixel_x(c, f, s->x[i + 1]),
+                      pixel_y(c, f, s->y[i + 1]));
+}
+
 static void draw_series(FILE *file, const chart *c, const chart_frame *f, const chart_series *s, chart_taken *taken)
 {
     if (s->line != CHART_NO_LINE)
         draw_line(file, c, f, s);
+    if (s->line != CHART_NO_LINE && s->texts)
+        take_curve(c, f, s, taken);
     for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
         if (is_inside(c, f, s->x[i], s->y[i])) {
             double x = pixel_x(c, f, s->x[i]), y = pixel_y(c, f, s->y[i]);
@@ -223,6 +241,8 @@ static void draw_inside(FILE *file, const chart *c)
     chart_frame f = frame_of(c);
     chart_taken taken = {.count = 0};
     draw_frame(file, c, &f);
+    if (f.band > 0)
+        take_line(&taken, f.left, f.top + f.height, f.left + f.width, f.top + f.height);
     for (size_t k = 0; k < c->count; k++)
         draw_series(file, c, &f, &c->series[k], &taken);
     write_texts(file, c, &f, &taken);

@@ -46,6 +46,7 @@ typedef struct chart {
     double right;               /* of it, for the labels at the ends of curves */
     chart_axis x, y;
     const char *zero;           /* NULL, or the name of a band below the frame for y = 0 on a logarithmic axis */
+    double band;                /* its height */
     const chart_series *series;
     size_t count;
 } chart;

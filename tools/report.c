@@ -12,7 +12,7 @@
 #include "command.h"
 #include "output.h"
 #include "report_folder.h"
-#include "source_words.h"
+#include "source_text.h"
 
 static const char name[] = "vndf report";
 
@@ -89,7 +89,7 @@ static const example examples[] = {
     {NULL, "exp(-((r-1)/0.1)^2)", "ring: exp(-((r-1)/0.1)^2)", "--slope 'exp(-((r-1)/0.1)^2)'"},
 };
 
-enum { EXAMPLES = sizeof examples / sizeof examples[0] };
+enum { EXAMPLES = sizeof examples / sizeof examples[0], BENCH_SECONDS = 20 };
 
 /* Takes the source; the status of what failed, told. */
 static int add_subject(report *r, vndf_source *source, const char *title, const char *arguments)
@@ -103,12 +103,13 @@ static int add_subject(report *r, vndf_source *source, const char *title, const 
 
 static int add_users(report *r, const source_words *given)
 {
-    char arguments[2048];
+    char arguments[2048], title[256];
     vndf_source *source = source_from_words(name, given);
     if (!source)
         return STATUS_USE;
-    source_words_text(given, arguments, sizeof arguments);
-    int status = add_subject(r, source, source_words_value(given), arguments);
+    source_text(given, arguments, sizeof arguments);
+    source_text_name(given, title, sizeof title);
+    int status = add_subject(r, source, title, arguments);
     r->subject[0].brought = 1;
     return status;
 }
@@ -147,6 +148,24 @@ static int build_subjects(report *r, report_bar *bar)
     return STATUS_GOOD;
 }
 
+/* The tables of the first distribution among all other methods, as `vndf bench` has them. */
+static int compare_methods(report *r, report_bar *bar)
+{
+    const vndf_distribution *ready[REPORT_SIZES];
+    size_t limits[REPORT_SIZES];
+    const report_subject *s = &r->subject[0];
+    vndf_error error = {VNDF_OK, ""};
+    for (size_t i = 0; i < s->count; i++) {
+        ready[i] = s->table[i].table;
+        limits[i] = s->table[i].asked;
+    }
+    const bench_plan plan = {.source = s->source, .name = s->name, .seconds = BENCH_SECONDS, .ready = ready,
+                             .ready_limits = limits, .ready_count = s->count, .progress = watch_bar,
+                             .progress_user = bar};
+    begin_step(bar, "all methods side by side", 0.65, 1);
+    return bench_run(&plan, &r->rows, &error) == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
+}
+
 static int measure(report *r, const source_words *given, report_bar *bar)
 {
     int status = add_subjects(r, given);
@@ -154,9 +173,9 @@ static int measure(report *r, const source_words *given, report_bar *bar)
         status = build_subjects(r, bar);
     if (status != STATUS_GOOD)
         return status;
-    begin_step(bar, "variance", 0.9, 1);
+    begin_step(bar, "variance", 0.6, 0.65);
     report_variance_measure(&r->subject[0], r->integral);
-    return STATUS_GOOD;
+    return compare_methods(r, bar);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
@@ -179,7 +198,7 @@ static int write_page(report_page *page, const report *r)
     if (!page_begin(page, "What accuracy costs"))
         return 0;
     write_contents(page->html, r);
-    return report_write_advice(page, r) && report_write_bytes(page, r) &&
+    return report_write_advice(page, r) && report_write_frontier(page, r) && report_write_bytes(page, r) &&
            report_write_theta(page, r) && report_write_normals(page, r) && report_write_variance(page, r) &&
            report_write_time(page, r) && page_end(page);
 }
@@ -214,9 +233,16 @@ static int run(const source_words *given, const char *path, folder_state state, 
         status = write_report(r, path, state, held);
     for (size_t i = 0; i < r->count; i++)
         report_subject_free(&r->subject[i]);
-    //BENCH
+    bench_rows_free(&r->rows);
     free(r);
     return status;
+}
+
+static int check_words(const source_words *given)
+{
+    if (source_words_count(given) > 1)
+        return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
+    return source_words_check_set(name, given);
 }
 
 int command_report(int argc, char **argv)
@@ -229,7 +255,7 @@ int command_report(int argc, char **argv)
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "DIR", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON)
-        parsed = source_words_check(name, &given);
+        parsed = check_words(&given);
     if (parsed != PARSE_GO_ON)
         return parsed;
     folder_state state = folder_examine(name, only_word(&positional));

@@ -33,7 +33,7 @@ typedef struct report_error {
 
 /* Median nanoseconds per call, of what is drawn or evaluated for random directions. */
 typedef struct report_time {
-    double view, sample, pdf;  /* one by one: the view; a sample with its density from it; the density of a normal */
+    double view, sample, pdf;  /* one by one: the view; what a sample with its density adds; the density of a normal */
     double batch, batch_shared; /* vndf_sample_n, view included: a direction each; one direction for all */
 } report_time;
 
@@ -42,6 +42,7 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
+    double tv_above;           /* the largest total variation from above the horizon */
     report_time time;
 } report_table;
 
@@ -86,11 +87,8 @@ typedef struct report_watch {
 
 double report_theta(size_t angle);
 
-/* "16 KiB", "1 MiB", "25.8 KiB". */
+/* "16 KiB", "1 MiB", "25.8 KiB", to 3%. */
 void report_bytes_text(char text[16], double bytes);
-
-/* The size of a table: that which was asked for, unless it is smaller by more than 3%. */
-void report_size_text(char text[16], const report_table *table);
 
 /* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
 

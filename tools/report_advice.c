@@ -64,7 +64,7 @@ static void write_choice(FILE *html, const report_subject *s)
 {
     const report_table *t = &s->table[s->chosen];
     char size[16];
-    report_size_text(size, t);
+    report_bytes_text(size, (double)t->info.bytes);
     fputs("<p><strong>", html);
     chart_escape(html, s->name);
     fprintf(html, ": ship the table of %s.</strong> ", size);
@@ -81,6 +81,22 @@ static void write_choice(FILE *html, const report_subject *s)
     fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", t->time.view + t->time.sample, t->time.batch);
 }
 
+/* Those who never look from below the horizon need less where the error is worst there. */
+static void write_reflection(FILE *html, const report_subject *s)
+{
+    char size[16];
+    for (size_t i = 0; i < s->chosen; i++) {
+        const report_table *t = &s->table[i];
+        verdict v = judge(t);
+        if (!v.kept[0] || !v.kept[1] || !v.kept[3] || t->tv_above > most_tv)
+            continue;
+        report_bytes_text(size, (double)t->info.bytes);
+        fprintf(html, " For reflection alone %s will do: from above the horizon its total variation is %.2g.", size,
+                t->tv_above);
+        return;
+    }
+}
+
 /* What the next smaller one lacks, and the command. */
 static void write_advice(FILE *html, const report_subject *s)
 {
@@ -88,11 +104,12 @@ static void write_advice(FILE *html, const report_subject *s)
     if (s->chosen > 0 && keeps_all(&s->table[s->chosen])) {
         char size[16];
         verdict v = judge(&s->table[s->chosen - 1]);
-        report_size_text(size, &s->table[s->chosen - 1]);
+        report_bytes_text(size, (double)s->table[s->chosen - 1].info.bytes);
         fprintf(html, " The next smaller one, %s, has ", size);
         write_broken(html, &v);
         fputs("; with the weight it is unbiased all the same.", html);
     }
+    write_reflection(html, s);
     if (s->left_out)
         fputs(" Larger sizes were left out, for they would have taken too long to build.", html);
     fputs("<br><code>vndf build ", html);
@@ -113,10 +130,11 @@ static void write_row(FILE *html, const report_table *t, int chosen)
 {
     char size[16];
     verdict v = judge(t);
-    report_size_text(size, t);
+    report_bytes_text(size, (double)t->info.bytes);
     fprintf(html, "<tr%s><td>%s%s</td>", chosen ? " class=\"chosen\"" : "", size, chosen ? " ✓" : "");
     fprintf(html, "<td>%zu</td>", t->info.bytes);
     write_cell(html, "%.2e", v.value[2], v.kept[2]);
+    fprintf(html, "<td>%.2e</td>", t->tv_above);
     write_cell(html, "%.3g", v.value[0], v.kept[0]);
     write_cell(html, "%.2g%%", 100 * v.value[1], v.kept[1]);
     write_cell(html, "%.1e", v.value[3], v.kept[3]);
@@ -128,7 +146,7 @@ static void write_table(FILE *html, const report_subject *s)
 {
     fputs("<h3>", html);
     chart_escape(html, s->name);
-    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th><th>total variation</th><th>largest weight</th>"
+    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th><th>total variation</th><th>above the horizon</th><th>largest weight</th>"
           "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
           "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n", html);
     for (size_t i = 0; i < s->count; i++)
@@ -142,16 +160,16 @@ static int write_data(report_page *page, const report *r)
     if (!data)
         return 0;
     fputs("distribution,bytes,tv,tv_theta_deg,max_weight,weight_bounded,added_variance,area_error,consistency,"
-          "ndf_error,tv_here,ns,batch_ns,batch_shared_ns,chosen\n", data);
+          "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n", data);
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             const report_table *t = &r->subject[k].table[i];
             const vndf_certificate *c = &t->info.certificate;
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.4g,%.4g,%.4g,%d\n", t->info.bytes,
+            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n", t->info.bytes,
                     (double)c->tv, (double)c->tv_theta, (double)c->max_weight, (double)c->weight_bounded,
                     t->worst.variance, (double)c->area_error, (double)c->consistency, (double)c->ndf_error,
-                    t->worst.tv, t->time.view + t->time.sample, t->time.batch, t->time.batch_shared,
+                    t->worst.tv, t->tv_above, t->time.view + t->time.sample, t->time.batch, t->time.batch_shared,
                     i == r->subject[k].chosen);
         }
     return page_data_end(page, "certificates and times of all tables");

@@ -29,7 +29,7 @@ static void begin_panel(FILE *file, double width, double height)
 
 static int draw_subject(FILE *file, const report_subject *s)
 {
-    const panel_box left = {0, 0, 330, 320}, disc = {0, 0, 260, 282};
+    const panel_box left = {0, 0, 320, 320}, disc = {0, 0, 260, 282};
     vndf_surface surface = surface_of(s), finest = finest_of(s);
     int good = 1;
     fputs("<h3>", file);

@@ -78,7 +78,7 @@ static const char style[] =
     "@media screen and (prefers-color-scheme:dark){:root{--back:#16191d;--ink:#e9ecef;--quiet:#b6bec6;"
     "--rule:#3a4149;--good:#5ad6b2;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}\n"
     ".panel text[fill=\"#212529\"]:not([stroke]){fill:#e9ecef}.panel line[stroke=\"#212529\"]{stroke:#e9ecef}\n"
-    ".panel line[stroke=\"#e9ecef\"]{stroke:#343a40}.panel path[stroke=\"#1a4f8e\"]{stroke:#7fbfec}\n"
+    ".panel line[stroke=\"#e9ecef\"]{stroke:#343a40}.panel [stroke=\"#1a4f8e\"]{stroke:#7fbfec}\n"
     ".panel circle[stroke=\"#ffffff\"][stroke-width=\"8.0\"]{stroke:#16191d}}\n"
     "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}.data,nav{display:none}\n"
     "figure,tr,.advice{break-inside:avoid}h2{break-after:avoid}.pair figure{flex:1 1 45%}}\n"

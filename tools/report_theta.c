@@ -32,7 +32,7 @@ static void fill_curves(const report_subject *s, theta_curves *curves)
     curves->high = 0;
     for (size_t k = 0; k < curves->count; k++) {
         const report_table *t = &s->table[shown[k]];
-        report_size_text(curves->label[k], t);
+        report_bytes_text(curves->label[k], (double)t->info.bytes);
         for (size_t a = 0; a < REPORT_ANGLES; a++) {
             curves->x[a] = report_theta(a);
             curves->y[k][a] = t->error[a].tv;
@@ -51,7 +51,7 @@ static void draw_subject(FILE *file, const report_subject *s)
     fill_curves(s, &curves);
     chart c = {s->name, NULL, CHART_WIDTH, CHART_HEIGHT, 84,
                {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
-               {CHART_LOG, 0, 0, 0, "total variation"}, NULL, series, curves.count + 1};
+               {CHART_LOG, 0, 0, 0, "total variation"}, NULL, 0, series, curves.count + 1};
     chart_fit(&c.y, fmax(curves.low, 1e-8), curves.high);
     const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
     for (size_t k = 0; k < curves.count; k++)

@@ -177,7 +177,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, "cosine of wo");
     e = estimator_of(s, WAY_ALL_NORMALS, s->exact.distribution);
     add_noise(integral, &e, "all normals");
-    report_size_text(size, first);
+    report_bytes_text(size, (double)first->info.bytes);
     e = estimator_of(s, WAY_UNWEIGHTED, first->table);
     snprintf(text, sizeof text, "%s, no weight", size);
     add_noise(integral, &e, text);
@@ -185,7 +185,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, size);
     if (chosen == first)
         return;
-    report_size_text(size, chosen);
+    report_bytes_text(size, (double)chosen->info.bytes);
     e = estimator_of(s, WAY_WEIGHTED, chosen->table);
     add_noise(integral, &e, size);
 }
@@ -226,7 +226,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     high = fmax(pow(10, ceil(log10(high) * 2) / 2), 10 * low);
     chart c = {integral->title, NULL, CHART_WIDTH, CHART_HEIGHT, 132,
                {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
-               {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, series, integral->count};
+               {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, 0, series, integral->count};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);

@@ -1,5 +1,4 @@
-/* The distribution of normals that a user brings on the command line: --ndf, --slope, --csv or --family, and --set
- * for the parameters of the first two. Shared by the subcommands that take one. */
+/* What the user brings to be tabulated, as words of a command line: a formula, a CSV or a named family. */
 #ifndef TOOLS_SOURCE_WORDS_H
 #define TOOLS_SOURCE_WORDS_H
 
@@ -10,19 +9,13 @@ typedef struct source_words {
     words ndf, slope, csv, family, set;
 } source_words;
 
-/* How many sources were named. */
+/* How many of --ndf, --slope, --family and the CSV's option were given. */
 size_t source_words_count(const source_words *given);
 
-/* PARSE_GO_ON, or STATUS_USE after a complaint: more than one source, or --set without an expression. */
-int source_words_check(const char *command, const source_words *given);
+/* PARSE_GO_ON if --set stands with a formula or not at all, else the status after a complaint. */
+int source_words_check_set(const char *command, const source_words *given);
 
-/* What was given, as a shell would take it, cut at `size` with its end. */
-void source_words_text(const source_words *given, char *text, size_t size);
-
-/* The value of the one option that was given: a formula, a file or a family. */
-const char *source_words_value(const source_words *given);
-
-/* The source; exactly one must be named. NULL after a complaint. */
+/* The source of the one that was given; NULL after a complaint. */
 vndf_source *source_from_words(const char *command, const source_words *given);
 
 #endif

@@ -1,0 +1,85 @@
+/* A benchmark of wrong results is worth nothing: what each method returns is looked at before it is timed. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench_parts.h"
+
+enum { ROUNDS = 4 };
+
+/* 4e-6 in the square of the length: what vectors with approximate roots leave. A normal at a right angle to wi may
+ * be rounded to the far side. */
+static int sample_good(const method *m, const bench_block *b, size_t i)
+{
+    float x = b->x[i], y = b->y[i], z = b->z[i], dot = x * b->wi_x[i] + y * b->wi_y[i] + z * b->wi_z[i];
+    if (!(fabsf(x * x + y * y + z * z - 1.0f) <= 4e-6f) || !(z >= 0.0f))
+        return 0;
+    if (m->turned && dot <= 0.0f)
+        return b->pdf[i] >= 0.0f && b->pdf[i] < INFINITY;
+    return dot >= -1e-6f && b->pdf[i] > 0.0f && b->pdf[i] < INFINITY;
+}
+
+static int outputs_good(const method *m, const bench_block *b)
+{
+    for (size_t i = 0; i < BENCH_BLOCK; i++) {
+        if (m->kind == BENCH_MOVE && (b->x[i] != b->wi_x[i] || b->pdf[i] != b->u1[i] + b->u2[i]))
+            return 0;
+        if (m->kind == BENCH_CALL && !(isfinite(b->pdf[i]) && isfinite(b->x[i]) && isfinite(b->y[i])))
+            return 0;
+        if (m->kind != BENCH_MOVE && m->kind != BENCH_CALL && !sample_good(m, b, i))
+            return 0;
+    }
+    return 1;
+}
+
+static void clear_outputs(bench_block *b)
+{
+    memset(b->x, 0, sizeof b->x);
+    memset(b->y, 0, sizeof b->y);
+    memset(b->z, 0, sizeof b->z);
+    memset(b->pdf, 0, sizeof b->pdf);
+}
+
+static int same_outputs(const bench_block *a, const bench_block *b)
+{
+    return memcmp(a->x, b->x, sizeof a->x) == 0 && memcmp(a->y, b->y, sizeof a->y) == 0 &&
+           memcmp(a->z, b->z, sizeof a->z) == 0 && memcmp(a->pdf, b->pdf, sizeof a->pdf) == 0;
+}
+
+/* Runs one of the method's loops; `scratch` for what it is compared with. An odd count leaves a rest for vectors. */
+static int run_good(const method *m, method_run *run, bench_block *b, bench_block *scratch)
+{
+    method_inputs in = bench_block_inputs(b);
+    method_outputs out = bench_block_outputs(b), other = bench_block_outputs(scratch);
+    clear_outputs(b);
+    run(m, &in, &out);
+    if (!outputs_good(m, b))
+        return 0;
+    clear_outputs(scratch);
+    if (m->same_bits)
+        m->same_bits(m, &in, &other);
+    if (m->same_bits && !same_outputs(b, scratch))
+        return 0;
+    in.count = BENCH_BLOCK - 3;
+    clear_outputs(scratch);
+    run(m, &in, &other);
+    memcpy(scratch->x + in.count, b->x + in.count, 3 * sizeof(float));
+    memcpy(scratch->y + in.count, b->y + in.count, 3 * sizeof(float));
+    memcpy(scratch->z + in.count, b->z + in.count, 3 * sizeof(float));
+    memcpy(scratch->pdf + in.count, b->pdf + in.count, 3 * sizeof(float));
+    return same_outputs(b, scratch);
+}
+
+int bench_verify(const method *m, const method_truth *truth, bench_block *block, uint64_t seed)
+{
+    bench_block *scratch = malloc(sizeof *scratch);
+    int good = scratch != NULL;
+    for (uint64_t round = 0; good && round < ROUNDS; round++) {
+        bench_block_fill(block, truth, seed + round);
+        good = run_good(m, m->each, block, scratch);
+        bench_block_aim(block, (vndf_vec3){block->wi_x[0], block->wi_y[0], block->wi_z[0]}, block->alpha[0]);
+        good = good && (!m->shared || run_good(m, m->shared, block, scratch));
+    }
+    free(scratch);
+    return good;
+}
