@@ -27,6 +27,7 @@ static const char help[] =
     "                  your own D, as `vndf build --help` describes them; it comes first in the page. Without one,\n"
     "                  the page is about student-t:2.5, an exponential and a ring\n"
     "  --set NAME=X    a parameter of the expression; may be repeated\n"
+    "  --seconds S     to spend in all, roughly, 1 to 3600 (default 50); fewer mean fewer sizes and more noise\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a report, which is replaced; other\n"
     "files in it are left alone. Interrupted, the command leaves DIR as it was.\n"
@@ -34,6 +35,12 @@ static const char help[] =
     "example: vndf report --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 wavy-report\n";
 
 /* ---- progress ------------------------------------------------------------------------------------ */
+
+typedef struct report_plan {
+    source_words source;
+    words seconds_words;
+    double seconds;
+} report_plan;
 
 typedef struct report_bar {
     unsigned held;     /* signals that wait until nothing is half done */
@@ -89,7 +96,11 @@ static const example examples[] = {
     {NULL, "exp(-((r-1)/0.1)^2)", "ring: exp(-((r-1)/0.1)^2)", "--slope 'exp(-((r-1)/0.1)^2)'"},
 };
 
-enum { EXAMPLES = sizeof examples / sizeof examples[0], BENCH_SECONDS = 20 };
+enum { EXAMPLES = sizeof examples / sizeof examples[0] };
+
+/* Of the seconds: the tables of the first distribution, of each other one, and the benchmark, which also takes some
+ * to prepare. */
+static const double first_part = 0.4, other_part = 0.15, bench_part = 0.36;
 
 /* Takes the source; the status of what failed, told. */
 static int add_subject(report *r, vndf_source *source, const char *title, const char *arguments)
@@ -131,15 +142,15 @@ static int add_subjects(report *r, const source_words *given)
 }
 
 /* The first goes up to 1 MiB, the others to 64 KiB. */
-static int build_subjects(report *r, report_bar *bar)
+static int build_subjects(report *r, double seconds, report_bar *bar)
 {
     const report_watch watch = {watch_bar, bar};
     for (size_t i = 0; i < r->count; i++) {
         vndf_error error = {VNDF_OK, ""};
         double from = i == 0 ? 0 : 0.3 + 0.1 * (double)(i - 1);
         begin_step(bar, r->subject[i].name, from, 0.3 + 0.1 * (double)i);
-        vndf_status status = report_subject_build(&r->subject[i], i == 0 ? 1048576 : 65536, i == 0 ? 20 : 8, &watch,
-                                                  &error);
+        vndf_status status = report_subject_build(&r->subject[i], i == 0 ? 1048576 : 65536,
+                                                  seconds * (i == 0 ? first_part : other_part), &watch, &error);
         if (status != VNDF_OK)
             return complain(name, "%s: %s", r->subject[i].name, error.message);
     }
@@ -149,7 +160,7 @@ static int build_subjects(report *r, report_bar *bar)
 }
 
 /* The tables of the first distribution among all other methods, as `vndf bench` has them. */
-static int compare_methods(report *r, report_bar *bar)
+static int compare_methods(report *r, double seconds, report_bar *bar)
 {
     const vndf_distribution *ready[REPORT_SIZES];
     size_t limits[REPORT_SIZES];
@@ -159,23 +170,23 @@ static int compare_methods(report *r, report_bar *bar)
         ready[i] = s->table[i].table;
         limits[i] = s->table[i].asked;
     }
-    const bench_plan plan = {.source = s->source, .name = s->name, .seconds = BENCH_SECONDS, .ready = ready,
+    const bench_plan plan = {.source = s->source, .name = s->name, .seconds = seconds * bench_part, .ready = ready,
                              .ready_limits = limits, .ready_count = s->count, .progress = watch_bar,
                              .progress_user = bar};
     begin_step(bar, "all methods side by side", 0.65, 1);
     return bench_run(&plan, &r->rows, &error) == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
 }
 
-static int measure(report *r, const source_words *given, report_bar *bar)
+static int measure(report *r, const report_plan *plan, report_bar *bar)
 {
-    int status = add_subjects(r, given);
+    int status = add_subjects(r, &plan->source);
     if (status == STATUS_GOOD)
-        status = build_subjects(r, bar);
+        status = build_subjects(r, plan->seconds, bar);
     if (status != STATUS_GOOD)
         return status;
     begin_step(bar, "variance", 0.6, 0.65);
     report_variance_measure(&r->subject[0], r->integral);
-    return compare_methods(r, bar);
+    return compare_methods(r, plan->seconds, bar);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
@@ -220,13 +231,13 @@ static int write_report(const report *r, const char *path, folder_state state, u
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int run(const source_words *given, const char *path, folder_state state, unsigned held)
+static int run(const report_plan *plan, const char *path, folder_state state, unsigned held)
 {
     report_bar bar = {.held = held, .shows = isatty(STDERR_FILENO)};
     report *r = calloc(1, sizeof *r);
     if (!r)
         return complain(name, "no memory");
-    int status = measure(r, given, &bar);
+    int status = measure(r, plan, &bar);
     if (bar.shows)
         fputs("\r\033[K", stderr);
     if (status == STATUS_GOOD)
@@ -238,31 +249,35 @@ static int run(const source_words *given, const char *path, folder_state state, 
     return status;
 }
 
-static int check_words(const source_words *given)
+static int check_words(report_plan *plan)
 {
-    if (source_words_count(given) > 1)
+    if (source_words_count(&plan->source) > 1)
         return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
-    return source_words_check_set(name, given);
+    if (!option_number(name, "--seconds", &plan->seconds_words, 1, 3600, &plan->seconds))
+        return STATUS_USE;
+    return source_words_check_set(name, &plan->source);
 }
 
 int command_report(int argc, char **argv)
 {
-    source_words given = {.set = {{NULL}, 0}};
+    report_plan plan = {.seconds = 50};
     words positional = {{NULL}, 0};
-    const option_form options[] = {{"--ndf", 1, 1, &given.ndf}, {"--slope", 1, 1, &given.slope},
-                                   {"--csv", 1, 1, &given.csv}, {"--family", 1, 1, &given.family},
-                                   {"--set", 1, WORDS_MAX, &given.set}};
+    const option_form options[] = {
+        {"--ndf", 1, 1, &plan.source.ndf}, {"--slope", 1, 1, &plan.source.slope},
+        {"--csv", 1, 1, &plan.source.csv}, {"--family", 1, 1, &plan.source.family},
+        {"--set", 1, WORDS_MAX, &plan.source.set}, {"--seconds", 1, 1, &plan.seconds_words},
+    };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "DIR", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON)
-        parsed = check_words(&given);
+        parsed = check_words(&plan);
     if (parsed != PARSE_GO_ON)
         return parsed;
     folder_state state = folder_examine(name, only_word(&positional));
     if (state == FOLDER_REFUSED)
         return STATUS_USE;
     unsigned held = output_hold_signals();
-    int status = run(&given, only_word(&positional), state, held);
+    int status = run(&plan, only_word(&positional), state, held);
     output_release_signals(held);
     return status;
 }

@@ -95,7 +95,7 @@ int report_write_bytes(report_page *page, const report *r)
     page_section(page, "bytes", "Error against bytes",
                  "The largest total variation over all directions, by the size of the table. Curves: tables of this "
                  "library. Crosses: other methods that keep tables, for the first distribution.");
-    fputs("<figure>\n", page->html);
+    fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("</figure>\n", page->html);
     int good = write_data(page, r, &others);

@@ -52,6 +52,25 @@ static int is_empty(const char *folder)
     return empty;
 }
 
+/* Whether a folder can be made where `path` says; what stands before its last name has to be there. */
+static int can_be_made(const char *path)
+{
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    char *parent = malloc(length + 2);
+    if (!parent)
+        return 0;
+    snprintf(parent, length + 2, "%.*s", length ? (int)length : 1, length ? path : ".");
+    int good = access(parent, W_OK | X_OK) == 0;
+    int reason = errno;
+    free(parent);
+    errno = reason;
+    return good;
+}
+
 folder_state folder_examine(const char *command, const char *path)
 {
     struct stat status;
@@ -59,11 +78,17 @@ folder_state folder_examine(const char *command, const char *path)
         complain(command, "the name of the folder is empty");
         return FOLDER_REFUSED;
     }
-    if (stat(path, &status) != 0 && errno == ENOENT)
-        return FOLDER_NEW;
+    if (stat(path, &status) != 0 && errno == ENOENT) {
+        if (can_be_made(path))
+            return FOLDER_NEW;
+        complain(command, "cannot make the folder '%s': %s", path, strerror(errno));
+        return FOLDER_REFUSED;
+    }
     int empty = is_empty(path);
     if (empty < 0)
         complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
+    else if (access(path, W_OK | X_OK) != 0)
+        complain(command, "cannot write into '%s': %s", path, strerror(errno));
     else if (!empty && !has_our_page(path))
         complain(command, "'%s' has files in it, and no report: name a new folder, an empty one, or one with a report, "
                           "which is replaced", path);

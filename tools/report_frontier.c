@@ -191,7 +191,7 @@ int report_write_frontier(report_page *page, const report *r)
                  "Every way of sampling visible normals that was measured here: further left is faster, further down "
                  "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The band at "
                  "the bottom holds what is exact but for the rounding of floats.");
-    fputs("<figure>\n", page->html);
+    fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     write_key(page->html, f);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);

@@ -80,9 +80,6 @@ static const char style[] =
     ".panel text[fill=\"#212529\"]:not([stroke]){fill:#e9ecef}.panel line[stroke=\"#212529\"]{stroke:#e9ecef}\n"
     ".panel line[stroke=\"#e9ecef\"]{stroke:#343a40}.panel [stroke=\"#1a4f8e\"]{stroke:#7fbfec}\n"
     ".panel circle[stroke=\"#ffffff\"][stroke-width=\"8.0\"]{stroke:#16191d}}\n"
-    "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}.data,nav{display:none}\n"
-    "figure,tr,.advice{break-inside:avoid}h2{break-after:avoid}.pair figure{flex:1 1 45%}}\n"
-    "@page{margin:14mm}\n"
     "*{box-sizing:border-box}\n"
     "body{font:16px/1.5 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;color:var(--ink);background:var(--back);"
     "max-width:1180px;margin:0 auto;padding:24px}\n"
@@ -100,6 +97,13 @@ static const char style[] =
     ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"
     ".data{margin:.4em 0;font-size:.9em}.data pre{max-height:24em;overflow:auto;border:1px solid var(--rule);"
     "padding:.6em}summary{cursor:pointer;color:var(--quiet)}\n"
+    "@media screen{.wide svg.chart[role]{min-width:760px}}@media (max-width:600px){body{padding:12px}}\n"
+    "@page{size:A4 landscape;margin:12mm}\n"
+    "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}.data,nav{display:none}\n"
+    ".scroll{overflow:visible}h2{margin-top:1em}h2,h3,.lead{break-after:avoid}"
+    "figure,table,.advice,.lead{break-inside:avoid}.panels{flex-wrap:nowrap}.panels svg{min-width:0;flex:0 1 auto}"
+    ".wide svg[role]{max-height:145mm}"
+    ".pair figure{flex:1 1 30%}a{color:inherit}}\n"
     "code{font-family:ui-monospace,'DejaVu Sans Mono',monospace;font-size:.92em;overflow-wrap:anywhere}\n";
 
 int page_begin(report_page *page, const char *title)

@@ -243,8 +243,9 @@ int report_write_time(report_page *page, const report *r)
     page_section(page, "time", "Where the time goes",
                  "Median nanoseconds on this machine, one thread, tables in cache. First bar: the calls one by one, a "
                  "direction each; a sample needs the first two parts, the third is for a normal from elsewhere. Second "
-                 "and third bar: a sample of a batch.");
-    fputs("<figure class=\"scroll\">\n", page->html);
+                 "and third bar: a sample of a batch. Each loop runs by itself; where methods take turns, as in error "
+                 "against time, they start colder and take longer.");
+    fputs("<figure class=\"scroll wide\">\n", page->html);
     draw_times(page->html, lines, count);
     fprintf(page->html, "<figcaption>Tables are those of ");
     chart_escape(page->html, r->subject[0].name);
