@@ -1,5 +1,5 @@
-/* `vndf report` writes a page that is well-formed and needs nothing else, with the data behind each plot beside it,
- * for a D with a jump and for a CSV; what is not a report is not replaced, and a signal leaves nothing behind.
+/* `vndf report` writes a page that is well-formed and needs nothing else, with the data behind each plot beside
+ * it, for a D with a jump and for a CSV; what is not a report is not replaced, and a signal leaves nothing behind.
  * With VNDF_TEST_QUICK one page is written instead of two. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700

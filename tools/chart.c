@@ -145,8 +145,9 @@ static void draw_line(FILE *file, const chart *c, const chart_frame *f, const ch
 {
     static const char *const dashes[] = {"", "", "7 4", "2 3"};
     int inside = 0;
-    fprintf(file, "<path class=\"line l%u\"%s%s%s d=\"", s->colour, s->line > CHART_SOLID ? " stroke-dasharray=\"" : "",
-            dashes[s->line], s->line > CHART_SOLID ? "\"" : "");
+    fprintf(file, "<path class=\"line l%u\"%s%s%s d=\"", s->colour,
+            s->line > CHART_SOLID ? " stroke-dasharray=\"" : "", dashes[s->line],
+            s->line > CHART_SOLID ? "\"" : "");
     for (size_t i = 0; i < s->count; i++) {
         if (!is_inside(c, f, s->x[i], s->y[i])) {
             inside = 0;
@@ -163,7 +164,8 @@ static void draw_mark(FILE *file, const chart_series *s, double x, double y)
     static const char *const outlines[] = {
         "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L5 0L0 5L-5 0z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
     if (s->mark == CHART_DOT)
-        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", s->colour, x, y, mark_radius);
+        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", s->colour, x, y,
+                mark_radius);
     else if (s->mark == CHART_RING)
         fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", s->colour, x, y,
                 mark_radius);
@@ -188,7 +190,8 @@ static void take_curve(const chart *c, const chart_frame *f, const chart_series 
                       pixel_y(c, f, s->y[i + 1]));
 }
 
-static void draw_series(FILE *file, const chart *c, const chart_frame *f, const chart_series *s, chart_taken *taken)
+static void draw_series(FILE *file, const chart *c, const chart_frame *f, const chart_series *s,
+                        chart_taken *taken)
 {
     if (s->line != CHART_NO_LINE)
         draw_line(file, c, f, s);
@@ -251,8 +254,10 @@ static void draw_inside(FILE *file, const chart *c)
 
 static void open_element(FILE *file, const chart *c)
 {
-    fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" width=\"%.0f\" height=\"%.0f\" "
-                  "viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"", c->width, c->height, c->width, c->height);
+    fprintf(file,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" width=\"%.0f\" height=\"%.0f\" "
+            "viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"",
+            c->width, c->height, c->width, c->height);
     chart_escape(file, c->about ? c->about : c->title);
     fputs("\">\n", file);
 }

@@ -1,19 +1,21 @@
 /* Charts for the report: axes with ticks, curves with direct labels at their ends, points with labels beside them.
  *
  *   chart_draw      frame, grid, series (chart.c)
- *   chart_place     where a value lies on an axis; chart_ticks: which values are marked, and their names (chart_axis.c)
- *   chart_labels_*  texts that avoid each other and the marks (chart_label.c)
+ *   chart_place     where a value lies on an axis (chart_axis.c)
+ *   chart_ticks     which values are marked, and their names
+ *   chart_label_*   texts that avoid each other and the marks (chart_label.c)
  *
- * Colours are classes, so that a page or a file of its own can change them for dark screens: chart_style writes the
- * rules. The palette is that of M. Okabe and K. Ito, "Color Universal Design" (2008), which people with any kind of
- * colour vision tell apart; series differ in mark or dashes as well. */
+ * Colours are classes, so that a page or a file of its own can change them for dark screens: chart_style writes
+ * the rules. The palette is that of M. Okabe and K. Ito, "Color Universal Design" (2008), which people with any
+ * kind of colour vision tell apart; series differ in mark or dashes as well. */
 #ifndef TOOLS_CHART_H
 #define TOOLS_CHART_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-typedef enum chart_scale { CHART_LINEAR, CHART_LOG, CHART_BYTES } chart_scale; /* BYTES: logarithmic, in powers of two */
+/* CHART_BYTES is logarithmic, in powers of two. */
+typedef enum chart_scale { CHART_LINEAR, CHART_LOG, CHART_BYTES } chart_scale;
 
 typedef struct chart_axis {
     chart_scale scale;

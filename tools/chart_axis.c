@@ -1,6 +1,6 @@
-/* Ticks. Linear axes have one every step. Logarithmic ones have decades with names, and small ticks at 2 to 9 between;
- * where fewer than three decades are shown, 2 and 5 have names too. Bytes have powers of two, every second of them
- * named where there are many. */
+/* Ticks. Linear axes have one every step. Logarithmic ones have decades with names, and small ticks at 2 to 9
+ * between; where fewer than three decades are shown, 2 and 5 have names too. Bytes have powers of two, every
+ * second of them named where there are many. */
 #include "chart.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ void chart_fit(chart_axis *axis, double low, double high)
     double base = axis->scale == CHART_BYTES ? 2 : 10;
     double loose = axis->scale == CHART_BYTES ? 0.06 : 1e-3; /* files stay a little below what they may have */
     double first = floor(log(low) / log(base) + loose), last = ceil(log(high) / log(base) - loose);
-    if (!(low > 0) || !(high < HUGE_VAL)) /* nothing is known */
+    if (!(low > 0 && low <= high && high < HUGE_VAL)) /* nothing is known */
         first = -1, last = 0;
     double room = axis->scale == CHART_BYTES ? 1.15 : 1;
     axis->low = pow(base, first) / room;
@@ -30,7 +30,8 @@ static void name_power(char name[16], int power)
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     int size = power < 0 ? -power : power;
-    snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "", digits[size % 10]);
+    snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
+             digits[size % 10]);
 }
 
 /* Powers on an axis that needs them, plain numbers on one that does not. */

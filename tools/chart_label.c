@@ -1,6 +1,6 @@
-/* Placing of texts. Labels beside points are placed one after the other: of some places around the point, near ones
- * first, the one that covers the least of what is there already. Labels at the ends of curves stand in a column and
- * push each other apart. */
+/* Placing of texts. Labels beside points are placed one after the other: of some places around the point, near
+ * ones first, the one that covers the least of what is there already. Labels at the ends of curves stand in a
+ * column and push each other apart. */
 #include "chart.h"
 
 #include <math.h>

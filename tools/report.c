@@ -1,5 +1,5 @@
-/* vndf report: one page about what accuracy costs, with the user's own D if there is one. This file reads the words,
- * measures one thing after the other, and has the page written; report.h maps the rest. */
+/* vndf report: one page about what accuracy costs, with the user's own D if there is one. This file reads the
+ * words, measures one thing after the other, and has the page written; report.h maps the rest. */
 #define _POSIX_C_SOURCE 200809L
 #include "report.h"
 
@@ -20,12 +20,12 @@ static const char help[] =
     "usage: vndf report [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] DIR\n"
     "\n"
     "Writes DIR/index.html, one page that needs nothing else: which table to ship, error against time, bytes and\n"
-    "angle, density and samples, variance against samples, and where the time goes; beside it the data behind each\n"
-    "plot as CSV, and DIR/frontier.svg. Takes about a minute.\n"
+    "angle, density and samples, variance against samples, and where the time goes; beside it the data behind\n"
+    "each plot as CSV, and DIR/frontier.svg. Takes about a minute.\n"
     "\n"
     "  --ndf EXPR, --slope EXPR, --csv FILE, --family NAME\n"
-    "                  your own D, as `vndf build --help` describes them; it comes first in the page. Without one,\n"
-    "                  the page is about student-t:2.5, an exponential and a ring\n"
+    "                  your own D, as `vndf build --help` describes them; it comes first in the page. Without\n"
+    "                  one, the page is about student-t:2.5, an exponential and a ring\n"
     "  --set NAME=X    a parameter of the expression; may be repeated\n"
     "  --seconds S     to spend in all, roughly, 1 to 3600 (default 50); fewer mean fewer sizes and more noise\n"
     "\n"
@@ -98,8 +98,8 @@ static const example examples[] = {
 
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
-/* Of the seconds: the tables of the first distribution, of each other one, and the benchmark, which also takes some
- * to prepare. */
+/* Of the seconds: the tables of the first distribution, of each other one, and the benchmark, which also takes
+ * some to prepare. */
 static const double first_part = 0.4, other_part = 0.15, bench_part = 0.36;
 
 /* Takes the source; the status of what failed, told. */
@@ -193,10 +193,11 @@ static int measure(report *r, const report_plan *plan, report_bar *bar)
 
 static void write_contents(FILE *html, const report *r)
 {
+    static const char *const sets[] = {"", "the portable path", "AVX2", "AVX-512"};
     fputs("<p class=\"lead\">Visible normals sampled from tables: what accuracy costs in time and memory. ", html);
-    fprintf(html, "Batches ran on %s. ",
-            (const char *const[]){"", "the portable path", "AVX2", "AVX-512"}[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)]);
-    fputs(r->subject[0].brought ? "The first distribution is yours: <code>" : "The first distribution is <code>", html);
+    fprintf(html, "Batches ran on %s. ", sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)]);
+    fputs(r->subject[0].brought ? "The first distribution is yours: <code>" : "The first distribution is <code>",
+          html);
     chart_escape(html, r->subject[0].arguments);
     fputs("</code>.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and time</a> "
           "<a href=\"#bytes\">Error and bytes</a> <a href=\"#theta\">Error and angle</a> "

@@ -33,7 +33,7 @@ typedef struct report_error {
 
 /* Median nanoseconds per call, of what is drawn or evaluated for random directions. */
 typedef struct report_time {
-    double view, sample, pdf;  /* one by one: the view; what a sample with its density adds; the density of a normal */
+    double view, sample, pdf;   /* one by one: the view; what a sample with its density adds; a given normal */
     double batch, batch_shared; /* vndf_sample_n, view included: a direction each; one direction for all */
 } report_time;
 
@@ -42,6 +42,7 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
+    double tv;                 /* the larger of what the certificate and the angles here say */
     double tv_above;           /* the largest total variation from above the horizon */
     report_time time;
 } report_table;
@@ -98,8 +99,8 @@ vndf_status report_subject_begin(report_subject *subject, vndf_source *source, c
 
 /* Builds the tables up to `largest` bytes, smallest first, as long as a next one is likely to end before `seconds`
  * have been spent, and measures them; two at least. */
-vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds, const report_watch *watch,
-                                 vndf_error *error);
+vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds,
+                                 const report_watch *watch, vndf_error *error);
 void report_subject_free(report_subject *subject);
 
 /* Which of its tables to ship. */

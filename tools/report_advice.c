@@ -1,7 +1,8 @@
 /* Which table to ship.
  *
- * Any table is right with its weight; what it costs is noise, rare bright samples, and, for those who leave the weight
- * out, bias. So the advice is the smallest table that keeps four limits, over all directions from 0 to 180 degrees:
+ * Any table is right with its weight; what it costs is noise, rare bright samples, and, for those who leave the
+ * weight out, bias. So the advice is the smallest table that keeps four limits, over all directions from 0 to 180
+ * degrees:
  *     the largest weight is at most 2: no sample is brighter by more than it would be by chance;
  *     the weights add at most 1% to the variance: nobody can see that;
  *     total variation is at most 1e-3: without the weight, what is off stays below half a step of 8 bits;
@@ -24,7 +25,7 @@ typedef struct verdict {
 static verdict judge(const report_table *t)
 {
     const vndf_certificate *c = &t->info.certificate;
-    verdict v = {{(double)c->max_weight, t->worst.variance, (double)c->tv, (double)c->area_error}, {0, 0, 0, 0}};
+    verdict v = {{(double)c->max_weight, t->worst.variance, t->tv, (double)c->area_error}, {0, 0, 0, 0}};
     const double limit[LIMITS] = {most_weight, most_variance, most_tv, most_area};
     for (int i = 0; i < LIMITS; i++)
         v.kept[i] = v.value[i] <= limit[i];
@@ -70,9 +71,10 @@ static void write_choice(FILE *html, const report_subject *s)
     fprintf(html, ": ship the table of %s.</strong> ", size);
     verdict v = judge(t);
     if (keeps_all(t))
-        fprintf(html, "It is the smallest that keeps all four limits: weights up to %.3g, %.2g%% of added variance, "
-                      "a total variation of %.2g, G1 within %.1g. ", v.value[0], 100 * v.value[1], v.value[2],
-                v.value[3]);
+        fprintf(html,
+                "It is the smallest that keeps all four limits: weights up to %.3g, %.2g%% of added variance, "
+                "a total variation of %.2g, G1 within %.1g. ",
+                v.value[0], 100 * v.value[1], v.value[2], v.value[3]);
     else {
         fputs("None of those measured keeps all four limits; this is the largest, with ", html);
         write_broken(html, &v);
@@ -91,8 +93,8 @@ static void write_reflection(FILE *html, const report_subject *s)
         if (!v.kept[0] || !v.kept[1] || !v.kept[3] || t->tv_above > most_tv)
             continue;
         report_bytes_text(size, (double)t->info.bytes);
-        fprintf(html, " For reflection alone %s will do: from above the horizon its total variation is %.2g.", size,
-                t->tv_above);
+        fprintf(html, " For reflection alone %s will do: from above the horizon its total variation is %.2g.",
+                size, t->tv_above);
         return;
     }
 }
@@ -146,9 +148,11 @@ static void write_table(FILE *html, const report_subject *s)
 {
     fputs("<h3>", html);
     chart_escape(html, s->name);
-    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th><th>total variation</th><th>above the horizon</th><th>largest weight</th>"
+    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th>"
+          "<th>total variation</th><th>above the horizon</th><th>largest weight</th>"
           "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
-          "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n", html);
+          "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n",
+          html);
     for (size_t i = 0; i < s->count; i++)
         write_row(html, &s->table[i], i == s->chosen);
     fputs("</tbody></table></div>\n", html);
@@ -166,22 +170,23 @@ static int write_data(report_page *page, const report *r)
             const report_table *t = &r->subject[k].table[i];
             const vndf_certificate *c = &t->info.certificate;
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n", t->info.bytes,
-                    (double)c->tv, (double)c->tv_theta, (double)c->max_weight, (double)c->weight_bounded,
-                    t->worst.variance, (double)c->area_error, (double)c->consistency, (double)c->ndf_error,
-                    t->worst.tv, t->tv_above, t->time.view + t->time.sample, t->time.batch, t->time.batch_shared,
-                    i == r->subject[k].chosen);
+            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n",
+                    t->info.bytes, (double)c->tv, (double)c->tv_theta, (double)c->max_weight,
+                    (double)c->weight_bounded, t->worst.variance, (double)c->area_error, (double)c->consistency,
+                    (double)c->ndf_error, t->worst.tv, t->tv_above, t->time.view + t->time.sample, t->time.batch,
+                    t->time.batch_shared, i == r->subject[k].chosen);
         }
     return page_data_end(page, "certificates and times of all tables");
 }
 
 int report_write_advice(report_page *page, const report *r)
 {
-    page_section(page, "advice", "Which table to ship",
-                 "Every table is exact with its weight; a small one costs noise. The advice is the smallest table with "
-                 "weights up to 2, at most 1% more variance, a total variation up to 0.001 (so that the weight may "
-                 "be left out where a bias below half a step of 8 bits does not matter) and G1 within 0.0001, for every "
-                 "direction from 0 to 180 degrees.");
+    page_section(
+        page, "advice", "Which table to ship",
+        "Every table is exact with its weight; a small one costs noise. The advice is the smallest table with "
+        "weights up to 2, at most 1% more variance, a total variation up to 0.001 (so that the weight may "
+        "be left out where a bias below half a step of 8 bits does not matter) and G1 within 0.0001, for every "
+        "direction from 0 to 180 degrees.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++)
         write_advice(page->html, &r->subject[i]);

@@ -1,4 +1,5 @@
-/* Error against bytes: a curve over its tables for each distribution, and other methods that have tables as points. */
+/* Error against bytes: a curve over its tables for each distribution, and other methods that have tables as
+ * points. */
 #include <math.h>
 #include <stdio.h>
 
@@ -60,7 +61,7 @@ static int write_data(report_page *page, const report *r, const byte_points *oth
             fputs("table,", data);
             page_field(data, r->subject[k].name);
             fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes,
-                    (double)r->subject[k].table[i].info.certificate.tv);
+                    r->subject[k].table[i].tv);
         }
     for (size_t i = 0; i < others->count; i++) {
         page_field(data, others->label[i]);
@@ -81,7 +82,7 @@ int report_write_bytes(report_page *page, const report *r)
     for (size_t k = 0; k < r->count; k++) {
         for (size_t i = 0; i < r->subject[k].count; i++) {
             x[k][i] = (double)r->subject[k].table[i].info.bytes;
-            y[k][i] = (double)r->subject[k].table[i].info.certificate.tv;
+            y[k][i] = r->subject[k].table[i].tv;
         }
         series[k] = (chart_series){r->subject[k].name, x[k], y[k], r->subject[k].count, colours[k], marks[k],
                                    CHART_SOLID, NULL};
@@ -92,9 +93,10 @@ int report_write_bytes(report_page *page, const report *r)
     chart c = {NULL, "error against bytes", 1080, 460, 270, {CHART_BYTES, 0, 0, 0, "size of the table"},
                {CHART_LOG, 0, 0, 0, "total variation, worst angle"}, NULL, 0, series, r->count + 1};
     fit_axes(&c);
-    page_section(page, "bytes", "Error against bytes",
-                 "The largest total variation over all directions, by the size of the table. Curves: tables of this "
-                 "library. Crosses: other methods that keep tables, for the first distribution.");
+    page_section(
+        page, "bytes", "Error against bytes",
+        "The largest total variation over all directions, by the size of the table. Curves: tables of this "
+        "library. Crosses: other methods that keep tables, for the first distribution.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("</figure>\n", page->html);

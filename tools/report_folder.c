@@ -90,8 +90,10 @@ folder_state folder_examine(const char *command, const char *path)
     else if (access(path, W_OK | X_OK) != 0)
         complain(command, "cannot write into '%s': %s", path, strerror(errno));
     else if (!empty && !has_our_page(path))
-        complain(command, "'%s' has files in it, and no report: name a new folder, an empty one, or one with a report, "
-                          "which is replaced", path);
+        complain(command,
+                 "'%s' has files in it, and no report: name a new folder, an empty one, or one with a report, "
+                 "which is replaced",
+                 path);
     else
         return empty ? FOLDER_EMPTY : FOLDER_OURS;
     return FOLDER_REFUSED;

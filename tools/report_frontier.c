@@ -1,5 +1,6 @@
 /* The frontier: error against time. Every row of tools/bench.h is a point; tables of this library are joined over
- * their sizes, a curve for each instruction set. What is exact stands in a band of its own, for a logarithm has no 0. */
+ * their sizes, a curve for each instruction set. What is exact stands in a band of its own: a logarithm has
+ * no 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -94,7 +95,8 @@ static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, siz
     *s = (chart_series){NULL, f->x[f->count], f->y[f->count], 0, set_colours[set], marks[kind],
                         kind == BENCH_TABLE ? CHART_SOLID : CHART_NO_LINE, f->text[f->count]};
     for (size_t i = 0; i < rows->count; i++)
-        if (rows->row[i].kind == kind && is_shown(&rows->row[i]) && strcmp(rows->row[i].instructions, sets[set]) == 0)
+        if (rows->row[i].kind == kind && is_shown(&rows->row[i]) &&
+            strcmp(rows->row[i].instructions, sets[set]) == 0)
             add_row(f, &rows->row[i]);
     if (kind == BENCH_TABLE && s->count > 0) { /* the last one carries the name of the curve */
         char *last = f->label[f->count][s->count - 1];
@@ -116,7 +118,8 @@ static chart chart_of(const frontier *f)
 {
     chart c = {"Sampling visible normals: error against time", NULL, 1080, 660, 20,
                {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"}, "exact", 76, f->series, f->count};
+               {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
+               "exact", 76, f->series, f->count};
     chart_fit(&c.x, f->low_x, f->high_x);
     chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
     c.x.low = fmax(c.x.low, f->low_x / 1.6);
@@ -131,12 +134,15 @@ static void write_key(FILE *html, const frontier *f)
     for (size_t k = 0; k < f->count; k++)
         for (size_t set = 0; set < SETS; set++)
             seen[set] |= f->series[k].colour == set_colours[set];
-    fputs("<p class=\"note\">● tables of this library, joined over their sizes · ■ its closed forms · ▲ others' methods, "
-          "written from the publications. Colour: ", html);
+    fputs("<p class=\"note\">● tables of this library, joined over their sizes · ■ its closed forms · ▲ others' "
+          "methods, written from the publications. Colour: ",
+          html);
     for (size_t set = 0; set < SETS; set++)
         if (seen[set])
-            fprintf(html, "<svg class=\"chart\" width=\"12\" height=\"12\" viewBox=\"0 0 12 12\"><circle class=\"f%u\" "
-                          "cx=\"6\" cy=\"6\" r=\"5\"/></svg> %s ", set_colours[set], sets[set]);
+            fprintf(html,
+                    "<svg class=\"chart\" width=\"12\" height=\"12\" viewBox=\"0 0 12 12\"><circle class=\"f%u\" "
+                    "cx=\"6\" cy=\"6\" r=\"5\"/></svg> %s ",
+                    set_colours[set], sets[set]);
     fputs("</p>\n", html);
 }
 
@@ -187,10 +193,11 @@ int report_write_frontier(report_page *page, const report *r)
         return 0;
     collect(f, &r->rows);
     chart c = chart_of(f);
-    page_section(page, "frontier", "Error against time",
-                 "Every way of sampling visible normals that was measured here: further left is faster, further down "
-                 "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The band at "
-                 "the bottom holds what is exact but for the rounding of floats.");
+    page_section(
+        page, "frontier", "Error against time",
+        "Every way of sampling visible normals that was measured here: further left is faster, further down "
+        "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The "
+        "band at the bottom holds what is exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     write_key(page->html, f);

@@ -102,7 +102,8 @@ static int write_density(report_page *page, const report *r)
             for (int t = 0; t <= 90; t += DENSITY_STEP)
                 for (int p = 0; p <= (t > 0 ? 180 : 0); p += TURN_STEP) {
                     page_field(data, r->subject[k].name);
-                    fprintf(data, ",%g,%d,%d,%.6g\n", thetas[v], t, p, (double)vndf_pdf(&view, direction_from(t, p)));
+                    fprintf(data, ",%g,%d,%d,%.6g\n", thetas[v], t, p,
+                            (double)vndf_pdf(&view, direction_from(t, p)));
                 }
         }
     return page_data_end(page, "density of visible normals on a grid");
@@ -110,10 +111,11 @@ static int write_density(report_page *page, const report *r)
 
 int report_write_normals(report_page *page, const report *r)
 {
-    page_section(page, "normals", "Density and samples",
-                 "D against the angle of the normal, and the normals visible from three directions, the last below the "
-                 "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "
-                 "seen from above in an equal-area projection. A ring or an arrow marks the incident direction.");
+    page_section(
+        page, "normals", "Density and samples",
+        "D against the angle of the normal, and the normals visible from three directions, the last below the "
+        "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "
+        "seen from above in an equal-area projection. A ring or an arrow marks the incident direction.");
     int good = 1;
     for (size_t i = 0; i < r->count && good; i++)
         good = draw_subject(page->html, &r->subject[i]);

@@ -112,8 +112,10 @@ int page_begin(report_page *page, const char *title)
     page->html = open_file(page, "index.html");
     if (!page->html)
         return 0;
-    fprintf(page->html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n%s\n"
-                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>", page_mark);
+    fprintf(page->html,
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n%s\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+            page_mark);
     chart_escape(page->html, title);
     fputs("</title>\n<style>\n", page->html);
     fputs(style, page->html);
@@ -126,7 +128,8 @@ int page_begin(report_page *page, const char *title)
 
 int page_end(report_page *page)
 {
-    fputs("<p class=\"note\">Made by <code>vndf report</code>, vndf " VNDF_VERSION ".</p>\n</body>\n</html>\n", page->html);
+    fputs("<p class=\"note\">Made by <code>vndf report</code>, vndf " VNDF_VERSION ".</p>\n</body>\n</html>\n",
+          page->html);
     return close_file(&page->html);
 }
 

@@ -1,5 +1,5 @@
-/* The page: head with style, sections with a title, and the data behind each plot, which stands as a file beside the
- * page and once more inside it. All of it is held in memory until it is written at once. */
+/* The page: head with style, sections with a title, and the data behind each plot, which stands as a file beside
+ * the page and once more inside it. All of it is held in memory until it is written at once. */
 #ifndef TOOLS_REPORT_PAGE_H
 #define TOOLS_REPORT_PAGE_H
 

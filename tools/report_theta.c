@@ -55,8 +55,8 @@ static void draw_subject(FILE *file, const report_subject *s)
     chart_fit(&c.y, fmax(curves.low, 1e-8), curves.high);
     const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
     for (size_t k = 0; k < curves.count; k++)
-        series[k] = (chart_series){curves.label[k], curves.x, curves.y[k], REPORT_ANGLES, colours[k], CHART_NO_MARK,
-                                   lines[k], NULL};
+        series[k] = (chart_series){curves.label[k], curves.x, curves.y[k], REPORT_ANGLES, colours[k],
+                                   CHART_NO_MARK, lines[k], NULL};
     series[curves.count] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
@@ -84,9 +84,10 @@ static int write_data(report_page *page, const report *r)
 
 int report_write_theta(report_page *page, const report *r)
 {
-    page_section(page, "theta", "Error against the angle of incidence",
-                 "Total variation between drawn and true visible normals, from straight above to straight below. A curve "
-                 "ends where less than 1e-10 of what is visible at grazing incidence is left.");
+    page_section(
+        page, "theta", "Error against the angle of incidence",
+        "Total variation between drawn and true visible normals, from straight above to straight below. A curve "
+        "ends where less than 1e-10 of what is visible at grazing incidence is left.");
     fputs("<div class=\"pair\">\n", page->html);
     for (size_t i = 0; i < r->count; i++)
         draw_subject(page->html, &r->subject[i]);

@@ -1,9 +1,10 @@
-/* Where the time goes: nanoseconds of making a view, drawing from it, evaluating a density, one by one and in batches,
- * and a chart of them.
+/* Where the time goes: nanoseconds of making a view, drawing from it, evaluating a density, one by one and in
+ * batches, and a chart of them.
  *
- * For 4096 incident directions, uniform over the upper hemisphere, and roughness from 0.1 to 1: few enough to stay in
- * cache with a table, too many for a branch predictor to learn. Each loop is timed 11 times, the median counts. Results are added up and the sum is looked
- * at, so that no compiler leaves the work out. A sample is what view and sample take together, less the view. */
+ * For 4096 incident directions, uniform over the upper hemisphere, and roughness from 0.1 to 1: few enough to stay
+ * in cache with a table, too many for a branch predictor to learn. Each loop is timed 11 times, the median counts.
+ * Results are added up and the sum is looked at, so that no compiler leaves the work out. A sample is what view
+ * and sample take together, less the view. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +33,10 @@ static void fill(workload *w, const vndf_distribution *distribution)
     for (int i = 0; i < DIRECTIONS; i++) {
         double z = random_double(&stream), phi = 2 * pi * random_double(&stream), s = sqrt(1 - z * z);
         w->alpha[i] = (float)(0.1 + 0.9 * random_double(&stream));
-        w->wi[i] = (vndf_vec3){w->x[i] = (float)(s * cos(phi)), w->y[i] = (float)(s * sin(phi)), w->z[i] = (float)z};
+        w->x[i] = (float)(s * cos(phi));
+        w->y[i] = (float)(s * sin(phi));
+        w->z[i] = (float)z;
+        w->wi[i] = (vndf_vec3){w->x[i], w->y[i], w->z[i]};
         w->surface[i] = (vndf_surface){distribution, w->alpha[i], w->alpha[i]};
         w->u1[i] = random_float(&stream);
         w->u2[i] = random_float(&stream);
@@ -122,7 +126,7 @@ report_time report_time_of(const vndf_distribution *distribution)
     double view = time_loop(w, make_views);
     report_time time = {view, time_loop(w, draw_samples) - view, time_loop(w, evaluate),
                         time_loop(w, draw_apart), time_loop(w, draw_shared)};
-    int good = isfinite(w->sum); /* densities of valid views are finite: never false, but the compiler cannot know */
+    int good = isfinite(w->sum); /* always: densities of valid views are finite, but no compiler knows */
     free(w);
     return good ? time : none;
 }
@@ -199,18 +203,22 @@ static void draw_legend(FILE *file, double y)
 {
     for (int p = 0; p < PARTS; p++) {
         double x = 10 + 250 * (p % 3), at = y + 20 * (p / 3);
-        fprintf(file, "<rect class=\"f%d\" x=\"%.1f\" y=\"%.1f\" width=\"14\" height=\"12\"/>\n"
-                      "<text class=\"ink\" x=\"%.1f\" y=\"%.1f\">%s</text>\n", p, x, at - 10, x + 20, at, part_names[p]);
+        fprintf(file,
+                "<rect class=\"f%d\" x=\"%.1f\" y=\"%.1f\" width=\"14\" height=\"12\"/>\n"
+                "<text class=\"ink\" x=\"%.1f\" y=\"%.1f\">%s</text>\n",
+                p, x, at - 10, x + 20, at, part_names[p]);
     }
 }
 
 static void draw_axis(FILE *file, double most, double step, double bottom, double per_ns)
 {
     for (double ns = 0; ns <= most * 1.001; ns += step)
-        fprintf(file, "<path class=\"grid\" d=\"M%.1f 50V%.1f\"/>\n<text class=\"tick quiet\" text-anchor=\"middle\" "
-                      "x=\"%.1f\" y=\"%.1f\">%g</text>\n", LEFT + ns * per_ns, bottom, LEFT + ns * per_ns, bottom + 16,
-                ns);
-    fprintf(file, "<text class=\"ink\" text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">nanoseconds per sample</text>\n",
+        fprintf(file,
+                "<path class=\"grid\" d=\"M%.1f 50V%.1f\"/>\n<text class=\"tick quiet\" text-anchor=\"middle\" "
+                "x=\"%.1f\" y=\"%.1f\">%g</text>\n",
+                LEFT + ns * per_ns, bottom, LEFT + ns * per_ns, bottom + 16, ns);
+    fprintf(file,
+            "<text class=\"ink\" text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">nanoseconds per sample</text>\n",
             LEFT + most * per_ns / 2, bottom + 36);
 }
 
@@ -240,11 +248,12 @@ int report_write_time(report_page *page, const report *r)
 {
     time_line lines[LINES_MAX];
     size_t count = lines_of(r, lines);
-    page_section(page, "time", "Where the time goes",
-                 "Median nanoseconds on this machine, one thread, tables in cache. First bar: the calls one by one, a "
-                 "direction each; a sample needs the first two parts, the third is for a normal from elsewhere. Second "
-                 "and third bar: a sample of a batch. Each loop runs by itself; where methods take turns, as in error "
-                 "against time, they start colder and take longer.");
+    page_section(
+        page, "time", "Where the time goes",
+        "Median nanoseconds on this machine, one thread, tables in cache. First bar: the calls one by one, a "
+        "direction each; a sample needs the first two parts, the third is for a normal from elsewhere. Second "
+        "and third bar: a sample of a batch. Each loop runs by itself; where methods take turns, as in error "
+        "against time, they start colder and take longer.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     draw_times(page->html, lines, count);
     fprintf(page->html, "<figcaption>Tables are those of ");

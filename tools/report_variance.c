@@ -1,12 +1,13 @@
 /* Variance against the number of samples: two integrals estimated in several ways.
  *
  * The integral is the albedo of a rough conductor seen from 60 and from 85 degrees,
- *     integral f(wi, wo) cos(theta_o) dwo = integral F(wi.wm) G2/G1(wi) Dv(wm) dwm   over normals that reflect upwards,
- * with Schlick's F (0.9 at normal incidence) and height-correlated masking. Ways to estimate it:
+ *     integral f(wi, wo) cos(theta_o) dwo = integral F(wi.wm) G2/G1(wi) Dv(wm) dwm
+ * over normals that reflect upwards, with Schlick's F (0.9 at normal incidence) and height-correlated masking. Ways
+ * to estimate it:
  *     visible normals from a table, weighted by true/drawn density: unbiased whatever the size;
  *     the same without the weight: biased by what the table is off;
- *     all normals (Walter et al. 2007): D cos(theta_m), which is what is visible from straight above, drawn from the
- *         largest table; and directions by their cosine, the D-blind way.
+ *     all normals (Walter et al. 2007), D cos(theta_m): what is visible from straight above the largest table;
+ *     directions by their cosine, which do not know D.
  * The noise at N samples is the root mean square, over all groups of N of the same 2^17 samples, of the mean's
  * distance to the truth, which comes from 2^18 points of a lattice with the weight. */
 #include <math.h>
@@ -48,7 +49,8 @@ static scene scene_at(const report_subject *subject, double degrees, double alph
 static double true_ndf(const scene *s, vndf_vec3 wm)
 {
     double z = (double)wm.z, across = hypot((double)wm.x, (double)wm.y);
-    return z > 1e-12 ? vndf_truth_p22(s->truth, across / (z * s->alpha)) / (s->alpha * s->alpha * z * z * z * z) : 0;
+    return z > 1e-12 ? vndf_truth_p22(s->truth, across / (z * s->alpha)) / (s->alpha * s->alpha * z * z * z * z)
+                     : 0;
 }
 
 static double dot(vndf_vec3 a, vndf_vec3 b)
@@ -95,7 +97,8 @@ static double estimate_all_normals(const estimator *e, double u1, double u2)
     double cosine = dot(e->scene->wi, wm);
     if (!(cosine > 0))
         return 0;
-    return reflected(e->scene, wm, cosine) * cosine * true_ndf(e->scene, wm) / ((double)e->scene->wi.z * (double)pdf);
+    return reflected(e->scene, wm, cosine) * cosine * true_ndf(e->scene, wm) /
+           ((double)e->scene->wi.z * (double)pdf);
 }
 
 /* wo by its cosine; D at the half vector. */
@@ -107,7 +110,8 @@ static double estimate_cosine(const estimator *e, double u1, double u2)
     vndf_vec3 wm = {(float)(hx / length), (float)(hy / length), (float)(hz / length)};
     if (!(z > 0))
         return 0;
-    return reflected(e->scene, wm, dot(e->scene->wi, wm)) * true_ndf(e->scene, wm) * pi / (4 * (double)e->scene->wi.z * z);
+    return reflected(e->scene, wm, dot(e->scene->wi, wm)) * true_ndf(e->scene, wm) * pi /
+           (4 * (double)e->scene->wi.z * z);
 }
 
 static double estimate(const estimator *e, double u1, double u2)
@@ -209,7 +213,8 @@ void report_variance_measure(const report_subject *subject, report_integral inte
 
 static void draw_integral(FILE *file, const report_integral *integral, const double counts[REPORT_COUNTS])
 {
-    static const chart_mark marks[REPORT_METHODS] = {CHART_CROSS, CHART_TRIANGLE, CHART_RING, CHART_SQUARE, CHART_DOT};
+    static const chart_mark marks[REPORT_METHODS] = {CHART_CROSS, CHART_TRIANGLE, CHART_RING, CHART_SQUARE,
+                                                     CHART_DOT};
     static const unsigned colours[REPORT_METHODS] = {7, 1, 4, 5, 0};
     chart_series series[REPORT_METHODS];
     double low = HUGE_VAL, high = 0;
@@ -252,9 +257,11 @@ int report_write_variance(report_page *page, const report *r)
     char lead[512];
     for (int k = 0; k < REPORT_COUNTS; k++)
         counts[k] = (double)(1u << 2 * k);
-    snprintf(lead, sizeof lead, "What a renderer sees of it: the noise of an integral over %s at roughness %g, "
-             "reflectance 0.9 at normal incidence. Straight lines fall with the root of the number of samples; one that "
-             "levels off is biased. Sizes are tables of visible normals.", r->subject[0].name, alpha_of(&r->subject[0]));
+    snprintf(lead, sizeof lead,
+             "What a renderer sees of it: the noise of an integral over %s at roughness %g, "
+             "reflectance 0.9 at normal incidence. Straight lines fall with the root of the number of samples; "
+             "one that levels off is biased. Sizes are tables of visible normals.",
+             r->subject[0].name, alpha_of(&r->subject[0]));
     page_section(page, "variance", "Variance against samples", lead);
     fputs("<div class=\"pair\">\n", page->html);
     draw_integral(page->html, &r->integral[0], counts);
