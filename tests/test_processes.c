@@ -288,6 +288,18 @@ static void test_interrupted_sample(int number)
     remove("old.csv");
 }
 
+/* Rows are written at the end, so that a signal before leaves the old ones. */
+static void test_interrupted_bench(int number)
+{
+    static const char *const words[] = {"bench", "--only", "table", "--csv", "old.csv", NULL};
+    put_old("old.csv");
+    outcome o = interrupt(words, number, 1000, 0);
+    if (!(TEST(killed(o, number)) & TEST_HAS(o.errors, "vndf bench: interrupted") & TEST(is_old("old.csv")) &
+          TEST(temporaries() == 0)))
+        fprintf(stderr, "  signal %d: status %d, %s\n", number, o.status, o.errors);
+    remove("old.csv");
+}
+
 /* ---- pipes ---- */
 
 /* Reads one line and goes away; with `lines` 0 goes before the first. */
@@ -392,6 +404,7 @@ int main(void)
     for (int i = 0; i < 3; i++) {
         test_interrupted_build(signals[i]);
         test_interrupted_sample(signals[i]);
+        test_interrupted_bench(signals[i]);
     }
     test_closed_pipe();
     test_closed_pipe_of_eval();

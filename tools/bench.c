@@ -18,13 +18,15 @@ static const char help[] =
     "\n"
     "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
     "and efficiency: closed forms for GGX and Beckmann, published and ours; for the distribution that is named,\n"
-    "tables of ours from 2 KiB to 1 MiB and the published ways for any D. All take turns in one process, with random\n"
-    "directions over the hemisphere and random roughness, data in cache; results are verified before they count.\n"
+    "tables of ours from 2 KiB to 1 MiB and the published ways for any D. All take turns in one process, with\n"
+    "random directions over the hemisphere and random roughness, data in cache; results are verified before they\n"
+    "count.\n"
     "\n"
     "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
     "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
     "  --csv-data FILE  what `vndf build` takes as --csv\n"
-    "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise. Building tables may take longer\n"
+    "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
+    "                   may take longer\n"
     "  --only WORD      only rows with WORD in the method, distribution or instruction set\n"
     "  --csv FILE       all numbers as CSV (empty: does not apply); - for stdout\n"
     "  --markdown FILE  the table in Markdown; - for stdout\n"
@@ -141,8 +143,10 @@ static int run_words(const bench_words *given)
     if (!source)
         return own ? STATUS_USE : complain(name, "%s", error.message);
     plan.source = source;
-    if (own)
-        plan.name = given->source.family.count ? only_word(&given->source.family) : vndf_source_description(source);
+    if (given->source.family.count)
+        plan.name = only_word(&given->source.family);
+    else if (own)
+        plan.name = vndf_source_description(source);
     unsigned held = output_hold_signals();
     int status = run_plan(&plan, given, held);
     vndf_source_free(source);

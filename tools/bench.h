@@ -48,7 +48,7 @@ typedef struct bench_plan {
     const char *name;          /* what to call it */
     double seconds;            /* to spend in all, roughly; building the tables may take longer */
     const char *only;          /* NULL, or a part of the method, distribution or instructions of the rows wanted */
-    const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others are used then */
+    const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others then */
     const size_t *ready_limits;            /* the max_bytes of each, ascending */
     size_t ready_count;                    /* 0: they are built here */
     vndf_progress *progress;   /* may be NULL; asked every few milliseconds */

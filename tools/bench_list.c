@@ -16,8 +16,9 @@ static const struct {
 
 enum { DEFAULT_TABLE = 2, FINE_TABLE = 3 };
 
-static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE, VNDF_INSTRUCTIONS_AVX2,
-                                         VNDF_INSTRUCTIONS_AVX512};
+/* The first stands for the scalar calls. */
+static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
+                                         VNDF_INSTRUCTIONS_AVX2, VNDF_INSTRUCTIONS_AVX512};
 enum { SETS = sizeof sets / sizeof *sets };
 
 /* ---- entries ----------------------------------------------------------------------------------- */
@@ -28,7 +29,12 @@ static int wanted(const bench_plan *plan, const char *method_name, const char *s
            strstr(instructions, plan->only);
 }
 
-static void describe(bench_entry *e, const char *subject)
+static const char *distribution_name(const bench_list *list, bench_subject subject, const method *m)
+{
+    return m->kind == BENCH_MOVE ? "-" : list->name[subject];
+}
+
+static void describe(bench_entry *e, const char *distribution)
 {
     bench_row *row = &e->row;
     *row = (bench_row){.kind = e->m.kind, .bytes = e->m.bytes};
@@ -36,14 +42,15 @@ static void describe(bench_entry *e, const char *subject)
     row->tv = row->tv_theta = row->max_weight = row->efficiency_light = NAN;
     row->efficiency[0] = row->efficiency[1] = row->bias[0] = row->bias[1] = NAN;
     snprintf(row->method, sizeof row->method, "%s", e->m.name);
-    snprintf(row->distribution, sizeof row->distribution, "%s", e->m.kind == BENCH_MOVE ? "-" : subject);
+    snprintf(row->distribution, sizeof row->distribution, "%s", distribution);
     snprintf(row->instructions, sizeof row->instructions, "%s", e->m.instructions);
 }
 
 /* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
 static void add(bench_list *list, const bench_plan *plan, bench_subject subject, method m, int yardstick)
 {
-    int shown = wanted(plan, m.name, list->name[subject], m.instructions);
+    const char *distribution = distribution_name(list, subject, &m);
+    int shown = wanted(plan, m.name, distribution, m.instructions);
     if (!m.each || !(shown || yardstick) || list->count == BENCH_ENTRIES_MAX) {
         if (m.release && m.state)
             m.release((void *)m.state);
@@ -51,7 +58,7 @@ static void add(bench_list *list, const bench_plan *plan, bench_subject subject,
     }
     bench_entry *e = &list->entry[list->count++];
     *e = (bench_entry){.m = m, .subject = subject, .shown = shown};
-    describe(e, list->name[subject]);
+    describe(e, distribution);
 }
 
 static void add_ours(bench_list *list, const bench_plan *plan, bench_subject subject, const vndf_distribution *d,
@@ -123,12 +130,6 @@ static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 
-/* A table that stays far below what it may have is the best there is: larger limits give the same once more. */
-static int complete(const vndf_distribution *table, size_t limit)
-{
-    return vndf_distribution_info(table).bytes < limit / 10 * 7;
-}
-
 /* That which the caller has built under this limit; NULL if there is none. */
 static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
 {
@@ -138,26 +139,50 @@ static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
     return NULL;
 }
 
-static vndf_status build_tables(bench_list *list, const bench_clock *at, size_t fine, int any, vndf_error *error)
+static vndf_status table_at(const bench_list *list, const bench_clock *at, size_t i,
+                            const vndf_distribution **table, vndf_error *error)
+{
+    *table = list->borrowed ? find_ready(at->plan, tables[i].bytes) : build(at, tables[i].bytes, error);
+    return *table || list->borrowed ? VNDF_OK : error->status;
+}
+
+/* A larger limit that bought nothing: the table before once more. */
+static int repeats(const bench_list *list, const vndf_distribution *table)
+{
+    const vndf_distribution *last = list->table_count ? list->table[list->table_count - 1] : NULL;
+    return last && vndf_distribution_info(last).bytes == vndf_distribution_info(table).bytes;
+}
+
+static void keep(bench_list *list, const bench_plan *plan, const vndf_distribution *table, size_t i)
+{
+    if (repeats(list, table)) {
+        if (!list->borrowed)
+            vndf_free((vndf_distribution *)table);
+        return;
+    }
+    list->table[list->table_count++] = table;
+    add_ours(list, plan, BENCH_USER, table, tables[i].name);
+    if (i == DEFAULT_TABLE)
+        add_calls(list, plan, table);
+}
+
+/* Those that are wanted, and that which is to be the truth. */
+static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
-        if (!(any && i == fine) && !table_wanted(list, at->plan, i))
-            continue;
-        const vndf_distribution *table = list->borrowed ? find_ready(at->plan, tables[i].bytes)
-                                                        : build(at, tables[i].bytes, error);
-        if (!table && list->borrowed)
-            continue;
-        if (!table)
-            return error->status;
-        size_t slot = list->table_count++;
-        list->table[slot] = table;
-        add_ours(list, at->plan, BENCH_USER, table, tables[i].name);
-        if (i == DEFAULT_TABLE)
-            add_calls(list, at->plan, table);
-        if (complete(table, tables[i].bytes))
-            break;
+        const vndf_distribution *table = NULL;
+        vndf_status status = VNDF_OK;
+        if (i == fine || table_wanted(list, at->plan, i))
+            status = table_at(list, at, i, &table, error);
+        if (status != VNDF_OK)
+            return status;
+        if (table)
+            keep(list, at->plan, table, i);
     }
-    return VNDF_OK;
+    if (list->table_count)
+        return VNDF_OK;
+    snprintf(error->message, sizeof error->message, "none of the tables that are ready has a size that is timed");
+    return error->status = VNDF_ERROR_ARGUMENT;
 }
 
 /* ---- all of it --------------------------------------------------------------------------------- */
@@ -172,7 +197,7 @@ static method_truth truth_of(const vndf_distribution *d, double scale)
 static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error *error)
 {
     size_t fine = at->plan->seconds < 10 ? DEFAULT_TABLE : FINE_TABLE;
-    vndf_status status = build_tables(list, at, fine, 1, error);
+    vndf_status status = add_tables(list, at, fine, error);
     if (status != VNDF_OK)
         return status;
     const vndf_distribution *finest = list->table[list->table_count - 1];
@@ -192,7 +217,8 @@ static int any_shown(const bench_list *list)
 /* Names that any row of the user's distribution may have: without one of them, no table is built. */
 static int user_wanted(const bench_list *list, const bench_plan *plan)
 {
-    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|inverse CDFs (2014), 2 x 256^2|"
+    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|"
+                        "inverse CDFs (2014), 2 x 256^2|"
                         "inverse CDFs (2014), 2 x 1024^2|bilinear warps, 8 x 32^2|bilinear warps, 8 x 128^2";
     for (size_t i = 0; i < BENCH_TABLES; i++)
         if (table_wanted(list, plan, i))
@@ -204,8 +230,8 @@ static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
 {
     bench_list_free(list);
     error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(error->message, sizeof error->message, "no method, distribution or instruction set has '%s' in its name",
-             only);
+    snprintf(error->message, sizeof error->message,
+             "no method, distribution or instruction set has '%s' in its name", only);
     return VNDF_ERROR_ARGUMENT;
 }
 

@@ -60,15 +60,18 @@ const bench_entry *bench_list_find(const bench_list *list, bench_subject subject
 
 /* ---- inputs and outputs ------------------------------------------------------------------------ */
 
-enum { BENCH_BLOCK = 4096 };
+enum { BENCH_BLOCK = 1024 };
 
 typedef struct bench_block {
     float alpha[BENCH_BLOCK], wi_x[BENCH_BLOCK], wi_y[BENCH_BLOCK], wi_z[BENCH_BLOCK];
     float u1[BENCH_BLOCK], u2[BENCH_BLOCK], wm_x[BENCH_BLOCK], wm_y[BENCH_BLOCK], wm_z[BENCH_BLOCK];
     float x[BENCH_BLOCK], y[BENCH_BLOCK], z[BENCH_BLOCK], pdf[BENCH_BLOCK];
+    method_input at[BENCH_BLOCK]; /* the inputs once more: bench_block_inputs */
+    vndf_vec3 wm[BENCH_BLOCK];
 } bench_block;
 
-method_inputs bench_block_inputs(const bench_block *block);
+/* Copies the arrays into at[] and wm[]. */
+method_inputs bench_block_inputs(bench_block *block);
 method_outputs bench_block_outputs(bench_block *block);
 
 /* Directions uniform over the hemisphere, roughness uniform in [0.05, 0.95] of slopes at the scale of the truth,

@@ -6,12 +6,12 @@
 
 #include "bench_parts.h"
 
-enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 16, SHORT = 4 };
+enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
 /* Degrees; the first two are those of the albedo, the first that of the small light. */
 static const double angles[ANGLES] = {60, 85, 0, 30, 75, 89};
 
-static const double noise_limit = 6; /* standard errors, of 15 degrees of freedom, that a bias has to exceed */
+static const double noise_limit = 6; /* standard errors, of 15 to 63 degrees of freedom, that show a bias */
 
 /* Variances by subject and method that efficiencies are made of, until times are known. */
 typedef struct worth {
@@ -33,9 +33,10 @@ static vndf_status fail(vndf_error *error, vndf_status status, const char *text)
     return status;
 }
 
-static size_t replicates_at(const state *s, size_t angle)
+/* Histograms want more samples than means do. */
+static size_t replicates_at(const state *s, size_t angle, int biased)
 {
-    return angle < ALBEDO_ANGLES && s->clock.plan->seconds >= 10 ? LONG : SHORT;
+    return (angle < ALBEDO_ANGLES || biased) && s->clock.plan->seconds >= 10 ? LONG : SHORT;
 }
 
 /* ---- worth ------------------------------------------------------------------------------------- */
@@ -96,7 +97,8 @@ static int measure_worth(state *s, size_t i)
     if (e->row.wrong || e->m.kind == BENCH_CALL || e->m.kind == BENCH_MOVE || copy_worth(s, i))
         return 1;
     for (size_t angle = 0; angle < ANGLES; angle++) {
-        if (!bench_integrate(&e->m, &s->list.truth[e->subject], angles[angle], replicates_at(s, angle), &f))
+        size_t replicates = replicates_at(s, angle, e->m.biased);
+        if (!bench_integrate(&e->m, &s->list.truth[e->subject], angles[angle], replicates, &f))
             return 0;
         note(s, i, angle, &f);
     }
@@ -115,7 +117,7 @@ static int measure_truths(state *s)
             continue;
         method m = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
         for (size_t angle = 0; angle < ALBEDO_ANGLES; angle++)
-            if (!bench_integrate(&m, truth, angles[angle], replicates_at(s, angle), &s->truth[subject][angle]))
+            if (!bench_integrate(&m, truth, angles[angle], replicates_at(s, angle, 0), &s->truth[subject][angle]))
                 return 0;
     }
     return 1;

@@ -1,7 +1,7 @@
 /* Time: all methods take turns, each turn with new random inputs, and the medians over the turns count.
  *
  * In a turn a method first runs once over its inputs, so that these and its tables are in the cache, and then
- * against the clock: scalar methods at most twice, lest branches are learnt by heart. Three ways: a direction
+ * against the clock: scalar methods once, lest their branches are learnt by heart. Three ways: a direction
  * each; many samples for one direction; and, for scalar methods, each input waiting for the last output. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "bench_parts.h"
 
-enum { TURNS_MIN = 7, TURNS_MAX = 201, EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
+enum { TURNS_MIN = 7, TURNS_MAX = 501, EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
 
 static const double turn_seconds = 40e-6; /* a pass shorter than this is repeated */
 
@@ -38,15 +38,17 @@ int bench_go_on(const bench_clock *at, const char *what)
 
 /* ---- one pass ---------------------------------------------------------------------------------- */
 
-/* Zero, whatever the density: but the processor has to wait for it. */
+/* What is added to roughness and uniform numbers is zero, but the processor has to wait for it. */
 static void pass_in_a_row(const method *m, const method_inputs *in, const method_outputs *out)
 {
     float wait = 0;
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = {{in->wi_x[i] + wait, in->wi_y[i] + wait, in->wi_z[i] + wait},
-                           in->alpha[i] + wait, in->u1[i] + wait, in->u2[i] + wait};
+        method_input at = in->at[i];
+        at.alpha += wait;
+        at.u1 += wait;
+        at.u2 += wait;
         vndf_vec3 wm = m->one(m, &at, &out->pdf[i]);
-        wait = 0.0f * (out->pdf[i] > 0 && out->pdf[i] < 1e30f ? out->pdf[i] : 1.0f) * wm.z;
+        wait = 0.0f * (out->pdf[i] < 1e30f ? out->pdf[i] : 1.0f) * wm.z;
     }
 }
 
@@ -55,21 +57,19 @@ static method_run *run_of(const method *m, int way)
     return way == EACH ? m->each : way == SHARED ? m->shared : m->one ? pass_in_a_row : NULL;
 }
 
-/* Nanoseconds for a sample. Scalar calls have `same_bits` of nobody: what vectors do has no branches to learn. */
-static double pass(const method *m, int way, bench_block *block)
+/* Nanoseconds for a sample. */
+static double pass(const method *m, int way, const method_inputs *in, const method_outputs *out)
 {
     method_run *run = run_of(m, way);
-    method_inputs in = bench_block_inputs(block);
-    method_outputs out = bench_block_outputs(block);
     if (!run)
         return NAN;
     double start = bench_now();
-    run(m, &in, &out);
+    run(m, in, out);
     double once = bench_now() - start;
     int repeats = m->one ? 1 : (int)fmin(fmax(turn_seconds / fmax(once, 1e-7), 1), 64);
     start = bench_now();
     for (int i = 0; i < repeats; i++)
-        run(m, &in, &out);
+        run(m, in, out);
     return (bench_now() - start) * 1e9 / (double)repeats / BENCH_BLOCK;
 }
 
@@ -81,10 +81,12 @@ static int turn(bench_list *list, const bench_clock *at, times *t, bench_block *
         if (!list->truth[subject].canonical.distribution)
             continue;
         bench_block_fill(block, &list->truth[subject], 1000 + index);
+        method_inputs in = bench_block_inputs(block);
+        method_outputs out = bench_block_outputs(block);
         for (size_t i = 0; i < list->count; i++) {
             const bench_entry *e = &list->entry[i];
             for (int way = 0; e->subject == subject && !e->row.wrong && way < WAYS; way++)
-                t->of[i][way][index] = pass(&e->m, way, block);
+                t->of[i][way][index] = pass(&e->m, way, &in, &out);
         }
         if (!bench_go_on(at, "taking turns"))
             return 0;

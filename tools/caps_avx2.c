@@ -1,4 +1,4 @@
-/* caps_lanes.h compiled for AVX2 (CMakeLists.txt); where the compiler has none of that, there is nothing to run. */
+/* caps_lanes.h compiled for AVX2 (CMakeLists.txt); where the compiler has none, there is nothing to run. */
 #include "caps_lanes.h"
 
 caps_code caps_code_avx2(void)

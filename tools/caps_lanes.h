@@ -68,7 +68,7 @@ static inline void caps_store(const method_outputs *out, size_t i, const caps_dr
     lanes_store(out->pdf + i, drawn->pdf);
 }
 
-/* ---- the rest of a count that is no multiple of LANES goes through padded copies ----------------------------- */
+/* ---- the rest of a count that is no multiple of LANES goes through padded copies ------------------- */
 
 enum { CAPS_IN = 6, CAPS_OUT = 4 };
 
@@ -83,7 +83,7 @@ static inline method_inputs caps_rest_load(caps_rest *rest, const method_inputs 
         for (size_t j = 0; j < LANES; j++)
             rest->in[k][j] = from[k][k < shared ? 0 : i + j < in->count ? i + j : i];
     return (method_inputs){LANES, rest->in[0], rest->in[1], rest->in[2], rest->in[3], rest->in[4], rest->in[5],
-                           NULL, NULL, NULL};
+                           NULL, NULL, NULL, NULL, NULL};
 }
 
 static inline void caps_rest_store(const caps_rest *rest, const method_outputs *out, size_t i, size_t count)
@@ -93,9 +93,12 @@ static inline void caps_rest_store(const caps_rest *rest, const method_outputs *
         memcpy(to[k] + i, rest->out[k], (count - i) * sizeof(float));
 }
 
-/* ---- loops ---------------------------------------------------------------------------------------------------- */
+/* ---- loops ----------------------------------------------------------------------------------------- */
 
-static __attribute__((noinline)) void caps_each_whole(const method_inputs *in, const method_outputs *out, size_t count)
+/* Not inlined: the same code, hence the same bits, for whole vectors and for the rest. */
+
+__attribute__((noinline))
+static void caps_each_whole(const method_inputs *in, const method_outputs *out, size_t count)
 {
     for (size_t i = 0; i < count; i += LANES) {
         caps_lanes v = caps_view(lanes_load(in->alpha + i), lanes_load(in->wi_x + i), lanes_load(in->wi_y + i),
@@ -105,7 +108,8 @@ static __attribute__((noinline)) void caps_each_whole(const method_inputs *in, c
     }
 }
 
-static __attribute__((noinline)) void caps_shared_whole(const method_inputs *in, const method_outputs *out, size_t count)
+__attribute__((noinline))
+static void caps_shared_whole(const method_inputs *in, const method_outputs *out, size_t count)
 {
     caps_lanes v = caps_view(lanes_all(in->alpha[0]), lanes_all(in->wi_x[0]), lanes_all(in->wi_y[0]),
                              lanes_all(in->wi_z[0]));

@@ -33,8 +33,8 @@ static inline float erf_inverse(float x)
 {
     static const float middle[] = {2.81022636e-08f, 3.43273939e-07f, -3.5233877e-06f, -4.39150654e-06f,
                                    0.00021858087f,  -0.00125372503f, -0.00417768164f, 0.246640727f, 1.50140941f};
-    static const float tail[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f, -0.00367342844f, 0.00573950773f,
-                                 -0.0076224613f,   0.00943887047f,  1.00167406f,    2.83297682f};
+    static const float tail[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f, -0.00367342844f,
+                                 0.00573950773f,   -0.0076224613f,  0.00943887047f, 1.00167406f, 2.83297682f};
     float w = -logf((1.0f - x) * (1.0f + x));
     return x * (w < 5.0f ? ladder(middle, 9, w - 2.5f) : ladder(tail, 9, sqrtf(w) - 3.0f));
 }
@@ -91,10 +91,10 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 {
     (void)m;
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        beckmann_view v = view_from(at.wi, at.alpha);
+        const method_input *at = &in->at[i];
+        beckmann_view v = view_from(at->wi, at->alpha);
         float pdf;
-        vndf_vec3 wm = draw(&v, at.u1, at.u2, &pdf);
+        vndf_vec3 wm = draw(&v, at->u1, at->u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -102,11 +102,11 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    method_input first = method_input_shared(in);
-    beckmann_view v = view_from(first.wi, first.alpha);
+    const method_input *first = &in->at[0];
+    beckmann_view v = view_from(first->wi, first->alpha);
     for (size_t i = 0; i < in->count; i++) {
         float pdf;
-        vndf_vec3 wm = draw(&v, in->u1[i], in->u2[i], &pdf);
+        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }

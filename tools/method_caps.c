@@ -39,10 +39,10 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 {
     (void)m;
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        caps_view v = view_from(at.wi, at.alpha);
+        const method_input *at = &in->at[i];
+        caps_view v = view_from(at->wi, at->alpha);
         float pdf;
-        vndf_vec3 wm = draw(&v, at.u1, at.u2, &pdf);
+        vndf_vec3 wm = draw(&v, at->u1, at->u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -50,11 +50,11 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    method_input first = method_input_shared(in);
-    caps_view v = view_from(first.wi, first.alpha);
+    const method_input *first = &in->at[0];
+    caps_view v = view_from(first->wi, first->alpha);
     for (size_t i = 0; i < in->count; i++) {
         float pdf;
-        vndf_vec3 wm = draw(&v, in->u1[i], in->u2[i], &pdf);
+        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }

@@ -13,9 +13,10 @@ typedef struct disc_view {
 static inline disc_view view_from(vndf_vec3 wi, float alpha)
 {
     float x = alpha * wi.x, y = alpha * wi.y, length = sqrtf(x * x + y * y + wi.z * wi.z);
-    disc_view v = {wi, {x / length, y / length, wi.z / length}, {1, 0, 0}, {0, 1, 0}, alpha, 2.0f / (wi.z + length),
-                   0};
+    disc_view v = {.wi = wi, .w = {x / length, y / length, wi.z / length}, .t1 = {1, 0, 0}, .t2 = {0, 1, 0}};
     float across = v.w.x * v.w.x + v.w.y * v.w.y;
+    v.alpha = alpha;
+    v.per_area = 2.0f / (wi.z + length);
     v.squeeze = 0.5f * (1.0f + v.w.z);
     if (across > 0) {
         float per_across = 1.0f / sqrtf(across);
@@ -50,10 +51,10 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 {
     (void)m;
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        disc_view v = view_from(at.wi, at.alpha);
+        const method_input *at = &in->at[i];
+        disc_view v = view_from(at->wi, at->alpha);
         float pdf;
-        vndf_vec3 wm = draw(&v, at.u1, at.u2, &pdf);
+        vndf_vec3 wm = draw(&v, at->u1, at->u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -61,11 +62,11 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    method_input first = method_input_shared(in);
-    disc_view v = view_from(first.wi, first.alpha);
+    const method_input *first = &in->at[0];
+    disc_view v = view_from(first->wi, first->alpha);
     for (size_t i = 0; i < in->count; i++) {
         float pdf;
-        vndf_vec3 wm = draw(&v, in->u1[i], in->u2[i], &pdf);
+        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }

@@ -136,9 +136,9 @@ static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw(m, &at, &pdf);
+        vndf_vec3 wm = draw(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }

@@ -65,20 +65,30 @@ static double edge_of(int i)
     return v * v * (3 - 2 * v);
 }
 
-static void fill_cdf(radial_cdf *t, const method_truth *truth, double *mass)
+/* mass[i] up to edge i; returns the first edge beyond which there is none: where D ends, or the horizon. */
+static int accumulate(const method_truth *truth, double *mass)
+{
+    int top = 0;
+    mass[0] = 0;
+    for (int i = 0; i < FINE; i++) {
+        double low = edge_of(i), high = edge_of(i + 1), ndf = ndf_at(truth, 0.5 * (low + high));
+        mass[i + 1] = mass[i] + ndf * (high - low);
+        top = ndf > 0 ? i + 1 : top;
+    }
+    return top;
+}
+
+static void fill_cdf(radial_cdf *t, const double *mass, int top)
 {
     int cell = 1;
-    mass[0] = 0;
-    for (int i = 0; i < FINE; i++)
-        mass[i + 1] = mass[i] + ndf_at(truth, 0.5 * (edge_of(i) + edge_of(i + 1))) * (edge_of(i + 1) - edge_of(i));
-    for (int i = 0; i < FINE; i++)
+    for (int i = 0; i < top; i++)
         for (; cell < CELLS && mass[i + 1] * CELLS >= mass[FINE] * cell; cell++) {
             double part = (mass[FINE] * cell / CELLS - mass[i]) / (mass[i + 1] - mass[i]);
             t->y[cell] = (float)(edge_of(i) + part * (edge_of(i + 1) - edge_of(i)));
         }
     t->y[0] = 0;
     for (; cell <= CELLS; cell++)
-        t->y[cell] = 1;
+        t->y[cell] = (float)edge_of(top);
 }
 
 /* ---- loops ------------------------------------------------------------------------------------- */
@@ -86,9 +96,9 @@ static void fill_cdf(radial_cdf *t, const method_truth *truth, double *mass)
 static void each_ggx(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_ggx(m, &at, &pdf);
+        vndf_vec3 wm = draw_ggx(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -96,9 +106,9 @@ static void each_ggx(const method *m, const method_inputs *in, const method_outp
 static void each_beckmann(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_beckmann(m, &at, &pdf);
+        vndf_vec3 wm = draw_beckmann(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -106,9 +116,9 @@ static void each_beckmann(const method *m, const method_inputs *in, const method
 static void each_any(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw_any(m, &at, &pdf);
+        vndf_vec3 wm = draw_any(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -148,7 +158,7 @@ method method_any_all_normals(const method_truth *truth)
     double *mass = malloc((FINE + 1) * sizeof *mass);
     if (t && mass) {
         t->scale = truth->scale;
-        fill_cdf(t, truth, mass);
+        fill_cdf(t, mass, accumulate(truth, mass));
         m.state = t;
         m.each = each_any;
     } else {

@@ -26,21 +26,21 @@ static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = one(m, &at, &pdf);
+        vndf_vec3 wm = one(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    method_input first = method_input_shared(in);
-    vndf_surface surface = surface_of(m, first.alpha);
-    vndf_view view = vndf_view_from(&surface, first.wi);
+    const method_input *first = &in->at[0];
+    vndf_surface surface = surface_of(m, first->alpha);
+    vndf_view view = vndf_view_from(&surface, first->wi);
     for (size_t i = 0; i < in->count; i++) {
         float pdf;
-        vndf_vec3 wm = vndf_sample(&view, in->u1[i], in->u2[i], &pdf);
+        vndf_vec3 wm = vndf_sample(&view, in->at[i].u1, in->at[i].u2, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
@@ -80,11 +80,6 @@ method method_ours(const vndf_distribution *distribution, const char *name, vndf
 
 /* ---- the other calls --------------------------------------------------------------------------- */
 
-static vndf_vec3 normal_at(const method_inputs *in, size_t i)
-{
-    return (vndf_vec3){in->wm_x[i], in->wm_y[i], in->wm_z[i]};
-}
-
 /* Read alone by the calls that are given them. */
 static vndf_normals normals_of(const method_inputs *in)
 {
@@ -94,37 +89,37 @@ static vndf_normals normals_of(const method_inputs *in)
 static void pdf_each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        vndf_surface surface = surface_of(m, at.alpha);
-        vndf_view view = vndf_view_from(&surface, at.wi);
-        out->pdf[i] = vndf_pdf(&view, normal_at(in, i));
+        const method_input *at = &in->at[i];
+        vndf_surface surface = surface_of(m, at->alpha);
+        vndf_view view = vndf_view_from(&surface, at->wi);
+        out->pdf[i] = vndf_pdf(&view, in->wm[i]);
     }
 }
 
 static void invert_each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        vndf_surface surface = surface_of(m, at.alpha);
-        vndf_view view = vndf_view_from(&surface, at.wi);
-        vndf_invert(&view, normal_at(in, i), &out->x[i], &out->y[i]);
+        const method_input *at = &in->at[i];
+        vndf_surface surface = surface_of(m, at->alpha);
+        vndf_view view = vndf_view_from(&surface, at->wi);
+        vndf_invert(&view, in->wm[i], &out->x[i], &out->y[i]);
     }
 }
 
 static void ndf_each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        vndf_surface surface = surface_of(m, in->alpha[i]);
-        out->pdf[i] = vndf_ndf(&surface, normal_at(in, i));
+        vndf_surface surface = surface_of(m, in->at[i].alpha);
+        out->pdf[i] = vndf_ndf(&surface, in->wm[i]);
     }
 }
 
 static void lambda_each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
-        vndf_surface surface = surface_of(m, at.alpha);
-        out->pdf[i] = vndf_lambda(&surface, at.wi);
+        const method_input *at = &in->at[i];
+        vndf_surface surface = surface_of(m, at->alpha);
+        out->pdf[i] = vndf_lambda(&surface, at->wi);
     }
 }
 

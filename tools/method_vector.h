@@ -19,17 +19,6 @@ static inline vndf_vec3 method_unit(float x, float y, float z)
     return (vndf_vec3){x * scale, y * scale, z * scale};
 }
 
-static inline method_input method_input_at(const method_inputs *in, size_t i)
-{
-    return (method_input){{in->wi_x[i], in->wi_y[i], in->wi_z[i]}, in->alpha[i], in->u1[i], in->u2[i]};
-}
-
-/* The same where all share the first direction and roughness. */
-static inline method_input method_input_shared(const method_inputs *in)
-{
-    return (method_input){{in->wi_x[0], in->wi_y[0], in->wi_z[0]}, in->alpha[0], 0, 0};
-}
-
 static inline void method_put(const method_outputs *out, size_t i, vndf_vec3 wm, float pdf)
 {
     out->x[i] = wm.x;

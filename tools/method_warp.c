@@ -1,16 +1,16 @@
 /* A bilinear warp of the unit square per incident direction, as renderers have for measured materials: J. Dupuy,
  * W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", TOG 37(6), 2018.
  * Visible normals from SLICES directions are tabulated over (p, q), theta_m = p^2 pi/2 and azimuth from wi
- * (2 q - 1) pi, as densities on the square at side x side nodes with a bilinear interpolant between. The marginal of
- * p is then piecewise linear, the conditional of q at any p too: both are drawn by a binary search of their CDFs
- * and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
+ * (2 q - 1) pi, as densities on the square at side x side nodes with a bilinear interpolant between. The marginal
+ * of p is then piecewise linear, the conditional of q at any p too: both are drawn by a binary search of their
+ * CDFs and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
  *
  * The density told is that of the interpolant, the one with which is drawn. Against true visible normals it is
  * off, by direction and by the horizon, where normals may face away; where it is 0 and the truth is not, nothing
  * can be done.
  *
- * Departures: renderers have a table per material and neither roughness nor stretch; here it is a table of the unit
- * problem at median slope 1, and roughness stretches. Only even directions from 0 to 90 degrees of that problem. */
+ * Departures: nodes on the horizon; renderers have a table per material and neither roughness nor stretch; here it is a table of the
+ * unit problem at median slope 1, and roughness stretches. Its directions are even, from 0 to 90 degrees. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -28,9 +28,11 @@ typedef struct warp {
 
 /* ---- preparing --------------------------------------------------------------------------------- */
 
-static double density_at(const vndf_view *view, double p, double q)
+/* A density may be infinite on the horizon, and integrable: nodes there take the value half a cell inside. */
+static double density_at(const vndf_view *view, double p, double q, double cell)
 {
     const double pi = acos(-1.0);
+    p = fmin(p, 1 - 0.5 * cell);
     double theta = p * p * pi / 2, phi = (2 * q - 1) * pi;
     vndf_vec3 wm = {(float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)fmax(cos(theta), 0)};
     return (double)vndf_visible(view, wm) * 2 * pi * pi * p * sin(theta);
@@ -56,7 +58,7 @@ static void scale_by(float *value, size_t count, float factor)
 static int fill_slice(warp *w, const method_truth *truth, size_t slice)
 {
     size_t n = w->side, last = n - 1;
-    double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1);
+    double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1), cell = 1 / (double)last;
     float *density = w->density + slice * n * n, *conditional = w->conditional + slice * n * n;
     float *marginal = w->marginal + slice * n, *rows = malloc(n * sizeof *rows);
     vndf_vec3 wi = {(float)sin(theta), 0, slice == SLICES - 1 ? 0 : (float)cos(theta)};
@@ -65,7 +67,7 @@ static int fill_slice(warp *w, const method_truth *truth, size_t slice)
         return 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++)
-            density[i * n + j] = (float)density_at(&view, (double)i / (double)last, (double)j / (double)last);
+            density[i * n + j] = (float)density_at(&view, (double)i * cell, (double)j * cell, cell);
         accumulate(density + i * n, conditional + i * n, n);
         rows[i] = conditional[i * n + last];
     }
@@ -109,7 +111,7 @@ static inline size_t cell_of(const mix *x, size_t side, float value)
     return low;
 }
 
-/* The part of a cell below which `rest` of the integral lies, of a density linear from a to b, cells of length 1. */
+/* The part of a cell of length 1 below which `rest` of the integral lies, the density linear from a to b. */
 static inline float part_of(float a, float b, float rest)
 {
     float root = sqrtf(fmaxf(0.0f, a * a + 2.0f * rest * (b - a)));
@@ -174,9 +176,9 @@ static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
-        method_input at = method_input_at(in, i);
+        const method_input *at = &in->at[i];
         float pdf;
-        vndf_vec3 wm = draw(m, &at, &pdf);
+        vndf_vec3 wm = draw(m, at, &pdf);
         method_put(out, i, wm, pdf);
     }
 }
