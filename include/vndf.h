@@ -149,12 +149,11 @@ typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
     vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
     double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
-    double s, c, per_length;       /* stretched direction: across (>= 0), along z; what brings it there */
-    float per_alpha_x, per_alpha_y;
-    float cos_phi, sin_phi;        /* azimuth of the stretched direction */
-    float area;                    /* projected area of the unit problem */
-    float front;                   /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
-    double wedge;
+    float ax, ay;                  /* the same */
+    float s, c, cos_phi, sin_phi;  /* stretched direction: across (>= 0), along z; its azimuth */
+    float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
+    float area, spread;            /* projected area of the unit problem; times ax ay */
+    int plain;                     /* densities may be formed in float */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the

@@ -7,6 +7,7 @@
 
 #include "oracle.h"
 #include "table/table.h"
+#include "sampler/stretch.h"
 #include "test.h"
 
 static const double PI = 3.14159265358979323846;
@@ -19,7 +20,8 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
     const vndf_distribution *d = view->distribution;
     double x = d->knots.x[cell] * (1 - xi) + d->knots.x[cell + 1] * xi;
     double z = d->knots.z[cell] * (1 - xi) + d->knots.z[cell + 1] * xi;
-    double cosine = -view->c / (view->s * slope * (1 + shift)), sine = sqrt(1 - cosine * cosine);
+    vndf_stretched w = vndf_stretched_of(view);
+    double cosine = -w.c / (w.s * slope * (1 + shift)), sine = sqrt(1 - cosine * cosine);
     double across = x * view->alpha_x, l = hypot(across, z);
     vndf_vec3 wm = {(float)(across * cosine / l), (float)(across * sine / l), (float)(z / l)};
     float u1, u2;

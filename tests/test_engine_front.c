@@ -11,7 +11,7 @@ static double error_at(vndf_front front, double u)
 {
     double even = (double)front.even, odd = (double)front.odd, whole = even * PI / 2 + odd;
     float rest = (float)(u * whole);
-    vndf_azimuth at = vndf_front_draw(front, rest, (float)(1 / whole));
+    vndf_azimuth at = vndf_front_draw(front, rest, (float)whole);
     double b = atan2((double)at.c, (double)at.s), half = sin(b / 2);
     TEST(at.c >= 0 && at.s >= 0 && at.n == 1);
     TEST_NEAR(at.c * (double)at.c + at.s * (double)at.s, 1, 1e-6);

@@ -110,7 +110,9 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
 {
     integral g = {surface->distribution, *surface, vndf_view_from(surface, wi), 0, 0, 1, 0, 0, 1, 0};
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
-    vndf_azimuth_row row = vndf_wedge_row(&g.view);
+    const vndf_wedge *side = vndf_wedge_of(g.table, (double)wi.z);
+    lanes_m found = 1;
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(g.view.s, g.view.c), &found);
     g.parts = g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
     g.s = hypot(x, y);
     g.c = wi.z;
@@ -121,7 +123,7 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     if (wi.z >= 0)
         add_front(&g);
     if (wi.z < 0 || row.p > 0)
-        add_quarter(&g, row.q, row.cells, row.p, row.r, wi.z >= 0);
+        add_quarter(&g, side->q, side->cell_count, row.p, row.r, wi.z >= 0);
     return g.sum;
 }
 

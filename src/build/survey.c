@@ -219,10 +219,12 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
     v->count = 0;
     v->lack = 0.0;
-    if (view.c >= 0)
+    if (c >= 0)
         add_front(v, &view);
-    vndf_azimuth_row row = vndf_wedge_row(&view);
-    quarter wedge = {row.q, row.cells, row.p, row.r, view.c >= 0};
+    const vndf_wedge *side = vndf_wedge_of(v->table, c);
+    lanes_m found = 1;
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.s, view.c), &found);
+    quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
     if (view.wedge > 0 && row.p > 0)
         add_quarter(v, &view, &wedge);
     for (size_t i = 0; i < v->count; i++) {

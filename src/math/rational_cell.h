@@ -14,57 +14,61 @@
 #ifndef VNDF_MATH_RATIONAL_CELL_H
 #define VNDF_MATH_RATIONAL_CELL_H
 
-#include <math.h>
-
-#include "core/inline.h"
+#include "math/lanes.h"
 
 typedef struct vndf_rational_cell {
-    float e0, e1, mass;
+    lanes_f e0, e1, mass;
 } vndf_rational_cell;
 
 /* (m + (e - 2 m) xi eta); > 0 but for a cell without mass and density. */
-VNDF_INLINE float vndf_rational_below(const vndf_rational_cell *cell, float w)
+VNDF_INLINE lanes_f vndf_rational_below(const vndf_rational_cell *cell, lanes_f w)
 {
     return cell->mass + (cell->e0 + cell->e1 - 2.0f * cell->mass) * w;
 }
 
-/* Mass before xi. */
-VNDF_INLINE float vndf_rational_cdf(const vndf_rational_cell *cell, float xi)
+/* m over that, 0 in an empty cell. */
+VNDF_INLINE lanes_f vndf_rational_part(const vndf_rational_cell *cell, lanes_f w)
 {
-    float w = xi * (1.0f - xi), below = vndf_rational_below(cell, w);
-    return below > 0.0f ? (cell->mass * xi * xi + cell->e0 * w) * (cell->mass / below) : 0.0f;
+    lanes_f below = vndf_rational_below(cell, w), nothing = lanes_set(0.0f);
+    return lanes_pick(lanes_less(nothing, below), cell->mass / below, nothing);
+}
+
+/* Mass before xi. */
+VNDF_INLINE lanes_f vndf_rational_cdf(const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_f w = xi * (1.0f - xi);
+    return (cell->mass * xi * xi + cell->e0 * w) * vndf_rational_part(cell, w);
 }
 
 /* Mass per unit of xi. */
-VNDF_INLINE float vndf_rational_density(const vndf_rational_cell *cell, float xi)
+VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_f xi)
 {
-    float eta = 1.0f - xi, w = xi * eta, below = vndf_rational_below(cell, w);
-    float part = below > 0.0f ? cell->mass / below : 0.0f;
+    lanes_f eta = 1.0f - xi, w = xi * eta, part = vndf_rational_part(cell, w);
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* A place in a cell, and the mass per unit of xi there. */
+/* A place in a cell, and the mass per unit of xi there: root/below, a quotient that is left to those who multiply
+ * it with others. */
 typedef struct vndf_rational_place {
-    float xi, density;
+    lanes_f xi, root, below;
 } vndf_rational_place;
 
 /* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
  * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the
  * other. Its root is the derivative of a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root
  * stand here times m. */
-VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, float t)
+VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, lanes_f t)
 {
-    float m = cell->mass, twice = 2.0f * t * m, middle = cell->e0 * m - t * (cell->e0 + cell->e1);
-    float b = middle + twice;
-    float square = middle * middle + twice * (2.0f * m * (m - t));
-    float root = sqrtf(square > 0.0f ? square : 0.0f); /* below 0 only by rounding of t beyond m */
-    float above = b >= 0.0f ? twice : root - b; /* no difference of equals */
-    float below = b >= 0.0f ? b + root : 2.0f * (m * m - b);
-    float xi = below > 0.0f ? above / below : 0.0f;
-    xi = xi < 1.0f ? xi : 1.0f;
-    float per_xi = root / (vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f); /* 0 of an empty cell */
-    vndf_rational_place place = {xi, per_xi};
-    return place;
+    lanes_f m = cell->mass, nothing = lanes_set(0.0f), twice = 2.0f * t * m;
+    lanes_f middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
+    lanes_f square = middle * middle + twice * (2.0f * m * (m - t));
+    lanes_f root = lanes_root(lanes_positive(square)); /* below 0 only by rounding of t beyond m */
+    lanes_m rising = lanes_at_most(nothing, b);
+    lanes_f above = lanes_pick(rising, twice, root - b); /* no difference of equals */
+    lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
+    lanes_f xi = lanes_limit(lanes_pick(lanes_less(nothing, below), above / below, nothing), 1.0f);
+    vndf_rational_place place = {xi, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
+    return place; /* 1e-37: of an empty cell the quotient is 0 */
 }
 
 #endif

@@ -9,93 +9,97 @@
 
 #include <stdint.h>
 
+#include "math/count.h"
 #include "math/rational_cell.h"
 #include "table/table.h"
 
-/* One row: mass before each cell (padded to `stride` beyond every target), in it, density at its ends. */
-typedef struct vndf_azimuth_part {
-    const float *cdf, *mass, *density;
-    float weight;
-} vndf_azimuth_part;
-
-/* The weighted sum of its parts, cell by cell. */
+/* The weighted sum of three successive rows of a wedge, cell by cell. Arrays are those of the first row; a row
+ * further they go on `stride` later, densities cells + 1 (table/table.h). */
 typedef struct vndf_azimuth_row {
-    vndf_azimuth_part a, b, c;
-    const float *q;         /* cells + 1 */
-    uint32_t cells, stride;
-    float p, r;
+    const vndf_wedge *wedge;
+    lanes_u row;                       /* the first */
+    lanes_f first, middle, last, p, r; /* weights; aspect */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
 typedef struct vndf_azimuth {
-    float c, s, n, density;
+    lanes_f c, s, n, density;
 } vndf_azimuth;
 
-VNDF_INLINE float vndf_azimuth_mix(const vndf_azimuth_row *row, const float *a, const float *b, const float *c,
-                                   uint32_t j)
+/* Number j of the first row, in an array that goes on `stride` later with the next. */
+VNDF_INLINE lanes_f vndf_azimuth_mix(const vndf_azimuth_row *row, const float *array, uint32_t stride, lanes_u j)
 {
-    return row->a.weight * a[j] + row->b.weight * b[j] + row->c.weight * c[j];
+    lanes_u at = row->row * stride + j;
+    return row->first * lanes_gather(array, at) + row->middle * lanes_gather(array + stride, at) +
+           row->last * lanes_gather(array + 2 * (size_t)stride, at);
 }
 
-VNDF_INLINE float vndf_azimuth_before(const vndf_azimuth_row *row, uint32_t j)
+VNDF_INLINE lanes_f vndf_azimuth_before(const vndf_azimuth_row *row, lanes_u j)
 {
-    return vndf_azimuth_mix(row, row->a.cdf, row->b.cdf, row->c.cdf, j);
+    return vndf_azimuth_mix(row, row->wedge->cdf, row->wedge->stride, j);
 }
 
 /* A cell of the mix, and its width in q. */
-VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, uint32_t j, float *width)
+VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, lanes_u j, lanes_f *width)
 {
-    const float *a = row->a.density, *b = row->b.density, *c = row->c.density;
-    float h = row->q[j + 1] - row->q[j];
+    const vndf_wedge *w = row->wedge;
+    uint32_t ends = w->cell_count + 1;
+    lanes_f h = lanes_gather(w->q + 1, j) - lanes_gather(w->q, j);
     *width = h;
-    vndf_rational_cell cell = {vndf_azimuth_mix(row, a, b, c, j) * h, vndf_azimuth_mix(row, a, b, c, j + 1) * h,
-                               vndf_azimuth_mix(row, row->a.mass, row->b.mass, row->c.mass, j)};
+    vndf_rational_cell cell = {vndf_azimuth_mix(row, w->density, ends, j) * h,
+                               vndf_azimuth_mix(row, w->density + 1, ends, j) * h,
+                               vndf_azimuth_mix(row, w->cell_mass, w->stride, j)};
     return cell;
 }
 
 /* The azimuth at q, where the mass per `width` of q is `density`. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, float q, float density, float width)
+VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, lanes_f q, vndf_rational_place in,
+                                         lanes_f width)
 {
-    float c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    vndf_azimuth at = {c, s, sqrtf(n2), density * n2 / (2.0f * row->p * row->r * (1.0f + q * q) * width)};
+    lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
+    lanes_f per = in.below * (2.0f * row->p * row->r * (1.0f + q * q) * width);
+    vndf_azimuth at = {c, s, lanes_root(n2), in.root * n2 / per};
     return at;
 }
 
-/* The azimuth with mass `target` before it. All cells are counted through: no step waits for another. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, float target)
+/* How many cells of one lane's row have no more than `target` before them. All are counted through: no step waits
+ * for another. */
+VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, float first, float middle, float last,
+                                        float target)
 {
+    const float *a = wedge->cdf + (size_t)row * wedge->stride, *b = a + wedge->stride, *c = b + wedge->stride;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < row->stride; i++)
-        count += vndf_azimuth_before(row, i) <= target;
-    uint32_t j = count > 0 ? count - 1 : 0;
-    float width;
+    for (uint32_t i = 0; i < wedge->stride; i += VNDF_PADDING)
+        count += vndf_count_three(a + i, b + i, c + i, first, middle, last, target);
+    return count;
+}
+
+VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f target)
+{
+#if VNDF_LANES == 1
+    return vndf_azimuth_count(row->wedge, row->row, row->first, row->middle, row->last, target);
+#else
+    uint32_t rows[VNDF_LANES];
+    float first[VNDF_LANES], middle[VNDF_LANES], last[VNDF_LANES], targets[VNDF_LANES];
+    lanes_store_u(rows, row->row);
+    lanes_store(first, row->first);
+    lanes_store(middle, row->middle);
+    lanes_store(last, row->last);
+    lanes_store(targets, target);
+    for (int i = 0; i < VNDF_LANES; i++)
+        rows[i] = vndf_azimuth_count(row->wedge, rows[i], first[i], middle[i], last[i], targets[i]);
+    return lanes_load_u(rows);
+#endif
+}
+
+/* The azimuth with mass `target` before it, in the last of `count` cells. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target)
+{
+    lanes_u j = lanes_pick_u(lanes_at_most_u(lanes_set_u(1), count), count - 1u, lanes_set_u(0));
+    lanes_f width;
     vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
     vndf_rational_place in = vndf_rational_invert(&cell, target - vndf_azimuth_before(row, j));
-    return vndf_azimuth_at(row, row->q[j] + in.xi * width, in.density, width);
-}
-
-/* Place of the azimuth (cos, sin) in the row: its cell of q, and xi within. */
-VNDF_INLINE void vndf_azimuth_place(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j,
-                                    float *xi)
-{
-    float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
-    uint32_t count = 0;
-    q = q < 1.0f ? q : 1.0f;
-    for (uint32_t i = 1; i < row->cells; i++)
-        count += row->q[i] <= q;
-    float at = (q - row->q[count]) / (row->q[count + 1] - row->q[count]);
-    *j = count;
-    *xi = at > 0.0f ? (at < 1.0f ? at : 1.0f) : 0.0f;
-}
-
-/* Mass before an azimuth. */
-VNDF_INLINE float vndf_azimuth_cdf(const vndf_azimuth_row *row, float cos_phi, float sin_phi)
-{
-    uint32_t j;
-    float xi, width;
-    vndf_azimuth_place(row, cos_phi, sin_phi, &j, &xi);
-    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
-    return vndf_azimuth_before(row, j) + vndf_rational_cdf(&cell, xi);
+    return vndf_azimuth_at(row, lanes_gather(row->wedge->q, j) + in.xi * width, in, width);
 }
 
 #endif

@@ -21,6 +21,7 @@
 
 #include "core/inline.h"
 #include "math/elementary.h"
+#include "sampler/stretch.h"
 #include "vndf.h"
 
 static const double vndf_inverse_pi = 0.31830988618379067, vndf_root_pi = 1.7724538509055160;
@@ -69,13 +70,13 @@ VNDF_INLINE double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_normal wm)
 }
 
 /* Where facing = wi . wm > 0; relative error below 1e-6 at every angle. 0 where s is 0. */
-VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, vndf_normal wm, double facing)
+VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, const vndf_stretched *w, vndf_normal wm, double facing)
 {
-    double s = view->s, c = view->c;
+    double s = w->s, c = w->c;
     if (c < 0.0 && !(s > 0.0))
         return 0.0;
     double per_area = c < 0.0 ? 2.0 * (1.0 - c) / (s * s) : 2.0 / (1.0 + c);
-    return vndf_ggx_ndf(view->alpha_x, view->alpha_y, wm) * (facing * view->per_length * per_area);
+    return vndf_ggx_ndf(view->alpha_x, view->alpha_y, wm) * (facing * w->per_length * per_area);
 }
 
 /* ---- Beckmann ---- */
@@ -108,14 +109,15 @@ VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm
 }
 
 /* Where facing = wi . wm > 0; relative error below 1e-6, that of the area, at every angle. 0 where s is 0. */
-VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, vndf_normal wm, double facing)
+VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, const vndf_stretched *w, vndf_normal wm,
+                                         double facing)
 {
-    double weight = facing * view->per_length, s = view->s;
-    if (view->c >= 0.0)
+    double weight = facing * w->per_length, s = w->s;
+    if (w->c >= 0.0)
         return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
     if (!(s > 0.0))
         return 0.0;
-    double z = -view->c / s, n = vndf_erfc_remainder(z);
+    double z = -w->c / s, n = vndf_erfc_remainder(z);
     return vndf_beckmann_ndf_below(view, wm, facing) * (weight * 2.0 * vndf_root_pi * (n + z) / (s * n));
 }
 

@@ -13,6 +13,7 @@
 
 #include "math/vector.h"
 #include "sampler/engine.h"
+#include "sampler/stretch.h"
 #include "sampler/wedge.h"
 #include "table/moment_cubic.h"
 
@@ -53,10 +54,8 @@ static uint32_t knot_before(const vndf_guide *guide, const float *knots, double 
     return i - (i > 0 && y < knots[i]);
 }
 
-static mixed_row wedge_row(const vndf_view *view)
+static mixed_row wedge_row(const vndf_wedge *w, double y)
 {
-    const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    double y = vndf_wedge_y(view->s, view->c);
     uint32_t i = knot_before(&w->row_guide, w->row_y, y);
     double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
     size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
@@ -88,18 +87,21 @@ static double row_density(const mixed_row *row, double cosine, double sine)
     return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
 }
 
-/* Per radian, of mass 1 in a whole turn. */
-static double azimuth_density(const vndf_view *view, double cosine, double sine)
+/* Per radian, of mass 1 in a whole turn. Only a wedge may be so small a part that its mass has to be had in
+ * double. */
+static double azimuth_density(const vndf_view *view, const vndf_stretched *w, double cosine, double sine)
 {
     const vndf_distribution *d = view->distribution;
-    int toward = cosine >= 0.0, above = view->c >= 0.0;
+    int toward = cosine >= 0.0, above = w->c >= 0.0;
     double per = 0.5 / ((double)view->front + view->wedge);
     if (above && toward)
-        return per * (view->c * d->f0_total + view->s * d->f1_total * cosine);
-    if (above == toward || !(view->wedge > 0.0))
+        return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
+    if (above == toward || !(w->s > 0.0 || above))
         return 0.0;
-    mixed_row row = wedge_row(view);
-    return row.p > 0.0 ? per * view->wedge * row_density(&row, fabs(cosine), sine) : 0.0;
+    const vndf_wedge *side = vndf_wedge_of(d, w->c);
+    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
+    mixed_row row = wedge_row(side, y);
+    return row.p > 0.0 ? per * mass * row_density(&row, fabs(cosine), sine) : 0.0;
 }
 
 /* ---- radius ---- */
@@ -266,16 +268,18 @@ static void find_law(vndf_engine_ray *ray)
 
 /* ---- both ---- */
 
-static vndf_engine_ray ray_from(const vndf_view *view, double cosine, double sine, double k)
+static vndf_engine_ray ray_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
+                                double k)
 {
-    vndf_engine_ray ray = {view->distribution, view->c, k, azimuth_density(view, cosine, sine), 0.0, 0.0, 0};
+    vndf_engine_ray ray = {view->distribution, w->c, k, azimuth_density(view, w, cosine, sine), 0.0, 0.0, 0};
     find_law(&ray);
     return ray;
 }
 
 vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine)
 {
-    return ray_from(view, cosine, sine, view->s * cosine);
+    vndf_stretched w = vndf_stretched_of(view);
+    return ray_from(view, &w, cosine, sine, w.s * cosine);
 }
 
 double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w)
@@ -298,16 +302,16 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
-    double ix = ax * view->wi.x, iy = ay * view->wi.y, scale = 1.0 / (x + wm.z);
-    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, w = vndf_exact_dot(view->wi, wm);
-    double cosine = 1.0, sine = 0.0;
+    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, facing = vndf_exact_dot(view->wi, wm);
+    double cosine = 1.0, sine = 0.0, scale = 1.0 / (x + wm.z);
+    vndf_stretched w = vndf_stretched_of(view);
     if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
-        double per = view->s > 0.0 ? view->per_length / (view->s * x) : 1.0 / x;
-        cosine = per * (view->s > 0.0 ? level : mx);
-        sine = per * fabs(view->s > 0.0 ? ix * my - iy * mx : my);
+        double per = w.s > 0.0 ? w.per_length / (w.s * x) : 1.0 / x;
+        cosine = per * (w.s > 0.0 ? level : mx);
+        sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
     }
-    vndf_engine_ray ray = ray_from(view, cosine, sine, x > 0.0 ? level * view->per_length / x : view->s);
-    double density = vndf_engine_ray_density(&ray, x * scale, wm.z * scale, w * view->per_length * scale);
+    vndf_engine_ray ray = ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
+    double density = vndf_engine_ray_density(&ray, x * scale, wm.z * scale, facing * w.per_length * scale);
     return vndf_positive(vndf_density_from(density * scale * scale * scale / (ax * ay)));
 }
 

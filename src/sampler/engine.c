@@ -2,10 +2,11 @@
 
 #include "math/vector.h"
 #include "sampler/beckmann.h"
+#include "sampler/draw.h"
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
 #include "sampler/radial_draw.h"
-#include "sampler/wedge.h"
+#include "sampler/stretch.h"
 
 double vndf_unit_area(const vndf_distribution *d, double s, double c)
 {
@@ -17,46 +18,52 @@ double vndf_unit_area(const vndf_distribution *d, double s, double c)
     return below + (c > 0.0 ? c : 0.0); /* A(w) = cos + A(-w) */
 }
 
-/* Per steradian, of a normal that faces wi: dwm = ax ay X Z^2 dR da / scale^3. */
-VNDF_INLINE float per_steradian(const vndf_view *view, float density, float scale)
-{
-    return vndf_positive(density * (scale * view->per_alpha_x) * (scale * view->per_alpha_y) * scale);
-}
-
 /* ---- sampling ---- */
 
 VNDF_INLINE vndf_front front_of(const vndf_view *view)
 {
-    return vndf_front_of(view->distribution, (float)view->s, (float)view->c);
+    return vndf_front_of(view->distribution, view->s, view->c);
 }
 
-/* |a| where the part `half` of a half turn's mass lies between the side of wi and a, with the mass per radian. */
-VNDF_INLINE vndf_azimuth draw_azimuth(const vndf_view *view, float half)
+/* The side of the horizon that the direction is on. */
+VNDF_INLINE const vndf_wedge *wedge_of(const vndf_view *view)
 {
-    float wedge = (float)view->wedge, target = half * (view->front + wedge);
-    vndf_azimuth at;
-    if (view->c >= 0.0 && (target < view->front || !(wedge > 0.0f))) {
-        float rest = view->front - target;
-        return vndf_front_draw(front_of(view), rest > 0.0f ? rest : 0.0f, 1.0f / view->front);
-    }
-    vndf_azimuth_row row = vndf_wedge_row(view);
-    if (view->c >= 0.0) { /* counted from the far side, a = pi */
-        float rest = (target - view->front) / wedge;
-        at = vndf_azimuth_draw(&row, rest < 1.0f ? 1.0f - rest : 0.0f);
+    return vndf_is_below(view) ? &view->distribution->below : &view->distribution->above;
+}
+
+/* |a| where the part `half` of a half turn's mass lies between the side of wi and a. */
+static vndf_azimuth draw_wedge(const vndf_view *view, float half)
+{
+    int below = vndf_is_below(view);
+    lanes_m found = 1;
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c, &found);
+    float target = below ? half : vndf_wedge_part(half, view->front, view->wedge);
+    vndf_azimuth at = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, target), target);
+    if (!below)
         at.c = -at.c;
-    } else {
-        at = vndf_azimuth_draw(&row, half);
+    else
         at.c = at.c > 1e-7f * at.n ? at.c : 1e-7f * at.n; /* at a right angle from wi nothing is visible */
-    }
-    at.density *= wedge;
     return at;
 }
 
+static int is_drawn_in_front(const vndf_view *view, float half)
+{
+    return !vndf_is_below(view) && (half * (view->front + view->wedge) < view->front || !(view->wedge > 0.0f));
+}
+
+static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
+{
+    float target = half * (view->front + view->wedge);
+    if (is_drawn_in_front(view, half))
+        return vndf_front_draw(front_of(view), lanes_positive(view->front - target), view->front);
+    return draw_wedge(view, half);
+}
+
 /* The slope length for an azimuth, from n times the direction. */
-VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
+static vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
-    float c = (float)view->c * a->n + 0.0f, k = (float)view->s * a->c; /* what rounds to -0 is the horizon */
+    float c = view->c * a->n + 0.0f, k = view->s * a->c; /* what rounds to -0 is the horizon */
     if (c < 1e-20f) {
         if (c < 0.0f)
             return vndf_radial_draw_below(d, c, k, u);
@@ -67,9 +74,18 @@ VNDF_INLINE vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azim
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
 }
 
-/* A normal whose rounding shows in its density, or turns it away: the density is that of the rounded normal. */
-static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf)
+/* Any direction and any place: the density is that of the normal as it was rounded, in double. */
+VNDF_RARE vndf_vec3 sample_carefully(const vndf_view *view, float half, float u2, float *pdf)
 {
+    vndf_azimuth a = draw_azimuth(view, fabsf(half));
+    float per_n = 1.0f / a.n;
+    vndf_level level =
+        vndf_level_at(view->ax, view->ay, view->cos_phi, view->sin_phi, a.c * per_n, a.s * per_n, half);
+    vndf_radial_drawn r = draw_radius(view, &a, u2);
+    vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
+    float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
+    float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
+    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
     if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
@@ -77,39 +93,44 @@ static vndf_vec3 sample_delicate(const vndf_view *view, vndf_vec3 wm, float *pdf
     return wm;
 }
 
-/* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
- * azimuth, a part of `across`, does to it; in a wedge where not all normals have a small W. Rounding must not take
- * the azimuth from the front to the wedge or back either, as the wedge's density is the table's. */
-VNDF_INLINE int is_plain(const vndf_view *view, float cos_phi, float x, float z)
+VNDF_INLINE vndf_incidence incidence_of(const vndf_view *v)
 {
-    const float side = 1e-6f;
-    float across = (float)view->s * x, along = across * cos_phi, up = (float)view->c * z;
-    if (cos_phi >= 0.0f)
-        return view->c >= 0.0 && (cos_phi > 0.05f || (cos_phi > side && along + up > 0.05f * across));
-    return view->c >= 0.25 && cos_phi < -side && along + up > 0.1f * (across + up);
+    vndf_incidence w = {v->ax, v->ay, v->s, v->c, v->cos_phi, v->sin_phi, v->front, v->wedge, v->spread, v->plain};
+    return w;
+}
+
+VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
+                                     lanes_m *plain)
+{
+    vndf_bearing b = vndf_bear_front(d, w, half, u2);
+    return vndf_draw_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
+}
+
+VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
+                                     lanes_m *plain)
+{
+    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c, plain);
+    float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
+    vndf_radial_law law;
+    vndf_bearing b = vndf_bear_wedge(d, w, &row, part, vndf_azimuth_find(&row, part), half, u2, &law, plain);
+    return vndf_draw_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     const vndf_distribution *d = view->distribution;
-    const vndf_knots *k = &d->knots;
     float half = 2.0f * u1 - 1.0f;
-    vndf_azimuth a = draw_azimuth(view, fabsf(half));
-    float per_n = 1.0f / a.n, cos_phi = a.c * per_n;
-    vndf_vec3 level = {cos_phi, copysignf(a.s, half) * per_n, 0.0f}; /* stretched back while the radius is drawn */
-    level = vndf_from_unit(view, level);
-    float level2 = level.x * level.x + level.y * level.y;
-    vndf_radial_drawn r = draw_radius(view, &a, u2);
-    uint32_t j = r.at.cell;
-    float x = r.at.eta * k->x[j] + r.at.xi * k->x[j + 1], z = r.at.eta * k->z[j] + r.at.xi * k->z[j + 1];
-    float length = sqrtf(x * x * level2 + z * z), per = 1.0f / length; /* from 1e-18 to 1e18 */
-    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
-    int plain = is_plain(view, cos_phi, x, z) &&
-                fabsf(u2 - 0.5f) < 0.4999f && fabsf(half) < 0.9999f && !r.piece.weighted;
-    if (!plain || vndf_radial_is_delicate(d, &r, a.c >= 0.0f))
-        return sample_delicate(view, wm, pdf);
+    vndf_incidence w = incidence_of(view);
+    lanes_m plain = view->plain;
+    if (!plain)
+        return sample_carefully(view, half, u2, pdf);
+    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? draw_in_front(d, &w, half, u2, &plain)
+                                                        : draw_in_wedge(d, &w, half, u2, &plain);
+    if (!plain)
+        return sample_carefully(view, half, u2, pdf);
     if (pdf)
-        *pdf = per_steradian(view, a.density * r.inside.density / (view->area * x * d->cells[j].width), length);
+        *pdf = n.density;
+    vndf_vec3 wm = {n.x, n.y, n.z};
     return wm;
 }
 
@@ -144,32 +165,56 @@ static place place_of(const vndf_view *view, vndf_vec3 normal)
 
 static int is_front(const vndf_view *view, float cos_phi)
 {
-    return view->c >= 0.0 && cos_phi >= 0.0f;
+    return !vndf_is_below(view) && cos_phi >= 0.0f;
 }
 
 /* Whether normals are drawn at an azimuth that is not in front. */
 static int is_wedge(const vndf_view *view, float cos_phi)
 {
-    return (view->c >= 0.0) != (cos_phi >= 0.0f) && view->wedge > 0.0;
+    return !vndf_is_below(view) != (cos_phi >= 0.0f) && view->wedge > 0.0f;
+}
+
+/* Place of an azimuth in the row: its cell of q, and xi within. */
+static float place_in_row(const vndf_azimuth_row *row, float cos_phi, float sin_phi, uint32_t *j)
+{
+    const float *knots = row->wedge->q;
+    float c = row->r * cos_phi, s = row->p * sin_phi, q = s / (c + sqrtf(c * c + s * s));
+    uint32_t count = 0;
+    q = q < 1.0f ? q : 1.0f;
+    for (uint32_t i = 1; i < row->wedge->cell_count; i++)
+        count += knots[i] <= q;
+    *j = count;
+    return vndf_clamp_unit((q - knots[count]) / (knots[count + 1] - knots[count]));
+}
+
+/* Part of the wedge's mass before an azimuth. */
+static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
+{
+    lanes_m found = 1;
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view),
+                                          !vndf_is_below(view) ? view->c : view->s, &found);
+    uint32_t j;
+    float width, xi = place_in_row(&row, cos_phi, sin_phi, &j);
+    vndf_rational_cell cell = vndf_azimuth_cell(&row, j, &width);
+    return vndf_azimuth_before(&row, j) + vndf_rational_cdf(&cell, xi);
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */
 static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    float wedge = (float)view->wedge, total = view->front + wedge;
+    float front = view->front, wedge = view->wedge, total = front + wedge;
     if (is_front(view, cos_phi))
-        return (view->front - vndf_front_rest(front_of(view), cos_phi, sin_phi)) / total;
+        return (front - vndf_front_rest(front_of(view), cos_phi, sin_phi)) / total;
     if (!is_wedge(view, cos_phi))
         return 1.0f;
-    vndf_azimuth_row row = vndf_wedge_row(view);
-    float before = vndf_azimuth_cdf(&row, fabsf(cos_phi), sin_phi);
-    return view->c < 0.0 ? before : (view->front + (1.0f - before) * wedge) / total;
+    float before = before_in_wedge(view, fabsf(cos_phi), sin_phi);
+    return vndf_is_below(view) ? before : (front + (1.0f - before) * wedge) / total;
 }
 
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     place p = place_of(view, normal);
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, (float)view->c, (float)view->s * p.cos_phi);
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
     float half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
     *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;

@@ -7,7 +7,7 @@ vndf_vec3 vndf_turn_to_face(const vndf_view *view, vndf_vec3 wm)
 {
     vndf_vec3 n = vndf_normalize(vndf_to_unit(view, wm));
     for (float step = 1.2e-7f; step < 1e-5f && !(vndf_exact_dot(view->wi, wm) > 0.0); step *= 4.0f) {
-        vndf_vec3 moved = {n.x + step * (float)view->s, n.y, n.z + step * (float)view->c};
+        vndf_vec3 moved = {n.x + step * view->s, n.y, n.z + step * view->c};
         moved.z = moved.z > 0.0f ? moved.z : 0.0f;
         wm = vndf_normalize(vndf_from_unit(view, moved));
     }

@@ -9,7 +9,7 @@
 /* wm taken back to the unit problem, in the turned frame: not of unit length. */
 VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_view *view, vndf_vec3 wm)
 {
-    float x = wm.x * view->per_alpha_x, y = wm.y * view->per_alpha_y;
+    float x = wm.x / (float)view->alpha_x, y = wm.y / (float)view->alpha_y;
     vndf_vec3 n = {view->cos_phi * x + view->sin_phi * y, view->cos_phi * y - view->sin_phi * x, wm.z};
     return n;
 }

@@ -1,5 +1,6 @@
 /* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
- * cell of the radial table, where c Z + k X > 0. Drawing from it is in radial_draw.h.
+ * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the horizon,
+ * and cells away from the cut; the rest is in radial_cut.h, drawing in radial_draw.h.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
  * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that
@@ -16,78 +17,82 @@
 #ifndef VNDF_SAMPLER_RADIAL_H
 #define VNDF_SAMPLER_RADIAL_H
 
-#include "math/weighted_cell.h"
+#include "math/count.h"
+#include "math/lanes_lines.h"
+#include "math/rational_cell.h"
 #include "table/guide.h"
 #include "table/table.h"
+#include "table/window.h"
 
-/* The law of R: everything that does not depend on the uniform number. Its mass is 1, so no square of a mass
- * vanishes where next to nothing is visible. Above the horizon the weights themselves are scaled to that; below
+/* The law of R: everything that does not depend on the uniform number. Above the horizon the weights are scaled so
+ * that its mass is 1, where it may be small: no square of a mass vanishes where next to nothing is visible. Below
  * it they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied
  * by `gain`. */
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
-    float c, k;               /* weights of Z and X */
-    float scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
-    float gain;               /* factor of all masses: 1 above the horizon */
-    uint32_t cut;             /* the cell that holds the cut; radial_count if there is none */
-    float part;               /* length of that cell's visible part in xi; without a cut 0 */
-    float part_mass;          /* its mass, less the gain */
-    float part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
-    float part_w0, part_w1;   /* W there */
+    lanes_f c, k;               /* weights of Z and X */
+    lanes_f scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
+    lanes_f gain;               /* factor of all masses: 1 above the horizon */
+    lanes_u cut;                /* the cell that holds the cut; radial_count if there is none */
+    lanes_f part;               /* length of that cell's visible part in xi; without a cut 0 */
+    lanes_f part_mass;          /* its mass, less the gain */
+    lanes_f part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
+    lanes_f part_w0, part_w1;   /* W there */
 } vndf_radial_law;
 
-/* A place in the table. */
-typedef struct vndf_radius {
-    uint32_t cell;
-    float xi, eta; /* from the inner knot and from the outer: their sum is 1, each is exact where it is small */
-} vndf_radius;
+/* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
+typedef struct vndf_radial_lanes {
+    lanes_f f0, f1, mu0, mu1, a, b, width, calm, x0, x1, z0, z1, before0, before1, e, g;
+} vndf_radial_lanes;
 
-VNDF_INLINE float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
+VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-    float w = law->c * law->table->knots.z[j] + law->k * law->table->knots.x[j];
-    return w > 0.0f ? w : 0.0f; /* rounding may bring a weight at the cut below 0 */
-}
-
-/* Mass from the pole to knot j (c > 0). */
-VNDF_INLINE float vndf_radial_before(const vndf_radial_law *law, uint32_t j)
-{
-    return law->c * law->table->knots.e[j] + vndf_radial_weight(law, j) * law->table->knots.g[j];
-}
-
-/* The same where c, k >= 0. */
-VNDF_INLINE float vndf_radial_before_whole(const vndf_radial_law *law, uint32_t j)
-{
-    return law->c * law->table->knots.f0[j] + law->k * law->table->knots.f1[j];
-}
-
-/* Mass beyond knot j, less the gain (k > 0). */
-VNDF_INLINE float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
-{
-    return law->k * law->table->knots.s[j] + vndf_radial_weight(law, j) * law->table->knots.t[j];
+#if VNDF_LANES == 1
+    const vndf_radial_cell *c = &d->cells[j];
+    vndf_radial_lanes cell = {c->f0, c->f1, c->mu0, c->mu1, c->a, c->b, c->width, c->calm,
+                              c->x0, c->x1, c->z0, c->z1, c->before0, c->before1, c->e, c->g};
+    return cell;
+#else
+    vndf_radial_lanes cell;
+    lanes_load_lines(&d->cells->f0, j, &cell.f0);
+    return cell;
+#endif
 }
 
 /* f at xi from the cubic. */
-VNDF_INLINE float vndf_radial_f(const vndf_radial_cell *cell, float xi)
+VNDF_INLINE lanes_f vndf_radial_f(const vndf_radial_lanes *cell, lanes_f xi)
 {
-    float f = cell->f0 * (1.0f - xi) + cell->f1 * xi + xi * (1.0f - xi) * (cell->a + cell->b * xi);
-    return f > 0.0f ? f : 0.0f; /* where it touches 0, rounding */
+    lanes_f eta = 1.0f - xi, f = cell->f0 * eta + cell->f1 * xi + xi * eta * (cell->a + cell->b * xi);
+    return lanes_positive(f); /* where it touches 0, rounding */
 }
 
 /* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t); a thousandth of
  * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
-VNDF_INLINE float vndf_radial_part(float f0, float f1, float a, float b, float h)
+VNDF_INLINE lanes_f vndf_radial_part(lanes_f f0, lanes_f f1, lanes_f a, lanes_f b, lanes_f h)
 {
     const float sixth = 1.0f / 6.0f;
-    float slope = f1 - f0;
-    float cubic = 0.5f * f0 + h * (sixth * (slope + a) + h * (0.5f * sixth * (b - a) - h * (0.05f * b)));
-    float least = 1e-3f * (0.5f * f0 + h * (sixth * slope));
-    return cubic > least ? cubic : least;
+    lanes_f slope = f1 - f0;
+    lanes_f cubic = 0.5f * f0 + h * (sixth * (slope + a) + h * (0.5f * sixth * (b - a) - h * (0.05f * b)));
+    lanes_f least = 1e-3f * (0.5f * f0 + h * (sixth * slope));
+    return lanes_pick(lanes_less(least, cubic), cubic, least);
+}
+
+/* Mass from the pole to the cell (c > 0). Rounding may bring a weight at the cut below 0. */
+VNDF_INLINE lanes_f vndf_radial_before(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+{
+    return law->c * cell->e + lanes_positive(law->c * cell->z0 + law->k * cell->x0) * cell->g;
+}
+
+/* The same where c, k >= 0. */
+VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+{
+    return law->c * cell->before0 + law->k * cell->before1;
 }
 
 /* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
-VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
+VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
 {
-    float scale = total > 1e-36f ? 1.0f / total : 0.0f;
+    lanes_f scale = lanes_pick(lanes_less(lanes_set(1e-36f), total), 1.0f / total, lanes_set(0.0f));
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
@@ -97,142 +102,140 @@ VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, float total)
     return law;
 }
 
-/* c, k >= 0. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, float c, float k)
+/* Mass of the law with weights c, k >= 0. */
+VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
-    vndf_radial_law law = {d, c, k, 1.0f, 1.0f, d->radial_count, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    return vndf_radial_scaled(law, c * d->f0_total + k * d->f1_total);
+    return c * d->f0_total + k * d->f1_total;
+}
+
+/* From this mass on the law of c, k >= 0 is not scaled, which takes a division: in front of wi it is the density of
+ * the azimuth, and drops out of that of the normal. */
+static const float VNDF_RADIAL_MASS_PLAIN = 1e-3f;
+
+/* c, k >= 0. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
+{
+    lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
+    vndf_radial_law law = {d, c, k, one, one, lanes_set_u(d->radial_count), zero, zero, zero, zero, zero, zero};
+    return law;
 }
 
 /* c > 0 > k; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, float c, float k, float *total)
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total,
+                                                  lanes_m *found)
 {
-    uint32_t j = vndf_guide_find(&d->slope_guide, c / -k);
-    vndf_radial_law law = {d, c, k, 1.0f, 1.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    const vndf_radial_cell *cell = &d->cells[j];
-    float w0 = vndf_radial_weight(&law, j), w1 = c * d->knots.z[j + 1] + k * d->knots.x[j + 1];
-    law.part = w1 < 0.0f ? w0 / (w0 - w1) : 1.0f;
-    law.part_mass = w0 * law.part * vndf_radial_part(cell->f0, cell->f1, cell->a, cell->b, law.part);
-    law.part_f0 = cell->f0 * law.part;
-    law.part_f1 = vndf_radial_f(cell, law.part) * law.part;
+    lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
+    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k, found);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
+    lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
+    law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
+    law.part_mass = w0 * law.part * vndf_radial_part(cell.f0, cell.f1, cell.a, cell.b, law.part);
+    law.part_f0 = cell.f0 * law.part;
+    law.part_f1 = vndf_radial_f(&cell, law.part) * law.part;
     law.part_w0 = w0;
-    *total = vndf_radial_before(&law, j) + law.part_mass;
+    *total = vndf_radial_before(&law, &cell) + law.part_mass;
     return law;
 }
 
-/* c < 0 < k. In the last cell, beyond which there is no mass, all masses are per visible part. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, float c, float k)
+/* A cell away from the cut, where W > 0 without a guard. */
+VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
 {
-    float rho = -c / k;
-    uint32_t j = vndf_guide_find(&d->slope_guide, rho);
-    vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    const vndf_radial_cell *cell = &d->cells[j];
-    float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
-    law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
-    float unit = j + 1 < d->radial_count ? law.part : 1.0f;
-    law.part_mass = w1 * unit * vndf_radial_part(cell->f1, cell->f0, cell->a + cell->b, -cell->b, law.part);
-    law.part_f0 = vndf_radial_f(cell, 1.0f - law.part) * unit;
-    law.part_f1 = cell->f1 * unit;
-    law.part_w1 = w1;
-    float total = vndf_radial_beyond(&law, j + 1) + law.part_mass;
-    law.gain = total > 1e-36f && k > 1e-36f ? 1.0f / total : 0.0f;
-    law.scale = law.gain > 0.0f ? 1.0f / k : 0.0f;
-    return law;
+    lanes_f g0 = law->gain * (law->c * cell->z0 + law->k * cell->x0);
+    lanes_f g1 = law->gain * (law->c * cell->z1 + law->k * cell->x1);
+    vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
+    return plain;
 }
 
-/* The law for any weights (c, k). */
-VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, float c, float k)
+/* ---- search, one lane at a time ---- */
+
+/* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
+VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k, float target)
 {
-    if (c > 0.0f && k < 0.0f) {
-        float total;
-        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
-        return vndf_radial_scaled(law, total);
+    return vndf_count_positive(knots->z + from, knots->x + from, knots->e + from, knots->g + from, c, k, target);
+}
+
+/* The same for c, k >= 0. */
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
+{
+    return vndf_count_two(knots->f0 + from, knots->f1 + from, c, k, target);
+}
+
+/* A wide window narrowed to eight cells: of its knots every step-th is looked at. */
+VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, float c, float k, float target)
+{
+    for (; w.step > 1; w.step /= VNDF_WINDOW) {
+        uint32_t count = 0;
+        for (uint32_t i = 1; i < VNDF_WINDOW; i++) {
+            uint32_t at = w.first + i * w.step, j = at < knots->count ? at : knots->count - 1;
+            float weight = c * knots->z[j] + k * knots->x[j];
+            count += (k < 0.0f ? c * knots->e[j] + (weight > 0.0f ? weight : 0.0f) * knots->g[j]
+                               : c * knots->f0[j] + k * knots->f1[j]) <= target;
+        }
+        w.first += count * w.step;
     }
-    if (c < 0.0f && k > 0.0f)
-        return vndf_radial_law_below(d, c, k);
-    if (c >= 0.0f && k >= 0.0f)
-        return vndf_radial_law_whole(d, c, k);
-    vndf_radial_law nothing = {d, 0.0f, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    return nothing;
+    return w.first;
 }
 
-/* A cell as far as it is visible: where that part begins in xi and how long it is. */
-typedef struct vndf_radial_piece {
-    vndf_rational_cell cell; /* in xi of the part, or in zeta of V if weighted */
-    int weighted;
-    float v0, v1, begin, length; /* V at the ends of the part */
-} vndf_radial_piece;
-
-/* Away from the cut, where W > 0 without a guard. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_plain(const vndf_radial_law *law, uint32_t j)
+/* The cell in which the mass `target` ends, by its window. */
+VNDF_INLINE uint32_t vndf_radial_find_whole(const vndf_distribution *d, uint32_t code, float c, float k,
+                                            float target)
 {
-    const vndf_radial_cell *cell = &law->table->cells[j];
-    const vndf_knots *k = &law->table->knots;
-    float w0 = law->c * k->z[j] + law->k * k->x[j], w1 = law->c * k->z[j + 1] + law->k * k->x[j + 1];
-    float g0 = law->gain * w0, g1 = law->gain * w1;
-    vndf_radial_piece piece = {{cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1},
-                               0, 0.0f, 0.0f, 0.0f, 1.0f};
-    return piece;
+    vndf_window w = vndf_window_from(code);
+    if (w.step > 1)
+        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
+    return w.first + vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target);
 }
 
-/* W/V at a knot; what vanishes does so together. */
-VNDF_INLINE float vndf_radial_over(float w, float v)
+VNDF_INLINE uint32_t vndf_radial_find_above(const vndf_distribution *d, uint32_t code, float c, float k,
+                                            float target)
 {
-    return v > 0.0f ? w / v : 1.0f;
+    vndf_window w = vndf_window_from(code);
+    if (w.step > 1)
+        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
+    return w.first + vndf_radial_count_above(&d->knots, w.first + 1, c, k, target);
 }
 
-/* The cell at the cut, on its visible part. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
+/* All lanes, one after the other; `whole` for c, k >= 0, else c > 0 > k. */
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
+                                     int whole)
 {
-    float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
-    vndf_radial_piece piece = {{law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass},
-                               1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
-    return piece;
+#if VNDF_LANES == 1
+    return whole ? vndf_radial_find_whole(d, code, c, k, target) : vndf_radial_find_above(d, code, c, k, target);
+#else
+    uint32_t codes[VNDF_LANES];
+    float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
+    lanes_store_u(codes, code);
+    lanes_store(cs, c);
+    lanes_store(ks, k);
+    lanes_store(targets, target);
+    for (int i = 0; i < VNDF_LANES; i++)
+        codes[i] = whole ? vndf_radial_find_whole(d, codes[i], cs[i], ks[i], targets[i])
+                         : vndf_radial_find_above(d, codes[i], cs[i], ks[i], targets[i]);
+    return lanes_load_u(codes);
+#endif
 }
 
-/* One of the two cells beside it; without a cut the last two, where W may vanish. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j,
-                                                       vndf_radial_piece piece)
+/* ---- where the density of a place is that of its rounded normal ---- */
+
+/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
+ * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
+ * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
+ * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
+ * rounding of its ends shows in its mass, the second rules. */
+VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
 {
-    const vndf_radial_cell *cell = &law->table->cells[j];
-    int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
-    float way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
-    piece.weighted = 1;
-    piece.v0 = beyond ? w0 - change : w0;
-    piece.v1 = beyond ? w1 : w1 + change;
-    float half = law->gain * (0.5f * (piece.v0 + piece.v1));
-    piece.cell.e0 = cell->f0 * vndf_radial_over(w0, piece.v0) * half;
-    piece.cell.e1 = cell->f1 * vndf_radial_over(w1, piece.v1) * half;
-    return piece;
+    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
+    lanes_f reach = at->x1 * at->z0, here = cell->e0 + rise * xi;
+    lanes_f least = lanes_pick(lanes_less(here, cell->mass), here, cell->mass);
+    return lanes_either(lanes_less((float)VNDF_NARROW * at->width, reach),
+                        lanes_less(10.0f * least * at->width, (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * reach));
 }
 
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, uint32_t j)
+/* Beside a knot, which may be a jump of D. */
+VNDF_INLINE lanes_m vndf_radial_is_beside_knot(lanes_f xi)
 {
-    if (j == law->cut)
-        return vndf_radial_piece_cut(law);
-    vndf_radial_piece piece = vndf_radial_piece_plain(law, j);
-    return j + 2 < law->cut || j > law->cut + 2 ? piece : vndf_radial_piece_beside(law, j, piece);
-}
-
-/* Where the piece's rational cell stands at a place of the whole cell. */
-VNDF_INLINE float vndf_radial_inside(const vndf_radial_piece *piece, vndf_radius at)
-{
-    float inside = piece->begin > 0.0f ? 1.0f - at.eta / piece->length : at.xi / piece->length;
-    inside = inside > 0.0f ? (inside < 1.0f ? inside : 1.0f) : 0.0f;
-    return piece->weighted ? vndf_weighted_zeta(piece->v0, piece->v1, inside) : inside;
-}
-
-/* Part of the mass before a place. */
-VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
-{
-    vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
-    float inside = vndf_rational_cdf(&piece.cell, vndf_radial_inside(&piece, at));
-    if (law->c < 0.0f) {
-        float rest = piece.cell.mass - inside; /* below 0 where nothing is visible */
-        return 1.0f - (law->gain * vndf_radial_beyond(law, at.cell + 1) + (rest > 0.0f ? rest : 0.0f));
-    }
-    return (law->k < 0.0f ? vndf_radial_before(law, at.cell) : vndf_radial_before_whole(law, at.cell)) + inside;
+    return lanes_less(lanes_set(0.499f), lanes_abs(xi - 0.5f));
 }
 
 #endif

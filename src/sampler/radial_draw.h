@@ -1,11 +1,10 @@
-/* Drawing the slope length: search for the cell, in a window of eight knots (table/window.h) or by blocks, then
+/* Drawing the slope length: search for the cell, in a window of knots (table/window.h) or by blocks, then
  * its inverse. One function for each of the three kinds of laws (radial.h); they take the weights before scaling,
  * so that the search need not wait for the division by the mass. */
 #ifndef VNDF_SAMPLER_RADIAL_DRAW_H
 #define VNDF_SAMPLER_RADIAL_DRAW_H
 
-#include "sampler/radial.h"
-#include "table/window.h"
+#include "sampler/radial_cut.h"
 
 /* A drawn place, its piece, and the place in the piece's rational cell. */
 typedef struct vndf_radial_drawn {
@@ -13,30 +12,6 @@ typedef struct vndf_radial_drawn {
     vndf_radial_piece piece;
     vndf_rational_place inside;
 } vndf_radial_drawn;
-
-/* How many of the knots from .. from + n have no more than `target` before them (c >= 0). */
-VNDF_INLINE uint32_t vndf_radial_count_before(const vndf_knots *knots, uint32_t from, uint32_t n,
-                                              float c, float k, float target)
-{
-    const float *z = knots->z + from, *x = knots->x + from, *e = knots->e + from, *g = knots->g + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        float w = c * z[i] + k * x[i];
-        count += c * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= target;
-    }
-    return count;
-}
-
-/* The same in a window, for c, k >= 0. */
-VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from,
-                                             float c, float k, float target)
-{
-    const float *f0 = knots->f0 + from, *f1 = knots->f1 + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < VNDF_WINDOW; i++)
-        count += c * f0[i] + k * f1[i] <= target;
-    return count;
-}
 
 /* How many have more than `target` beyond them (c < 0). */
 VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n,
@@ -49,16 +24,6 @@ VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t 
         count += k * s[i] + (w > 0.0f ? w : 0.0f) * t[i] > target;
     }
     return count;
-}
-
-/* Where no window is known: first the block, then within. Returns the last knot with no more than target before
- * it. */
-VNDF_RARE uint32_t vndf_radial_search_before(const vndf_distribution *d, float c, float k, float target)
-{
-    uint32_t block = vndf_radial_count_before(&d->blocks, 0, d->blocks.count, c, k, target);
-    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-    uint32_t j = block + vndf_radial_count_before(&d->knots, block, VNDF_BLOCK, c, k, target);
-    return j > 0 ? j - 1 : 0;
 }
 
 /* The cell of a mass below the horizon, counted from infinity inwards; a knot that is not visible counts as the
@@ -96,30 +61,27 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
 /* The place with a part u of the mass before it; c, k >= 0. */
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u)
 {
-    uint32_t start = vndf_window_of(d, c, k, u), last = d->radial_count - 1, j;
-    float target = u * (c * d->f0_total + k * d->f1_total);
-    if (start != VNDF_NO_WINDOW)
-        j = start + vndf_radial_count_whole(&d->knots, start + 1, c, k, target);
-    else
-        j = vndf_radial_search_before(d, c, k, target);
+    float total = vndf_radial_total(d, c, k), target = u * total;
+    uint32_t last = d->radial_count - 1, j = vndf_radial_find_whole(d, vndf_window_of(d, c, k, u), c, k, target);
     j = j < last ? j : last;
     vndf_radial_law law = vndf_radial_law_whole(d, c, k);
-    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before_whole(&law, j));
+    law = vndf_radial_scaled(law, total);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j),
+                               u - vndf_radial_before_whole(&law, &cell));
 }
 
 /* c > 0 > k. */
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d, float c, float k, float u)
 {
     float total;
-    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
-    uint32_t start = vndf_window_of(d, c, k, u), j;
-    if (start != VNDF_NO_WINDOW)
-        j = start + vndf_radial_count_before(&d->knots, start + 1, VNDF_WINDOW, c, k, u * total);
-    else
-        j = vndf_radial_search_before(d, c, k, u * total);
+    lanes_m found = 1;
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
+    uint32_t j = vndf_radial_find_above(d, vndf_window_of(d, c, k, u), c, k, u * total);
     j = j < law.cut ? j : law.cut;
     law = vndf_radial_scaled(law, total);
-    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before(&law, j));
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before(&law, &cell));
 }
 
 /* c < 0, k > 0; or k = 0 and nothing is visible. Mass is counted from infinity inwards. */
@@ -130,28 +92,6 @@ VNDF_RARE vndf_radial_drawn vndf_radial_draw_below(const vndf_distribution *d, f
     vndf_radial_piece piece = vndf_radial_piece_of(&law, j);
     float beyond = law.gain * vndf_radial_beyond(&law, j + 1);
     return vndf_radial_draw_in(&law, j, piece, piece.cell.mass - ((1.0f - u) - beyond));
-}
-
-/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
- * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
- * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
- * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
- * rounding of its ends shows in its mass, the second rules. */
-VNDF_INLINE int vndf_radial_is_steep(const vndf_distribution *d, const vndf_radial_drawn *r)
-{
-    const vndf_rational_cell *cell = &r->piece.cell;
-    float rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
-    float reach = d->knots.x[r->at.cell + 1] * d->knots.z[r->at.cell], width = d->cells[r->at.cell].width;
-    float here = cell->e0 + rise * r->inside.xi, least = here < cell->mass ? here : cell->mass;
-    return reach > VNDF_NARROW * width || (fabsf(rise) + 3.0f * fabsf(bend)) * reach > 10.0f * least * width;
-}
-
-/* Whether a normal and its rounded self may differ in density by more than a few millionths: where it is steep
- * or the cell narrow, and beside a knot, which may be a jump of D. `whole`: c, k >= 0. */
-VNDF_INLINE int vndf_radial_is_delicate(const vndf_distribution *d, const vndf_radial_drawn *r, int whole)
-{
-    return fabsf(r->at.xi - 0.5f) > 0.499f ||
-           (!(whole && d->cells[r->at.cell].calm) && vndf_radial_is_steep(d, r));
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include "sampler/beckmann.h"
 #include "sampler/engine.h"
 #include "sampler/ggx.h"
+#include "sampler/stretch.h"
 #include "table/table.h"
 
 double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wm)
@@ -46,7 +47,8 @@ float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
     if (!view.distribution)
         return 0.0f;
     double length = sqrt(vndf_exact_dot(view.wi, view.wi));
-    return (float)(vndf_unit_area(view.distribution, view.s, view.c) / (view.per_length * length));
+    vndf_stretched s = vndf_stretched_of(&view);
+    return (float)(vndf_unit_area(view.distribution, s.s, s.c) / (s.per_length * length));
 }
 
 /* Lambda(w) = A(-w)/cos(theta) above the horizon, without a difference; -1 - Lambda(-w) below. */
@@ -55,7 +57,8 @@ float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
     vndf_view view = vndf_view_from(surface, w);
     if (!view.distribution)
         return 0.0f;
-    double up = fabs(view.c), exact = vndf_unit_area(view.distribution, view.s, -up) / up;
+    vndf_stretched s = vndf_stretched_of(&view);
+    double up = fabs(s.c), exact = vndf_unit_area(view.distribution, s.s, -up) / up;
     float lambda = exact < FLT_MAX ? (float)exact : FLT_MAX; /* at the horizon the quotient is infinite, or 0/0 */
     return view.wi.z < 0.0f ? -1.0f - lambda : lambda;
 }
@@ -63,8 +66,10 @@ float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
     vndf_view view = vndf_view_from(surface, w);
-    int seen = view.distribution && view.c > 0.0;
-    double g1 = seen ? view.c / vndf_unit_area(view.distribution, view.s, view.c) : 0.0;
+    if (!view.distribution)
+        return 0.0f;
+    vndf_stretched s = vndf_stretched_of(&view);
+    double g1 = s.c > 0.0 ? s.c / vndf_unit_area(view.distribution, s.s, s.c) : 0.0;
     return g1 < 1.0 ? (float)g1 : 1.0f;
 }
 

@@ -6,13 +6,26 @@
 #include "table/table.h"
 #include "vndf.h"
 
+/* The scale of slopes at alpha = 1, in the unit problem. */
+VNDF_INLINE double vndf_unit_scale(const vndf_distribution *d)
+{
+    return d->kind == VNDF_KIND_TABLE ? d->scale : 1.0;
+}
+
+/* The same in float, 0 where that would lose digits: roughness for drawing is alpha times it. */
+VNDF_INLINE float vndf_unit_scale_float(const vndf_distribution *d)
+{
+    double scale = vndf_unit_scale(d);
+    return scale > 1e-30 && scale < 1e30 ? (float)scale : 0.0f;
+}
+
 /* Roughness times the table's scale; 0 unless both are within [1e-18, 1e18] and there is a distribution. */
 VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, double *ay)
 {
     if (!surface || !surface->distribution)
         return 0;
     const vndf_distribution *d = surface->distribution;
-    double scale = d->kind == VNDF_KIND_TABLE ? d->scale : 1.0;
+    double scale = vndf_unit_scale(d);
     *ax = surface->alpha_x * scale;
     *ay = surface->alpha_y * scale;
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;

@@ -1,11 +1,12 @@
 /* The public calls on a view: stretch, turn, and hand over to the engine or a closed form. */
 #include "math/vector.h"
+#include "sampler/aim.h"
 #include "sampler/beckmann.h"
 #include "sampler/engine.h"
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
+#include "sampler/stretch.h"
 #include "sampler/surface.h"
-#include "sampler/wedge.h"
 
 /* Not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
 static int is_usable_direction(vndf_vec3 w)
@@ -14,47 +15,48 @@ static int is_usable_direction(vndf_vec3 w)
     return square > 0.0 && square < HUGE_VAL;
 }
 
-/* (alpha_x wi.x, alpha_y wi.y, wi.z) in polar form: s and c, the factor that brings it to them, and azimuth. With
- * s + |c| = 1 for the engine, s^2 + c^2 = 1 for the closed forms. In double: no length or roughness is out of
- * range, and the digits are there that an area takes which falls as fast as the normals of a Beckmann do. */
-typedef struct polar {
-    double s, c, per_length;
-    float cos_phi, sin_phi;
-} polar;
-
-VNDF_INLINE polar stretch(vndf_vec3 wi, double ax, double ay, int table)
-{
-    double x = ax * wi.x, y = ay * wi.y, across2 = x * x + y * y, across = sqrt(across2);
-    double per = 1.0 / (table ? across + fabs((double)wi.z) : sqrt(across2 + (double)wi.z * wi.z));
-    double per_across = across > 0.0 ? 1.0 / across : 0.0;
-    polar p = {across * per, wi.z * per + 0.0, per, /* -0 becomes +0: the horizon is seen from above */
-               across > 0.0 ? (float)(x * per_across) : 1.0f, (float)(y * per_across)};
-    return p;
-}
-
 static vndf_view invalid_view(void)
 {
     vndf_view view = {0};
     return view;
 }
 
-VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+/* From doubles: for the closed forms, and where a table's aim cannot be had in float - below the horizon, along z, at
+ * extremes. */
+VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    int table = d->kind == VNDF_KIND_TABLE;
-    polar p = stretch(wi, ax, ay, table);
-    vndf_wedge_view w = {0};
-    if (table)
-        w = vndf_wedge_view_at(d, p.s, p.c);
-    else
-        w.area = (float)vndf_unit_area(d, p.s, p.c);
-    vndf_view view = {d, wi, ax, ay, p.s, p.c, p.per_length, 1.0f / (float)ax, 1.0f / (float)ay,
-                      p.cos_phi, p.sin_phi, w.area, w.front, w.wedge};
+    vndf_stretched w = vndf_stretch(wi, ax, ay, d->kind == VNDF_KIND_TABLE);
+    double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
+    vndf_aim aim = {(float)w.s, (float)w.c, across > 0.0 ? (float)(w.x * per) : 1.0f, (float)(w.y * per), 0, 0, 0};
+    if (d->kind != VNDF_KIND_TABLE) {
+        aim.area = (float)vndf_unit_area(d, w.s, w.c);
+        return aim;
+    }
+    double mass = vndf_wedge_mass(vndf_wedge_of(d, w.c), vndf_wedge_y(w.s, w.c));
+    double front = w.c >= 0.0 ? w.c * (d->f0_total * VNDF_QUARTER_TURN) + w.s * d->f1_total : 0.0;
+    aim.front = (float)front;
+    aim.area = (float)(2.0 * (front + mass));
+    aim.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f; /* its part below: the mass may underflow */
+    return aim;
+}
+
+/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
+VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
+{
+    lanes_m ready = 1;
+    vndf_aim aim;
+    if (d->kind == VNDF_KIND_TABLE)
+        aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
+    if (d->kind != VNDF_KIND_TABLE || !ready)
+        aim = aim_exactly(d, ax, ay, wi);
+    vndf_view view = {d, wi, ax, ay, x, y, aim.s, aim.c, aim.cos_phi, aim.sin_phi, aim.front, aim.wedge,
+                      aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c)};
     return view;
 }
 
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    return view_scaled(d, ax, ay, wi);
+    return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
@@ -62,7 +64,10 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
         return invalid_view();
-    return view_scaled(surface->distribution, ax, ay, wi);
+    float scale = vndf_unit_scale_float(surface->distribution); /* lanes have no double */
+    float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
+    float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
+    return view_scaled(surface->distribution, ax, ay, x, y, wi);
 }
 
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
@@ -71,9 +76,10 @@ VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
     double facing = vndf_facing(view, n);
     if (!(wm.z >= 0.0f) || !(facing > 0.0))
         return 0.0f;
+    vndf_stretched w = vndf_stretched_of(view);
     return vndf_positive(vndf_density_from(view->distribution->kind == VNDF_KIND_GGX
-                                               ? vndf_ggx_visible(view, n, facing)
-                                               : vndf_beckmann_visible(view, n, facing)));
+                                               ? vndf_ggx_visible(view, &w, n, facing)
+                                               : vndf_beckmann_visible(view, &w, n, facing)));
 }
 
 /* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding:
@@ -88,7 +94,7 @@ static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
 
 static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    float s = (float)view->s, c = (float)view->c;
+    float s = view->s, c = view->c;
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(s, c, u1, u2)
                                                             : vndf_beckmann_sample(s, c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(view, n));
@@ -129,9 +135,9 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
     if (!view->distribution || !(wm.z >= 0.0f) || !is_usable_direction(wm))
         return;
     if (view->distribution->kind == VNDF_KIND_GGX)
-        vndf_ggx_invert((float)view->s, (float)view->c, vndf_normal_to_unit(view, wm), u1, u2);
+        vndf_ggx_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        vndf_beckmann_invert((float)view->s, (float)view->c, vndf_normal_to_unit(view, wm), u1, u2);
+        vndf_beckmann_invert(view->s, view->c, vndf_normal_to_unit(view, wm), u1, u2);
     else
         vndf_engine_invert(view, vndf_to_unit(view, wm), u1, u2);
     *u1 = vndf_clamp_unit(*u1);
@@ -146,5 +152,5 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     if (!(wm.z >= 0.0f) || !(facing > 0.0) || !(view->area > 0.0f))
         return 0.0f;
     double ndf = vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm);
-    return vndf_density_from(ndf * (facing * view->per_length) / view->area);
+    return vndf_density_from(ndf * (facing * vndf_stretched_of(view).per_length) / view->area);
 }

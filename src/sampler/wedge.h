@@ -1,30 +1,10 @@
-/* The wedge, the part of the circle that the horizon of wi cuts: its mass, its row for a direction, and what a
- * view holds of the two masses of a half turn. */
+/* The wedge, the part of the circle that the horizon of wi cuts: its mass, and its row for a direction. */
 #ifndef VNDF_SAMPLER_WEDGE_H
 #define VNDF_SAMPLER_WEDGE_H
 
 #include "sampler/azimuth.h"
-#include "sampler/front.h"
 #include "table/area_piece.h"
 #include "table/guide.h"
-
-/* The members of a view that belong to the engine; vndf.h says what they are. */
-typedef struct vndf_wedge_view {
-    float area, front;
-    double wedge;
-} vndf_wedge_view;
-
-/* Shares of three neighbouring rows `mix` of the way from the first to the last. */
-typedef struct vndf_row_weights {
-    float first, middle, last;
-} vndf_row_weights;
-
-VNDF_INLINE vndf_row_weights vndf_row_weights_at(float mix)
-{
-    float rest = 1.0f - mix;
-    vndf_row_weights w = {rest * rest, 2.0f * rest * mix, mix * mix};
-    return w;
-}
 
 VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c)
 {
@@ -40,39 +20,36 @@ VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
     return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
 }
 
+/* The same in float, where that is good enough: for drawing, and for densities where it is no small part. */
+VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_m *found)
+{
+    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y, found), y);
+}
+
 /* The wedge's coordinate of a direction with s + |c| = 1. */
 VNDF_INLINE double vndf_wedge_y(double s, double c)
 {
     return c >= 0.0 ? c : s;
 }
 
-VNDF_INLINE vndf_wedge_view vndf_wedge_view_at(const vndf_distribution *d, double s, double c)
+/* The row for the coordinate y. Its mass is 1. Not part of the view, since most samples are in front. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y, lanes_m *found)
 {
-    double mass = vndf_wedge_mass(vndf_wedge_of(d, c), vndf_wedge_y(s, c));
-    double front = c >= 0.0 ? c * (d->f0_total * VNDF_QUARTER_TURN) + s * d->f1_total : 0.0;
-    /* below the horizon the wedge is all there is: its part is 1, and its mass may underflow */
-    vndf_wedge_view view = {(float)(2.0 * (front + mass)), (float)front, c >= 0.0 ? mass : s > 0.0 ? 1.0 : 0.0};
-    return view;
+    lanes_u i = vndf_guide_lanes(&wedge->row_guide, y, found), row = i * 2u;
+    lanes_f from = lanes_gather(wedge->row_y, i), to = lanes_gather(wedge->row_y + 1, i);
+    lanes_f mix = (y - from) / (to - from), rest = 1.0f - mix;
+    vndf_azimuth_row made = {wedge, row, rest * rest, 2.0f * rest * mix, mix * mix, rest, rest};
+    made.p = vndf_azimuth_mix(&made, wedge->aspect_p, 1, lanes_set_u(0));
+    made.r = vndf_azimuth_mix(&made, wedge->aspect_r, 1, lanes_set_u(0));
+    return made;
 }
 
-/* The wedge: away from wi above the horizon, towards it below. Its mass is 1. Not part of the view, since three
- * of four samples are in front. */
-VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_view *view)
+/* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's mass
+ * is between the side of wi and it. */
+VNDF_INLINE lanes_f vndf_wedge_part(lanes_f half, lanes_f front, lanes_f wedge)
 {
-    const vndf_wedge *w = vndf_wedge_of(view->distribution, view->c);
-    float y = (float)vndf_wedge_y(view->s, view->c);
-    uint32_t i = vndf_guide_find(&w->row_guide, y);
-    vndf_row_weights share = vndf_row_weights_at((y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]));
-    size_t cells = w->stride, ends = w->cell_count + 1, a = 2 * (size_t)i * cells, end = 2 * (size_t)i * ends;
-    const float *p = w->aspect_p + 2 * (size_t)i, *r = w->aspect_r + 2 * (size_t)i;
-    vndf_azimuth_row row = {{w->cdf + a, w->cell_mass + a, w->density + end, share.first},
-                            {w->cdf + a + cells, w->cell_mass + a + cells, w->density + end + ends, share.middle},
-                            {w->cdf + a + 2 * cells, w->cell_mass + a + 2 * cells, w->density + end + 2 * ends,
-                             share.last},
-                            w->q, w->cell_count, w->stride,
-                            share.first * p[0] + share.middle * p[1] + share.last * p[2],
-                            share.first * r[0] + share.middle * r[1] + share.last * r[2]};
-    return row;
+    lanes_f rest = (half * (front + wedge) - front) / wedge;
+    return lanes_pick(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest, lanes_set(0.0f));
 }
 
 #endif

@@ -5,7 +5,7 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
-#include "core/inline.h"
+#include "math/lanes.h"
 #include "table/table.h"
 
 typedef struct vndf_area_knot {
@@ -38,6 +38,18 @@ VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER],
     const double *b = coefficient;
     double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
+}
+
+/* In float, within 6e-7 of the mass but for the rounding of y: piece i. */
+VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y)
+{
+    const float *b = piece->coefficient;
+    lanes_u at = i * 8u;
+    lanes_f t = (y - lanes_gather(b + 6, at)) * lanes_gather(b + 7, at);
+    lanes_f u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
+    lanes_f low = uu * lanes_gather(b, at) + (ut * lanes_gather(b + 1, at) + tt * lanes_gather(b + 2, at));
+    lanes_f high = uu * lanes_gather(b + 3, at) + (ut * lanes_gather(b + 4, at) + tt * lanes_gather(b + 5, at));
+    return uu * u * low + tt * t * high;
 }
 
 #endif

@@ -22,7 +22,7 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
         high = guide->low;
     guide->shift = shift_for(high - guide->low, count);
     guide->last = (high - guide->low) >> guide->shift;
-    guide->next = malloc(count * sizeof *guide->next + (guide->last + 1) * sizeof *guide->first);
+    guide->next = malloc(count * sizeof *guide->next + (guide->last + 2) * sizeof *guide->first);
     if (!guide->next)
         return 0;
     guide->first = (uint16_t *)(guide->next + count);

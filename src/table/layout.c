@@ -29,7 +29,7 @@ static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
 
 static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
-    uint32_t stride = (cells + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+    uint32_t stride = (cells + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING;
     size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
     size_t per_rows = row_knots + 2 * (size_t)rows, per_knots = 4 * (size_t)knots;
     float *block = calloc(2 * row_floats + ends + per_rows + per_knots + cells + 1, sizeof *block);
@@ -38,9 +38,10 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->knot_count = knots;
     wedge->stride = stride;
     wedge->cdf = block;
-    wedge->piece = calloc(knots, sizeof *wedge->piece);
+    wedge->piece = calloc(knots, sizeof *wedge->piece + sizeof *wedge->quick);
     if (!block || !wedge->piece)
         return 0;
+    wedge->quick = (vndf_area_quick *)(wedge->piece + knots);
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
     wedge->row_y = wedge->density + ends;
@@ -62,6 +63,18 @@ static void free_wedge(vndf_wedge *wedge)
     vndf_guide_free(&wedge->knot_guide);
 }
 
+/* Each on a line of the cache, which calloc does not promise. */
+static int allocate_cells(vndf_distribution *table, uint32_t count)
+{
+    size_t line = sizeof *table->cells;
+    table->cells_memory = calloc((size_t)count + 1, line);
+    if (!table->cells_memory)
+        return 0;
+    size_t past = (uintptr_t)table->cells_memory % line;
+    table->cells = (vndf_radial_cell *)((char *)table->cells_memory + (past > 0 ? line - past : 0));
+    return 1;
+}
+
 vndf_distribution *vndf_table_allocate(vndf_table_size size)
 {
     vndf_distribution *table = calloc(1, sizeof *table);
@@ -70,12 +83,12 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
     table->kind = VNDF_KIND_TABLE;
     table->radial_count = size.radial;
     table->slope = calloc(size.radial + 1, sizeof *table->slope);
-    table->cells = calloc(size.radial, sizeof *table->cells);
-    int whole = allocate_knots(&table->knots, size.radial + 1, VNDF_BLOCK);
-    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1, VNDF_LANES);
+    int whole = allocate_cells(table, size.radial);
+    whole &= allocate_knots(&table->knots, size.radial + 1, VNDF_BLOCK);
+    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1, VNDF_PADDING);
     whole &= allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
     whole &= allocate_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
-    if (whole && table->slope && table->cells)
+    if (whole && table->slope)
         return table;
     vndf_free(table);
     return NULL;
@@ -88,7 +101,7 @@ void vndf_free(vndf_distribution *table)
     free(table->knots.x);
     free(table->blocks.x);
     free(table->slope);
-    free(table->cells);
+    free(table->cells_memory);
     vndf_guide_free(&table->slope_guide);
     free_wedge(&table->above);
     free_wedge(&table->below);
@@ -124,6 +137,23 @@ static void derive_cells(vndf_distribution *table)
         double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
         cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
                      is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
+    }
+}
+
+/* What a cell repeats of its knots. */
+static void derive_copies(vndf_distribution *table)
+{
+    const vndf_knots *k = &table->knots;
+    for (uint32_t j = 0; j < table->radial_count; j++) {
+        vndf_radial_cell *cell = &table->cells[j];
+        cell->x0 = k->x[j];
+        cell->x1 = k->x[j + 1];
+        cell->z0 = k->z[j];
+        cell->z1 = k->z[j + 1];
+        cell->before0 = k->f0[j];
+        cell->before1 = k->f1[j];
+        cell->e = k->e[j];
+        cell->g = k->g[j];
     }
 }
 
@@ -178,13 +208,11 @@ static void derive_blocks(vndf_distribution *table)
     uint32_t blocks = table->radial_count / VNDF_BLOCK + 1;
     pad_knots(&table->knots, table->radial_count + 1);
     pad_knots(b, blocks);
-    b->count = (blocks + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES; /* as far as a search goes */
+    b->count = (blocks + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING; /* as far as a search goes */
     for (uint32_t i = 0; i < blocks; i++) {
         uint32_t j = i * VNDF_BLOCK;
         b->x[i] = k->x[j];
         b->z[i] = k->z[j];
-        b->e[i] = k->e[j];
-        b->g[i] = k->g[j];
         b->s[i] = k->s[j];
         b->t[i] = k->t[j];
     }
@@ -223,6 +251,11 @@ static void derive_area(vndf_wedge *wedge)
         vndf_area_piece(width, from, to, span->coefficient);
         span->begin = begin;
         span->per_width = 1.0 / width;
+        vndf_area_quick *quick = &wedge->quick[i];
+        for (int n = 0; n < VNDF_AREA_ORDER; n++)
+            quick->coefficient[n] = (float)span->coefficient[n];
+        quick->begin = (float)begin;
+        quick->per_width = (float)span->per_width;
     }
 }
 
@@ -239,6 +272,7 @@ int vndf_table_derive(vndf_distribution *table)
     derive_cells(table);
     derive_pole(table);
     derive_tail(table);
+    derive_copies(table);
     derive_blocks(table);
     vndf_windows_make(table);
     for (uint32_t j = 0; j <= table->radial_count; j++)

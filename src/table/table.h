@@ -22,17 +22,17 @@
 #include "vndf.h"
 
 enum {
-    VNDF_RADIAL_CELLS_MAX = 8192,
+    VNDF_RADIAL_CELLS_MAX = 8192, /* 2^VNDF_WINDOW_SHIFT */
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
-    VNDF_WINDOW = 8,         /* or by a window of knots, where one is known to hold the cell (table/window.h): */
-    VNDF_RANGES = 64,        /* for this many ranges of u */
+    VNDF_WINDOW = 8,         /* above the horizon by a window of so many (table/window.h), */
+    VNDF_RANGES = 64,        /* one for each of this many ranges of u */
     VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
-    VNDF_NO_WINDOW = 0xffff, /* a window would be too narrow */
+    VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
-    VNDF_LANES = 4,          /* arrays that are counted through are padded to a multiple of this */
+    VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
 
@@ -42,17 +42,19 @@ enum {
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
  * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
  * through all knots of a block or a window at once; `count` includes padding: what lies beyond the last knot has
- * sums that no search reaches. f0 and f1 of blocks are not filled. */
+ * sums that no search reaches. Of blocks x, z, s and t are filled: they are for directions below the horizon. */
 typedef struct vndf_knots {
     uint32_t count;
     float *x, *z, *e, *g, *s, *t, *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi.
- * 32 bytes. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. Beside it
+ * what the sampler wants of its knots: 64 bytes, a line of the cache, all floats. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1, a, b, width;
-    uint32_t calm; /* the density changes little in it for every law with c, k >= 0 (sampler/radial_draw.h) */
+    float calm;           /* 1 if the density changes little in it for every law with c, k >= 0 (sampler/radial.h) */
+    float x0, x1, z0, z1; /* the knots */
+    float before0, before1, e, g; /* sums up to the first (vndf_knots): F0, F1, e, g */
 } vndf_radial_cell;
 
 /* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
@@ -68,6 +70,11 @@ typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
 
+/* The same in float: 32 bytes. */
+typedef struct vndf_area_quick {
+    float coefficient[VNDF_AREA_ORDER], begin, per_width;
+} vndf_area_quick;
+
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
@@ -78,11 +85,12 @@ typedef struct vndf_wedge {
     float *q;                            /* cell_count + 1, from 0 to 1 */
     float *row_y;                        /* (row_count + 1)/2: where rows 0, 2, 4, ... stand */
     float *aspect_p, *aspect_r;          /* row_count */
-    uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_LANES */
+    uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_PADDING */
     float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
     float *density;                      /* at the ends of the cells, cell_count + 1 to a row */
     float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
+    vndf_area_quick *quick;              /* and once more */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
@@ -95,15 +103,16 @@ struct vndf_distribution {
     vndf_knots knots;          /* radial_count + 1 and padding */
     vndf_knots blocks;         /* the first knot of each block, padded likewise */
     float *slope;              /* X/Z of the knots, ascending, last is infinite */
-    vndf_radial_cell *cells;   /* radial_count */
-    vndf_guide slope_guide;
+    vndf_radial_cell *cells;   /* radial_count, on borders of lines of the cache in cells_memory */
+    void *cells_memory;
+    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* the second half for k < 0 */
+    vndf_guide slope_guide;    /* not last: lanes read a half word beyond the windows */
     vndf_wedge above, below;
     double normalization;      /* the source was multiplied by it */
     double scale;              /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
-    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* first cells; the second half for k < 0 */
 };
 
 #endif

@@ -46,8 +46,10 @@ void vndf_windows_make(vndf_distribution *d)
             quantiles(d, cut && open ? 0.0 : 1.0, cut ? -most : least, -1, low);
             quantiles(d, !cut && open ? 0.0 : 1.0, cut ? -least : open ? 1.0 : most, 1, high);
             for (uint32_t i = 0; i < VNDF_RANGES; i++) {
-                int fits = high[i + 1] - low[i] <= VNDF_WINDOW;
-                d->windows[cut][r][i] = (uint16_t)(fits ? low[i] : VNDF_NO_WINDOW);
+                uint32_t width = 0;
+                while (high[i + 1] - low[i] > (uint32_t)VNDF_WINDOW << 3 * width)
+                    width++;
+                d->windows[cut][r][i] = (uint16_t)(low[i] | width << VNDF_WINDOW_SHIFT);
             }
         }
 }

@@ -1,5 +1,6 @@
 /* Windows of the radial search: for a law of the slope length with weights (c, k), c >= 0 (sampler/engine.h), and
- * a part u of its mass, eight successive knots that tell the cell where that part ends.
+ * a part u of its mass, where the cell lies in which that part ends: eight successive cells and the one after them,
+ * or, where D has many more, eight times eight or eight to the third ..., to be searched in so many steps.
  *
  * The larger k/c, the larger the quantiles: (c + k R)+ for one ratio over that for a lower one grows with R. So
  * over a range of u and a range of k/c the cell lies between those of two corners, and the cells between are few
@@ -17,19 +18,31 @@
 void vndf_windows_make(vndf_distribution *d);
 
 /* 0 for |k|/c below 1/16, the last for 16 and above; c and |k| at most 4. */
-VNDF_INLINE uint32_t vndf_window_ratio(float c, float k)
+VNDF_INLINE lanes_u vndf_window_ratio(lanes_f c, lanes_f k)
 {
-    int32_t half_octave = 1 << 22, apart = (int32_t)(vndf_float_bits(fabsf(k)) - vndf_float_bits(c));
-    int32_t above = apart + VNDF_RATIOS / 2 * half_octave;
-    int32_t ratio = (above > 0 ? above : 0) / half_octave;
-    return ratio < VNDF_RATIOS ? (uint32_t)ratio : VNDF_RATIOS - 1;
+    const uint32_t half_octave = 1u << 22;
+    lanes_u bits = lanes_bits(lanes_abs(k)) + VNDF_RATIOS / 2 * half_octave, least = lanes_bits(c);
+    lanes_u above = lanes_pick_u(lanes_at_most_u(least, bits), bits - least, lanes_set_u(0));
+    return lanes_limit_u(above >> 22, lanes_set_u(VNDF_RATIOS - 1));
 }
 
-/* The first cell of the window, or VNDF_NO_WINDOW where eight knots are not enough; u in [0, 1]. */
-VNDF_INLINE uint32_t vndf_window_of(const vndf_distribution *d, float c, float k, float u)
+/* The first cell of the window, and above VNDF_WINDOW_SHIFT n where it has 8^(n+1); u in [0, 1]. */
+VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
-    uint32_t range = (uint32_t)(u * (VNDF_RANGES - 1e-5f)); /* below VNDF_RANGES for u = 1 */
-    return d->windows[k < 0.0f][vndf_window_ratio(c, k)][range];
+    lanes_u range = lanes_whole(u * (VNDF_RANGES - 1e-5f)); /* below VNDF_RANGES for u = 1 */
+    lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
+    return lanes_gather_u16(d->windows[0][0], (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + range);
+}
+
+/* A window taken apart: its first cell, and the cells from one of the eight places that are looked at to the next. */
+typedef struct vndf_window {
+    uint32_t first, step;
+} vndf_window;
+
+VNDF_INLINE vndf_window vndf_window_from(uint32_t code)
+{
+    vndf_window w = {code & ((1u << VNDF_WINDOW_SHIFT) - 1), 1u << 3 * (code >> VNDF_WINDOW_SHIFT)};
+    return w;
 }
 
 #endif

@@ -1,0 +1,41 @@
+/* What drawing from a table wants of a direction of incidence, in float: the stretched direction (s, 0, c), s + |c|
+ * = 1, its azimuth, and the masses of half a turn. Densities of given normals start from wi itself (density.c).
+ *
+ * Here for directions above the horizon of plain size, in a dozen roundings: s, c, cos_phi and sin_phi within
+ * 4e-7, masses within 1e-6. view.c makes the others from doubles. */
+#ifndef VNDF_SAMPLER_AIM_H
+#define VNDF_SAMPLER_AIM_H
+
+#include "sampler/front.h"
+#include "sampler/wedge.h"
+
+typedef struct vndf_aim {
+    lanes_f s, c, cos_phi, sin_phi;
+    lanes_f front, wedge; /* masses; below the horizon 0 and 1 */
+    lanes_f area;         /* of the unit problem */
+} vndf_aim;
+
+/* From the stretched direction (x, y, z), as far as *ready stays: elsewhere this is not good enough. */
+VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
+{
+    lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z;
+    lanes_f per = 1.0f / (across * sum); /* of both at once */
+    *ready = lanes_both(*ready, lanes_both(lanes_less(lanes_set(1e-24f), across2),
+                                           lanes_both(lanes_less(lanes_set(1e-6f) * sum, z),
+                                                      lanes_less(sum, lanes_set(1e12f)))));
+    lanes_f s = across2 * per, c = lanes_pick(*ready, z * (across * per), lanes_set(0.5f)); /* to be looked up */
+    lanes_f front = vndf_front_mass(vndf_front_of(d, s, c)), wedge = vndf_wedge_quick(&d->above, c, ready);
+    vndf_aim aim = {s, c, x * (sum * per), y * (sum * per), front, wedge, 2.0f * (front + wedge)};
+    return aim;
+}
+
+/* Whether densities may be formed in float: nothing underflows on the way. */
+VNDF_INLINE lanes_m vndf_aim_is_plain(lanes_f ax, lanes_f ay, lanes_f c)
+{
+    const lanes_f least = lanes_set(1e-4f), most = lanes_set(1e4f);
+    lanes_m low = lanes_both(lanes_at_most(least, ax), lanes_at_most(least, ay));
+    lanes_m high = lanes_both(lanes_at_most(ax, most), lanes_at_most(ay, most));
+    return lanes_both(lanes_both(low, high), lanes_less(lanes_set(1e-6f), c));
+}
+
+#endif

@@ -1,0 +1,34 @@
+/* Batches in lanes: one source, batch_lanes.c, compiled for each instruction set. A block of a batch is drawn where that
+ * is plain (draw.h), in front of wi all lanes as they come, in the wedge those that are in it, gathered; the rest is
+ * left to the calls of one. */
+#ifndef VNDF_SAMPLER_BATCH_LANES_H
+#define VNDF_SAMPLER_BATCH_LANES_H
+
+#include <stdint.h>
+
+#include "vndf.h"
+
+/* 1 where the build compiles batch_lanes.c for AVX2 and AVX-512. */
+#ifndef VNDF_HAS_LANES
+#  define VNDF_HAS_LANES 0
+#endif
+
+enum { VNDF_BLOCK_SAMPLES = 256 };
+
+/* Samples of a block, a number each; what it is given, and what is drawn. */
+typedef struct vndf_sample_block {
+    float alpha_x[VNDF_BLOCK_SAMPLES], alpha_y[VNDF_BLOCK_SAMPLES];
+    float wi_x[VNDF_BLOCK_SAMPLES], wi_y[VNDF_BLOCK_SAMPLES], wi_z[VNDF_BLOCK_SAMPLES];
+    float u1[VNDF_BLOCK_SAMPLES], u2[VNDF_BLOCK_SAMPLES];
+    float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
+    uint32_t left[VNDF_BLOCK_SAMPLES]; /* indices of those that are not drawn */
+    uint32_t left_count, count;
+    const vndf_view *view;             /* of all, then alpha and wi are not filled; or NULL */
+} vndf_sample_block;
+
+#if VNDF_HAS_LANES
+void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *block);
+void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *block);
+#endif
+
+#endif

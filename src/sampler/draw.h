@@ -1,0 +1,178 @@
+/* What a sample is put together from once its azimuth and radius are drawn (sampler/engine.h), for one or for
+ * lanes: the normal, its density in float, and where that is good enough. */
+#ifndef VNDF_SAMPLER_DRAW_H
+#define VNDF_SAMPLER_DRAW_H
+
+#include "sampler/aim.h"
+#include "sampler/radial.h"
+
+/* The horizontal unit vector at an azimuth of the turned frame, stretched back; and its square. */
+typedef struct vndf_level {
+    lanes_f x, y, square;
+} vndf_level;
+
+/* `half` has the sign of the azimuth. */
+VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, lanes_f sin_phi, lanes_f cosine,
+                                     lanes_f sine, lanes_f half)
+{
+    sine = lanes_sign(sine, half);
+    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine), cosine};
+    level.square = level.x * level.x + level.y * level.y;
+    return level;
+}
+
+/* ---- where the density of the place is that of the normal, as it was rounded ---- */
+
+/* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
+ * azimuth, a part of `across`, does to it; in a wedge that is no small part, where not all normals have a small W.
+ * Rounding must not take the azimuth from the front to the wedge or back either, as the wedge's density is the
+ * table's. */
+static const float VNDF_PLAIN_SIDE = 1e-6f;
+
+VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
+{
+    lanes_f across = s * x, along = across * cosine, up = c * z;
+    lanes_m unscaled = lanes_at_most(lanes_set(VNDF_RADIAL_MASS_PLAIN), total);
+    return lanes_both(lanes_both(unscaled, lanes_less(lanes_set(VNDF_PLAIN_SIDE), cosine)),
+                      lanes_less(0.05f * across, along + up));
+}
+
+VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f front, lanes_f wedge, lanes_f cosine,
+                                        lanes_f x, lanes_f z)
+{
+    lanes_f across = s * x, along = across * cosine, up = c * z;
+    lanes_m large = lanes_both(lanes_less(0.05f * front, wedge), lanes_at_most(lanes_set(0.25f), c));
+    return lanes_both(large, lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
+                                        lanes_less(0.1f * (across + up), along + up)));
+}
+
+/* Away from the border of the unit square and from knots, where the density changes little from a normal to its
+ * rounded self. */
+VNDF_INLINE lanes_m vndf_plain_place(lanes_f half, lanes_f u2, const vndf_radial_lanes *at,
+                                     const vndf_rational_cell *cell, lanes_f xi, lanes_m whole)
+{
+    lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
+                                lanes_less(lanes_abs(half), lanes_set(0.9999f)));
+    lanes_m calm = lanes_both(whole, lanes_less(lanes_set(0.0f), at->calm));
+    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), calm);
+    return lanes_without(inside, lanes_either(rough, vndf_radial_is_beside_knot(xi)));
+}
+
+/* ---- the normal ---- */
+
+typedef struct vndf_drawn {
+    lanes_f x, y, z, density;
+} vndf_drawn;
+
+/* From X and Z; the density of xi and azimuth is the quotient of `above` and `below` but for dwm = ax ay X Z^2 dR da
+ * over the third power of the length. One division. */
+VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, lanes_f x, lanes_f z, lanes_f above, lanes_f below)
+{
+    lanes_f square = x * x * level->square + z * z, length = lanes_root(square);
+    lanes_f both = 1.0f / (length * below), per = below * both;
+    lanes_f density = (above * square) * (length * (length * both));
+    vndf_drawn n = {x * level->x * per, x * level->y * per, z * per, density};
+    return n;
+}
+
+/* ---- all of it, where it is plain ---- */
+
+/* Surface and direction of a sample. */
+typedef struct vndf_incidence {
+    lanes_f ax, ay, s, c, cos_phi, sin_phi, front, wedge, spread;
+    lanes_m plain;
+} vndf_incidence;
+
+VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
+{
+    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->front, aim->wedge,
+                        aim->area * (ax * ay), vndf_aim_is_plain(ax, ay, aim->c)};
+    return w;
+}
+
+/* Mass between the side of wi and the azimuth, of half a turn; `half` = 2 u1 - 1. */
+VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
+{
+    return lanes_abs(half) * (w->front + w->wedge);
+}
+
+/* A sample whose azimuth is drawn: what its radius and its normal take. */
+typedef struct vndf_bearing {
+    vndf_level level;
+    lanes_f cosine, c, k;    /* of the azimuth; weights of the law of the radius */
+    lanes_f total, density;  /* the law's mass; mass per radian of the azimuth, in the wedge */
+    lanes_u code;            /* of the window where the radius is */
+} vndf_bearing;
+
+/* ---- in front of wi ---- */
+
+VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2)
+{
+    lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front);
+    lanes_f k = w->s * a.c;
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half), a.c, w->c, k,
+                      vndf_radial_total(d, w->c, k), a.c, vndf_window_of(d, w->c, k, u2)};
+    return b;
+}
+
+VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2)
+{
+    lanes_u j = vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 1);
+    return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
+}
+
+/* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */
+VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                       lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
+{
+    vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
+    lanes_f before = vndf_radial_before_whole(&law, &cell);
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
+    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, w->c, b->cosine, b->total, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_all()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
+    return vndf_drawn_at(&b->level, x, z, in.root, in.below * (w->spread * x * cell.width));
+}
+
+/* ---- in the wedge above the horizon ---- */
+
+/* From the row, the part of its mass and the count of its cells before that; *law is not scaled yet. */
+VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_azimuth_row *row, lanes_f part, lanes_u count, lanes_f half,
+                                         lanes_f u2, vndf_radial_law *law, lanes_m *plain)
+{
+    vndf_azimuth a = vndf_azimuth_draw(row, count, part);
+    lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c, total;
+    *law = vndf_radial_law_above(d, c, k, &total, plain);
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half), cosine, c, k,
+                      total, a.density * w->wedge, vndf_window_of(d, c, k, u2)};
+    return b;
+}
+
+VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2, lanes_u cut)
+{
+    return lanes_limit_u(vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 0), cut);
+}
+
+VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                       const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
+                                       lanes_m *plain)
+{
+    vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
+    lanes_f before = vndf_radial_before(&law, &cell);
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
+    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    *plain = lanes_both(lanes_both(*plain, w->plain),
+                        vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, x, z));
+    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_none()));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
+    return vndf_drawn_at(&b->level, x, z, b->density * in.root, in.below * (w->spread * x * cell.width));
+}
+
+#endif
