@@ -14,12 +14,14 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "command.h"
+#include "output.h"
 
 enum { PATH_SIZE = 512, WORDS_OF_RUN = 12, DEPTH_MAX = 64 };
 
@@ -39,8 +41,16 @@ static void read_all(int from, char *text, size_t size)
     text[length] = '\0';
 }
 
-/* `vndf report words...` in a child; stopped by SIGINT after that many milliseconds, if any. */
-static outcome run(const char *const *words, long milliseconds)
+/* How a run is to fail. */
+typedef struct trouble {
+    long milliseconds; /* until SIGINT comes; 0: never */
+    rlim_t file_limit; /* bytes of a file: a full disk; 0: none */
+} trouble;
+
+static const trouble none = {0, 0};
+
+/* `vndf report words...` in a child. */
+static outcome run(const char *const *words, trouble t)
 {
     outcome result = {-1, ""};
     int channel[2];
@@ -52,6 +62,10 @@ static outcome run(const char *const *words, long milliseconds)
         int argc = 0;
         for (; words[argc] && argc < WORDS_OF_RUN; argc++)
             argv[argc] = (char *)(size_t)(const void *)words[argc];
+        struct rlimit limit = {t.file_limit, t.file_limit};
+        output_ignore_size_signal();
+        if (t.file_limit)
+            setrlimit(RLIMIT_FSIZE, &limit);
         dup2(channel[1], 1);
         dup2(channel[1], 2);
         close(channel[0]);
@@ -60,8 +74,8 @@ static outcome run(const char *const *words, long milliseconds)
         _exit(status);
     }
     close(channel[1]);
-    if (milliseconds) {
-        struct timespec wait = {milliseconds / 1000, milliseconds % 1000 * 1000000};
+    if (t.milliseconds) {
+        struct timespec wait = {t.milliseconds / 1000, t.milliseconds % 1000 * 1000000};
         nanosleep(&wait, NULL);
         kill(child, SIGINT);
     }
@@ -310,7 +324,7 @@ static void test_checkers(void)
 static void test_page(const char *folder, const char *option, const char *value)
 {
     const char *words[] = {option, value, "--seconds", "1", folder, NULL};
-    outcome o = run(words, 0);
+    outcome o = run(words, none);
     TEST(ended_with(&o, STATUS_GOOD));
     TEST_HAS(o.text, "/index.html\n");
     TEST(count_entries(folder) == 11);
@@ -323,7 +337,7 @@ static void test_replaced(const char *folder)
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/note.txt", folder);
     close(open(path, O_WRONLY | O_CREAT, 0666));
-    outcome o = run(words, 0);
+    outcome o = run(words, none);
     TEST(ended_with(&o, STATUS_GOOD));
     TEST_HAS(o.text, "replaced the report in ");
     TEST(count_entries(folder) == 12); /* the note is still there */
@@ -333,18 +347,18 @@ static void test_replaced(const char *folder)
 static void test_refused(const char *folder)
 {
     const char *foreign[] = {folder, NULL}, *file[] = {VNDF_SOURCE_DIR "/tables/example.csv", NULL};
-    const char *two[] = {"--ndf", "c", "--slope", "exp(-r)", "x", NULL}, *none[] = {NULL};
+    const char *two[] = {"--ndf", "c", "--slope", "exp(-r)", "x", NULL}, *nothing[] = {NULL};
     const char *bad[] = {"--slope", "exp(-r", "no-such-folder", NULL}, *deep[] = {"no-such-folder/x", NULL};
     const char *set[] = {"--family", "ggx", "--set", "k=1", "x", NULL};
-    const char *const *all[] = {foreign, file, two, none, bad, set};
+    const char *const *all[] = {foreign, file, two, nothing, bad, set};
     const char *const reasons[] = {"has files in it, and no report", "is no folder", "more than one of",
                                    "DIR is missing", "column", "--set is for"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        outcome o = run(all[i], 0);
+        outcome o = run(all[i], none);
         TEST(ended_with(&o, STATUS_USE));
         TEST_HAS(o.text, reasons[i]);
     }
-    outcome o = run(deep, 0);
+    outcome o = run(deep, none);
     TEST(ended_with(&o, STATUS_USE)); /* before anything is measured */
     TEST_HAS(o.text, "no-such-folder");
     TEST(count_entries("no-such-folder") == -1 && count_entries("x") == -1);
@@ -354,9 +368,19 @@ static void test_refused(const char *folder)
 static void test_interrupted(const char *folder)
 {
     const char *words[] = {"--seconds", "60", folder, NULL};
-    outcome o = run(words, 1000);
+    outcome o = run(words, (trouble){1000, 0});
     TEST(WIFSIGNALED(o.status) && WTERMSIG(o.status) == SIGINT);
     TEST_HAS(o.text, "interrupted");
+    TEST(count_entries(folder) == -1);
+}
+
+/* The page is larger than that, most of the data is not. */
+static void test_full_disk(const char *folder)
+{
+    const char *words[] = {"--family", "ggx", "--seconds", "1", folder, NULL};
+    outcome o = run(words, (trouble){0, 100000});
+    TEST(ended_with(&o, STATUS_USE));
+    TEST_HAS(o.text, "cannot write");
     TEST(count_entries(folder) == -1);
 }
 
@@ -369,6 +393,8 @@ int main(void)
     test_checkers();
     snprintf(path, sizeof path, "%s/page", scratch);
     test_interrupted(path);
+    if (!quick)
+        test_full_disk(path);
     test_page(path, "--ndf", "step(c-0.5)*(1+theta)");
     if (!quick)
         test_replaced(path);

@@ -116,10 +116,10 @@ static void collect(frontier *f, const bench_rows *rows)
 
 static chart chart_of(const frontier *f)
 {
-    chart c = {"Sampling visible normals: error against time", NULL, 1080, 660, 20,
+    chart c = {"Sampling visible normals: error against time", NULL, 1080, 690, 20,
                {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
                {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
-               "exact", 76, f->series, f->count};
+               "exact", 100, f->series, f->count};
     chart_fit(&c.x, f->low_x, f->high_x);
     chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
     c.x.low = fmax(c.x.low, f->low_x / 1.6);
