@@ -7,7 +7,7 @@
  *     the weights add at most 1% to the variance: nobody can see that;
  *     total variation is at most 1e-3: without the weight, what is off stays below half a step of 8 bits;
  *     areas, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not mend them.
- * If none keeps all, the largest is advised, with what it does not keep. */
+ * What the largest breaks none can keep; there a table counts as good if it is within a quarter of the largest. */
 #include <string.h>
 
 #include "chart.h"
@@ -38,11 +38,21 @@ static int keeps_all(const report_table *t)
     return v.kept[0] && v.kept[1] && v.kept[2] && v.kept[3];
 }
 
+static int keeps_what_it_can(const report_table *t, const report_table *largest)
+{
+    verdict v = judge(t), best = judge(largest);
+    int good = 1;
+    for (int i = 0; i < LIMITS; i++)
+        good = good && (best.kept[i] ? v.kept[i] : v.value[i] <= 1.25 * best.value[i]);
+    return good;
+}
+
 void report_choose(report_subject *subject)
 {
+    const report_table *largest = &subject->table[subject->count - 1];
     subject->chosen = subject->count - 1;
     for (size_t i = subject->count; i-- > 0;)
-        if (keeps_all(&subject->table[i]))
+        if (keeps_what_it_can(&subject->table[i], largest))
             subject->chosen = i;
 }
 
@@ -76,7 +86,8 @@ static void write_choice(FILE *html, const report_subject *s)
                 "a total variation of %.2g, G1 within %.1g. ",
                 v.value[0], 100 * v.value[1], v.value[2], v.value[3]);
     else {
-        fputs("None of those measured keeps all four limits; this is the largest, with ", html);
+        fputs("None of those measured keeps all four limits; this is the smallest that comes near the largest, "
+              "with ", html);
         write_broken(html, &v);
         fputs(". ", html);
     }

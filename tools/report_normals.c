@@ -1,11 +1,13 @@
 /* Density and samples: D itself, and the visible normals from three directions, for each distribution. */
+#include <math.h>
+
 #include "chart.h"
 #include "distribution.h"
 #include "panels.h"
 #include "random.h"
 #include "report.h"
 
-enum { VIEWS = 3, NDF_STEPS = 90, DENSITY_STEP = 5, TURN_STEP = 15 };
+enum { VIEWS = 3, NDF_STEPS = 90, DENSITY_STEPS = 18, TURN_STEP = 15 };
 
 static const double thetas[VIEWS] = {0, 60, 100};
 
@@ -19,6 +21,12 @@ static vndf_surface finest_of(const report_subject *s)
 {
     vndf_surface surface = {s->table[s->count - 1].table, 1, 1};
     return surface;
+}
+
+/* The angle of the normal up to which panel_ndf draws; narrow lobes want fine steps. */
+static double widest_angle(const report_subject *s)
+{
+    return round_angle(atan(8 * s->table[0].info.scale) * 180 / acos(-1.0));
 }
 
 static void begin_panel(FILE *file, double width, double height)
@@ -58,9 +66,9 @@ static int write_ndf(report_page *page, const report *r)
     for (size_t k = 0; k < r->count; k++) {
         vndf_surface surface = finest_of(&r->subject[k]);
         for (int i = 0; i <= NDF_STEPS; i++) {
+            double theta = widest_angle(&r->subject[k]) * i / NDF_STEPS;
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%d,%.6g\n", i * 90 / NDF_STEPS,
-                    (double)vndf_ndf(&surface, direction_from(i * 90.0 / NDF_STEPS, 0)));
+            fprintf(data, ",%.6g,%.6g\n", theta, (double)vndf_ndf(&surface, direction_from(theta, 0)));
         }
     }
     return page_data_end(page, "D against the angle of the normal");
@@ -89,6 +97,19 @@ static int write_samples(report_page *page, const report *r)
     return page_data_end(page, "the samples that are drawn as dots");
 }
 
+static void write_grid(FILE *data, const report_subject *s, double theta)
+{
+    vndf_surface surface = surface_of(s);
+    vndf_view view = vndf_view_from(&surface, direction_from(theta, 0));
+    for (int i = 0; i <= DENSITY_STEPS; i++)
+        for (int turn = 0; turn <= (i > 0 ? 180 : 0); turn += TURN_STEP) {
+            double theta_m = widest_angle(s) * i / DENSITY_STEPS;
+            page_field(data, s->name);
+            fprintf(data, ",%g,%.6g,%d,%.6g\n", theta, theta_m, turn,
+                    (double)vndf_pdf(&view, direction_from(theta_m, turn)));
+        }
+}
+
 static int write_density(report_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "density.csv");
@@ -96,16 +117,8 @@ static int write_density(report_page *page, const report *r)
         return 0;
     fputs("distribution,theta_deg,theta_m_deg,phi_m_deg,pdf\n", data);
     for (size_t k = 0; k < r->count; k++)
-        for (int v = 0; v < VIEWS; v++) {
-            vndf_surface surface = surface_of(&r->subject[k]);
-            vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
-            for (int t = 0; t <= 90; t += DENSITY_STEP)
-                for (int p = 0; p <= (t > 0 ? 180 : 0); p += TURN_STEP) {
-                    page_field(data, r->subject[k].name);
-                    fprintf(data, ",%g,%d,%d,%.6g\n", thetas[v], t, p,
-                            (double)vndf_pdf(&view, direction_from(t, p)));
-                }
-        }
+        for (int v = 0; v < VIEWS; v++)
+            write_grid(data, &r->subject[k], thetas[v]);
     return page_data_end(page, "density of visible normals on a grid");
 }
 
