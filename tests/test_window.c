@@ -10,16 +10,15 @@ static int is_found(const vndf_distribution *d, float c, float k, float u)
     uint32_t code = vndf_window_of(d, c, k, u), last = d->radial_count - 1, count = 0, found;
     float total = c * d->f0_total + k * d->f1_total;
     if (k < 0.0f) {
-        lanes_m ready = 1;
-        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &ready);
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
         last = law.cut;
         for (uint32_t j = 0; j <= d->radial_count; j += VNDF_WINDOW)
             count += vndf_radial_count_above(&d->knots, j, c, k, u * total);
-        found = vndf_radial_find_above(d, code, c, k, u * total);
+        found = vndf_radial_find_one(d, code, c, k, u * total, 0);
     } else {
         for (uint32_t j = 0; j <= d->radial_count; j++)
             count += c * d->knots.f0[j] + k * d->knots.f1[j] <= u * total;
-        found = vndf_radial_find_whole(d, code, c, k, u * total);
+        found = vndf_radial_find_one(d, code, c, k, u * total, 1);
     }
     uint32_t cell = count > 0 ? count - 1 : 0;
     return (cell < last ? cell : last) == (found < last ? found : last);
@@ -36,7 +35,7 @@ static float ratio(unsigned long long *state)
 static float part(unsigned long long *state)
 {
     float u = test_uniform(state);
-    float border = floorf(u * VNDF_RANGES) / VNDF_RANGES, beside = border + (test_uniform(state) - 0.5f) * 1e-4f;
+    float border = floorf(u * 64) / 64, beside = border + (test_uniform(state) - 0.5f) * 1e-4f;
     return test_uniform(state) < 0.5f ? u : fminf(fmaxf(beside, 0), 1);
 }
 

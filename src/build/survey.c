@@ -222,8 +222,7 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     if (c >= 0)
         add_front(v, &view);
     const vndf_wedge *side = vndf_wedge_of(v->table, c);
-    lanes_m found = 1;
-    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.s, view.c), &found);
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.s, view.c));
     quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
     if (view.wedge > 0 && row.p > 0)
         add_quarter(v, &view, &wedge);

@@ -8,25 +8,25 @@
 #ifndef VNDF_MATH_HALF_TURN_H
 #define VNDF_MATH_HALF_TURN_H
 
-#include <math.h>
+#include "math/lanes.h"
 
 typedef struct vndf_turn {
-    float sine, cosine;
+    lanes_f sine, cosine;
 } vndf_turn;
 
 /* sin(pi f), f in [0, 1/2]. */
-static inline float vndf_sine_quarter(float f)
+VNDF_INLINE lanes_f vndf_sine_quarter(lanes_f f)
 {
-    float q = f * f;
+    lanes_f q = f * f;
     return f * (3.14159263696f + q * (-5.1677096882f + q * (2.55006977348f
                 + q * (-0.598242370689f + q * 0.0775608117772f))));
 }
 
-static inline vndf_turn vndf_half_turn(float u)
+VNDF_INLINE vndf_turn vndf_half_turn(lanes_f u)
 {
     vndf_turn turn;
-    turn.sine = vndf_sine_quarter(u < 0.5f ? u : 1.0f - u);
-    turn.cosine = copysignf(vndf_sine_quarter(fabsf(u - 0.5f)), 0.5f - u);
+    turn.sine = vndf_sine_quarter(lanes_pick(lanes_less(u, lanes_set(0.5f)), u, 1.0f - u));
+    turn.cosine = lanes_sign(vndf_sine_quarter(lanes_abs(u - 0.5f)), 0.5f - u);
     return turn;
 }
 

@@ -49,6 +49,11 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return copysignf(x, y);
 }
 
+VNDF_INLINE int lanes_any(lanes_m m)
+{
+    return m;
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return 1;
@@ -127,6 +132,12 @@ VNDF_INLINE lanes_u lanes_gather_u(const uint32_t *base, lanes_u index)
 VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 {
     return base[index];
+}
+
+/* One of sixteen numbers, in registers. */
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    return table[index];
 }
 
 #else
@@ -274,6 +285,11 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
 
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
+}
+
 #  else
 
 VNDF_INLINE lanes_f lanes_set(float x)
@@ -402,7 +418,20 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 2) & 0xffffu;
 }
 
+VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+{
+    __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+    __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), (__m256i)index);
+    return _mm256_blendv_ps(low, high, _mm256_castsi256_ps((__m256i)(index << 28)));
+}
+
 #  endif
+
+VNDF_INLINE int lanes_any(lanes_m m)
+{
+    return lanes_mask_bits(m) != 0;
+}
+
 #endif
 
 /* ---- whatever the width ---- */
@@ -411,6 +440,12 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 VNDF_INLINE lanes_f lanes_positive(lanes_f x)
 {
     return lanes_pick(lanes_less(lanes_set(0.0f), x), x, lanes_set(0.0f));
+}
+
+/* min(a, b), b for NaN. */
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return lanes_pick(lanes_less(a, b), a, b);
 }
 
 /* min(x, most), most for NaN. */

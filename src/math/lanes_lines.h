@@ -1,75 +1,90 @@
-/* Loading lines of sixteen floats, one for each lane, and turning them so that member i of all lanes stands side by side:
- * one wide load per lane costs less than a gather per member. */
+/* Loading four neighbours for each lane and turning them, so that each of the four stands side by side for all lanes:
+ * loads of 16 bytes cost less than a gather for every number. */
 #ifndef VNDF_MATH_LANES_LINES_H
 #define VNDF_MATH_LANES_LINES_H
 
 #include "math/lanes.h"
 
-#if VNDF_LANES == 16
+/* Members one after the other, lane by lane. */
+typedef struct lanes_four {
+    lanes_f a, b, c, d;
+} lanes_four;
 
-/* Pairs of rows interleaved, then pairs of pairs: 4 x 4 blocks are turned. */
-VNDF_INLINE void lanes_turn_blocks(lanes_f row[16])
+/* Where lanes begin to read: `index` times `stride` floats on, found once for all members. */
+typedef struct lanes_lines {
+    const float *at[VNDF_LANES];
+} lanes_lines;
+
+#if VNDF_LANES == 1
+
+VNDF_INLINE lanes_lines lanes_lines_at(const float *base, uint32_t stride, lanes_u index)
 {
-    for (int i = 0; i < 16; i += 4) {
-        lanes_f a = _mm512_unpacklo_ps(row[i], row[i + 1]), b = _mm512_unpackhi_ps(row[i], row[i + 1]);
-        lanes_f c = _mm512_unpacklo_ps(row[i + 2], row[i + 3]), d = _mm512_unpackhi_ps(row[i + 2], row[i + 3]);
-        row[i] = _mm512_shuffle_ps(a, c, 0x44);
-        row[i + 1] = _mm512_shuffle_ps(a, c, 0xee);
-        row[i + 2] = _mm512_shuffle_ps(b, d, 0x44);
-        row[i + 3] = _mm512_shuffle_ps(b, d, 0xee);
-    }
+    lanes_lines lines = {{base + (size_t)stride * index}};
+    return lines;
 }
 
-/* member[i] = lines[16 index + i], i from 0 to 15. */
-VNDF_INLINE void lanes_load_lines(const float *lines, lanes_u index, lanes_f *member)
+/* Numbers `first` to first + 3 of each line. */
+VNDF_INLINE lanes_four lanes_load_four(const lanes_lines *lines, size_t first)
 {
-    uint32_t at[16];
-    lanes_f row[16];
-    lanes_store_u(at, index);
-    for (int i = 0; i < 16; i++)
-        row[i] = lanes_load(lines + 16 * (size_t)at[i]);
-    lanes_turn_blocks(row);
-    for (int i = 0; i < 4; i++) { /* blocks: lane of four, member of four */
-        lanes_f a = _mm512_shuffle_f32x4(row[i], row[4 + i], 0x88), b = _mm512_shuffle_f32x4(row[i], row[4 + i], 0xdd);
-        lanes_f c = _mm512_shuffle_f32x4(row[8 + i], row[12 + i], 0x88);
-        lanes_f d = _mm512_shuffle_f32x4(row[8 + i], row[12 + i], 0xdd);
-        member[i] = _mm512_shuffle_f32x4(a, c, 0x88);
-        member[4 + i] = _mm512_shuffle_f32x4(b, d, 0x88);
-        member[8 + i] = _mm512_shuffle_f32x4(a, c, 0xdd);
-        member[12 + i] = _mm512_shuffle_f32x4(b, d, 0xdd);
-    }
+    const float *at = lines->at[0] + first;
+    lanes_four four = {at[0], at[1], at[2], at[3]};
+    return four;
 }
 
-#elif VNDF_LANES == 8
+#else
 
-/* Eight of the sixteen. */
-VNDF_INLINE void lanes_load_halves(const float *lines, const uint32_t at[8], lanes_f *member)
+VNDF_INLINE lanes_lines lanes_lines_at(const float *base, uint32_t stride, lanes_u index)
 {
-    lanes_f row[8];
-    for (int i = 0; i < 8; i++)
-        row[i] = lanes_load(lines + 16 * (size_t)at[i]);
-    for (int i = 0; i < 8; i += 4) {
-        lanes_f a = _mm256_unpacklo_ps(row[i], row[i + 1]), b = _mm256_unpackhi_ps(row[i], row[i + 1]);
-        lanes_f c = _mm256_unpacklo_ps(row[i + 2], row[i + 3]), d = _mm256_unpackhi_ps(row[i + 2], row[i + 3]);
-        row[i] = _mm256_shuffle_ps(a, c, 0x44);
-        row[i + 1] = _mm256_shuffle_ps(a, c, 0xee);
-        row[i + 2] = _mm256_shuffle_ps(b, d, 0x44);
-        row[i + 3] = _mm256_shuffle_ps(b, d, 0xee);
-    }
-    for (int i = 0; i < 4; i++) {
-        member[i] = _mm256_permute2f128_ps(row[i], row[4 + i], 0x20);
-        member[4 + i] = _mm256_permute2f128_ps(row[i], row[4 + i], 0x31);
-    }
+    uint32_t at[VNDF_LANES];
+    lanes_lines lines;
+    lanes_store_u(at, index * stride);
+    for (int i = 0; i < VNDF_LANES; i++)
+        lines.at[i] = base + at[i];
+    return lines;
 }
 
-/* member[i] = lines[16 index + i], i from 0 to 15. */
-VNDF_INLINE void lanes_load_lines(const float *lines, lanes_u index, lanes_f *member)
+#  if VNDF_LANES == 16
+
+/* Lanes i, i + 4, i + 8, i + 12. */
+VNDF_INLINE lanes_f lanes_load_quarters(const lanes_lines *lines, int i, size_t first)
 {
-    uint32_t at[8];
-    lanes_store_u(at, index);
-    lanes_load_halves(lines, at, member);
-    lanes_load_halves(lines + 8, at, member + 8);
+    __m512 row = _mm512_castps128_ps512(_mm_loadu_ps(lines->at[i] + first));
+    row = _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 4] + first), 1);
+    row = _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 8] + first), 2);
+    return _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 12] + first), 3);
 }
 
+VNDF_INLINE lanes_four lanes_load_four(const lanes_lines *lines, size_t first)
+{
+    lanes_f r0 = lanes_load_quarters(lines, 0, first), r1 = lanes_load_quarters(lines, 1, first);
+    lanes_f r2 = lanes_load_quarters(lines, 2, first), r3 = lanes_load_quarters(lines, 3, first);
+    lanes_f a = _mm512_unpacklo_ps(r0, r1), b = _mm512_unpackhi_ps(r0, r1);
+    lanes_f c = _mm512_unpacklo_ps(r2, r3), d = _mm512_unpackhi_ps(r2, r3);
+    lanes_four four = {_mm512_shuffle_ps(a, c, 0x44), _mm512_shuffle_ps(a, c, 0xee), _mm512_shuffle_ps(b, d, 0x44),
+                       _mm512_shuffle_ps(b, d, 0xee)};
+    return four;
+}
+
+#  else
+
+/* Lanes i and i + 4. */
+VNDF_INLINE lanes_f lanes_load_quarters(const lanes_lines *lines, int i, size_t first)
+{
+    __m256 row = _mm256_castps128_ps256(_mm_loadu_ps(lines->at[i] + first));
+    return _mm256_insertf128_ps(row, _mm_loadu_ps(lines->at[i + 4] + first), 1);
+}
+
+VNDF_INLINE lanes_four lanes_load_four(const lanes_lines *lines, size_t first)
+{
+    lanes_f r0 = lanes_load_quarters(lines, 0, first), r1 = lanes_load_quarters(lines, 1, first);
+    lanes_f r2 = lanes_load_quarters(lines, 2, first), r3 = lanes_load_quarters(lines, 3, first);
+    lanes_f a = _mm256_unpacklo_ps(r0, r1), b = _mm256_unpackhi_ps(r0, r1);
+    lanes_f c = _mm256_unpacklo_ps(r2, r3), d = _mm256_unpackhi_ps(r2, r3);
+    lanes_four four = {_mm256_shuffle_ps(a, c, 0x44), _mm256_shuffle_ps(a, c, 0xee), _mm256_shuffle_ps(b, d, 0x44),
+                       _mm256_shuffle_ps(b, d, 0xee)};
+    return four;
+}
+
+#  endif
 #endif
 #endif

@@ -1,5 +1,5 @@
-/* What drawing from a table wants of a direction of incidence, in float: the stretched direction (s, 0, c), s + |c|
- * = 1, its azimuth, and the masses of half a turn. Densities of given normals start from wi itself (density.c).
+/* What drawing wants of a direction of incidence, in float: the stretched direction (s, 0, c), s + |c| = 1 for
+ * tables, its azimuth, and the masses of half a turn. Densities of given normals start from wi itself (density.c).
  *
  * Here for directions above the horizon of plain size, in a dozen roundings: s, c, cos_phi and sin_phi within
  * 4e-7, masses within 1e-6. view.c makes the others from doubles. */
@@ -15,17 +15,33 @@ typedef struct vndf_aim {
     lanes_f area;         /* of the unit problem */
 } vndf_aim;
 
+/* Whether quotients by the lengths keep their digits. */
+VNDF_INLINE lanes_m vndf_aim_is_ready(lanes_f across2, lanes_f z, lanes_f length)
+{
+    return lanes_both(lanes_less(lanes_set(1e-24f), across2),
+                      lanes_both(lanes_less(1e-6f * length, z), lanes_less(length, lanes_set(1e12f))));
+}
+
 /* From the stretched direction (x, y, z), as far as *ready stays: elsewhere this is not good enough. */
 VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
 {
     lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z;
     lanes_f per = 1.0f / (across * sum); /* of both at once */
-    *ready = lanes_both(*ready, lanes_both(lanes_less(lanes_set(1e-24f), across2),
-                                           lanes_both(lanes_less(lanes_set(1e-6f) * sum, z),
-                                                      lanes_less(sum, lanes_set(1e12f)))));
+    *ready = lanes_both(*ready, vndf_aim_is_ready(across2, z, sum));
     lanes_f s = across2 * per, c = lanes_pick(*ready, z * (across * per), lanes_set(0.5f)); /* to be looked up */
-    lanes_f front = vndf_front_mass(vndf_front_of(d, s, c)), wedge = vndf_wedge_quick(&d->above, c, ready);
+    lanes_f front = vndf_front_mass(vndf_front_of(d, s, c)), wedge = vndf_wedge_quick(&d->above, c);
     vndf_aim aim = {s, c, x * (sum * per), y * (sum * per), front, wedge, 2.0f * (front + wedge)};
+    return aim;
+}
+
+/* The same for GGX, s^2 + c^2 = 1. */
+VNDF_INLINE vndf_aim vndf_aim_unit(lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
+{
+    lanes_f across2 = x * x + y * y, across = lanes_root(across2), length = lanes_root(across2 + z * z);
+    lanes_f per = 1.0f / (across * length), c = z * (across * per);
+    *ready = lanes_both(*ready, vndf_aim_is_ready(across2, z, length));
+    vndf_aim aim = {across2 * per, c, x * (length * per), y * (length * per), lanes_set(0.0f), lanes_set(0.0f),
+                    0.5f + 0.5f * c};
     return aim;
 }
 

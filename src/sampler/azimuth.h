@@ -10,11 +10,11 @@
 #include <stdint.h>
 
 #include "math/count.h"
+#include "math/lanes_lines.h"
 #include "math/rational_cell.h"
 #include "table/table.h"
 
-/* The weighted sum of three successive rows of a wedge, cell by cell. Arrays are those of the first row; a row
- * further they go on `stride` later, densities cells + 1 (table/table.h). */
+/* The weighted sum of three successive rows of a wedge, cell by cell. */
 typedef struct vndf_azimuth_row {
     const vndf_wedge *wedge;
     lanes_u row;                       /* the first */
@@ -26,29 +26,40 @@ typedef struct vndf_azimuth {
     lanes_f c, s, n, density;
 } vndf_azimuth;
 
-/* Number j of the first row, in an array that goes on `stride` later with the next. */
-VNDF_INLINE lanes_f vndf_azimuth_mix(const vndf_azimuth_row *row, const float *array, uint32_t stride, lanes_u j)
+/* Of one number to a row, that of the mix. */
+VNDF_INLINE lanes_f vndf_azimuth_mix(const vndf_azimuth_row *row, const float *array)
 {
-    lanes_u at = row->row * stride + j;
-    return row->first * lanes_gather(array, at) + row->middle * lanes_gather(array + stride, at) +
-           row->last * lanes_gather(array + 2 * (size_t)stride, at);
+    return row->first * lanes_gather(array, row->row) + row->middle * lanes_gather(array + 1, row->row) +
+           row->last * lanes_gather(array + 2, row->row);
 }
 
-VNDF_INLINE lanes_f vndf_azimuth_before(const vndf_azimuth_row *row, lanes_u j)
+/* A cell of the mix, the mass before it, where it begins in q and how wide it is. */
+typedef struct vndf_azimuth_cell {
+    vndf_rational_cell cell;
+    lanes_f before, q, width;
+} vndf_azimuth_cell;
+
+/* The ends of cell j. */
+VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_u j)
 {
-    return vndf_azimuth_mix(row, row->wedge->cdf, row->wedge->stride, j);
+#if VNDF_LANES > 1
+    if (wedge->stride <= VNDF_FEW) /* q is padded to that */
+        return lanes_few(wedge->q + end, j);
+#endif
+    return lanes_gather(wedge->q + end, j);
 }
 
-/* A cell of the mix, and its width in q. */
-VNDF_INLINE vndf_rational_cell vndf_azimuth_cell(const vndf_azimuth_row *row, lanes_u j, lanes_f *width)
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, lanes_u j)
 {
     const vndf_wedge *w = row->wedge;
-    uint32_t ends = w->cell_count + 1;
-    lanes_f h = lanes_gather(w->q + 1, j) - lanes_gather(w->q, j);
-    *width = h;
-    vndf_rational_cell cell = {vndf_azimuth_mix(row, w->density, ends, j) * h,
-                               vndf_azimuth_mix(row, w->density + 1, ends, j) * h,
-                               vndf_azimuth_mix(row, w->cell_mass, w->stride, j)};
+    const size_t stride = 4 * (size_t)w->stride;
+    lanes_lines lines = lanes_lines_at(&w->row_cell->before, 4, row->row * w->stride + j);
+    lanes_four a = lanes_load_four(&lines, 0), b = lanes_load_four(&lines, stride);
+    lanes_four c = lanes_load_four(&lines, 2 * stride);
+    lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(w, 0, j);
+    lanes_f h = vndf_azimuth_q(w, 1, j) - q;
+    vndf_azimuth_cell cell = {{(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h,
+                               u * a.b + v * b.b + t * c.b}, u * a.a + v * b.a + t * c.a, q, h};
     return cell;
 }
 
@@ -96,10 +107,9 @@ VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f targe
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target)
 {
     lanes_u j = lanes_pick_u(lanes_at_most_u(lanes_set_u(1), count), count - 1u, lanes_set_u(0));
-    lanes_f width;
-    vndf_rational_cell cell = vndf_azimuth_cell(row, j, &width);
-    vndf_rational_place in = vndf_rational_invert(&cell, target - vndf_azimuth_before(row, j));
-    return vndf_azimuth_at(row, lanes_gather(row->wedge->q, j) + in.xi * width, in, width);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
+    vndf_rational_place in = vndf_rational_invert(&cell.cell, target - cell.before);
+    return vndf_azimuth_at(row, cell.q + in.xi * cell.width, in, cell.width);
 }
 
 #endif

@@ -75,63 +75,97 @@ VNDF_INLINE vndf_view view_at(const vndf_batch *b, size_t i)
     return vndf_view_from(&surface, wi_at(b, i));
 }
 
-/* The view of element i, given that of the one before it. */
-VNDF_INLINE void next_view(const vndf_batch *b, size_t i, vndf_view *view)
+/* Arrays of a call: normals and two of numbers, read or written as the call has it. */
+typedef struct call {
+    vndf_normals wm;
+    const float *from1, *from2;
+    float *to1, *to2;
+} call;
+
+/* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
+VNDF_INLINE void for_each_view(const vndf_batch *b, const call *c,
+                               void (*one)(const vndf_view *view, const call *c, size_t i))
 {
-    if (i == 0 || !is_one_view(b))
-        *view = view_at(b, i);
+    if (is_one_view(b)) {
+        vndf_view view = view_at(b, 0);
+        for (size_t i = 0; i < b->count; i++)
+            one(&view, c, i);
+        return;
+    }
+    for (size_t i = 0; i < b->count; i++) {
+        vndf_view view = view_at(b, i);
+        one(&view, c, i);
+    }
 }
 
 /* ---- sample ---- */
 
+VNDF_INLINE void sample_one(const vndf_view *view, const call *c, size_t i)
+{
+    float density;
+    vndf_vec3 n = vndf_sample(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL);
+    c->wm.x[i] = n.x;
+    c->wm.y[i] = n.y;
+    c->wm.z[i] = n.z;
+    if (c->to1)
+        c->to1[i] = density;
+}
+
 static void sample_one_by_one(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    vndf_view view;
-    for (size_t i = 0; i < b->count; i++) {
-        float density;
-        next_view(b, i, &view);
-        vndf_vec3 n = vndf_sample(&view, u1[i], u2[i], pdf ? &density : NULL);
-        wm.x[i] = n.x;
-        wm.y[i] = n.y;
-        wm.z[i] = n.z;
-        if (pdf)
-            pdf[i] = density;
-    }
+    call c = {wm, u1, u2, pdf, NULL};
+    for_each_view(b, &c, sample_one);
 }
 
 #if VNDF_HAS_LANES
 
-/* From an array of a number each or of one for all. */
-static void fill(float *to, const float *from, size_t first, uint32_t count, unsigned is_shared)
+enum { INPUTS = 7 };
+
+/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of lanes would
+ * read beyond. */
+typedef struct copies {
+    float of[INPUTS][VNDF_BLOCK_SAMPLES];
+} copies;
+
+static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
 {
-    for (uint32_t i = 0; i < count; i++)
-        to[i] = from[is_shared ? 0 : first + i];
+    if (is_shared) {
+        for (uint32_t i = 0; first == 0 && i < VNDF_BLOCK_SAMPLES; i++)
+            copy[i] = from[0];
+        return copy;
+    }
+    if (count == VNDF_BLOCK_SAMPLES)
+        return from + first;
+    for (uint32_t i = 0; i < VNDF_BLOCK_SAMPLES; i++)
+        copy[i] = i < count ? from[first + i] : 0.0f;
+    return copy;
 }
 
-static void fill_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1, const float *u2)
+static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1, const float *u2,
+                      copies *c)
 {
-    uint32_t count = block->count;
-    unsigned alpha = b->shared & VNDF_SHARED_ALPHA, wi = b->shared & VNDF_SHARED_WI;
-    memcpy(block->u1, u1 + first, count * sizeof *u1);
-    memcpy(block->u2, u2 + first, count * sizeof *u2);
+    uint32_t n = block->count;
+    int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
+    block->u1 = input_at(u1, 0, first, n, c->of[0]);
+    block->u2 = input_at(u2, 0, first, n, c->of[1]);
     if (block->view)
         return;
-    fill(block->alpha_x, b->alpha_x, first, count, alpha);
-    fill(block->alpha_y, b->alpha_y, first, count, alpha);
-    fill(block->wi_x, b->wi_x, first, count, wi);
-    fill(block->wi_y, b->wi_y, first, count, wi);
-    fill(block->wi_z, b->wi_z, first, count, wi);
+    block->alpha_x = input_at(b->alpha_x, alpha, first, n, c->of[2]);
+    block->alpha_y = input_at(b->alpha_y, alpha, first, n, c->of[3]);
+    block->wi_x = input_at(b->wi_x, wi, first, n, c->of[4]);
+    block->wi_y = input_at(b->wi_y, wi, first, n, c->of[5]);
+    block->wi_z = input_at(b->wi_z, wi, first, n, c->of[6]);
 }
 
 /* What lanes have left, before the block's results go where its numbers may have come from. */
 static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
     for (uint32_t n = 0; n < block->left_count; n++) {
-        uint32_t i = block->left[n];
-        vndf_view own;
-        if (!block->view)
-            own = view_at(b, first + i);
-        vndf_vec3 wm = vndf_sample(block->view ? block->view : &own, block->u1[i], block->u2[i], &block->density[i]);
+        uint32_t i = block->left[n] % VNDF_DELICATE;
+        vndf_view own = block->view ? *block->view : view_at(b, first + i);
+        vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
+                           ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
+                           : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
         block->x[i] = wm.x;
         block->y[i] = wm.y;
         block->z[i] = wm.z;
@@ -143,7 +177,8 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
     vndf_view view;
     vndf_sample_block block;
-    memset(&block, 0, sizeof block);
+    copies own;
+    block.view = NULL;
     if (is_one_view(b)) {
         view = view_at(b, 0);
         block.view = &view;
@@ -151,7 +186,7 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
-        fill_block(&block, b, first, u1, u2);
+        aim_block(&block, b, first, u1, u2, &own);
         if (wide)
             vndf_sample_block_avx512(b->distribution, &block);
         else
@@ -169,7 +204,7 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
 /* Whether lanes draw most samples of a batch. */
 static int has_lanes(const vndf_batch *b)
 {
-    return b->count > 1 && b->distribution && b->distribution->kind == VNDF_KIND_TABLE &&
+    return b->count > 1 && b->distribution && b->distribution->kind != VNDF_KIND_BECKMANN &&
            vndf_unit_scale_float(b->distribution) > 0.0f &&
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
@@ -193,34 +228,40 @@ void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_n
 
 /* ---- the others ---- */
 
+VNDF_INLINE void pdf_one(const vndf_view *view, const call *c, size_t i)
+{
+    c->to1[i] = vndf_pdf(view, normal_at(c->wm, i));
+}
+
 void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
 {
-    vndf_view view;
-    for (size_t i = 0; i < b->count; i++) {
-        next_view(b, i, &view);
-        pdf[i] = vndf_pdf(&view, normal_at(wm, i));
-    }
+    call c = {wm, NULL, NULL, pdf, NULL};
+    for_each_view(b, &c, pdf_one);
+}
+
+VNDF_INLINE void visible_one(const vndf_view *view, const call *c, size_t i)
+{
+    c->to1[i] = vndf_visible(view, normal_at(c->wm, i));
 }
 
 void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
 {
-    vndf_view view;
-    for (size_t i = 0; i < b->count; i++) {
-        next_view(b, i, &view);
-        visible[i] = vndf_visible(&view, normal_at(wm, i));
-    }
+    call c = {wm, NULL, NULL, visible, NULL};
+    for_each_view(b, &c, visible_one);
+}
+
+VNDF_INLINE void invert_one(const vndf_view *view, const call *c, size_t i)
+{
+    float u1, u2;
+    vndf_invert(view, normal_at(c->wm, i), &u1, &u2);
+    c->to1[i] = u1;
+    c->to2[i] = u2;
 }
 
 void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
 {
-    vndf_view view;
-    for (size_t i = 0; i < b->count; i++) {
-        float a, c;
-        next_view(b, i, &view);
-        vndf_invert(&view, normal_at(wm, i), &a, &c);
-        u1[i] = a;
-        u2[i] = c;
-    }
+    call c = {wm, NULL, NULL, u1, u2};
+    for_each_view(b, &c, invert_one);
 }
 
 void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)

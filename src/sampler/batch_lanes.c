@@ -1,7 +1,7 @@
 /* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
 #include "sampler/batch_lanes.h"
 
-#include "sampler/draw.h"
+#include "sampler/ggx_draw.h"
 #include "sampler/surface.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
@@ -46,12 +46,14 @@ VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, lanes_m m, uint32_t 
     return count;
 }
 
-static vndf_incidence shared_incidence(const vndf_view *v)
+/* Those that cannot be drawn here, and those that the call of one would draw and then do carefully. */
+VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
 {
-    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
-                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->front), lanes_set(v->wedge),
-                        lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
-    return w;
+    b->left_count = append(b->left, b->left_count, unready, first, b->count);
+    uint32_t from = b->left_count;
+    b->left_count = append(b->left, from, delicate, first, b->count);
+    for (; from < b->left_count; from++)
+        b->left[from] |= VNDF_DELICATE;
 }
 
 /* Of samples from `i` on; plain only where a view in float is good enough. */
@@ -59,8 +61,8 @@ VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_s
 {
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     lanes_m ready = lanes_all();
-    vndf_aim aim = vndf_aim_at(d, ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i), lanes_load(b->wi_z + i),
-                               &ready);
+    lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
+    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
     vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
     w.plain = lanes_both(w.plain, ready);
     return w;
@@ -99,7 +101,7 @@ VNDF_INLINE void aim(const vndf_distribution *d, const vndf_sample_block *b, wor
     float scale = vndf_unit_scale_float(d);
     vndf_incidence shared;
     if (b->view)
-        shared = shared_incidence(b->view);
+        shared = vndf_incidence_of(b->view);
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
         uint32_t i = g * VNDF_LANES;
         w->at[g] = b->view ? shared : incidence_at(d, b, i, scale);
@@ -120,9 +122,8 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
         lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
         vndf_drawn n = vndf_draw_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &plain);
         store(b, g * VNDF_LANES, &n);
-        lanes_m wedge = lanes_without(usable, front), good = lanes_either(plain, wedge);
-        w->wedge_count = append(w->wedge, w->wedge_count, wedge, g * VNDF_LANES, b->count);
-        b->left_count = append(b->left, b->left_count, lanes_without(lanes_all(), good), g * VNDF_LANES, b->count);
+        w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
+        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain), g * VNDF_LANES);
     }
 }
 
@@ -136,7 +137,7 @@ VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_blo
         w->half[g] = gathered(from->half, sizeof *from->half, index);
         w->u2[g] = gathered(from->u2, sizeof *from->u2, index);
         w->plain[g] = lanes_all();
-        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c, &w->plain[g]);
+        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c);
         w->part[g] = vndf_wedge_part(lanes_abs(w->half[g]), w->at[g].front, w->at[g].wedge);
     }
 }
@@ -156,7 +157,7 @@ VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t c
         b->y[to] = out[1][lane];
         b->z[to] = out[2][lane];
         b->density[to] = out[3][lane];
-        b->left[b->left_count] = to;
+        b->left[b->left_count] = to | VNDF_DELICATE;
         b->left_count += !(bits >> lane & 1);
     }
 }
@@ -168,7 +169,7 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
         w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
     for (uint32_t g = 0; g < groups; g++)
         w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->row[g], w->part[g], w->count[g], w->half[g], w->u2[g],
-                                        &w->law[g], &w->plain[g]);
+                                        &w->law[g]);
     for (uint32_t g = 0; g < groups; g++)
         w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
@@ -179,21 +180,46 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
     }
 }
 
-#if VNDF_LANES == 16
-void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
-#else
-void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
-#endif
+/* ---- GGX ---- */
+
+VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+{
+    vndf_incidence shared;
+    if (b->view)
+        shared = vndf_incidence_of(b->view);
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
+        lanes_m plain = lanes_all();
+        vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)), &plain);
+        store(b, i, &n);
+        leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+    }
+}
+
+static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     work all;
     wedge_work wedges;
-    all.wedge_count = b->left_count = 0;
+    all.wedge_count = 0;
     aim(d, b, &all);
     draw_fronts(d, b, &all);
     for (uint32_t i = 0; i < VNDF_LANES; i++) /* lanes that are not needed repeat a sample */
         all.wedge[all.wedge_count + i] = 0;
     gather_wedges(d, b, &all, &wedges);
     draw_wedges(d, b, &all, &wedges);
+}
+
+#if VNDF_LANES == 16
+void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
+#else
+void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
+#endif
+{
+    b->left_count = 0;
+    if (d->kind == VNDF_KIND_GGX)
+        draw_ggx(d, b);
+    else
+        draw_table(d, b);
 }
 
 #endif

@@ -13,17 +13,15 @@
 #  define VNDF_HAS_LANES 0
 #endif
 
-enum { VNDF_BLOCK_SAMPLES = 256 };
+enum { VNDF_BLOCK_SAMPLES = 256, VNDF_DELICATE = 1 << 16 };
 
-/* Samples of a block, a number each; what it is given, and what is drawn. */
+/* Samples of a block: what they are given, arrays that lanes may read to the end of the last group; what is drawn. */
 typedef struct vndf_sample_block {
-    float alpha_x[VNDF_BLOCK_SAMPLES], alpha_y[VNDF_BLOCK_SAMPLES];
-    float wi_x[VNDF_BLOCK_SAMPLES], wi_y[VNDF_BLOCK_SAMPLES], wi_z[VNDF_BLOCK_SAMPLES];
-    float u1[VNDF_BLOCK_SAMPLES], u2[VNDF_BLOCK_SAMPLES];
+    const float *alpha_x, *alpha_y, *wi_x, *wi_y, *wi_z, *u1, *u2;
+    const vndf_view *view;             /* of all, then alpha and wi are not read; or NULL */
+    uint32_t count, left_count;
+    uint32_t left[VNDF_BLOCK_SAMPLES]; /* indices of those that are not drawn, VNDF_DELICATE added if that was tried */
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
-    uint32_t left[VNDF_BLOCK_SAMPLES]; /* indices of those that are not drawn */
-    uint32_t left_count, count;
-    const vndf_view *view;             /* of all, then alpha and wi are not filled; or NULL */
 } vndf_sample_block;
 
 #if VNDF_HAS_LANES

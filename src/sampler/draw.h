@@ -90,6 +90,15 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
     return w;
 }
 
+/* Of a view, the same in all lanes. */
+VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
+{
+    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
+                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->front), lanes_set(v->wedge),
+                        lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
+    return w;
+}
+
 /* Mass between the side of wi and the azimuth, of half a turn; `half` = 2 u1 - 1. */
 VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
 {
@@ -143,11 +152,11 @@ VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_in
 /* From the row, the part of its mass and the count of its cells before that; *law is not scaled yet. */
 VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
                                          const vndf_azimuth_row *row, lanes_f part, lanes_u count, lanes_f half,
-                                         lanes_f u2, vndf_radial_law *law, lanes_m *plain)
+                                         lanes_f u2, vndf_radial_law *law)
 {
     vndf_azimuth a = vndf_azimuth_draw(row, count, part);
     lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c, total;
-    *law = vndf_radial_law_above(d, c, k, &total, plain);
+    *law = vndf_radial_law_above(d, c, k, &total);
     vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half), cosine, c, k,
                       total, a.density * w->wedge, vndf_window_of(d, c, k, u2)};
     return b;

@@ -35,8 +35,7 @@ VNDF_INLINE const vndf_wedge *wedge_of(const vndf_view *view)
 static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 {
     int below = vndf_is_below(view);
-    lanes_m found = 1;
-    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c, &found);
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c);
     float target = below ? half : vndf_wedge_part(half, view->front, view->wedge);
     vndf_azimuth at = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, target), target);
     if (!below)
@@ -75,8 +74,9 @@ static vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *
 }
 
 /* Any direction and any place: the density is that of the normal as it was rounded, in double. */
-VNDF_RARE vndf_vec3 sample_carefully(const vndf_view *view, float half, float u2, float *pdf)
+vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
     float per_n = 1.0f / a.n;
     vndf_level level =
@@ -93,12 +93,6 @@ VNDF_RARE vndf_vec3 sample_carefully(const vndf_view *view, float half, float u2
     return wm;
 }
 
-VNDF_INLINE vndf_incidence incidence_of(const vndf_view *v)
-{
-    vndf_incidence w = {v->ax, v->ay, v->s, v->c, v->cos_phi, v->sin_phi, v->front, v->wedge, v->spread, v->plain};
-    return w;
-}
-
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
                                      lanes_m *plain)
 {
@@ -109,10 +103,10 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
                                      lanes_m *plain)
 {
-    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c, plain);
+    vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
     vndf_radial_law law;
-    vndf_bearing b = vndf_bear_wedge(d, w, &row, part, vndf_azimuth_find(&row, part), half, u2, &law, plain);
+    vndf_bearing b = vndf_bear_wedge(d, w, &row, part, vndf_azimuth_find(&row, part), half, u2, &law);
     return vndf_draw_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
 }
 
@@ -120,14 +114,14 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 {
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
-    vndf_incidence w = incidence_of(view);
+    vndf_incidence w = vndf_incidence_of(view);
     lanes_m plain = view->plain;
     if (!plain)
-        return sample_carefully(view, half, u2, pdf);
+        return vndf_engine_sample_carefully(view, u1, u2, pdf);
     vndf_drawn n = vndf_draw_target(&w, half) < w.front ? draw_in_front(d, &w, half, u2, &plain)
                                                         : draw_in_wedge(d, &w, half, u2, &plain);
     if (!plain)
-        return sample_carefully(view, half, u2, pdf);
+        return vndf_engine_sample_carefully(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
     vndf_vec3 wm = {n.x, n.y, n.z};
@@ -190,13 +184,12 @@ static float place_in_row(const vndf_azimuth_row *row, float cos_phi, float sin_
 /* Part of the wedge's mass before an azimuth. */
 static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    lanes_m found = 1;
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view),
-                                          !vndf_is_below(view) ? view->c : view->s, &found);
+                                          !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
-    float width, xi = place_in_row(&row, cos_phi, sin_phi, &j);
-    vndf_rational_cell cell = vndf_azimuth_cell(&row, j, &width);
-    return vndf_azimuth_before(&row, j) + vndf_rational_cdf(&cell, xi);
+    float xi = place_in_row(&row, cos_phi, sin_phi, &j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
+    return cell.before + vndf_rational_cdf(&cell.cell, xi);
 }
 
 /* Part of a half turn's mass between the side of wi and |a|. */

@@ -58,6 +58,10 @@ double vndf_unit_area(const vndf_distribution *d, double s, double c);
 
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
+
+/* The same where densities in float are known not to do. */
+vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */

@@ -42,21 +42,18 @@ typedef struct vndf_radial_law {
 
 /* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
 typedef struct vndf_radial_lanes {
-    lanes_f f0, f1, mu0, mu1, a, b, width, calm, x0, x1, z0, z1, before0, before1, e, g;
+    lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, calm, a, b, e, g;
 } vndf_radial_lanes;
 
+/* What is not used of it is not loaded. */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-#if VNDF_LANES == 1
-    const vndf_radial_cell *c = &d->cells[j];
-    vndf_radial_lanes cell = {c->f0, c->f1, c->mu0, c->mu1, c->a, c->b, c->width, c->calm,
-                              c->x0, c->x1, c->z0, c->z1, c->before0, c->before1, c->e, c->g};
+    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
+    lanes_four f = lanes_load_four(&lines, 0), knots = lanes_load_four(&lines, 4);
+    lanes_four whole = lanes_load_four(&lines, 8), cut = lanes_load_four(&lines, 12);
+    vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
+                              whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
     return cell;
-#else
-    vndf_radial_lanes cell;
-    lanes_load_lines(&d->cells->f0, j, &cell.f0);
-    return cell;
-#endif
 }
 
 /* f at xi from the cubic. */
@@ -121,11 +118,10 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, la
 }
 
 /* c > 0 > k; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total,
-                                                  lanes_m *found)
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
 {
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k, found);
+    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
     lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
@@ -177,44 +173,51 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
     return w.first;
 }
 
-/* The cell in which the mass `target` ends, by its window. */
-VNDF_INLINE uint32_t vndf_radial_find_whole(const vndf_distribution *d, uint32_t code, float c, float k,
-                                            float target)
+/* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */
+VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k, float target,
+                                          int whole)
 {
     vndf_window w = vndf_window_from(code);
     if (w.step > 1)
         w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
-    return w.first + vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target);
+    return w.first + (whole ? vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target)
+                            : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-VNDF_INLINE uint32_t vndf_radial_find_above(const vndf_distribution *d, uint32_t code, float c, float k,
-                                            float target)
-{
-    vndf_window w = vndf_window_from(code);
-    if (w.step > 1)
-        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
-    return w.first + vndf_radial_count_above(&d->knots, w.first + 1, c, k, target);
-}
+#if VNDF_LANES == 1
 
-/* All lanes, one after the other; `whole` for c, k >= 0, else c > 0 > k. */
 VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
                                      int whole)
 {
-#if VNDF_LANES == 1
-    return whole ? vndf_radial_find_whole(d, code, c, k, target) : vndf_radial_find_above(d, code, c, k, target);
+    return vndf_radial_find_one(d, code, c, k, target, whole);
+}
+
 #else
-    uint32_t codes[VNDF_LANES];
+
+/* All lanes, one after the other: the wide windows first, which are few. */
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
+                                     int whole)
+{
+    const vndf_knots knots = d->knots;
+    uint32_t first[VNDF_LANES], found[VNDF_LANES];
     float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
-    lanes_store_u(codes, code);
+    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
+    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
+    lanes_store_u(first, code);
     lanes_store(cs, c);
     lanes_store(ks, k);
     lanes_store(targets, target);
+    for (; wide != 0; wide &= wide - 1) {
+        int i = __builtin_ctz(wide);
+        first[i] = vndf_radial_narrow(&knots, vndf_window_from(first[i]), cs[i], ks[i], targets[i]);
+    }
     for (int i = 0; i < VNDF_LANES; i++)
-        codes[i] = whole ? vndf_radial_find_whole(d, codes[i], cs[i], ks[i], targets[i])
-                         : vndf_radial_find_above(d, codes[i], cs[i], ks[i], targets[i]);
-    return lanes_load_u(codes);
-#endif
+        found[i] = first[i] + (whole ? vndf_radial_count_whole(&knots, first[i] + 1, cs[i], ks[i], targets[i])
+                                     : vndf_radial_count_above(&knots, first[i] + 1, cs[i], ks[i], targets[i]));
+    return lanes_load_u(found);
 }
+
+#endif
 
 /* ---- where the density of a place is that of its rounded normal ---- */
 

@@ -49,8 +49,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, floa
 {
     if (c > 0.0f && k < 0.0f) {
         float total;
-        lanes_m found = 1;
-        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
+        vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
         return vndf_radial_scaled(law, total);
     }
     if (c < 0.0f && k > 0.0f)

@@ -62,7 +62,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_in(const vndf_radial_law *law, ui
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d, float c, float k, float u)
 {
     float total = vndf_radial_total(d, c, k), target = u * total;
-    uint32_t last = d->radial_count - 1, j = vndf_radial_find_whole(d, vndf_window_of(d, c, k, u), c, k, target);
+    uint32_t last = d->radial_count - 1, j = vndf_radial_find_one(d, vndf_window_of(d, c, k, u), c, k, target, 1);
     j = j < last ? j : last;
     vndf_radial_law law = vndf_radial_law_whole(d, c, k);
     law = vndf_radial_scaled(law, total);
@@ -75,9 +75,8 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d,
 VNDF_INLINE vndf_radial_drawn vndf_radial_draw_above(const vndf_distribution *d, float c, float k, float u)
 {
     float total;
-    lanes_m found = 1;
-    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total, &found);
-    uint32_t j = vndf_radial_find_above(d, vndf_window_of(d, c, k, u), c, k, u * total);
+    vndf_radial_law law = vndf_radial_law_above(d, c, k, &total);
+    uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, c, k, u), c, k, u * total, 0);
     j = j < law.cut ? j : law.cut;
     law = vndf_radial_scaled(law, total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);

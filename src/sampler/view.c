@@ -5,6 +5,7 @@
 #include "sampler/engine.h"
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
+#include "sampler/ggx_draw.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
@@ -47,7 +48,9 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
     vndf_aim aim;
     if (d->kind == VNDF_KIND_TABLE)
         aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
-    if (d->kind != VNDF_KIND_TABLE || !ready)
+    else if (d->kind == VNDF_KIND_GGX)
+        aim = vndf_aim_unit(x * wi.x, y * wi.y, wi.z, &ready);
+    if (d->kind == VNDF_KIND_BECKMANN || !ready)
         aim = aim_exactly(d, ax, ay, wi);
     vndf_view view = {d, wi, ax, ay, x, y, aim.s, aim.c, aim.cos_phi, aim.sin_phi, aim.front, aim.wedge,
                       aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c)};
@@ -92,7 +95,7 @@ static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
     return vndf_facing(view, vndf_normal_of(wm)) > 0.0 ? wm : vndf_turn_to_face(view, wm);
 }
 
-static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float *pdf)
+static vndf_vec3 sample_closed_carefully(const vndf_view *view, float u1, float u2, float *pdf)
 {
     float s = view->s, c = view->c;
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(s, c, u1, u2)
@@ -102,6 +105,28 @@ static vndf_vec3 sample_closed(const vndf_view *view, float u1, float u2, float 
         wm = turn_closed(view, wm);
     if (pdf)
         *pdf = visible_closed(view, wm);
+    return wm;
+}
+
+vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return vndf_engine_sample_carefully(view, u1, u2, pdf);
+    return sample_closed_carefully(view, u1, u2, pdf);
+}
+
+static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_incidence w = vndf_incidence_of(view);
+    lanes_m plain = 1;
+    vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &plain);
+    if (!plain)
+        return sample_closed_carefully(view, u1, u2, pdf);
+    if (pdf)
+        *pdf = n.density;
+    vndf_vec3 wm = {n.x, n.y, n.z};
     return wm;
 }
 
@@ -117,7 +142,9 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
     }
     if (view->distribution->kind == VNDF_KIND_TABLE)
         return vndf_engine_sample(view, u1, u2, pdf);
-    return sample_closed(view, u1, u2, pdf);
+    if (view->distribution->kind == VNDF_KIND_GGX)
+        return sample_ggx(view, u1, u2, pdf);
+    return sample_closed_carefully(view, u1, u2, pdf);
 }
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)

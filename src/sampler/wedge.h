@@ -21,9 +21,13 @@ VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
 }
 
 /* The same in float, where that is good enough: for drawing, and for densities where it is no small part. */
-VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_m *found)
+VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y)
 {
-    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y, found), y);
+#if VNDF_LANES > 1
+    if (wedge->knot_count <= VNDF_FEW + 1)
+        return vndf_area_few_at(wedge->few, y);
+#endif
+    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y);
 }
 
 /* The wedge's coordinate of a direction with s + |c| = 1. */
@@ -33,14 +37,14 @@ VNDF_INLINE double vndf_wedge_y(double s, double c)
 }
 
 /* The row for the coordinate y. Its mass is 1. Not part of the view, since most samples are in front. */
-VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y, lanes_m *found)
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 {
-    lanes_u i = vndf_guide_lanes(&wedge->row_guide, y, found), row = i * 2u;
+    lanes_u i = vndf_guide_lanes(&wedge->row_guide, y), row = i * 2u;
     lanes_f from = lanes_gather(wedge->row_y, i), to = lanes_gather(wedge->row_y + 1, i);
     lanes_f mix = (y - from) / (to - from), rest = 1.0f - mix;
     vndf_azimuth_row made = {wedge, row, rest * rest, 2.0f * rest * mix, mix * mix, rest, rest};
-    made.p = vndf_azimuth_mix(&made, wedge->aspect_p, 1, lanes_set_u(0));
-    made.r = vndf_azimuth_mix(&made, wedge->aspect_r, 1, lanes_set_u(0));
+    made.p = vndf_azimuth_mix(&made, wedge->aspect_p);
+    made.r = vndf_azimuth_mix(&made, wedge->aspect_r);
     return made;
 }
 

@@ -5,7 +5,7 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
-#include "math/lanes.h"
+#include "math/lanes_lines.h"
 #include "table/table.h"
 
 typedef struct vndf_area_knot {
@@ -40,16 +40,34 @@ VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER],
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
-/* In float, within 6e-7 of the mass but for the rounding of y: piece i. */
+/* The same in float. */
+VNDF_INLINE lanes_f vndf_area_quick_sum(const lanes_f b[VNDF_AREA_ORDER], lanes_f t)
+{
+    lanes_f u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
+    lanes_f low = uu * b[0] + (ut * b[1] + tt * b[2]), high = uu * b[3] + (ut * b[4] + tt * b[5]);
+    return uu * u * low + tt * t * high;
+}
+
+/* Piece i, within 6e-7 of the mass but for the rounding of y. */
 VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y)
 {
-    const float *b = piece->coefficient;
-    lanes_u at = i * 8u;
-    lanes_f t = (y - lanes_gather(b + 6, at)) * lanes_gather(b + 7, at);
-    lanes_f u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
-    lanes_f low = uu * lanes_gather(b, at) + (ut * lanes_gather(b + 1, at) + tt * lanes_gather(b + 2, at));
-    lanes_f high = uu * lanes_gather(b + 3, at) + (ut * lanes_gather(b + 4, at) + tt * lanes_gather(b + 5, at));
-    return uu * u * low + tt * t * high;
+    lanes_lines lines = lanes_lines_at(piece->coefficient, sizeof *piece / sizeof(float), i);
+    lanes_four from = lanes_load_four(&lines, 0), to = lanes_load_four(&lines, 4);
+    lanes_f b[VNDF_AREA_ORDER] = {from.a, from.b, from.c, from.d, to.a, to.b};
+    return vndf_area_quick_sum(b, (y - to.c) * to.d);
+}
+
+/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
+VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], lanes_f y)
+{
+    const float *begin = few[VNDF_AREA_ORDER];
+    lanes_u i = lanes_set_u(0);
+    lanes_f b[VNDF_AREA_ORDER];
+    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
+        i = lanes_pick_u(lanes_at_most(lanes_few(begin, i + step), y), i + step, i);
+    for (int n = 0; n < VNDF_AREA_ORDER; n++)
+        b[n] = lanes_few(few[n], i);
+    return vndf_area_quick_sum(b, (y - lanes_few(begin, i)) * lanes_few(few[VNDF_AREA_ORDER + 1], i));
 }
 
 #endif

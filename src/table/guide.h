@@ -34,24 +34,20 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
     return i;
 }
 
-/* The same for lanes. `found` becomes 0 where one step is not enough. */
-VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value, lanes_m *found)
+/* The same for lanes. */
+VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
 {
     const lanes_u one = lanes_set_u(1), none = lanes_set_u(0), low = lanes_set_u(guide->low);
     lanes_u bits = lanes_bits(value), above = lanes_pick_u(lanes_at_most_u(low, bits), bits - low, none);
     lanes_u i = lanes_gather_u16(guide->first, lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last)));
-#if VNDF_LANES == 1
-    i += bits >= guide->next[i];
-    while (bits >= guide->next[i])
-        i++;
-    (void)one;
-    (void)found;
-#else
-    i += lanes_pick_u(lanes_at_most_u(lanes_gather_u(guide->next, i), bits), one, none);
     lanes_m more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
-    *found = lanes_without(*found, more);
-#endif
-    return i;
+    i += lanes_pick_u(more, one, none);
+    for (;;) {
+        more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
+        if (!lanes_any(more))
+            return i;
+        i += lanes_pick_u(more, one, none);
+    }
 }
 
 #endif

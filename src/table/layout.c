@@ -32,16 +32,17 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     uint32_t stride = (cells + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING;
     size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
     size_t per_rows = row_knots + 2 * (size_t)rows, per_knots = 4 * (size_t)knots;
-    float *block = calloc(2 * row_floats + ends + per_rows + per_knots + cells + 1, sizeof *block);
+    float *block = calloc(2 * row_floats + ends + per_rows + per_knots + cells + 1 + VNDF_FEW, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
     wedge->stride = stride;
     wedge->cdf = block;
-    wedge->piece = calloc(knots, sizeof *wedge->piece + sizeof *wedge->quick);
+    wedge->piece = calloc(1, knots * (sizeof *wedge->piece + sizeof *wedge->quick) + row_floats * sizeof *wedge->row_cell);
     if (!block || !wedge->piece)
         return 0;
     wedge->quick = (vndf_area_quick *)(wedge->piece + knots);
+    wedge->row_cell = (vndf_row_cell *)(wedge->quick + knots);
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
     wedge->row_y = wedge->density + ends;
@@ -237,12 +238,18 @@ static void derive_rows(vndf_wedge *wedge)
         }
         for (uint32_t j = 0; j <= wedge->cell_count; j++)
             density[j] = (float)(density[j] / total);
+        for (uint32_t j = 0; j < wedge->cell_count; j++) {
+            vndf_row_cell cell = {cdf[j], mass[j], density[j], density[j + 1]};
+            wedge->row_cell[(size_t)i * wedge->stride + j] = cell;
+        }
     }
 }
 
 /* The spline of a wedge's mass, piece by piece. */
 static void derive_area(vndf_wedge *wedge)
 {
+    for (uint32_t i = 0; i < VNDF_FEW; i++)
+        wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
         vndf_area_span *span = &wedge->piece[i];
         double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
@@ -256,6 +263,12 @@ static void derive_area(vndf_wedge *wedge)
             quick->coefficient[n] = (float)span->coefficient[n];
         quick->begin = (float)begin;
         quick->per_width = (float)span->per_width;
+        for (int n = 0; n < VNDF_AREA_ORDER && i < VNDF_FEW; n++)
+            wedge->few[n][i] = quick->coefficient[n];
+        if (i < VNDF_FEW) {
+            wedge->few[VNDF_AREA_ORDER][i] = quick->begin;
+            wedge->few[VNDF_AREA_ORDER + 1][i] = quick->per_width;
+        }
     }
 }
 

@@ -28,11 +28,13 @@ enum {
     VNDF_AREA_KNOTS_MAX = 4096,
     VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
     VNDF_WINDOW = 8,         /* above the horizon by a window of so many (table/window.h), */
-    VNDF_RANGES = 64,        /* one for each of this many ranges of u */
+    VNDF_RANGES = 94,        /* one for each of this many ranges of u */
+    VNDF_RANGES_END = 16,    /* the first and last so many are half octaves of u and of 1 - u */
     VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
+    VNDF_FEW = 16,           /* so many numbers are looked up in registers */
     VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
 };
 
@@ -51,10 +53,11 @@ typedef struct vndf_knots {
 /* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. Beside it
  * what the sampler wants of its knots: 64 bytes, a line of the cache, all floats. */
 typedef struct vndf_radial_cell {
-    float f0, f1, mu0, mu1, a, b, width;
-    float calm;           /* 1 if the density changes little in it for every law with c, k >= 0 (sampler/radial.h) */
-    float x0, x1, z0, z1; /* the knots */
-    float before0, before1, e, g; /* sums up to the first (vndf_knots): F0, F1, e, g */
+    float f0, f1, mu0, mu1;
+    float x0, x1, z0, z1;        /* the knots */
+    float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h) */
+    float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
 
 /* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
@@ -75,6 +78,11 @@ typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
 
+/* A cell of a row as the sampler wants it: 16 bytes. */
+typedef struct vndf_row_cell {
+    float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
+} vndf_row_cell;
+
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
@@ -91,6 +99,8 @@ typedef struct vndf_wedge {
     float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
+    float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 

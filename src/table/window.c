@@ -7,8 +7,21 @@ static double before(const vndf_knots *knots, double c, double k, uint32_t j)
     return c * knots->e[j] + (w > 0.0 ? w : 0.0) * knots->g[j];
 }
 
-/* Cells of the masses u_i = i/VNDF_RANGES, i = 0 ... VNDF_RANGES, of a law; `side` is -1 for the lowest that
- * rounding and the cell of the cut allow, 1 for the highest. */
+/* Where range i of vndf_window_range begins; that of VNDF_RANGES is 1. */
+static double range_begin(uint32_t i)
+{
+    uint32_t back = VNDF_RANGES - i, near = i < back ? i : back; /* from the nearer end */
+    double u = near < VNDF_RANGES_END ? 0x1p-6 : (near - VNDF_RANGES_END + 1) / 64.0;
+    for (uint32_t t = near < VNDF_RANGES_END ? VNDF_RANGES_END - near : 0; t > 1; t -= 2)
+        u *= 0.5;
+    if (near < VNDF_RANGES_END && (VNDF_RANGES_END - near) % 2 == 1)
+        u *= 0.75; /* 2^-6 times 1, 3/4, 1/2, 3/8 ... */
+    u = near == 0 ? 0.0 : u;
+    return i < back ? u : 1.0 - u;
+}
+
+/* Cells of the masses at which ranges of u begin, of a law; `side` is -1 for the lowest that rounding and the cell
+ * of the cut allow, 1 for the highest. */
 static void quantiles(const vndf_distribution *d, double c, double k, int side, uint32_t *cell)
 {
     uint32_t last = d->radial_count - 1, cut = 0, j = 0;
@@ -18,7 +31,8 @@ static void quantiles(const vndf_distribution *d, double c, double k, int side, 
     double most = before(&d->knots, c, k, cut + 1); /* beyond the cut that is c e */
     double total = (k < 0.0 && side < 0 ? least : most) * (1.0 + side * 1e-5);
     for (uint32_t i = 0; i <= VNDF_RANGES; i++) {
-        while (j < cut && before(&d->knots, c, k, j + 1) <= total * i / VNDF_RANGES)
+        double target = total * range_begin(i);
+        while (j < cut && before(&d->knots, c, k, j + 1) <= target)
             j++;
         cell[i] = j;
     }

@@ -4,7 +4,8 @@
  *
  * The larger k/c, the larger the quantiles: (c + k R)+ for one ratio over that for a lower one grows with R. So
  * over a range of u and a range of k/c the cell lies between those of two corners, and the cells between are few
- * where the ranges are: 64 of u, and half octaves of |k|/c from 1/16 to 16 for either sign of k, with two to
+ * where the ranges are: of u 62 of 1/64, the first and last 64th in half octaves, since tails have many cells for
+ * their mass; and half octaves of |k|/c from 1/16 to 16 for either sign of k, with two to
  * either side. Half octaves are read from the bits of the two floats: the bits are a logarithm that is 0 to 0.087
  * of an octave low. */
 #ifndef VNDF_TABLE_WINDOW_H
@@ -26,12 +27,24 @@ VNDF_INLINE lanes_u vndf_window_ratio(lanes_f c, lanes_f k)
     return lanes_limit_u(above >> 22, lanes_set_u(VNDF_RATIOS - 1));
 }
 
+/* The range of u in [0, 1], ascending. */
+VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
+{
+    const float end = 0x1p-6f;
+    lanes_f rest = 1.0f - u;
+    lanes_f near = lanes_least(u, rest); /* to an end */
+    lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), near);
+    lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_limit(near, end));
+    lanes_u half_octave = lanes_limit_u(apart >> 22, lanes_set_u(VNDF_RANGES_END - 1));
+    lanes_u outer = lanes_pick_u(low, VNDF_RANGES_END - 1u - half_octave, VNDF_RANGES - VNDF_RANGES_END + half_octave);
+    return lanes_pick_u(inner, lanes_whole(u * 64.0f) + (VNDF_RANGES_END - 1u), outer);
+}
+
 /* The first cell of the window, and above VNDF_WINDOW_SHIFT n where it has 8^(n+1); u in [0, 1]. */
 VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
-    lanes_u range = lanes_whole(u * (VNDF_RANGES - 1e-5f)); /* below VNDF_RANGES for u = 1 */
     lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
-    return lanes_gather_u16(d->windows[0][0], (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + range);
+    return lanes_gather_u16(d->windows[0][0], (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + vndf_window_range(u));
 }
 
 /* A window taken apart: its first cell, and the cells from one of the eight places that are looked at to the next. */
