@@ -65,16 +65,17 @@ static double edge_of(int i)
     return v * v * (3 - 2 * v);
 }
 
-/* mass[i] up to edge i; returns the first edge beyond which there is none: where D ends, or the horizon. */
+/* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the horizon. */
 static int accumulate(const method_truth *truth, double *mass)
 {
-    int top = 0;
+    int top = FINE;
     mass[0] = 0;
     for (int i = 0; i < FINE; i++) {
-        double low = edge_of(i), high = edge_of(i + 1), ndf = ndf_at(truth, 0.5 * (low + high));
-        mass[i + 1] = mass[i] + ndf * (high - low);
-        top = ndf > 0 ? i + 1 : top;
+        double low = edge_of(i), high = edge_of(i + 1);
+        mass[i + 1] = mass[i] + ndf_at(truth, 0.5 * (low + high)) * (high - low);
     }
+    while (mass[top - 1] >= mass[FINE])
+        top--;
     return top;
 }
 

@@ -28,14 +28,19 @@ typedef struct warp {
 
 /* ---- preparing --------------------------------------------------------------------------------- */
 
-/* A density may be infinite on the horizon, and integrable: nodes there take the value half a cell inside. */
-static double density_at(const vndf_view *view, double p, double q, double cell)
+static double density_at(const vndf_view *view, double p, double q)
 {
     const double pi = acos(-1.0);
-    p = fmin(p, 1 - 0.5 * cell);
     double theta = p * p * pi / 2, phi = (2 * q - 1) * pi;
     vndf_vec3 wm = {(float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)fmax(cos(theta), 0)};
     return (double)vndf_visible(view, wm) * 2 * pi * pi * p * sin(theta);
+}
+
+/* On the horizon a density may be infinite, and integrable: at most twice that half a cell inside. */
+static double node_at(const vndf_view *view, double p, double q, double cell)
+{
+    double density = density_at(view, p, q);
+    return p + 0.5 * cell < 1 ? density : fmin(density, 2 * density_at(view, p - 0.5 * cell, q));
 }
 
 /* Integrals of the row's interpolant, nodes 1/(side - 1) apart. */
@@ -67,7 +72,7 @@ static int fill_slice(warp *w, const method_truth *truth, size_t slice)
         return 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++)
-            density[i * n + j] = (float)density_at(&view, (double)i * cell, (double)j * cell, cell);
+            density[i * n + j] = (float)node_at(&view, (double)i * cell, (double)j * cell, cell);
         accumulate(density + i * n, conditional + i * n, n);
         rows[i] = conditional[i * n + last];
     }
