@@ -1,5 +1,5 @@
-/* Charts are legible: ticks stand where axes say and have names, labels neither overlap nor leave the frame, points
- * outside the axes are left out, and a text cannot break the markup. */
+/* Charts are legible: ticks stand where axes say and have names, labels neither overlap nor leave the frame,
+ * points outside the axes are left out, and a text cannot break the markup. */
 #include "test.h"
 
 #include <stdlib.h>
@@ -46,7 +46,8 @@ static void test_ticks(void)
     TEST(is_ascending(&wide, t, n) && named(t, n) == 8);
     TEST(has_tick(t, n, 1e-7, "10⁻⁷") && has_tick(t, n, 1, "1") && has_tick(t, n, 2e-3, ""));
     n = chart_ticks(&narrow, t);
-    TEST(is_ascending(&narrow, t, n) && has_tick(t, n, 5, "5") && has_tick(t, n, 100, "100") && has_tick(t, n, 3, ""));
+    TEST(is_ascending(&narrow, t, n) && has_tick(t, n, 5, "5") && has_tick(t, n, 100, "100"));
+    TEST(has_tick(t, n, 3, ""));
     n = chart_ticks(&bytes, t);
     TEST(is_ascending(&bytes, t, n) && n == 6 && has_tick(t, n, 2048, "2 KiB") && has_tick(t, n, 65536, "64 KiB"));
     n = chart_ticks(&linear, t);
@@ -165,7 +166,7 @@ static void test_chart(char *text)
     static const double x[] = {1, 10, 100, 1000, 10}, y[] = {0.1, 0.01, (double)NAN, 0.1, 0};
     const chart_series series = {"a <b> & \"c\"", x, y, 5, 1, CHART_DOT, CHART_SOLID, NULL};
     chart c = {"title", NULL, 500, 300, 100, {CHART_LOG, 1, 100, 0, "x"}, {CHART_LOG, 1e-3, 1, 0, "y"},
-               "none", 30, &series, 1};
+               "none", 30, &series, 1, NULL, 0};
     FILE *file = tmpfile();
     if (!TEST(file))
         return;

@@ -1,7 +1,7 @@
-/* What `vndf report` says of a table is right: its total variation, by a lattice of the drawn normals and the source
- * itself, is near the one in the certificate, which the builder measures in another way; it falls with the size; an
- * estimate with the weight meets the truth within four standard errors; and the advice is the smallest table that
- * keeps the limits. */
+/* What `vndf report` says of a table is right: its total variation, by a lattice of the drawn normals and the
+ * source itself, is near the one in the certificate, which the builder measures in another way; it falls with the
+ * size; the noise of estimates falls with the root of the number of samples; and the advice is the smallest table
+ * that keeps the limits. */
 #include "test.h"
 
 #include "report.h"

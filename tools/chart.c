@@ -46,7 +46,7 @@ void chart_style(FILE *file)
           ".chart .line{fill:none;stroke-width:2;stroke-linejoin:round}\n"
           ".chart .mark{stroke-width:2}.chart .hollow{fill:none}\n"
           ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}\n"
-          ".chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
+          ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
           ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}\n"
           ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}\n", file);
     write_rules(file, light);
@@ -62,6 +62,7 @@ void chart_style(FILE *file)
 static chart_frame frame_of(const chart *c)
 {
     double band = c->zero ? c->band : 0, top = c->title ? 30 : 10;
+    top += c->key_count ? 20 : 0;
     chart_frame frame = {66, top, c->width - 66 - c->right, c->height - top - 50 - band, band};
     return frame;
 }
@@ -159,19 +160,19 @@ static void draw_line(FILE *file, const chart *c, const chart_frame *f, const ch
     fputs("\"/>\n", file);
 }
 
-static void draw_mark(FILE *file, const chart_series *s, double x, double y)
+static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, double y)
 {
     static const char *const outlines[] = {
         "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L5 0L0 5L-5 0z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
-    if (s->mark == CHART_DOT)
-        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", s->colour, x, y,
+    if (mark == CHART_DOT)
+        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
                 mark_radius);
-    else if (s->mark == CHART_RING)
-        fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", s->colour, x, y,
+    else if (mark == CHART_RING)
+        fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
                 mark_radius);
     else
         fprintf(file, "<path class=\"%s%u\" transform=\"translate(%.1f %.1f)\" d=\"%s\"/>\n",
-                s->mark == CHART_CROSS ? "mark l" : "f", s->colour, x, y, outlines[s->mark]);
+                mark == CHART_CROSS ? "mark l" : "f", colour, x, y, outlines[mark]);
 }
 
 /* Labels are to stay off a line. */
@@ -200,9 +201,24 @@ static void draw_series(FILE *file, const chart *c, const chart_frame *f, const 
     for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
         if (is_inside(c, f, s->x[i], s->y[i])) {
             double x = pixel_x(c, f, s->x[i]), y = pixel_y(c, f, s->y[i]);
-            draw_mark(file, s, x, y);
+            draw_mark(file, s->mark, s->colour, x, y);
             chart_take(taken, x, y, mark_radius + 2);
         }
+}
+
+/* One after the other, from the left of the frame. */
+static void draw_key(FILE *file, const chart *c, const chart_frame *f)
+{
+    double x = f->left, y = f->top - 14;
+    for (size_t i = 0; i < c->key_count; i++) {
+        const chart_key *key = &c->key[i];
+        if (key->mark != CHART_NO_MARK)
+            draw_mark(file, key->mark, key->colour, x + 6, y);
+        else
+            fprintf(file, "<path class=\"line swatch l%u\" d=\"M%.1f %.1fh14\"/>\n", key->colour, x, y);
+        write_text(file, "tick quiet", "start", x + 18, y + 4, key->text);
+        x += 32 + chart_text_width(key->text);
+    }
 }
 
 /* ---- labels -------------------------------------------------------------------------------------- */
@@ -244,6 +260,7 @@ static void draw_inside(FILE *file, const chart *c)
     chart_frame f = frame_of(c);
     chart_taken taken = {.count = 0};
     draw_frame(file, c, &f);
+    draw_key(file, c, &f);
     if (f.band > 0)
         take_line(&taken, f.left, f.top + f.height, f.left + f.width, f.top + f.height);
     for (size_t k = 0; k < c->count; k++)

@@ -40,6 +40,13 @@ typedef struct chart_series {
     const char *const *texts;   /* NULL, or a label beside each point (an empty one is none) */
 } chart_series;
 
+/* An entry of the key below the title; without a mark a stroke shows the colour. */
+typedef struct chart_key {
+    const char *text;
+    unsigned colour;
+    chart_mark mark;
+} chart_key;
+
 enum { CHART_COLOURS = 8, CHART_WIDTH = 560, CHART_HEIGHT = 380 };
 
 typedef struct chart {
@@ -51,6 +58,8 @@ typedef struct chart {
     double band;                /* its height */
     const chart_series *series;
     size_t count;
+    const chart_key *key;
+    size_t key_count;
 } chart;
 
 /* The inside of the frame. */
@@ -101,6 +110,9 @@ typedef struct chart_taken {
     chart_box box[CHART_BOXES_MAX];
     size_t count;
 } chart_taken;
+
+/* Pixels, roughly. */
+double chart_text_width(const char *text);
 
 void chart_take(chart_taken *taken, double x, double y, double radius);
 

@@ -8,7 +8,7 @@
 
 static const double text_height = 12, glyph_width = 5.9, line_step = 15;
 
-static double width_of(const char *text)
+double chart_text_width(const char *text)
 {
     double glyphs = 0;
     for (; *text; text++)
@@ -63,7 +63,7 @@ void chart_label_beside(FILE *file, chart_taken *taken, const chart_box *bounds,
                         unsigned colour, const char *text)
 {
     static const double distances[] = {7, 12, 20, 30, 42, 56};
-    double width = width_of(text), least = HUGE_VAL, chosen = 0;
+    double width = chart_text_width(text), least = HUGE_VAL, chosen = 0;
     chart_box best = {0, 0, 0, 0};
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 12; k++) {

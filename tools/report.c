@@ -27,7 +27,7 @@ static const char help[] =
     "                  your own D, as `vndf build --help` describes them; it comes first in the page. Without\n"
     "                  one, the page is about student-t:2.5, an exponential and a ring\n"
     "  --set NAME=X    a parameter of the expression; may be repeated\n"
-    "  --seconds S     to spend in all, roughly, 1 to 3600 (default 50); fewer mean fewer sizes and more noise\n"
+    "  --seconds S     to spend in all, roughly, 1 to 3600 (default 45); fewer mean fewer sizes and more noise\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a report, which is replaced; other\n"
     "files in it are left alone. Interrupted, the command leaves DIR as it was.\n"
@@ -100,7 +100,7 @@ enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 
 /* Of the seconds: the tables of the first distribution, of each other one, and the benchmark, which also takes
  * some to prepare. */
-static const double first_part = 0.4, other_part = 0.15, bench_part = 0.36;
+static const double first_part = 0.4, other_part = 0.2, bench_part = 0.36;
 
 /* Takes the source; the status of what failed, told. */
 static int add_subject(report *r, vndf_source *source, const char *title, const char *arguments)
@@ -261,7 +261,7 @@ static int check_words(report_plan *plan)
 
 int command_report(int argc, char **argv)
 {
-    report_plan plan = {.seconds = 50};
+    report_plan plan = {.seconds = 45};
     words positional = {{NULL}, 0};
     const option_form options[] = {
         {"--ndf", 1, 1, &plan.source.ndf}, {"--slope", 1, 1, &plan.source.slope},

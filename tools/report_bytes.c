@@ -91,7 +91,7 @@ int report_write_bytes(report_page *page, const report *r)
     series[r->count] = (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE,
                                       others.text};
     chart c = {NULL, "error against bytes", 1080, 460, 270, {CHART_BYTES, 0, 0, 0, "size of the table"},
-               {CHART_LOG, 0, 0, 0, "total variation, worst angle"}, NULL, 0, series, r->count + 1};
+               {CHART_LOG, 0, 0, 0, "total variation, worst angle"}, NULL, 0, series, r->count + 1, NULL, 0};
     fit_axes(&c);
     page_section(
         page, "bytes", "Error against bytes",

@@ -12,6 +12,7 @@
 enum { ROWS_MAX = 96, LABEL = 160, SERIES_MAX = 16 };
 
 static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
+static const char *const set_names[] = {"one by one", "batch, portable", "batch, AVX2", "batch, AVX-512"};
 static const unsigned set_colours[] = {0, 3, 2, 1};
 
 enum { SETS = sizeof sets / sizeof sets[0] };
@@ -22,10 +23,12 @@ typedef struct frontier {
     double x[SERIES_MAX][ROWS_MAX], y[SERIES_MAX][ROWS_MAX];
     char label[SERIES_MAX][ROWS_MAX][LABEL];
     const char *text[SERIES_MAX][ROWS_MAX];
-    char name[SERIES_MAX][48];
     chart_series series[SERIES_MAX];
     size_t count;
     double low_x, high_x, low_y, high_y;
+    char title[160];
+    chart_key key[3 + SETS];
+    size_t key_count;
 } frontier;
 
 static int is_shown(const bench_row *row)
@@ -98,11 +101,6 @@ static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, siz
         if (rows->row[i].kind == kind && is_shown(&rows->row[i]) &&
             strcmp(rows->row[i].instructions, sets[set]) == 0)
             add_row(f, &rows->row[i]);
-    if (kind == BENCH_TABLE && s->count > 0) { /* the last one carries the name of the curve */
-        char *last = f->label[f->count][s->count - 1];
-        size_t length = strlen(last);
-        snprintf(last + length, LABEL - length, ": tables, %s", sets[set]);
-    }
     f->count += s->count > 0;
 }
 
@@ -114,36 +112,37 @@ static void collect(frontier *f, const bench_rows *rows)
             add_series(f, rows, (bench_kind)kind, set);
 }
 
-static chart chart_of(const frontier *f)
+/* Shapes say who, colours say how many at once: those that occur. */
+static void fill_key(frontier *f)
 {
-    chart c = {"Sampling visible normals: error against time", NULL, 1080, 690, 20,
+    static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},
+                                       {"its closed forms", 7, CHART_SQUARE},
+                                       {"others' methods, from the publications", 7, CHART_TRIANGLE}};
+    f->key_count = 0;
+    for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++)
+        f->key[f->key_count++] = shapes[i];
+    for (size_t set = 0; set < SETS; set++) {
+        int seen = 0;
+        for (size_t k = 0; k < f->count; k++)
+            seen = seen || f->series[k].colour == set_colours[set];
+        if (seen)
+            f->key[f->key_count++] = (chart_key){set_names[set], set_colours[set], CHART_NO_MARK};
+    }
+}
+
+static chart chart_of(frontier *f, const char *name)
+{
+    snprintf(f->title, sizeof f->title, "Error against time: tables of %s beside other methods", name);
+    fill_key(f);
+    chart c = {f->title, NULL, 1080, 710, 20,
                {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
                {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
-               "exact", 100, f->series, f->count};
+               "exact", 100, f->series, f->count, f->key, f->key_count};
     chart_fit(&c.x, f->low_x, f->high_x);
     chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
     c.x.low = fmax(c.x.low, f->low_x / 1.6);
     c.x.high = fmin(c.x.high, f->high_x * 2.5);
     return c;
-}
-
-/* Shapes say who, colours say how many at once. */
-static void write_key(FILE *html, const frontier *f)
-{
-    int seen[SETS] = {0};
-    for (size_t k = 0; k < f->count; k++)
-        for (size_t set = 0; set < SETS; set++)
-            seen[set] |= f->series[k].colour == set_colours[set];
-    fputs("<p class=\"note\">● tables of this library, joined over their sizes · ■ its closed forms · ▲ others' "
-          "methods, written from the publications. Colour: ",
-          html);
-    for (size_t set = 0; set < SETS; set++)
-        if (seen[set])
-            fprintf(html,
-                    "<svg class=\"chart\" width=\"12\" height=\"12\" viewBox=\"0 0 12 12\"><circle class=\"f%u\" "
-                    "cx=\"6\" cy=\"6\" r=\"5\"/></svg> %s ",
-                    set_colours[set], sets[set]);
-    fputs("</p>\n", html);
 }
 
 static void write_number(FILE *data, double value)
@@ -192,7 +191,7 @@ int report_write_frontier(report_page *page, const report *r)
     if (!f)
         return 0;
     collect(f, &r->rows);
-    chart c = chart_of(f);
+    chart c = chart_of(f, r->subject[0].name);
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
@@ -200,7 +199,6 @@ int report_write_frontier(report_page *page, const report *r)
         "band at the bottom holds what is exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
-    write_key(page->html, f);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);
     int good = write_data(page, &r->rows) && write_alone(page, &c);
     free(f);

@@ -2,8 +2,8 @@
  *
  * The integral is the albedo of a rough conductor seen from 60 and from 85 degrees,
  *     integral f(wi, wo) cos(theta_o) dwo = integral F(wi.wm) G2/G1(wi) Dv(wm) dwm
- * over normals that reflect upwards, with Schlick's F (0.9 at normal incidence) and height-correlated masking. Ways
- * to estimate it:
+ * over normals that reflect upwards, with Schlick's F (0.9 at normal incidence) and height-correlated masking.
+ * Ways to estimate it:
  *     visible normals from a table, weighted by true/drawn density: unbiased whatever the size;
  *     the same without the weight: biased by what the table is off;
  *     all normals (Walter et al. 2007), D cos(theta_m): what is visible from straight above the largest table;
@@ -231,7 +231,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     high = fmax(pow(10, ceil(log10(high) * 2) / 2), 10 * low);
     chart c = {integral->title, NULL, CHART_WIDTH, CHART_HEIGHT, 132,
                {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
-               {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, 0, series, integral->count};
+               {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, 0, series, integral->count, NULL, 0};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);
