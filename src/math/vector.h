@@ -5,10 +5,24 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "core/inline.h"
 
 #include "vndf.h"
+
+/* A vector to be passed or returned: gcc 12 writes x and y apart and reads both at once, which waits for the stores,
+ * unless they are put together in a register. */
+VNDF_INLINE vndf_vec3 vndf_vec3_of(float x, float y, float z)
+{
+    vndf_vec3 v = {x, y, z};
+#if defined(__GNUC__) && defined(__SSE2__)
+    typedef float pair __attribute__((vector_size(8)));
+    pair xy = {x, y};
+    memcpy(&v, &xy, sizeof xy);
+#endif
+    return v;
+}
 
 VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
 {

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/inline.h"
+#include "math/vector.h"
 #include "sampler/batch_lanes.h"
 #include "sampler/surface.h"
 #include "vndf.h"
@@ -53,14 +54,12 @@ VNDF_INLINE vndf_surface surface_at(const vndf_batch *b, size_t i)
 VNDF_INLINE vndf_vec3 wi_at(const vndf_batch *b, size_t i)
 {
     size_t at = b->shared & VNDF_SHARED_WI ? 0 : i;
-    vndf_vec3 wi = {b->wi_x[at], b->wi_y[at], b->wi_z[at]};
-    return wi;
+    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
 }
 
 VNDF_INLINE vndf_vec3 normal_at(vndf_normals wm, size_t i)
 {
-    vndf_vec3 n = {wm.x[i], wm.y[i], wm.z[i]};
-    return n;
+    return vndf_vec3_of(wm.x[i], wm.y[i], wm.z[i]);
 }
 
 /* Whether all elements have one view. */

@@ -15,6 +15,8 @@ typedef struct work {
     lanes_f half[GROUPS], u2[GROUPS];
     vndf_bearing bearing[GROUPS];
     lanes_u cell[GROUPS];
+    vndf_place place[GROUPS];
+    lanes_m plain[GROUPS];
     uint32_t wedge[VNDF_BLOCK_SAMPLES + VNDF_LANES]; /* the samples that are in the wedge */
     uint32_t wedge_count;
 } work;
@@ -26,8 +28,10 @@ typedef struct wedge_work {
     vndf_azimuth_row row[GROUPS];
     lanes_u count[GROUPS], cell[GROUPS];
     lanes_m plain[GROUPS];
-    vndf_radial_law law[GROUPS];
+    vndf_azimuth azimuth[GROUPS];
     vndf_bearing bearing[GROUPS];
+    vndf_radial_law law[GROUPS];
+    vndf_place place[GROUPS];
 } wedge_work;
 
 static lanes_f clamp_unit(lanes_f u)
@@ -118,10 +122,16 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
     for (uint32_t g = 0; g < groups; g++)
         w->cell[g] = vndf_find_front(d, &w->bearing[g], w->u2[g]);
     for (uint32_t g = 0; g < groups; g++) {
-        lanes_m usable = w->at[g].plain, plain = usable;
-        lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
-        vndf_drawn n = vndf_draw_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &plain);
+        w->plain[g] = w->at[g].plain;
+        w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &w->plain[g]);
+    }
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_drawn n = vndf_drawn_of(&w->at[g], &w->bearing[g], &w->place[g]);
         store(b, g * VNDF_LANES, &n);
+    }
+    for (uint32_t g = 0; g < groups; g++) {
+        lanes_m usable = w->at[g].plain, plain = w->plain[g];
+        lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
         w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
         leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain), g * VNDF_LANES);
     }
@@ -136,7 +146,6 @@ VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_blo
         w->at[g] = b->view ? from->at[0] : gathered_incidence(from->at, index);
         w->half[g] = gathered(from->half, sizeof *from->half, index);
         w->u2[g] = gathered(from->u2, sizeof *from->u2, index);
-        w->plain[g] = lanes_all();
         w->row[g] = vndf_wedge_row(&d->above, w->at[g].c);
         w->part[g] = vndf_wedge_part(lanes_abs(w->half[g]), w->at[g].front, w->at[g].wedge);
     }
@@ -168,13 +177,20 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
     for (uint32_t g = 0; g < groups; g++)
         w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
     for (uint32_t g = 0; g < groups; g++)
-        w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->row[g], w->part[g], w->count[g], w->half[g], w->u2[g],
-                                        &w->law[g]);
+        w->azimuth[g] = vndf_azimuth_draw(&w->row[g], w->count[g], w->part[g]);
+    for (uint32_t g = 0; g < groups; g++)
+        w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->azimuth[g], w->half[g], w->u2[g]);
+    for (uint32_t g = 0; g < groups; g++)
+        w->law[g] = vndf_law_wedge(d, &w->bearing[g]);
     for (uint32_t g = 0; g < groups; g++)
         w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
-        vndf_drawn n = vndf_draw_wedge(d, &w->at[g], &w->bearing[g], &w->law[g], w->cell[g], w->half[g], w->u2[g],
+        w->plain[g] = lanes_all();
+        w->place[g] = vndf_place_wedge(d, &w->at[g], &w->bearing[g], &w->law[g], w->cell[g], w->half[g], w->u2[g],
                                        &w->plain[g]);
+    }
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_drawn n = vndf_drawn_of(&w->at[g], &w->bearing[g], &w->place[g]);
         uint32_t first = g * VNDF_LANES, left = from->wedge_count - first;
         scatter(b, from->wedge + first, left < VNDF_LANES ? left : VNDF_LANES, &n, w->plain[g]);
     }

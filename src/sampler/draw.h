@@ -131,9 +131,19 @@ VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_beari
     return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
 }
 
+/* A place in the table, and the density there as a quotient: what the normal is made of. */
+typedef struct vndf_place {
+    lanes_f x, z, above, below;
+} vndf_place;
+
+VNDF_INLINE vndf_drawn vndf_drawn_of(const vndf_incidence *w, const vndf_bearing *b, const vndf_place *at)
+{
+    return vndf_drawn_at(&b->level, at->x, at->z, at->above, at->below * (w->spread * at->x));
+}
+
 /* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */
-VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                       lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
+VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                        lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -144,22 +154,26 @@ VNDF_INLINE vndf_drawn vndf_draw_front(const vndf_distribution *d, const vndf_in
     *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, w->c, b->cosine, b->total, x, z));
     *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_all()));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
-    return vndf_drawn_at(&b->level, x, z, in.root, in.below * (w->spread * x * cell.width));
+    vndf_place at = {x, z, in.root, in.below * cell.width};
+    return at;
 }
 
 /* ---- in the wedge above the horizon ---- */
 
-/* From the row, the part of its mass and the count of its cells before that; *law is not scaled yet. */
-VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                         const vndf_azimuth_row *row, lanes_f part, lanes_u count, lanes_f half,
-                                         lanes_f u2, vndf_radial_law *law)
+/* The weights (c, k) of the law of the radius, times n, at an azimuth of the wedge counted from the far side. */
+VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_azimuth *a,
+                                         lanes_f half, lanes_f u2)
 {
-    vndf_azimuth a = vndf_azimuth_draw(row, count, part);
-    lanes_f per = 1.0f / a.n, cosine = -a.c * per, c = w->c * a.n, k = w->s * -a.c, total;
-    *law = vndf_radial_law_above(d, c, k, &total);
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a.s * per, half), cosine, c, k,
-                      total, a.density * w->wedge, vndf_window_of(d, c, k, u2)};
+    lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, half), cosine, c, k,
+                      c, a->density * w->wedge, vndf_window_of(d, c, k, u2)};
     return b;
+}
+
+/* The law, not scaled yet; its mass becomes the bearing's total. */
+VNDF_INLINE vndf_radial_law vndf_law_wedge(const vndf_distribution *d, vndf_bearing *b)
+{
+    return vndf_radial_law_above(d, b->c, b->k, &b->total);
 }
 
 VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2, lanes_u cut)
@@ -167,9 +181,9 @@ VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_beari
     return lanes_limit_u(vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 0), cut);
 }
 
-VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                       const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
-                                       lanes_m *plain)
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                        const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
+                                        lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -181,7 +195,8 @@ VNDF_INLINE vndf_drawn vndf_draw_wedge(const vndf_distribution *d, const vndf_in
                         vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, x, z));
     *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_none()));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
-    return vndf_drawn_at(&b->level, x, z, b->density * in.root, in.below * (w->spread * x * cell.width));
+    vndf_place at = {x, z, b->density * in.root, in.below * cell.width};
+    return at;
 }
 
 #endif

@@ -85,7 +85,7 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
     vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
     float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
     float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
-    vndf_vec3 wm = {x * level.x * per, x * level.y * per, z * per};
+    vndf_vec3 wm = vndf_vec3_of(x * level.x * per, x * level.y * per, z * per);
     if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
@@ -97,7 +97,8 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
                                      lanes_m *plain)
 {
     vndf_bearing b = vndf_bear_front(d, w, half, u2);
-    return vndf_draw_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
+    vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
+    return vndf_drawn_of(w, &b, &at);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
@@ -105,9 +106,11 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
-    vndf_radial_law law;
-    vndf_bearing b = vndf_bear_wedge(d, w, &row, part, vndf_azimuth_find(&row, part), half, u2, &law);
-    return vndf_draw_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
+    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
+    vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
+    vndf_radial_law law = vndf_law_wedge(d, &b);
+    vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
+    return vndf_drawn_of(w, &b, &at);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -124,8 +127,7 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
-    vndf_vec3 wm = {n.x, n.y, n.z};
-    return wm;
+    return vndf_vec3_of(n.x, n.y, n.z);
 }
 
 /* ---- inverse ---- */

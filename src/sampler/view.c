@@ -126,8 +126,7 @@ static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pd
         return sample_closed_carefully(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
-    vndf_vec3 wm = {n.x, n.y, n.z};
-    return wm;
+    return vndf_vec3_of(n.x, n.y, n.z);
 }
 
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
