@@ -21,6 +21,7 @@ static const subcommand subcommands[] = {
     {"sample", command_sample, "draw visible normals into a CSV or a file of floats"},
     {"eval", command_eval, "ndf, pdf, lambda, g1 for normals read from stdin"},
     {"plot", command_plot, "draw density and samples as an SVG"},
+    {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
 };
 

@@ -197,18 +197,30 @@ int output_commit(output_file *output)
     return STATUS_USE;
 }
 
+static void remove_temporary(output_file *output)
+{
+    if (!output->temporary)
+        return;
+    fclose(output->file);
+    remove(output->temporary);
+}
+
 /* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited
  * are let through last, when all is said. */
 int output_give_up(output_file *output, const char *why)
 {
-    if (output->temporary) {
-        fclose(output->file);
-        remove(output->temporary);
-    }
+    remove_temporary(output);
     complain(output->command, "%s", why);
     if (output->temporary)
         close_file(output);
     return STATUS_USE;
+}
+
+void output_discard(output_file *output)
+{
+    remove_temporary(output);
+    if (output->temporary)
+        close_file(output);
 }
 
 const char *output_extension(const char *path)

@@ -34,6 +34,9 @@ int output_commit(output_file *output);
 /* Closes, leaves nothing behind, and complains; an exit status. */
 int output_give_up(output_file *output, const char *why);
 
+/* The same without a word, for one of several files when another one failed. */
+void output_discard(output_file *output);
+
 /* Refuses a path that a rename would damage: a device, a pipe, a folder. 1 if it is free or a file. */
 int output_replaceable(const char *command, const char *path);
 

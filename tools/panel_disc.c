@@ -10,7 +10,7 @@
 static const double pi = 3.14159265358979323846;
 static const char dot_colour[] = "#f76707";
 
-enum { SIDE = 180, FINE = 2, DOTS = 350, PILOTS = 1000 };
+enum { SIDE = 180, FINE = 2, PILOTS = 1000 };
 
 double round_angle(double degrees)
 {
@@ -121,7 +121,7 @@ static void draw_dots(FILE *file, const vndf_view *view, double rim, panel_box c
     random_stream stream = random_from(seed);
     fprintf(file, "<path stroke=\"%s\" stroke-width=\"2.6\" stroke-linecap=\"round\" stroke-opacity=\"0.8\" d=\"",
             dot_colour);
-    for (size_t i = 0; i < DOTS; i++) {
+    for (size_t i = 0; i < PANEL_DOTS; i++) {
         double x, y;
         float pdf;
         disc_from_normal(draw_normal(view, &stream, &pdf), rim, &x, &y);

@@ -7,6 +7,8 @@
 
 #include "vndf.h"
 
+enum { PANEL_DOTS = 350 }; /* samples of a disc: two random_float each of random_from(seed), in this order */
+
 typedef struct panel_box {
     double x, y, width, height; /* pixels, labels included */
 } panel_box;

@@ -92,6 +92,7 @@ static void put_head(bytes *image, size_t width, size_t height, const colour pal
     put(image, "\x89PNG\r\n\x1a\n", 8);
     put_chunk(image, "IHDR", head.data, head.size);
     put_chunk(image, "PLTE", &palette[0].red, 256 * sizeof palette[0]);
+    put_chunk(image, "tRNS", (const unsigned char[1]){0}, 1); /* opacity of the first colour; the rest is opaque */
 }
 
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,

@@ -27,7 +27,7 @@ void svg_line(FILE *file, double x1, double y1, double x2, double y2, const char
 void svg_circle(FILE *file, double x, double y, double radius, const char *fill, const char *stroke, double width);
 void svg_frame(FILE *file, double x, double y, double width, double height);
 
-/* Density from 0 to 1 to the index of the palette, 1 to 255; 0 is white, for outside. */
+/* Density from 0 to 1 to the index of the palette, 1 to 255; 0 is transparent, for outside. */
 unsigned char svg_shade(double density);
 
 /* A picture of such indices, square, `side` pixels on an edge. 0 if there is no memory. */
