@@ -19,6 +19,8 @@ set(c_library assert complex ctype errno fenv float inttypes iso646 limits local
 
 # Saving a table flushes it to the disk, which the C library has no call for.
 set(system_build unistd)
+# Lanes are the processor's own.
+set(system_math immintrin)
 
 file(GLOB public RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h)
 

@@ -136,9 +136,14 @@ typedef struct vndf_place {
     lanes_f x, z, above, below;
 } vndf_place;
 
-VNDF_INLINE vndf_drawn vndf_drawn_of(const vndf_incidence *w, const vndf_bearing *b, const vndf_place *at)
+/* Good where *plain stays: a table that is none of ours may have numbers that overflow here. */
+VNDF_INLINE vndf_drawn vndf_drawn_of(const vndf_incidence *w, const vndf_bearing *b, const vndf_place *at,
+                                     lanes_m *plain)
 {
-    return vndf_drawn_at(&b->level, at->x, at->z, at->above, at->below * (w->spread * at->x));
+    vndf_drawn n = vndf_drawn_at(&b->level, at->x, at->z, at->above, at->below * (w->spread * at->x));
+    lanes_m in_range = lanes_both(lanes_less(lanes_set(1e-37f), n.density), lanes_less(n.density, lanes_set(1e38f)));
+    *plain = lanes_both(*plain, in_range);
+    return n;
 }
 
 /* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */

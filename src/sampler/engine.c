@@ -98,7 +98,7 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 {
     vndf_bearing b = vndf_bear_front(d, w, half, u2);
     vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
-    return vndf_drawn_of(w, &b, &at);
+    return vndf_drawn_of(w, &b, &at, plain);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
@@ -110,7 +110,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
     vndf_radial_law law = vndf_law_wedge(d, &b);
     vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
-    return vndf_drawn_of(w, &b, &at);
+    return vndf_drawn_of(w, &b, &at, plain);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
