@@ -40,7 +40,7 @@ enum { ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES, ELEVATION_COUNT = sizeof EL
 
 /* More directions where the total variation is large, so that its maximum is not missed between two: small tables
  * have few rows, hence broad maxima, and cost little. */
-enum { MORE = 12, MORE_IF_SMALL = 60, SMALL_RADIAL_CELLS = 64 };
+enum { MORE = 30, MORE_IF_SMALL = 60, SMALL_RADIAL_CELLS = 160 };
 enum { DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + MORE_IF_SMALL };
 
 typedef struct direction {
