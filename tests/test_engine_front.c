@@ -11,9 +11,11 @@ static double error_at(vndf_front front, double u)
 {
     double even = (double)front.even, odd = (double)front.odd, whole = even * PI / 2 + odd;
     float rest = (float)(u * whole);
-    vndf_azimuth at = vndf_front_draw(front, rest, (float)whole);
+    float near;
+    vndf_azimuth at = vndf_front_draw(front, rest, (float)whole, &near);
     double b = atan2((double)at.c, (double)at.s), half = sin(b / 2);
     TEST(at.c >= 0 && at.s >= 0 && at.n == 1);
+    TEST_NEAR((double)near, (double)at.c, 0.006 * (double)at.c + 1e-7);
     TEST_NEAR(at.c * (double)at.c + at.s * (double)at.s, 1, 1e-6);
     TEST_NEAR((double)at.density, even + odd * cos(PI / 2 - b), 5e-7 * (even + odd));
     return fabs(even * b + 2 * odd * half * half - (double)rest) / whole;

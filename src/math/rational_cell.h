@@ -47,10 +47,10 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* A place in a cell, and the mass per unit of xi there: root/below, a quotient that is left to those who multiply
- * it with others. */
+/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below: quotients that are left to
+ * those who have others to form. */
 typedef struct vndf_rational_place {
-    lanes_f xi, root, below;
+    lanes_f xi, over, under, per_under, root, below;
 } vndf_rational_place;
 
 /* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
@@ -66,8 +66,11 @@ VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *c
     lanes_m rising = lanes_at_most(nothing, b);
     lanes_f above = lanes_pick(rising, twice, root - b); /* no difference of equals */
     lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
-    lanes_f xi = lanes_limit(lanes_pick(lanes_less(nothing, below), above / below, nothing), 1.0f);
-    vndf_rational_place place = {xi, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
+    lanes_m whole = lanes_less(nothing, below);
+    lanes_f under = lanes_pick(whole, below, lanes_set(1.0f));
+    lanes_f over = lanes_least(lanes_pick(whole, above, nothing), under), per = 1.0f / under;
+    lanes_f xi = lanes_limit(over * per, 1.0f);
+    vndf_rational_place place = {xi, over, under, per, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
     return place; /* 1e-37: of an empty cell the quotient is 0 */
 }
 

@@ -126,7 +126,7 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
         w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &w->plain[g]);
     }
     for (uint32_t g = 0; g < groups; g++) {
-        vndf_drawn n = vndf_drawn_of(&w->at[g], &w->bearing[g], &w->place[g], &w->plain[g]);
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
         store(b, g * VNDF_LANES, &n);
     }
     for (uint32_t g = 0; g < groups; g++) {
@@ -190,7 +190,7 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
                                        &w->plain[g]);
     }
     for (uint32_t g = 0; g < groups; g++) {
-        vndf_drawn n = vndf_drawn_of(&w->at[g], &w->bearing[g], &w->place[g], &w->plain[g]);
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
         uint32_t first = g * VNDF_LANES, left = from->wedge_count - first;
         scatter(b, from->wedge + first, left < VNDF_LANES ? left : VNDF_LANES, &n, w->plain[g]);
     }

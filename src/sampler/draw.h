@@ -64,14 +64,23 @@ typedef struct vndf_drawn {
     lanes_f x, y, z, density;
 } vndf_drawn;
 
-/* From X and Z; the density of xi and azimuth is the quotient of `above` and `below` but for dwm = ax ay X Z^2 dR da
- * over the third power of the length. One division. */
-VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, lanes_f x, lanes_f z, lanes_f above, lanes_f below)
+/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for dwm =
+ * ax ay X Z^2 dR da over the third power of the length. */
+typedef struct vndf_place {
+    lanes_f x, z, per, above, below;
+} vndf_place;
+
+/* `per` is nowhere on the way to the normal, and there is one division. Good where *plain stays: nothing has
+ * underflowed, and a table that is none of ours may have numbers that overflow. */
+VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *plain)
 {
-    lanes_f square = x * x * level->square + z * z, length = lanes_root(square);
-    lanes_f both = 1.0f / (length * below), per = below * both;
-    lanes_f density = (above * square) * (length * (length * both));
-    vndf_drawn n = {x * level->x * per, x * level->y * per, z * per, density};
+    lanes_f square = at->x * at->x * level->square + at->z * at->z, root = lanes_root(square);
+    lanes_f product = root * at->below, both = 1.0f / product, per = at->below * both, length = root * at->per;
+    lanes_f density = at->above * (length * length) * (length * (root * both));
+    vndf_drawn n = {at->x * level->x * per, at->x * level->y * per, at->z * per, density};
+    lanes_m precise = lanes_both(lanes_less(lanes_set(1e-34f), square), lanes_less(lanes_set(1e-36f), product));
+    lanes_m finite = lanes_both(lanes_less(lanes_set(1e-37f), density), lanes_less(density, lanes_set(1e38f)));
+    *plain = lanes_both(*plain, lanes_both(precise, finite));
     return n;
 }
 
@@ -118,10 +127,12 @@ typedef struct vndf_bearing {
 VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2)
 {
     lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
-    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front);
-    lanes_f k = w->s * a.c;
+    lanes_f near, k;
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front, &near);
+    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
+    k = w->s * a.c;
     vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half), a.c, w->c, k,
-                      vndf_radial_total(d, w->c, k), a.c, vndf_window_of(d, w->c, k, u2)};
+                      vndf_radial_total(d, w->c, k), a.c, code};
     return b;
 }
 
@@ -131,19 +142,13 @@ VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_beari
     return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
 }
 
-/* A place in the table, and the density there as a quotient: what the normal is made of. */
-typedef struct vndf_place {
-    lanes_f x, z, above, below;
-} vndf_place;
-
-/* Good where *plain stays: a table that is none of ours may have numbers that overflow here. */
-VNDF_INLINE vndf_drawn vndf_drawn_of(const vndf_incidence *w, const vndf_bearing *b, const vndf_place *at,
-                                     lanes_m *plain)
+/* X and Z at a place in a cell. */
+VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_rational_place *in)
 {
-    vndf_drawn n = vndf_drawn_at(&b->level, at->x, at->z, at->above, at->below * (w->spread * at->x));
-    lanes_m in_range = lanes_both(lanes_less(lanes_set(1e-37f), n.density), lanes_less(n.density, lanes_set(1e38f)));
-    *plain = lanes_both(*plain, in_range);
-    return n;
+    lanes_f rest = in->under - in->over;
+    vndf_place at = {rest * cell->x0 + in->over * cell->x1, rest * cell->z0 + in->over * cell->z1, in->per_under,
+                     in->root, in->below};
+    return at;
 }
 
 /* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */
@@ -155,11 +160,13 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
     vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
     lanes_f before = vndf_radial_before_whole(&law, &cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
-    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
-    *plain = lanes_both(lanes_both(*plain, w->plain), vndf_plain_in_front(w->s, w->c, b->cosine, b->total, x, z));
+    vndf_place at = vndf_place_in(&cell, &in);
+    *plain = lanes_both(lanes_both(*plain, w->plain),
+                        vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
     *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_all()));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
-    vndf_place at = {x, z, in.root, in.below * cell.width};
+    at.above = in.root;
+    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
     return at;
 }
 
@@ -195,12 +202,13 @@ VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_i
     vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
     lanes_f before = vndf_radial_before(&law, &cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
-    lanes_f eta = 1.0f - in.xi, x = eta * cell.x0 + in.xi * cell.x1, z = eta * cell.z0 + in.xi * cell.z1;
+    vndf_place at = vndf_place_in(&cell, &in);
     *plain = lanes_both(lanes_both(*plain, w->plain),
-                        vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, x, z));
+                        vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, at.x, at.z));
     *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_none()));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
-    vndf_place at = {x, z, b->density * in.root, in.below * cell.width};
+    at.above = b->density * in.root;
+    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
     return at;
 }
 

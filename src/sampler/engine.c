@@ -53,8 +53,9 @@ static int is_drawn_in_front(const vndf_view *view, float half)
 static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
     float target = half * (view->front + view->wedge);
+    float near;
     if (is_drawn_in_front(view, half))
-        return vndf_front_draw(front_of(view), lanes_positive(view->front - target), view->front);
+        return vndf_front_draw(front_of(view), lanes_positive(view->front - target), view->front, &near);
     return draw_wedge(view, half);
 }
 
@@ -98,7 +99,7 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 {
     vndf_bearing b = vndf_bear_front(d, w, half, u2);
     vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
-    return vndf_drawn_of(w, &b, &at, plain);
+    return vndf_drawn_at(&b.level, &at, plain);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
@@ -110,7 +111,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
     vndf_radial_law law = vndf_law_wedge(d, &b);
     vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
-    return vndf_drawn_of(w, &b, &at, plain);
+    return vndf_drawn_at(&b.level, &at, plain);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)

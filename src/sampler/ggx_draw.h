@@ -23,7 +23,8 @@ VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_incidence *w, lanes_f u1, lanes_
     h.square = h.x * h.x + h.y * h.y;
     *plain = lanes_both(*plain, lanes_both(w->plain, lanes_less(lanes_set(0.005f), square)));
     *plain = lanes_both(*plain, lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)));
-    return vndf_drawn_at(&h, lanes_set(1.0f), up, lanes_set(1.0f), 6.28318531f * (w->spread * square));
+    vndf_place at = {lanes_set(1.0f), up, lanes_set(1.0f), lanes_set(1.0f), 6.28318531f * (w->spread * square)};
+    return vndf_drawn_at(&h, &at, plain);
 }
 
 #endif
