@@ -87,19 +87,19 @@ static double row_density(const mixed_row *row, double cosine, double sine)
     return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
 }
 
-/* Per radian, of mass 1 in a whole turn. Only a wedge may be so small a part that its mass has to be had in
- * double. */
-static double azimuth_density(const vndf_view *view, const vndf_stretched *w, double cosine, double sine)
+static const double QUARTER_TURN = 1.57079632679489662;
+
+/* Per radian, of mass 1 in a whole turn. */
+static double azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine)
 {
-    const vndf_distribution *d = view->distribution;
     int toward = cosine >= 0.0, above = w->c >= 0.0;
-    double per = 0.5 / ((double)view->front + view->wedge);
+    const vndf_wedge *side = vndf_wedge_of(d, w->c);
+    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0; /* below it may underflow */
+    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0, per = 0.5 / (front + mass);
     if (above && toward)
         return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
     if (above == toward || !(w->s > 0.0 || above))
         return 0.0;
-    const vndf_wedge *side = vndf_wedge_of(d, w->c);
-    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
     mixed_row row = wedge_row(side, y);
     return row.p > 0.0 ? per * mass * row_density(&row, fabs(cosine), sine) : 0.0;
 }
@@ -271,7 +271,8 @@ static void find_law(vndf_engine_ray *ray)
 static vndf_engine_ray ray_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
                                 double k)
 {
-    vndf_engine_ray ray = {view->distribution, w->c, k, azimuth_density(view, w, cosine, sine), 0.0, 0.0, 0};
+    const vndf_distribution *d = view->distribution;
+    vndf_engine_ray ray = {d, w->c, k, azimuth_density(d, w, cosine, sine), 0.0, 0.0, 0};
     find_law(&ray);
     return ray;
 }
