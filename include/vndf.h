@@ -222,11 +222,12 @@ typedef struct vndf_normals {
 } vndf_normals;
 
 /* Element i is to the bit what the call of one gives for element i: vndf_sample, vndf_pdf and so on, of
- * vndf_view_from or of the surface. In place is allowed: an array of results may be one of those that are read, if
- * that is not shared; otherwise arrays must not overlap. `pdf` of vndf_sample_n may be NULL. Where the direction and
- * roughness are shared the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and
- * vndf_projected_area_n are of the directions wi. */
-VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm, float *pdf);
+ * vndf_view_from or of the surface. In place is allowed: an array of results may be one of those that are read,
+ * if that is not shared; otherwise arrays must not overlap. `pdf` of vndf_sample_n may be NULL. Where the
+ * direction and roughness are shared the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n,
+ * vndf_g1_n and vndf_projected_area_n are of the directions wi. */
+VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
+                            float *pdf);
 VNDF_API void vndf_pdf_n(const vndf_batch *batch, vndf_normals wm, float *pdf);
 VNDF_API void vndf_visible_n(const vndf_batch *batch, vndf_normals wm, float *visible);
 VNDF_API void vndf_invert_n(const vndf_batch *batch, vndf_normals wm, float *u1, float *u2);

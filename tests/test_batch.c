@@ -1,6 +1,6 @@
-/* A batch gives to the bit what the calls of one give, for every instruction set there is, distribution and count, shared
- * or not, in place or not: directions of the whole sphere, roughness from 1e-6 to 10 and invalid ones, the corners of
- * the unit square and numbers outside it. */
+/* A batch gives to the bit what the calls of one give, for every instruction set there is, distribution and
+ * count, shared or not, in place or not: directions of the whole sphere, roughness from 1e-6 to 10 and invalid
+ * ones, the corners of the unit square and numbers outside it. */
 #include <float.h>
 #include <stdlib.h>
 
@@ -100,7 +100,8 @@ static void test_sample(const vndf_distribution *d, const char *name, vndf_instr
             vndf_sample_n(&b, given.of[U1], given.of[U2], normals_of(&made), made.of[PDF]);
             size_t different = differences(&b, &given, &made);
             if (!TEST(different == 0))
-                fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name, (int)limit, shared,
+                fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name,
+                        (int)limit, shared,
                         (unsigned long)different, (unsigned long)counts[c]);
             TEST(made.of[X][counts[c]] == given.of[X][counts[c]]); /* nothing beyond the end */
         }
@@ -112,7 +113,8 @@ static void test_in_place(const vndf_distribution *d, vndf_instructions limit)
     static numbers given, made, aside;
     fill(&given, 5);
     made = aside = given;
-    vndf_batch apart = batch_of(d, &given, COUNT_MOST - 1, 0, limit), over = batch_of(d, &made, COUNT_MOST - 1, 0, limit);
+    vndf_batch apart = batch_of(d, &given, COUNT_MOST - 1, 0, limit);
+    vndf_batch over = batch_of(d, &made, COUNT_MOST - 1, 0, limit);
     vndf_normals in_place = {made.of[WI_X] + 1, made.of[WI_Y] + 1, made.of[WI_Z] + 1};
     vndf_sample_n(&apart, given.of[U1], given.of[U2], normals_of(&aside), aside.of[PDF]);
     vndf_sample_n(&over, made.of[U1], made.of[U2], in_place, made.of[U1]);

@@ -1,5 +1,6 @@
-/* Invalid input has its documented result: an invalid view, of which vndf_sample gives (0, 0, 1) with density 0 and
- * every other call 0; uniform numbers outside [0, 1] are clamped and NaN counts as 0; both zeros are the horizon. */
+/* Invalid input has its documented result: an invalid view, of which vndf_sample gives (0, 0, 1) with density 0
+ * and every other call 0; uniform numbers outside [0, 1] are clamped and NaN counts as 0; both zeros are the
+ * horizon. */
 #include <float.h>
 #include <string.h>
 
@@ -99,7 +100,8 @@ static void test_lengths(const vndf_distribution *d)
     vndf_vec3 unit = {0.6f, 0, 0.8f};
     for (int i = 0; i < 4; i++) {
         vndf_vec3 wi = {0.6f * lengths[i], 0, 0.8f * lengths[i]};
-        TEST_RELATIVE((double)vndf_projected_area(&surface, wi), (double)vndf_projected_area(&surface, unit), 1e-6);
+        TEST_RELATIVE((double)vndf_projected_area(&surface, wi), (double)vndf_projected_area(&surface, unit),
+                      1e-6);
     }
 }
 

@@ -1,9 +1,10 @@
 /* Where rounding may bring a normal over a border at which the density changes, the density that comes with a
- * sample is still that of the normal that comes with it, within 1e-5. Such borders are jumps of D: uniform numbers
- * are sought, by bisection of u2, whose normals lie beside the jump, and their neighbours within 128 steps of
- * float are tried; there are some on both sides of the jump. The cell before it may be so narrow that a rounding
- * goes through a part of it. And the side of wi, where azimuths of the front end and those of the wedge begin: u1 is
- * sought likewise, and slopes are large as well, for which a rounding of the azimuth shows in wi.wm. */
+ * sample is still that of the normal that comes with it, within 1e-5. Such borders are jumps of D: uniform
+ * numbers are sought, by bisection of u2, whose normals lie beside the jump, and their neighbours within 128
+ * steps of float are tried; there are some on both sides of the jump. The cell before it may be so narrow that
+ * a rounding goes through a part of it. And the side of wi, where azimuths of the front end and those of the
+ * wedge begin: u1 is sought likewise, and slopes are large as well, for which a rounding of the azimuth shows
+ * in wi.wm. */
 #include "oracle.h"
 #include "test.h"
 

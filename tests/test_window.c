@@ -54,8 +54,8 @@ static void test_table(const vndf_distribution *d, const char *name)
 
 int main(void)
 {
-    static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "student-t-1.8",
-                                        "example"};
+    static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large",
+                                        "student-t-1.8", "example"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[4096];
         vndf_error error = {VNDF_OK, ""};

@@ -15,7 +15,8 @@ static const char *const headings[COLUMNS] = {"bytes", "ns", "spread", "shared",
                                               "weight", "eff 60", "eff 85", "eff light", "bias 60, 85"};
 
 static const char legend[] =
-    "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between quartiles);\n"
+    "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
+    "quartiles);\n"
     "shared: many samples for one direction; latency: each waits for the last; ratio: to spherical caps, scalar.\n"
     "TV: largest total variation to the true visible normals; weight: largest true over drawn density. eff:\n"
     "1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and under a small\n"

@@ -19,7 +19,8 @@ typedef struct method_input {
 
 /* The same inputs twice: for batches a structure of arrays, for scalar calls whole ones, as renderers have them.
  * (A vndf_vec3 that is put together from three arrays and passed on costs some 40 ns with gcc 12, which stores it
- * by fours and loads it by eights.) alpha is that of both axes. A `shared` call reads the first of alpha and wi. */
+ * by fours and loads it by eights.) alpha is that of both axes. A `shared` call reads the first of alpha and
+ * wi. */
 typedef struct method_inputs {
     size_t count;
     const float *alpha, *wi_x, *wi_y, *wi_z, *u1, *u2;

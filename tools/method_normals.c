@@ -65,7 +65,8 @@ static double edge_of(int i)
     return v * v * (3 - 2 * v);
 }
 
-/* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the horizon. */
+/* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the
+ * horizon. */
 static int accumulate(const method_truth *truth, double *mass)
 {
     int top = FINE;

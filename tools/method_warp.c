@@ -9,8 +9,9 @@
  * off, by direction and by the horizon, where normals may face away; where it is 0 and the truth is not, nothing
  * can be done.
  *
- * Departures: nodes on the horizon; renderers have a table per material and neither roughness nor stretch; here it is a table of the
- * unit problem at median slope 1, and roughness stretches. Its directions are even, from 0 to 90 degrees. */
+ * Departures: nodes on the horizon; renderers have a table per material and neither roughness nor stretch; here
+ * it is a table of the unit problem at median slope 1, and roughness stretches. Its directions are even, from 0
+ * to 90 degrees. */
 #include <stdio.h>
 #include <stdlib.h>
 

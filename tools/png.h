@@ -9,7 +9,8 @@ typedef struct colour {
     unsigned char red, green, blue;
 } colour;
 
-/* Writes width x height palette indices (rows from the top) as base64; index 0 is transparent. 0 if there is no memory. */
+/* Writes width x height palette indices (rows from the top) as base64; index 0 is transparent. 0 if there is no
+ * memory. */
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
                      const colour palette[256]);
 

@@ -1,5 +1,5 @@
-/* How many of eight neighbours in tables satisfy a condition: the inner loop of searches, for one lane. Compilers that
- * see it written out with AVX2 count lane by lane. */
+/* How many of eight neighbours in tables satisfy a condition: the inner loop of searches, for one lane.
+ * Compilers that see it written out with AVX2 count lane by lane. */
 #ifndef VNDF_MATH_COUNT_H
 #define VNDF_MATH_COUNT_H
 

@@ -1,5 +1,5 @@
-/* Loading four neighbours for each lane and turning them, so that each of the four stands side by side for all lanes:
- * loads of 16 bytes cost less than a gather for every number. */
+/* Loading four neighbours for each lane and turning them, so that each of the four stands side by side for all
+ * lanes: loads of 16 bytes cost less than a gather for every number. */
 #ifndef VNDF_MATH_LANES_LINES_H
 #define VNDF_MATH_LANES_LINES_H
 

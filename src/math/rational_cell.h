@@ -47,8 +47,8 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below: quotients that are left to
- * those who have others to form. */
+/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below: quotients that are
+ * left to those who have others to form. */
 typedef struct vndf_rational_place {
     lanes_f xi, over, under, per_under, root, below;
 } vndf_rational_place;

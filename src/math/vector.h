@@ -11,8 +11,8 @@
 
 #include "vndf.h"
 
-/* A vector to be passed or returned: gcc 12 writes x and y apart and reads both at once, which waits for the stores,
- * unless they are put together in a register. */
+/* A vector to be passed or returned: gcc 12 writes x and y apart and reads both at once, which waits for the
+ * stores, unless they are put together in a register. */
 VNDF_INLINE vndf_vec3 vndf_vec3_of(float x, float y, float z)
 {
     vndf_vec3 v = {x, y, z};

@@ -75,8 +75,8 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, lanes_f q,
 
 /* How many cells of one lane's row have no more than `target` before them. All are counted through: no step waits
  * for another. */
-VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, float first, float middle, float last,
-                                        float target)
+VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, float first, float middle,
+                                        float last, float target)
 {
     const float *a = wedge->cdf + (size_t)row * wedge->stride, *b = a + wedge->stride, *c = b + wedge->stride;
     uint32_t count = 0;

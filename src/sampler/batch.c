@@ -120,8 +120,8 @@ static void sample_one_by_one(const vndf_batch *b, const float *u1, const float 
 
 enum { INPUTS = 7 };
 
-/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of lanes would
- * read beyond. */
+/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
+ * lanes would read beyond. */
 typedef struct copies {
     float of[INPUTS][VNDF_BLOCK_SAMPLES];
 } copies;
@@ -140,8 +140,8 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
     return copy;
 }
 
-static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1, const float *u2,
-                      copies *c)
+static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
+                      const float *u2, copies *c)
 {
     uint32_t n = block->count;
     int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;

@@ -61,7 +61,8 @@ VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, 
 }
 
 /* Of samples from `i` on; plain only where a view in float is good enough. */
-VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, float scale)
+VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i,
+                                        float scale)
 {
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     lanes_m ready = lanes_all();
@@ -123,7 +124,8 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
         w->cell[g] = vndf_find_front(d, &w->bearing[g], w->u2[g]);
     for (uint32_t g = 0; g < groups; g++) {
         w->plain[g] = w->at[g].plain;
-        w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g], &w->plain[g]);
+        w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g],
+                                       &w->plain[g]);
     }
     for (uint32_t g = 0; g < groups; g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
@@ -133,13 +135,15 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, w
         lanes_m usable = w->at[g].plain, plain = w->plain[g];
         lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
         w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
-        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain), g * VNDF_LANES);
+        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain),
+              g * VNDF_LANES);
     }
 }
 
 /* ---- in the wedge: those that are, gathered ---- */
 
-VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_block *b, const work *from, wedge_work *w)
+VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_block *b, const work *from,
+                               wedge_work *w)
 {
     for (uint32_t g = 0; g * VNDF_LANES < from->wedge_count; g++) {
         lanes_u index = lanes_load_u(from->wedge + g * VNDF_LANES);
@@ -152,7 +156,8 @@ VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_blo
 }
 
 /* A group's results to where its samples were; what is not good is left. */
-VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t count, const vndf_drawn *n, lanes_m good)
+VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t count, const vndf_drawn *n,
+                         lanes_m good)
 {
     float out[4][VNDF_LANES];
     uint32_t bits = lanes_mask_bits(good);
@@ -206,7 +211,8 @@ VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
         vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
         lanes_m plain = lanes_all();
-        vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)), &plain);
+        vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
+                                     &plain);
         store(b, i, &n);
         leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
     }

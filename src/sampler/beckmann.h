@@ -5,8 +5,8 @@
 
 #include "sampler/closed.h"
 
-/* One incident direction: K, and F(K) with a factor that beckmann.c says, and what F(x) for x > 0 has more than F for
- * x < 0. */
+/* One incident direction: K, and F(K) with a factor that beckmann.c says, and what F(x) for x > 0 has more than
+ * F for x < 0. */
 typedef struct vndf_beckmann_law {
     double bound, whole, line;
 } vndf_beckmann_law;

@@ -94,8 +94,10 @@ static double azimuth_density(const vndf_distribution *d, const vndf_stretched *
 {
     int toward = cosine >= 0.0, above = w->c >= 0.0;
     const vndf_wedge *side = vndf_wedge_of(d, w->c);
-    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0; /* below it may underflow */
-    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0, per = 0.5 / (front + mass);
+    /* below it may underflow */
+    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
+    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0;
+    double per = 0.5 / (front + mass);
     if (above && toward)
         return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
     if (above == toward || !(w->s > 0.0 || above))

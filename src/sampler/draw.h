@@ -16,7 +16,8 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
                                      lanes_f sine, lanes_f half)
 {
     sine = lanes_sign(sine, half);
-    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine), cosine};
+    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine),
+                        cosine};
     level.square = level.x * level.x + level.y * level.y;
     return level;
 }
@@ -64,8 +65,8 @@ typedef struct vndf_drawn {
     lanes_f x, y, z, density;
 } vndf_drawn;
 
-/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for dwm =
- * ax ay X Z^2 dR da over the third power of the length. */
+/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for
+ * dwm = ax ay X Z^2 dR da over the third power of the length. */
 typedef struct vndf_place {
     lanes_f x, z, per, above, below;
 } vndf_place;
@@ -124,7 +125,8 @@ typedef struct vndf_bearing {
 
 /* ---- in front of wi ---- */
 
-VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half, lanes_f u2)
+VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half,
+                                         lanes_f u2)
 {
     lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
     lanes_f near, k;
@@ -151,7 +153,8 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
-/* Good where *plain stays. Beside the cut - here where W vanishes, at infinity - cells are others: radial_cut.h. */
+/* Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
+ * (radial_cut.h). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
                                         lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
 {
@@ -173,8 +176,8 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
 /* ---- in the wedge above the horizon ---- */
 
 /* The weights (c, k) of the law of the radius, times n, at an azimuth of the wedge counted from the far side. */
-VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_azimuth *a,
-                                         lanes_f half, lanes_f u2)
+VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_azimuth *a, lanes_f half, lanes_f u2)
 {
     lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
     vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, half), cosine, c, k,

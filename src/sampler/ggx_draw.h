@@ -1,5 +1,5 @@
-/* GGX where all is of plain size and nothing cancels: ggx.h in float, for one or for lanes. With h = (w + cap), of which
- * the normal is the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
+/* GGX where all is of plain size and nothing cancels: ggx.h in float, for one or for lanes. With h = (w + cap),
+ * of which the normal is the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
  *
  *     density of n = (w . n) 4/(2 pi (1 + c)) = |h|/(pi (1 + c)),
  *     of the stretched normal m/|m|, m = (ax hx, ay hy, hz):   |m|^3/(ax ay pi (1 + c) |h|^2).

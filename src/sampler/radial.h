@@ -1,6 +1,6 @@
 /* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
- * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the horizon,
- * and cells away from the cut; the rest is in radial_cut.h, drawing in radial_draw.h.
+ * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the
+ * horizon, and cells away from the cut; the rest is in radial_cut.h, drawing in radial_draw.h.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
  * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that
@@ -105,8 +105,8 @@ VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lan
     return c * d->f0_total + k * d->f1_total;
 }
 
-/* From this mass on the law of c, k >= 0 is not scaled, which takes a division: in front of wi it is the density of
- * the azimuth, and drops out of that of the normal. */
+/* From this mass on the law of c, k >= 0 is not scaled, which takes a division: in front of wi it is the
+ * density of the azimuth, and drops out of that of the normal. */
 static const float VNDF_RADIAL_MASS_PLAIN = 1e-3f;
 
 /* c, k >= 0. */
@@ -146,13 +146,15 @@ VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, con
 /* ---- search, one lane at a time ---- */
 
 /* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
-VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k,
+                                             float target)
 {
     return vndf_count_positive(knots->z + from, knots->x + from, knots->e + from, knots->g + from, c, k, target);
 }
 
 /* The same for c, k >= 0. */
-VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k,
+                                             float target)
 {
     return vndf_count_two(knots->f0 + from, knots->f1 + from, c, k, target);
 }
@@ -174,8 +176,8 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
 }
 
 /* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */
-VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k, float target,
-                                          int whole)
+VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k,
+                                          float target, int whole)
 {
     vndf_window w = vndf_window_from(code);
     if (w.step > 1)
@@ -186,8 +188,8 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
 
 #if VNDF_LANES == 1
 
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
-                                     int whole)
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
+                                     lanes_f target, int whole)
 {
     return vndf_radial_find_one(d, code, c, k, target, whole);
 }
@@ -195,8 +197,8 @@ VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, l
 #else
 
 /* All lanes, one after the other: the wide windows first, which are few. */
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k, lanes_f target,
-                                     int whole)
+VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
+                                     lanes_f target, int whole)
 {
     const vndf_knots knots = d->knots;
     uint32_t first[VNDF_LANES], found[VNDF_LANES];

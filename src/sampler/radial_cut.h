@@ -1,5 +1,5 @@
-/* What lanes leave to the scalar path: the laws below the horizon, the cell at the cut and those beside it, and the
- * distribution function. radial.h has the mathematics. */
+/* What lanes leave to the scalar path: the laws below the horizon, the cell at the cut and those beside it, and
+ * the distribution function. radial.h has the mathematics. */
 #ifndef VNDF_SAMPLER_RADIAL_CUT_H
 #define VNDF_SAMPLER_RADIAL_CUT_H
 

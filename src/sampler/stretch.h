@@ -1,5 +1,6 @@
-/* The stretched direction of a view in double, from wi and the roughness as they were given: no length or roughness is
- * out of range, and the digits are there that an area takes which falls as fast as the normals of a Beckmann do. */
+/* The stretched direction of a view in double, from wi and the roughness as they were given: no length or
+ * roughness is out of range, and the digits are there that an area takes which falls as fast as the normals of
+ * a Beckmann do. */
 #ifndef VNDF_SAMPLER_STRETCH_H
 #define VNDF_SAMPLER_STRETCH_H
 
@@ -8,8 +9,8 @@
 #include "core/inline.h"
 #include "table/table.h"
 
-/* (alpha_x wi.x, alpha_y wi.y, wi.z): across, along z, and what brings it there. s + |c| = 1 for tables, s^2 + c^2 = 1
- * for the closed forms. */
+/* (alpha_x wi.x, alpha_y wi.y, wi.z): across, along z, and what brings it there. s + |c| = 1 for tables, s^2 +
+ * c^2 = 1 for the closed forms. */
 typedef struct vndf_stretched {
     double x, y; /* before */
     double s, c, per_length;
@@ -19,7 +20,8 @@ VNDF_INLINE vndf_stretched vndf_stretch(vndf_vec3 wi, double ax, double ay, int 
 {
     double x = ax * wi.x, y = ay * wi.y, across2 = x * x + y * y, across = sqrt(across2);
     double per = 1.0 / (table ? across + fabs((double)wi.z) : sqrt(across2 + (double)wi.z * wi.z));
-    vndf_stretched w = {x, y, across * per, wi.z * per + 0.0, per}; /* -0 becomes +0: the horizon is seen from above */
+    /* -0 becomes +0: the horizon is seen from above */
+    vndf_stretched w = {x, y, across * per, wi.z * per + 0.0, per};
     return w;
 }
 

@@ -137,7 +137,8 @@ static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pd
 static int is_plain_beckmann(const vndf_view *view, const vndf_beckmann_slopes *at, double square)
 {
     double s = view->s; /* below 1e-30 it is not what the law has */
-    return view->plain && square < 12.0 && s > 1e-20 && s * at->d > 0.1 * (s * (fabs(at->x) + fabs(at->y)) + view->c);
+    double terms = s * (fabs(at->x) + fabs(at->y)) + view->c;
+    return view->plain && square < 12.0 && s > 1e-20 && s * at->d > 0.1 * terms;
 }
 
 /* Density of the normal of length 1 over the third power of the length, from that of the slopes. */

@@ -48,8 +48,8 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
     return made;
 }
 
-/* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's mass
- * is between the side of wi and it. */
+/* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's
+ * mass is between the side of wi and it. */
 VNDF_INLINE lanes_f vndf_wedge_part(lanes_f half, lanes_f front, lanes_f wedge)
 {
     lanes_f rest = (half * (front + wedge) - front) / wedge;

@@ -38,7 +38,8 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->knot_count = knots;
     wedge->stride = stride;
     wedge->cdf = block;
-    wedge->piece = calloc(1, knots * (sizeof *wedge->piece + sizeof *wedge->quick) + row_floats * sizeof *wedge->row_cell);
+    size_t per_piece = sizeof *wedge->piece + sizeof *wedge->quick;
+    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell);
     if (!block || !wedge->piece)
         return 0;
     wedge->quick = (vndf_area_quick *)(wedge->piece + knots);

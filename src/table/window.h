@@ -1,6 +1,7 @@
-/* Windows of the radial search: for a law of the slope length with weights (c, k), c >= 0 (sampler/engine.h), and
- * a part u of its mass, where the cell lies in which that part ends: eight successive cells and the one after them,
- * or, where D has many more, eight times eight or eight to the third ..., to be searched in so many steps.
+/* Windows of the radial search: for a law of the slope length with weights (c, k), c >= 0 (sampler/engine.h),
+ * and a part u of its mass, where the cell lies in which that part ends: eight successive cells and the one
+ * after them, or, where D has many more, eight times eight or eight to the third ..., to be searched in so many
+ * steps.
  *
  * The larger k/c, the larger the quantiles: (c + k R)+ for one ratio over that for a lower one grows with R. So
  * over a range of u and a range of k/c the cell lies between those of two corners, and the cells between are few
@@ -36,7 +37,8 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
     lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), near);
     lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_limit(near, end));
     lanes_u half_octave = lanes_limit_u(apart >> 22, lanes_set_u(VNDF_RANGES_END - 1));
-    lanes_u outer = lanes_pick_u(low, VNDF_RANGES_END - 1u - half_octave, VNDF_RANGES - VNDF_RANGES_END + half_octave);
+    const uint32_t first = VNDF_RANGES_END - 1, last = VNDF_RANGES - VNDF_RANGES_END;
+    lanes_u outer = lanes_pick_u(low, first - half_octave, last + half_octave);
     return lanes_pick_u(inner, lanes_whole(u * 64.0f) + (VNDF_RANGES_END - 1u), outer);
 }
 
@@ -44,10 +46,11 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
 VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
     lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
-    return lanes_gather_u16(d->windows[0][0], (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + vndf_window_range(u));
+    lanes_u at = (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + vndf_window_range(u);
+    return lanes_gather_u16(d->windows[0][0], at);
 }
 
-/* A window taken apart: its first cell, and the cells from one of the eight places that are looked at to the next. */
+/* A window taken apart: its first cell, and the cells from one of its eight places to the next. */
 typedef struct vndf_window {
     uint32_t first, step;
 } vndf_window;
