@@ -99,11 +99,12 @@ VNDF_API vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vnd
 VNDF_API void vndf_free(vndf_distribution *distribution);
 
 /* GGX (Trowbridge-Reitz), P22(r) = 1/(pi (1 + r^2)^2), sampled by spherical caps (Dupuy & Benyoub,
- * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023). Exact; not to be freed. */
+ * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) in half angles, which leave no NaN. Exact;
+ * not to be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and a continuous inversion of the slope CDF whose
- * u-error is below 1e-6. Not to be freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and a continuous inversion of the slope CDF whose error in u
+ * is below 1e-7 before the normal is rounded to float. Not to be freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured on a table, after rounding to float, against quadrature of the D it was
