@@ -41,7 +41,12 @@ enum { ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES, ELEVATION_COUNT = sizeof EL
 /* More directions where the total variation is large, so that its maximum is not missed between two: small tables
  * have few rows, hence broad maxima, and cost little. */
 enum { MORE = 30, MORE_IF_SMALL = 60, SMALL_RADIAL_CELLS = 160 };
-enum { DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + MORE_IF_SMALL };
+
+/* And where so much of the area at grazing incidence is left, half of it being 1: compact supports end within a
+ * small part of a degree. */
+static const double LEVELS[] = {1e-2, 1e-4, 1e-6};
+enum { LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS };
+enum { DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + LEVEL_COUNT + MORE_IF_SMALL };
 
 typedef struct direction {
     double angle; /* of incidence at canonical scale, in [0, pi] */
@@ -72,6 +77,22 @@ static void add_grid(circle *all, vndf_survey *v)
     for (int i = 0; i < 2 * ELEVATION_COUNT; i++) {
         double k = ELEVATIONS[i / 2] * (i % 2 ? -1 : 1), length = hypot(1, k);
         add_direction(all, v, 1 / length, k / length);
+    }
+}
+
+/* The area falls from 90 to 180 degrees. */
+static void add_levels(circle *all, vndf_survey *v)
+{
+    for (int i = 0; i < LEVEL_COUNT; i++) {
+        double low = PI / 2, high = PI;
+        for (int step = 0; step < 40 && !vndf_guard_stopped(v->profile->guard); step++) {
+            double angle = (low + high) / 2, area = vndf_profile_area(v->profile, sin(angle), cos(angle));
+            if (area > LEVELS[i] * v->profile->f1)
+                low = angle;
+            else
+                high = angle;
+        }
+        add_direction(all, v, sin(low), cos(low));
     }
 }
 
@@ -139,6 +160,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
         return 0;
     circle all = {.count = 0};
     add_grid(&all, &v);
+    add_levels(&all, &v);
     for (int i = 0; i < (table->radial_count <= SMALL_RADIAL_CELLS ? MORE_IF_SMALL : MORE); i++)
         add_between(&all, &v);
     *c = none;
