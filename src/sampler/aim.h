@@ -29,7 +29,9 @@ VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f 
     lanes_f per = 1.0f / (across * sum); /* of both at once */
     *ready = lanes_both(*ready, vndf_aim_is_ready(across2, z, sum));
     lanes_f s = across2 * per, c = lanes_pick(*ready, z * (across * per), lanes_set(0.5f)); /* to be looked up */
-    lanes_f front = vndf_front_mass(vndf_front_of(d, s, c)), wedge = vndf_wedge_quick(&d->above, c);
+    lanes_f per_width, front = vndf_front_mass(vndf_front_of(d, s, c));
+    lanes_f wedge = vndf_wedge_quick(&d->above, c, &per_width);
+    *ready = lanes_both(*ready, lanes_at_most(per_width, lanes_set(VNDF_QUICK_PER_WIDTH)));
     vndf_aim aim = {s, c, x * (sum * per), y * (sum * per), front, wedge, 2.0f * (front + wedge)};
     return aim;
 }

@@ -19,6 +19,7 @@ typedef struct vndf_azimuth_row {
     const vndf_wedge *wedge;
     lanes_u row;                       /* the first */
     lanes_f first, middle, last, p, r; /* weights; aspect */
+    lanes_f width;                     /* in y, from this knot of rows to the next */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */

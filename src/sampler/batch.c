@@ -182,6 +182,10 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         view = view_at(b, 0);
         block.view = &view;
     }
+    if (block.view && !view.plain) { /* lanes would leave all of it */
+        sample_one_by_one(b, u1, u2, wm, pdf);
+        return;
+    }
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;

@@ -190,7 +190,7 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
     for (uint32_t g = 0; g < groups; g++)
         w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
-        w->plain[g] = lanes_all();
+        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
         w->place[g] = vndf_place_wedge(d, &w->at[g], &w->bearing[g], &w->law[g], w->cell[g], w->half[g], w->u2[g],
                                        &w->plain[g]);
     }

@@ -42,7 +42,7 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f front, lan
                                         lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    lanes_m large = lanes_both(lanes_less(0.05f * front, wedge), lanes_at_most(lanes_set(0.25f), c));
+    lanes_m large = lanes_both(lanes_less(0.1f * front, wedge), lanes_at_most(lanes_set(0.25f), c));
     return lanes_both(large, lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
                                         lanes_less(0.1f * (across + up), along + up)));
 }
@@ -197,7 +197,7 @@ VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_beari
 }
 
 VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                        const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
+                                         const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
                                         lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);

@@ -107,6 +107,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
+    *plain &= vndf_wedge_is_plain(&row);
     vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
     vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
     vndf_radial_law law = vndf_law_wedge(d, &b);

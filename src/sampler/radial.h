@@ -172,7 +172,8 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
         }
         w.first += count * w.step;
     }
-    return w.first;
+    const uint32_t most = knots->count - VNDF_WINDOW - 1; /* lanes of no use may have sums that do not ascend */
+    return w.first < most ? w.first : most;
 }
 
 /* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */

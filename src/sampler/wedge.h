@@ -20,14 +20,17 @@ VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
     return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
 }
 
-/* The same in float, where that is good enough: for drawing, and for densities where it is no small part. */
-VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y)
+/* The same in float, where that is good enough: for drawing, and for densities where it is no small part and
+ * *per_width, one over the width of its piece, is not above VNDF_QUICK_PER_WIDTH. */
+static const float VNDF_QUICK_PER_WIDTH = 500.0f;
+
+VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f *per_width)
 {
 #if VNDF_LANES > 1
     if (wedge->knot_count <= VNDF_FEW + 1)
-        return vndf_area_few_at(wedge->few, y);
+        return vndf_area_few_at(wedge->few, y, per_width);
 #endif
-    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y);
+    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y, per_width);
 }
 
 /* The wedge's coordinate of a direction with s + |c| = 1. */
@@ -41,11 +44,18 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 {
     lanes_u i = vndf_guide_lanes(&wedge->row_guide, y), row = i * 2u;
     lanes_f from = lanes_gather(wedge->row_y, i), to = lanes_gather(wedge->row_y + 1, i);
-    lanes_f mix = (y - from) / (to - from), rest = 1.0f - mix;
-    vndf_azimuth_row made = {wedge, row, rest * rest, 2.0f * rest * mix, mix * mix, rest, rest};
+    lanes_f width = to - from, mix = (y - from) / width, rest = 1.0f - mix;
+    vndf_azimuth_row made = {wedge, row, rest * rest, 2.0f * rest * mix, mix * mix, rest, rest, width};
     made.p = vndf_azimuth_mix(&made, wedge->aspect_p);
     made.r = vndf_azimuth_mix(&made, wedge->aspect_r);
     return made;
+}
+
+/* Whether rows are not so close that a rounding of y changes their shares: lobes hundreds of times apart have
+ * such, and such pieces of areas. */
+VNDF_INLINE lanes_m vndf_wedge_is_plain(const vndf_azimuth_row *row)
+{
+    return lanes_less(lanes_set(4e-3f), row->width);
 }
 
 /* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's

@@ -48,17 +48,19 @@ VNDF_INLINE lanes_f vndf_area_quick_sum(const lanes_f b[VNDF_AREA_ORDER], lanes_
     return uu * u * low + tt * t * high;
 }
 
-/* Piece i, within 6e-7 of the mass but for the rounding of y. */
-VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y)
+/* Piece i, within 6e-7 of the mass but for the rounding of y, which counts where one over its width is large. */
+VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y, lanes_f *per_width)
 {
     lanes_lines lines = lanes_lines_at(piece->coefficient, sizeof *piece / sizeof(float), i);
     lanes_four from = lanes_load_four(&lines, 0), to = lanes_load_four(&lines, 4);
     lanes_f b[VNDF_AREA_ORDER] = {from.a, from.b, from.c, from.d, to.a, to.b};
+    *per_width = to.d;
     return vndf_area_quick_sum(b, (y - to.c) * to.d);
 }
 
 /* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
-VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], lanes_f y)
+VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], lanes_f y,
+                                     lanes_f *per_width)
 {
     const float *begin = few[VNDF_AREA_ORDER];
     lanes_u i = lanes_set_u(0);
@@ -67,7 +69,8 @@ VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_F
         i = lanes_pick_u(lanes_at_most(lanes_few(begin, i + step), y), i + step, i);
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
         b[n] = lanes_few(few[n], i);
-    return vndf_area_quick_sum(b, (y - lanes_few(begin, i)) * lanes_few(few[VNDF_AREA_ORDER + 1], i));
+    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], i);
+    return vndf_area_quick_sum(b, (y - lanes_few(begin, i)) * *per_width);
 }
 
 #endif
