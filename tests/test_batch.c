@@ -1,6 +1,7 @@
 /* A batch gives to the bit what the calls of one give, for every instruction set there is, distribution and
  * count, shared or not, in place or not: directions of the whole sphere, roughness from 1e-6 to 10 and invalid
- * ones, the corners of the unit square and numbers outside it. */
+ * ones, the corners of the unit square and numbers outside it. With the argument avx2 or avx512 that instruction
+ * set alone. */
 #include <float.h>
 #include <stdlib.h>
 
@@ -128,9 +129,11 @@ static void test_in_place(const vndf_distribution *d, vndf_instructions limit)
     TEST(memcmp(made.of[Z], aside.of[Z], bytes) == 0);
 }
 
-static void test_distribution(const vndf_distribution *d, const char *name)
+static void test_distribution(const vndf_distribution *d, const char *name, vndf_instructions only)
 {
-    for (int limit = VNDF_INSTRUCTIONS_BEST; limit <= VNDF_INSTRUCTIONS_AVX512; limit++) {
+    int first = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_BEST;
+    int last = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_AVX512;
+    for (int limit = first; limit <= last; limit++) {
         vndf_instructions used = vndf_instructions_used((vndf_instructions)limit);
         TEST(used >= VNDF_INSTRUCTIONS_PORTABLE && (limit == VNDF_INSTRUCTIONS_BEST || (int)used <= limit));
         test_sample(d, name, (vndf_instructions)limit);
@@ -138,20 +141,33 @@ static void test_distribution(const vndf_distribution *d, const char *name)
     }
 }
 
-int main(void)
+/* BEST without an argument: all of them. */
+static vndf_instructions wanted(int arguments, char **argument)
+{
+    if (arguments < 2)
+        return VNDF_INSTRUCTIONS_BEST;
+    return strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512 : VNDF_INSTRUCTIONS_AVX2;
+}
+
+int main(int arguments, char **argument)
 {
     static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "example",
                                         "sgd-nickel-g"};
-    test_distribution(vndf_ggx(), "ggx");
-    test_distribution(vndf_beckmann(), "beckmann");
-    test_distribution(NULL, "none");
+    vndf_instructions only = wanted(arguments, argument);
+    if (only != VNDF_INSTRUCTIONS_BEST && vndf_instructions_used(only) != only) {
+        printf("SKIPPED: no %s here\n", argument[1]);
+        return 0;
+    }
+    test_distribution(vndf_ggx(), "ggx", only);
+    test_distribution(vndf_beckmann(), "beckmann", only);
+    test_distribution(NULL, "none", only);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[4096];
         vndf_error error = {VNDF_OK, ""};
         snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", names[i]);
         vndf_distribution *table = vndf_load(path, &error);
         if (TEST(table != NULL))
-            test_distribution(table, names[i]);
+            test_distribution(table, names[i], only);
         vndf_free(table);
     }
     return test_done();
