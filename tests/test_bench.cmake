@@ -58,6 +58,12 @@ run(2 --only ggx --seconds 0.1 --csv no-folder/a.csv)
 has(errors "no-folder/a.csv")
 file(GLOB left ${OUT}/*)
 expect("refusals left ${left}" NOT left)
+file(WRITE ${OUT}/mine.csv "theta_deg,ndf\n0,1\n60,0.1\n") # a D of the user's, that --csv is not to replace
+run(2 --only ggx --seconds 0.1 --csv mine.csv)
+has(errors "is kept; a D is read by --csv-data")
+file(READ ${OUT}/mine.csv mine)
+expect("mine.csv is '${mine}'" mine STREQUAL "theta_deg,ndf\n0,1\n60,0.1\n")
+file(REMOVE ${OUT}/mine.csv)
 
 # ---- the closed forms ---------------------------------------------------------------------------
 

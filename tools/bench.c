@@ -119,12 +119,40 @@ static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
     return printed == STATUS_GOOD ? judged : printed;
 }
 
+/* `build` reads what --csv names, here it is written: a file with a D in it is not replaced. */
+static int is_free_for_csv(const char *path)
+{
+    static const char ours[] = "method,distribution,";
+    char start[sizeof ours] = "";
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return 1;
+    size_t size = fread(start, 1, sizeof ours - 1, file);
+    fclose(file);
+    if (size == 0 || strncmp(start, ours, sizeof ours - 1) == 0)
+        return 1;
+    complain(name, "--csv %s: the file is no earlier result of this command and is kept; a D is read by --csv-data",
+             path);
+    return 0;
+}
+
+/* Whether results can be written, before they are measured. */
+static int is_usable(const char *path)
+{
+    output_file output;
+    if (!path || strcmp(path, "-") == 0)
+        return 1;
+    if (!output_open(&output, name, path))
+        return 0;
+    output_discard(&output);
+    return 1;
+}
+
 static int outputs_usable(const bench_words *given)
 {
     const char *paths[] = {only_word(&given->csv), only_word(&given->markdown)};
-    for (size_t i = 0; i < 2; i++)
-        if (paths[i] && strcmp(paths[i], "-") != 0 && !output_replaceable(name, paths[i]))
-            return 0;
+    if (!is_usable(paths[0]) || !is_usable(paths[1]) || (paths[0] && !is_free_for_csv(paths[0])))
+        return 0;
     if (paths[0] && paths[1] && strcmp(paths[0], paths[1]) == 0) {
         complain(name, "--csv and --markdown both name '%s'", paths[0]);
         return 0;

@@ -124,7 +124,7 @@ static void write_advice(FILE *html, const report_subject *s)
     }
     write_reflection(html, s);
     if (s->left_out)
-        fputs(" Larger sizes were left out, for they would have taken too long to build.", html);
+        fputs(" Larger sizes were left out to keep to the time that this page may take (--seconds).", html);
     fputs("<br><code>vndf build ", html);
     chart_escape(html, s->arguments);
     fprintf(html, " --max-bytes %zu -o table.vndf</code></p>\n", s->table[s->chosen].asked);
