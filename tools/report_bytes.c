@@ -2,6 +2,7 @@
  * points. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "chart.h"
 #include "report.h"
@@ -72,11 +73,22 @@ static int write_data(report_page *page, const report *r, const byte_points *oth
     return page_data_end(page, "total variation of each size");
 }
 
+enum { LABEL_MOST = 36 };
+
+/* A formula may be longer than there is room beside a curve. */
+static void shorten(const char *text, char label[LABEL_MOST])
+{
+    snprintf(label, LABEL_MOST, "%s", text);
+    if (strlen(text) >= LABEL_MOST)
+        memcpy(label + LABEL_MOST - 4, "...", 4);
+}
+
 int report_write_bytes(report_page *page, const report *r)
 {
     static const unsigned colours[REPORT_SUBJECTS] = {0, 1, 2, 3};
     static const chart_mark marks[REPORT_SUBJECTS] = {CHART_DOT, CHART_SQUARE, CHART_TRIANGLE, CHART_DIAMOND};
     double x[REPORT_SUBJECTS][REPORT_SIZES], y[REPORT_SUBJECTS][REPORT_SIZES];
+    char label[REPORT_SUBJECTS][LABEL_MOST];
     chart_series series[REPORT_SUBJECTS + 1];
     byte_points others;
     for (size_t k = 0; k < r->count; k++) {
@@ -84,8 +96,9 @@ int report_write_bytes(report_page *page, const report *r)
             x[k][i] = (double)r->subject[k].table[i].info.bytes;
             y[k][i] = r->subject[k].table[i].tv;
         }
-        series[k] = (chart_series){r->subject[k].name, x[k], y[k], r->subject[k].count, colours[k], marks[k],
-                                   CHART_SOLID, NULL};
+        shorten(r->subject[k].name, label[k]);
+        series[k] = (chart_series){label[k], x[k], y[k], r->subject[k].count, colours[k], marks[k], CHART_SOLID,
+                                   NULL};
     }
     collect_others(&r->rows, &others);
     series[r->count] = (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE,
