@@ -291,7 +291,7 @@ static void test_interrupted_sample(int number)
 /* Rows are written at the end, so that a signal before leaves the old ones. */
 static void test_interrupted_bench(int number)
 {
-    static const char *const words[] = {"bench", "--only", "table", "--csv", "old.csv", NULL};
+    static const char *const words[] = {"bench", "--only", "table", "--markdown", "old.csv", NULL};
     put_old("old.csv");
     outcome o = interrupt(words, number, 1000, 0);
     if (!(TEST(killed(o, number)) & TEST_HAS(o.errors, "vndf bench: interrupted") & TEST(is_old("old.csv")) &

@@ -40,17 +40,17 @@ VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay,
     return aim;
 }
 
-/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
-VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
+VNDF_INLINE vndf_aim aim_in_float(const vndf_distribution *d, float x, float y, vndf_vec3 wi, lanes_m *ready)
 {
-    lanes_m ready = 1;
-    vndf_aim aim;
     if (d->kind == VNDF_KIND_TABLE)
-        aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
-    else
-        aim = vndf_aim_unit(x * wi.x, y * wi.y, wi.z, &ready);
-    if (!ready)
-        aim = aim_exactly(d, ax, ay, wi);
+        return vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, ready);
+    return vndf_aim_unit(x * wi.x, y * wi.y, wi.z, ready);
+}
+
+/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
+VNDF_INLINE vndf_view view_of(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi,
+                              vndf_aim aim)
+{
     vndf_beckmann_law law = {0.0, 0.0, 0.0};
     if (d->kind == VNDF_KIND_BECKMANN) {
         law = vndf_beckmann_law_at(aim.s, aim.c);
@@ -61,12 +61,21 @@ VNDF_INLINE vndf_view view_scaled(const vndf_distribution *d, double ax, double 
     return view;
 }
 
+/* For roughness times the table's scale, as it is and as it is drawn with. */
+static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
+{
+    lanes_m ready = 1;
+    vndf_aim aim = aim_in_float(d, x, y, wi, &ready);
+    return view_of(d, ax, ay, x, y, wi, ready ? aim : aim_exactly(d, ax, ay, wi));
+}
+
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
     return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
-vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+/* Whatever comes in. */
+VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
@@ -75,6 +84,21 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
     float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
     return view_scaled(surface->distribution, ax, ay, x, y, wi);
+}
+
+/* What is plain and ready is valid: nothing else has to be looked at. */
+vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+{
+    if (!surface || !surface->distribution)
+        return invalid_view();
+    const vndf_distribution *d = surface->distribution;
+    float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
+    lanes_m ready = 1;
+    vndf_aim aim = aim_in_float(d, x, y, wi, &ready);
+    if (!(ready & vndf_aim_is_plain(x, y, aim.c)))
+        return view_carefully(surface, wi);
+    double exact = vndf_unit_scale(d);
+    return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
 }
 
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
