@@ -31,12 +31,11 @@ VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_outcome *out, cons
         s->weight[i] = out->weight * b->carried * (float)((1.0 - f[i]) / part);
 }
 
-VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
+VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)
 {
-    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
-    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(n.facing, b->eta);
+    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(n->facing, b->eta);
     vndf_outcome out;
-    if (!(square > 0.0) || !vndf_refract(b, &n, sqrt(square), &out)) { /* reflected totally, or masked */
+    if (!(square > 0.0) || !vndf_refract(b, n, sqrt(square), &out)) { /* reflected totally, or masked */
         vndf_scatter_nothing(s);
         return;
     }
@@ -46,16 +45,15 @@ VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scatt
 
 /* The lobe is chosen by the normal that was drawn; what the choice has to do with the weight is settled afterwards.
  * Beside total reflection F changes without bound. */
-VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
+VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s)
 {
-    const vndf_choice choice = {normals, 0};
-    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0}; /* or others: here only bounded ones would differ */
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    vndf_reflectance(b, n.facing, f);
-    double square = vndf_refracted_square(n.facing, b->eta);
-    int reflects = u[2] < part_of(f) || !(square > 0.0);
-    if (!(reflects ? vndf_reflect(b, &n, choice, fabs(square) > 0.01, &out) : vndf_refract(b, &n, sqrt(square), &out))) {
+    vndf_reflectance(b, n->facing, f);
+    double square = vndf_refracted_square(n->facing, b->eta);
+    int reflects = u3 < part_of(f) || !(square > 0.0);
+    if (!(reflects ? vndf_reflect(b, n, choice, fabs(square) > 0.01, &out) : vndf_refract(b, n, sqrt(square), &out))) {
         vndf_scatter_nothing(s);
         return;
     }
@@ -65,6 +63,18 @@ VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattere
         set_reflected(b, &out, f, part_of(f), s);
     else
         set_refracted(b, &out, f, 1.0 - part_of(f), s);
+}
+
+VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
+{
+    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
+    scatter_through(b, &n, s);
+}
+
+VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
+{
+    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
+    scatter_both(b, &n, u[2], s);
 }
 
 /* ---- values ---- */
@@ -150,6 +160,13 @@ static void through_visible(const vndf_bsdf *b, const float u[3], vndf_scattered
     sample_through(b, u, s, VNDF_NORMALS_VISIBLE);
 }
 
+static void through_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
+{
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
+    (void)u3;
+    scatter_through(b, &n, s);
+}
+
 static void through_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     sample_through(b, u, s, VNDF_NORMALS_ALL);
@@ -180,6 +197,12 @@ static void both_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
     sample_both(b, u, s, VNDF_NORMALS_VISIBLE);
 }
 
+static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
+{
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
+    scatter_both(b, &n, u3, s);
+}
+
 static void both_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     sample_both(b, u, s, VNDF_NORMALS_ALL);
@@ -206,13 +229,13 @@ static float pdf_both_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 const vndf_routines vndf_routines_transmission[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through, pdf_through_all},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible, through_drawn},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through, pdf_through_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity, NULL},
 };
 
 const vndf_routines vndf_routines_both[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both, pdf_both_visible},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both, pdf_both_all},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both, pdf_both_v_cavity},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both, pdf_both_visible, both_drawn},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both, pdf_both_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both, pdf_both_v_cavity, NULL},
 };

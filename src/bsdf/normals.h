@@ -45,15 +45,19 @@ VNDF_INLINE int vndf_prepare_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec
 
 /* ---- drawing ---- */
 
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density)
+{
+    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area};
+    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+        n.quotient = (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (n.facing / density));
+    return n;
+}
+
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1, float u2)
 {
-    vndf_bsdf_normal n;
-    n.wm = vndf_sample(&b->view, u1, u2, &n.density);
-    n.facing = vndf_dot(b->view.wi, n.wm);
-    n.quotient = b->area;
-    if (b->view.distribution->kind == VNDF_KIND_TABLE)
-        n.quotient = (float)(vndf_bsdf_ndf(b, vndf_normal_of(n.wm)) * (n.facing / n.density));
-    return n;
+    float density;
+    vndf_vec3 wm = vndf_sample(&b->view, u1, u2, &density);
+    return vndf_bsdf_visible(b, wm, density);
 }
 
 /* `normals` is a constant. */

@@ -3,12 +3,11 @@
 
 #include "bsdf/scatter.h"
 
-VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
+VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s, vndf_choice choice)
 {
-    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, &n, choice, 1, &out)) {
+    if (!vndf_reflect(b, n, choice, 1, &out)) {
         vndf_scatter_nothing(s);
         return;
     }
@@ -19,6 +18,12 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
         vndf_reflectance(b, out.facing, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         s->weight[i] = choice.bare ? out.weight : out.weight * (float)f[i];
+}
+
+VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
+{
+    vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);
+    scatter(b, &n, s, choice);
 }
 
 /* wo in the frame of the hit. */
@@ -55,6 +60,14 @@ static void bare_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
     sample(b, u, s, choice);
 }
 
+static void scatter_bare(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
+{
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
+    (void)u3;
+    scatter(b, &n, s, choice);
+}
+
 static void bare_bounded(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     const vndf_choice choice = {VNDF_NORMALS_BOUNDED, 1};
@@ -79,6 +92,14 @@ static void sample_visible(const vndf_bsdf *b, const float u[3], vndf_scattered 
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
     sample(b, u, s, choice);
+}
+
+static void scatter_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
+{
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
+    (void)u3;
+    scatter(b, &n, s, choice);
 }
 
 static void sample_bounded(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -129,15 +150,15 @@ static float pdf_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare, pdf_visible},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare, pdf_bounded},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare, pdf_all},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare, pdf_visible, scatter_bare},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare, pdf_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare, pdf_all, NULL},
     /* V-cavities have a masking of their own */
 };
 
 const vndf_routines vndf_routines_reflection[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_any, pdf_visible},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_any, pdf_all},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_any, pdf_v_cavity},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_any, pdf_visible, scatter_visible},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_any, pdf_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_any, pdf_v_cavity, NULL},
 };

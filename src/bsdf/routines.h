@@ -18,7 +18,12 @@ typedef struct vndf_routines {
     void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
     float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
+    /* `sample` after vndf_sample drew wm with `density`; NULL if it draws otherwise */
+    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
 } vndf_routines;
+
+/* What the first three calls of vndf_bsdf.h do; 0 if nothing is scattered from there. */
+int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
 
 /* Reflectances at a microfacet, `cosine` = wi.wm; in double, so that 1 - f keeps its digits. */
 typedef struct vndf_fresnel_routine {
