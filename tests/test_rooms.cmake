@@ -1,19 +1,20 @@
 # Every file includes only what stands below its room: the order of the rooms under src/, and tools/ on
-# include/ alone. The run time (core, math, table, sampler) does not know vndf_build.h. Only headers of
+# include/ alone. The run time (core, math, table, sampler, bsdf) does not know vndf_build.h. Only headers of
 # the C library are used in src/, but for what is stated below.
 cmake_minimum_required(VERSION 3.16)
 
-set(rooms core math table sampler quadrature distribution build)
+set(rooms core math table sampler bsdf quadrature distribution build)
 set(below_core "")
 set(below_math core)
 set(below_table core math)
 set(below_sampler core math table)
+set(below_bsdf core math table sampler)
 set(below_quadrature "")
 set(below_distribution core math quadrature)
 # The certificate is measured with the run time itself, hence the sampler.
 set(below_build core math quadrature distribution table sampler)
 
-set(run_time core math table sampler)
+set(run_time core math table sampler bsdf)
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)
 
