@@ -1,5 +1,5 @@
 # Every file includes only what stands below its room: the order of the rooms under src/, and tools/ on
-# include/ alone. The run time (core, math, table, sampler) does not know vndf_build.h. Only headers of
+# include/ alone. The run time (core, math, table, sampler, bsdf) does not know vndf_build.h. Only headers of
 # the C library are used in src/, but for what is stated below.
 cmake_minimum_required(VERSION 3.16)
 

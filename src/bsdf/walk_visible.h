@@ -1,0 +1,11 @@
+/* The visible normals of a view at a normal in double, as a half vector is: rounded to float it would lie elsewhere
+ * in a narrow lobe. */
+#ifndef VNDF_BSDF_WALK_VISIBLE_H
+#define VNDF_BSDF_WALK_VISIBLE_H
+
+#include "sampler/closed.h"
+
+/* Dv(wm); wm is unit, facing = wi.wm > 0. 0 where wm.z < 0. */
+double vndf_walk_visible(const vndf_view *view, vndf_normal wm, double facing);
+
+#endif
