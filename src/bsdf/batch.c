@@ -87,7 +87,7 @@ typedef struct block {
     float x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], up[BLOCK];
 } block;
 
-/* The elements from `first` on, as the sampler wants them. */
+/* The elements from `first` on, as the sampler wants them: turned up. */
 static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, float *up)
 {
     const vndf_material *m = b->material;
@@ -99,11 +99,9 @@ static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, 
         part.alpha_y = b->alpha_y + at_of(b, first, VNDF_SHARED_ALPHA);
     } else
         part.shared |= VNDF_SHARED_ALPHA;
-    if (m->two_sided) {
-        for (size_t i = 0; i < heights; i++)
-            up[i] = fabsf(b->wi_z[wi + i]);
-        part.wi_z = up;
-    }
+    for (size_t i = 0; i < heights; i++)
+        up[i] = fabsf(b->wi_z[wi + i]);
+    part.wi_z = up;
     return part;
 }
 

@@ -4,6 +4,7 @@
 #include "bsdf/dielectric.h"
 #include "bsdf/fresnel.h"
 #include "bsdf/masking.h"
+#include "bsdf/multiple.h"
 #include "bsdf/rotated.h"
 #include "math/half_turn.h"
 
@@ -74,8 +75,13 @@ static const vndf_masking_routine *masking_of(const vndf_effects *e)
     }
 }
 
-static const vndf_routines *routines_of(const vndf_effects *e)
+static const vndf_routines *routines_of(const vndf_description *is)
 {
+    const vndf_effects *e = &is->effects;
+    if (e->scattering == VNDF_SCATTERING_MULTIPLE)
+        return e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f
+                   ? &vndf_routines_unbent
+                   : &vndf_routines_multiple;
     if (e->lobes == VNDF_LOBES_TRANSMISSION)
         return &vndf_routines_transmission[e->normals];
     if (e->lobes == VNDF_LOBES_BOTH)
@@ -107,7 +113,7 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
     m->fresnel = fresnel_of(e);
     m->masking = masking_of(e);
-    m->unrotated = routines_of(e);
+    m->unrotated = routines_of(is);
     m->routines = e->axes == VNDF_AXES_ROTATED ? &vndf_routines_rotated : m->unrotated;
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_rotation(m, e->axes == VNDF_AXES_ROTATED ? is->rotation : 0.0);
