@@ -183,19 +183,17 @@ static void test_integrals(void)
 {
     const float alphas[][2] = {{1e-6f, 1e-6f}, {0.3f, 0.3f}, {0.05f, 0.8f}, {10, 2}};
     double worst = 0, worst_cavity = 0;
-    uint32_t turns = oracle_quick() ? 60 : 240;
     for (int i = 0; i < SUBJECTS; i++) {
         subject s = subject_at(i);
         for (size_t j = 0; s.d && j < 4; j++) {
             law all = law_of(&s, alphas[j][0], alphas[j][1], DIRECTIONS[0], 0);
-            double one = integral(&all, 20);
+            double one = integral(&all, 8);
             TEST_NEAR(one, 1, 1e-5);
             worst = fmax(worst, fabs(one - 1));
             for (size_t w = j % 2; w < DIRECTION_COUNT; w += 2) {
                 law cavity = law_of(&s, alphas[j][0], alphas[j][1], DIRECTIONS[w], 1);
-                one = integral(&cavity, turns);
-                /* the grid does not know where normals turn away from wi: the density has a kink there */
-                TEST_NEAR(one, 1, oracle_quick() ? 1e-4 : 1e-5);
+                one = integral(&cavity, 8); /* twins are both on the grid: kinks of one are made up for by the other */
+                TEST_NEAR(one, 1, 1e-5);
                 worst_cavity = fmax(worst_cavity, fabs(one - 1));
             }
         }
@@ -300,7 +298,7 @@ static double chi_square_of(const law *l, int samples, unsigned long long seed)
 static void test_chi_square(void)
 {
     const float alphas[][2] = {{0.3f, 0.3f}, {1e-4f, 0.1f}, {2, 0.5f}};
-    const int tests = SUBJECTS * 3 * 4, samples = oracle_quick() ? 200000 : 1000000;
+    const int tests = SUBJECTS * 3 * 4, samples = oracle_quick() ? 100000 : 500000;
     double level = statistics_sidak(0.01, (size_t)tests), least = 1;
     for (int i = 0; i < SUBJECTS; i++) {
         subject s = subject_at(i);
