@@ -57,6 +57,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return _mm256_or_ps(_mm256_and_ps(sign, y), _mm256_andnot_ps(sign, x));
 }
 
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return _mm256_max_ps(a, b);
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return _mm256_set1_epi32(-1);

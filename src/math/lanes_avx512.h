@@ -59,6 +59,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
         _mm512_ternarylogic_epi32(sign, _mm512_castps_si512(y), _mm512_castps_si512(x), 0xca));
 }
 
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return _mm512_max_ps(a, b);
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return 0xffff;

@@ -38,6 +38,17 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return copysignf(x, y);
 }
 
+/* a < b ? a : b, so b for NaN; and a > b ? a : b. One instruction on x86. */
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return a < b ? a : b;
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return a > b ? a : b;
+}
+
 VNDF_INLINE int lanes_any(lanes_m m)
 {
     return m;

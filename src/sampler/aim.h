@@ -50,9 +50,8 @@ VNDF_INLINE vndf_aim vndf_aim_unit(lanes_f x, lanes_f y, lanes_f z, lanes_m *rea
 /* Whether densities may be formed in float: nothing underflows on the way. */
 VNDF_INLINE lanes_m vndf_aim_is_plain(lanes_f ax, lanes_f ay, lanes_f c)
 {
-    const lanes_f least = lanes_set(1e-4f), most = lanes_set(1e4f);
-    lanes_m low = lanes_both(lanes_at_most(least, ax), lanes_at_most(least, ay));
-    lanes_m high = lanes_both(lanes_at_most(ax, most), lanes_at_most(ay, most));
+    lanes_m low = lanes_less(lanes_set(1e-4f), lanes_least(ax, ay));
+    lanes_m high = lanes_less(lanes_most(ax, ay), lanes_set(1e4f));
     return lanes_both(lanes_both(low, high), lanes_less(lanes_set(1e-6f), c));
 }
 
