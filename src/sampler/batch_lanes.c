@@ -67,7 +67,7 @@ VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_s
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     lanes_m ready = lanes_all();
     lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
-    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
+    vndf_aim aim = vndf_aim_at(d, x, y, z, &ready);
     vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
     w.plain = lanes_both(w.plain, ready);
     return w;
@@ -203,18 +203,25 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
 
 /* ---- GGX ---- */
 
-VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    vndf_incidence shared;
+    return vndf_ggx_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                        lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+VNDF_INLINE void draw_ggx(vndf_sample_block *b)
+{
+    vndf_ggx_incidence shared;
     if (b->view)
-        shared = vndf_incidence_of(b->view);
+        shared = vndf_ggx_incidence_of(b->view);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
-        lanes_m plain = lanes_all();
+        vndf_ggx_incidence w = b->view ? shared : ggx_incidence_at(b, i);
+        lanes_m plain;
         vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
                                      &plain);
         store(b, i, &n);
-        leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
     }
 }
 
@@ -239,7 +246,7 @@ void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
 {
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)
-        draw_ggx(d, b);
+        draw_ggx(b);
     else
         draw_table(d, b);
 }

@@ -99,6 +99,7 @@ VNDF_INLINE double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal
     return vndf_beckmann_scaled(a, r, r * (x * x + y * y));
 }
 
+float vndf_beckmann_area(float s, float c); /* XXX */
 /* D exp(K^2) below the horizon. */
 VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm, double facing)
 {
@@ -114,7 +115,7 @@ VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, const vndf_stret
 {
     double weight = facing * w->per_length, s = w->s;
     if (w->c >= 0.0)
-        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
+        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / vndf_beckmann_area((float)s, (float)w->c));
     if (!(s > 0.0))
         return 0.0;
     double z = -w->c / s, n = vndf_erfc_remainder(z);

@@ -1,28 +1,61 @@
-/* GGX where all is of plain size and nothing cancels: ggx.h in float, for one or for lanes. With h = (w + cap),
- * of which the normal is the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
+/* GGX where all is of plain size: ggx.h in float, for one or for lanes. With h = (w + cap), of which the normal is
+ * the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
  *
  *     density of n = (w . n) 4/(2 pi (1 + c)) = |h|/(pi (1 + c)),
  *     of the stretched normal m/|m|, m = (ax hx, ay hy, hz):   |m|^3/(ax ay pi (1 + c) |h|^2).
  *
- * |h|^2 is above 0.005 (else ggx.h has it in double); the density is within 6e-6. */
+ * The level part (x, y) of w is not made unit to turn with: all of h is in units of its length s instead, where
+ * q = ((1 + c)/s)^2 = cot^2(theta/2), v = 1 - u2 and phi = 2 pi u1 - pi give
+ *
+ *     h = (1 + T cos(phi)) (x, y) + T sin(phi) (-y, x) + v (1 + c) z,    T^2 = u2 (1 + v q),
+ *     1 + T cos(phi) = (1 - T) + 2 T sin^2(pi u1),    1 - T = v (1 - u2 q)/(1 + T),
+ *
+ * and h times 1 + T needs no division. Three roots and two divisions in all, with the view. |h|^2 is above 0.005
+ * (else ggx.h has it in double); the density is within 7e-6. */
 #ifndef VNDF_SAMPLER_GGX_DRAW_H
 #define VNDF_SAMPLER_GGX_DRAW_H
 
 #include "math/half_turn.h"
 #include "sampler/draw.h"
 
-/* Good where *plain stays. The normal is that of vndf_ggx_sample, but for roundings; all is multiplied by r = S + T,
- * by which S - T would have to be divided. With plain roughness and r above 1e-3 nothing overflows or underflows. */
-VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_incidence *w, lanes_f u1, lanes_f u2, lanes_m *plain)
+/* Surface and stretched direction (x, y, c), of length 1. */
+typedef struct vndf_ggx_incidence {
+    lanes_f ax, ay, x, y, c, q, spread; /* spread: pi (1 + c) ax ay, the area times 2 pi */
+    lanes_m plain;
+} vndf_ggx_incidence;
+
+/* Near the normal, from q = 1e10 on, products of what is drawn could overflow; so they could where roughness is not
+ * plain. Of wi below 1e-12 squares may underflow: then q is infinite or NaN, and where they overflow c is 0. */
+VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
+{
+    lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, length = lanes_root(across2 + wi_z * wi_z);
+    lanes_f per = 1.0f / (across2 * length), per_length = across2 * per; /* of both at once */
+    lanes_f c = wi_z * per_length, up = length + wi_z;
+    vndf_ggx_incidence w = {ax, ay, x * per_length, y * per_length, c, up * up * (length * per),
+                            (ax * ay) * (3.14159265f + 3.14159265f * c), lanes_all()};
+    w.plain = lanes_both(vndf_aim_is_plain(ax, ay, c), lanes_less(w.q, lanes_set(1e10f)));
+    return w;
+}
+
+/* Of a view, the same in all lanes. */
+VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_of(const vndf_view *v)
+{
+    const float *w = v->closed;
+    vndf_ggx_incidence of = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]), lanes_set(w[2]),
+                             lanes_set(w[3]), lanes_set(w[4]), v->plain ? lanes_all() : lanes_none()};
+    return of;
+}
+
+/* Good where *plain stays. The normal is that of vndf_ggx_sample, but for roundings. */
+VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *plain)
 {
     vndf_turn turn = vndf_half_turn(u1);
-    lanes_f one = 1.0f + w->c, v = 1.0f - u2, up = v * one; /* up: height of cap, plus c */
-    lanes_f s2 = w->s * w->s, t = lanes_root(u2 * (s2 + one * up)), r = w->s + t, twice = 2.0f * (t * r) * turn.sine;
-    lanes_f x = v * (s2 - u2 * (one * one)) + twice * turn.sine, y = twice * turn.cosine, z = up * r;
-    lanes_f mx = w->ax * (w->cos_phi * x + w->sin_phi * y), my = w->ay * (w->sin_phi * x - w->cos_phi * y);
-    lanes_f h2 = (x * x + y * y) + z * z, m2 = (mx * mx + my * my) + z * z, length = lanes_root(m2);
-    lanes_f below = 6.28318531f * (w->spread * (h2 * r)), both = 1.0f / (length * below), per = below * both;
-    *plain = lanes_both(w->plain, lanes_less(0.005f * lanes_most(r * r, lanes_set(1e-6f)), h2));
+    lanes_f v = 1.0f - u2, t = lanes_root(u2 * (1.0f + v * w->q)), r = 1.0f + t, twice = 2.0f * (t * r) * turn.sine;
+    lanes_f along = v * (1.0f - u2 * w->q) + twice * turn.sine, aside = twice * turn.cosine;
+    lanes_f x = w->x * along + w->y * aside, y = w->y * along - w->x * aside, z = v * (1.0f + w->c) * r;
+    lanes_f mx = w->ax * x, my = w->ay * y, z2 = z * z, h2 = (x * x + y * y) + z2, m2 = (mx * mx + my * my) + z2;
+    lanes_f length = lanes_root(m2), below = w->spread * (h2 * r), both = 1.0f / (length * below), per = below * both;
+    *plain = lanes_both(w->plain, lanes_less(0.005f * (r * r), h2));
     vndf_drawn n = {mx * per, my * per, z * per, m2 * m2 * both};
     return n;
 }

@@ -2,6 +2,8 @@
 #ifndef VNDF_SAMPLER_SURFACE_H
 #define VNDF_SAMPLER_SURFACE_H
 
+#include <math.h>
+
 #include "core/inline.h"
 #include "table/table.h"
 #include "vndf.h"
@@ -31,7 +33,20 @@ VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, dou
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;
 }
 
-/* The view of a usable direction for roughness times the table's scale (ax, ay). */
+/* Not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
+VNDF_INLINE int vndf_is_usable_direction(vndf_vec3 w)
+{
+    double square = (double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z;
+    return square > 0.0 && square < HUGE_VAL;
+}
+
+VNDF_INLINE vndf_view vndf_invalid_view(void)
+{
+    vndf_view view = {0};
+    return view;
+}
+
+/* The view of a table, of a usable direction for roughness times the table's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
 /* vndf_sample of a valid view, where densities in float are known not to do. */

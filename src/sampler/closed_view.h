@@ -1,0 +1,20 @@
+/* The calls on a view of a closed form; view.c hands over. Uniform numbers are in [0, 1]. */
+#ifndef VNDF_SAMPLER_CLOSED_VIEW_H
+#define VNDF_SAMPLER_CLOSED_VIEW_H
+
+#include "vndf.h"
+
+/* vndf_view_from. */
+vndf_view vndf_closed_view_from(const vndf_surface *surface, vndf_vec3 wi);
+
+/* vndf_sample of a valid view, and the same where densities in float are known not to do. */
+vndf_vec3 vndf_closed_sample(const vndf_view *view, float u1, float u2, float *pdf);
+vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+
+/* vndf_pdf and vndf_visible of a valid view. */
+float vndf_closed_visible(const vndf_view *view, vndf_vec3 wm);
+
+/* vndf_invert of a valid view, wm.z >= 0, but for clamping. */
+void vndf_closed_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
+
+#endif
