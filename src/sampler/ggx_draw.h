@@ -25,15 +25,15 @@ typedef struct vndf_ggx_incidence {
 } vndf_ggx_incidence;
 
 /* Near the normal, from q = 1e10 on, products of what is drawn could overflow; so they could where roughness is not
- * plain. Of wi below 1e-12 squares may underflow: then q is infinite or NaN, and where they overflow c is 0. */
+ * plain. Beyond per = 1e36 products here underflow (wi is short); where they overflow, c is 0 or NaN. */
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, length = lanes_root(across2 + wi_z * wi_z);
-    lanes_f per = 1.0f / (across2 * length), per_length = across2 * per; /* of both at once */
-    lanes_f c = wi_z * per_length, up = length + wi_z;
-    vndf_ggx_incidence w = {ax, ay, x * per_length, y * per_length, c, up * up * (length * per),
-                            (ax * ay) * (3.14159265f + 3.14159265f * c), lanes_all()};
-    w.plain = lanes_both(vndf_aim_is_plain(ax, ay, c), lanes_less(w.q, lanes_set(1e10f)));
+    lanes_f per = 1.0f / (across2 * length), up = length + wi_z; /* of both at once */
+    lanes_f c = wi_z * across2 * per, spread = 3.14159265f * (ax * ay);
+    vndf_ggx_incidence w = {ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per,
+                            spread + spread * c, lanes_all()};
+    w.plain = lanes_both(vndf_aim_is_plain(ax, ay, c), lanes_less(lanes_most(w.q, 1e-26f * per), lanes_set(1e10f)));
     return w;
 }
 
@@ -50,11 +50,12 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_of(const vndf_view *v)
 VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *plain)
 {
     vndf_turn turn = vndf_half_turn(u1);
-    lanes_f v = 1.0f - u2, t = lanes_root(u2 * (1.0f + v * w->q)), r = 1.0f + t, twice = 2.0f * (t * r) * turn.sine;
-    lanes_f along = v * (1.0f - u2 * w->q) + twice * turn.sine, aside = twice * turn.cosine;
+    lanes_f v = 1.0f - u2, t2 = u2 + u2 * v * w->q, t = lanes_root(t2), r = 1.0f + t, tr = t + t2;
+    lanes_f twice = 2.0f * turn.sine, aside = tr * (twice * turn.cosine);
+    lanes_f along = v * (1.0f - u2 * w->q) + tr * (twice * turn.sine);
     lanes_f x = w->x * along + w->y * aside, y = w->y * along - w->x * aside, z = v * (1.0f + w->c) * r;
     lanes_f mx = w->ax * x, my = w->ay * y, z2 = z * z, h2 = (x * x + y * y) + z2, m2 = (mx * mx + my * my) + z2;
-    lanes_f length = lanes_root(m2), below = w->spread * (h2 * r), both = 1.0f / (length * below), per = below * both;
+    lanes_f length = lanes_root(m2), below = w->spread * r * h2, both = 1.0f / (length * below), per = below * both;
     *plain = lanes_both(w->plain, lanes_less(0.005f * (r * r), h2));
     vndf_drawn n = {mx * per, my * per, z * per, m2 * m2 * both};
     return n;
