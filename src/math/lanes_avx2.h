@@ -132,6 +132,16 @@ VNDF_INLINE lanes_u lanes_whole(lanes_f x)
     return (lanes_u)_mm256_cvttps_epi32(x);
 }
 
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    return _mm256_castsi256_ps((__m256i)x);
+}
+
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    return _mm256_cvtepi32_ps((__m256i)x);
+}
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return _mm256_i32gather_ps(base, (__m256i)index, 4);

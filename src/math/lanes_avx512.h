@@ -135,6 +135,16 @@ VNDF_INLINE lanes_u lanes_whole(lanes_f x)
     return (lanes_u)_mm512_cvttps_epi32(x);
 }
 
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    return _mm512_castsi512_ps((__m512i)x);
+}
+
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    return _mm512_cvtepi32_ps((__m512i)x);
+}
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return _mm512_i32gather_ps((__m512i)index, base, 4);

@@ -118,6 +118,21 @@ VNDF_INLINE lanes_u lanes_whole(lanes_f x)
     return (uint32_t)(int32_t)x;
 }
 
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    float number;
+    memcpy(&number, &x, sizeof number);
+    return number;
+}
+
+/* x as a signed integer. */
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    int32_t whole;
+    memcpy(&whole, &x, sizeof whole);
+    return (float)whole;
+}
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return base[index];

@@ -252,8 +252,7 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
 /* Whether lanes draw most samples of a batch. */
 static int has_lanes(const vndf_batch *b)
 {
-    return b->count > 1 && b->distribution && b->distribution->kind != VNDF_KIND_BECKMANN &&
-           vndf_unit_scale_float(b->distribution) > 0.0f &&
+    return b->count > 1 && b->distribution && vndf_unit_scale_float(b->distribution) > 0.0f &&
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 

@@ -1,6 +1,7 @@
 /* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
 #include "sampler/batch_lanes.h"
 
+#include "sampler/beckmann_draw.h"
 #include "sampler/ggx_draw.h"
 #include "sampler/surface.h"
 
@@ -225,6 +226,30 @@ VNDF_INLINE void draw_ggx(vndf_sample_block *b)
     }
 }
 
+/* ---- Beckmann ---- */
+
+VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_block *b, uint32_t i)
+{
+    return vndf_beckmann_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                             lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+VNDF_INLINE void draw_beckmann(vndf_sample_block *b)
+{
+    vndf_beckmann_incidence shared;
+    if (b->view)
+        shared = vndf_beckmann_incidence_of(b->view);
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        vndf_beckmann_incidence w = b->view ? shared : beckmann_incidence_at(b, i);
+        lanes_m plain;
+        vndf_drawn n = vndf_beckmann_lanes(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
+                                           &plain);
+        store(b, i, &n);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+    }
+}
+
 static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     work all;
@@ -247,6 +272,8 @@ void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)
         draw_ggx(b);
+    else if (d->kind == VNDF_KIND_BECKMANN)
+        draw_beckmann(b);
     else
         draw_table(d, b);
 }

@@ -5,6 +5,7 @@
 
 #include "math/vector.h"
 #include "sampler/beckmann.h"
+#include "sampler/beckmann_draw.h"
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
 #include "sampler/ggx_draw.h"
@@ -30,7 +31,19 @@ static vndf_view view_ggx(const vndf_surface *surface, vndf_vec3 wi)
     if (!w.plain)
         return view_carefully(surface, wi);
     vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
-                      .ay = w.ay, .plain = 1, .closed = {w.x, w.y, w.c, w.q, w.spread, 0.0f}};
+                      .ay = w.ay, .plain = 1, .closed = {w.x, w.y, w.c, w.q, w.spread}};
+    return view;
+}
+
+static vndf_view view_beckmann(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    if (!w.plain)
+        return view_carefully(surface, wi);
+    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
+                      .ay = w.ay, .plain = 1,
+                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.start[0], w.start[1],
+                                 w.start[2], w.start[3], w.start[4]}};
     return view;
 }
 
@@ -38,7 +51,7 @@ vndf_view vndf_closed_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     if (surface->distribution->kind == VNDF_KIND_GGX)
         return view_ggx(surface, wi);
-    return view_carefully(surface, wi);
+    return view_beckmann(surface, wi);
 }
 
 /* A view with its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
@@ -115,9 +128,21 @@ static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pd
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
+static vndf_vec3 sample_beckmann(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
+    lanes_m plain;
+    vndf_drawn n = vndf_beckmann_lanes(&w, u1, u2, &plain);
+    if (!plain)
+        return vndf_closed_sample_carefully(view, u1, u2, pdf);
+    if (pdf)
+        *pdf = n.density;
+    return vndf_vec3_of(n.x, n.y, n.z);
+}
+
 vndf_vec3 vndf_closed_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     if (view->distribution->kind == VNDF_KIND_GGX)
         return sample_ggx(view, u1, u2, pdf);
-    return vndf_closed_sample_carefully(view, u1, u2, pdf);
+    return sample_beckmann(view, u1, u2, pdf);
 }
