@@ -152,7 +152,7 @@ typedef struct vndf_view {
     double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
     float ax, ay;                  /* the same */
     int plain;                     /* densities may be formed in float */
-    float closed[11];              /* closed forms: what drawing in float takes, 0 where it is not plain */
+    float closed[12];              /* closed forms: what drawing in float takes, 0 where it is not plain */
     /* The others are of tables, and 0 for closed forms. */
     float s, c, cos_phi, sin_phi;  /* stretched direction: across (>= 0), along z; its azimuth */
     float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */

@@ -21,8 +21,8 @@ typedef struct vndf_exp_parts {
 VNDF_INLINE vndf_exp_parts vndf_exp_parts_lanes(lanes_f x)
 {
     lanes_f shifted = x * 1.44269504f + 12583039.0f, r = x - (shifted - 12583039.0f) * 0.693147181f;
-    lanes_f high = 0.041666201f + r * (0.00836907296f + r * 0.00139508087f);
-    vndf_exp_parts e = {r + r * r * (0.5f + r * (0.166665173f + r * high)), lanes_of_bits(lanes_bits(shifted) << 23)};
+    lanes_f r2 = r * r, high = (0.041666201f + r * 0.00836907296f) + r2 * 0.00139508087f;
+    vndf_exp_parts e = {r + r2 * ((0.5f + r * 0.166665173f) + r2 * high), lanes_of_bits(lanes_bits(shifted) << 23)};
     return e;
 }
 

@@ -112,6 +112,11 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(m));
 }
 
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return lanes_pick(m, lanes_set(pair[1]), lanes_set(pair[0]));
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return (lanes_u)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, m);

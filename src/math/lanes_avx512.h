@@ -114,6 +114,11 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return _mm512_mask_blend_ps(m, no, yes);
 }
 
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return lanes_pick(m, lanes_set(pair[1]), lanes_set(pair[0]));
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return (lanes_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);

@@ -100,6 +100,12 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return m ? yes : no;
 }
 
+/* The second where m, without a branch that nothing would foresee. */
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return pair[m];
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return m ? yes : no;

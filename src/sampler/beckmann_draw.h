@@ -27,42 +27,29 @@ enum { VNDF_BECKMANN_STARTS = 5 };
 /* Surface and stretched direction: K, and (2 sqrt(pi)/s) F(K) = 1 + line + tail, line = 2 sqrt(pi) K. */
 typedef struct vndf_beckmann_incidence {
     lanes_f ax, ay, cos_phi, sin_phi, bound, line, tail, spread;
-    lanes_f start[VNDF_BECKMANN_STARTS]; /* coefficients of p */
+    lanes_f near, start[VNDF_BECKMANN_STARTS]; /* 1 for K < 2, else 0; coefficients of p */
     lanes_m plain;
 } vndf_beckmann_incidence;
 
-/* p = sum of z^i (a_i + b_i k + c_i k^2), k = K and 1/(2 K). */
-static const float vndf_beckmann_near[VNDF_BECKMANN_STARTS][3] = {
-    {0.9017575f, 0.28920737f, 0.00610779161f},
-    {-0.36569033f, -0.0296682779f, 0.0287441877f},
-    {-0.00889518807f, -0.051461236f, 0.0201775108f},
-    {0.00798591851f, -0.00271550706f, -0.00188155088f},
-    {0.00177108034f, 0.00383808773f, -0.00235014441f},
+/* p = sum of z^i (a_i + b_i k + c_i k^2), k the lesser of K and 4/K; for K >= 2 and for K < 2. */
+static const float vndf_beckmann_starts[VNDF_BECKMANN_STARTS][3][2] = {
+    {{-0.00170040639f, 0.9017575f}, {0.135259418f, 0.28920737f}, {-0.00489802073f, 0.00610779161f}},
+    {{0.00880105618f, -0.36569033f}, {0.0091959214f, -0.0296682779f}, {0.00669192853f, 0.0287441877f}},
+    {{0.0013695223f, -0.00889518807f}, {-0.00863748644f, -0.051461236f}, {0.00479493748f, 0.0201775108f}},
+    {{-0.00132920409f, 0.00798591851f}, {-0.00405786226f, -0.00271550706f}, {0.00460161987f, -0.00188155088f}},
+    {{7.23658072e-05f, 0.00177108034f}, {-0.000398632971f, 0.00383808773f}, {0.00128372159f, -0.00235014441f}},
 };
-static const float vndf_beckmann_far[VNDF_BECKMANN_STARTS][3] = {
-    {-0.00170040639f, 1.08207534f, -0.313473327f},
-    {0.00880105618f, 0.0735673712f, 0.428283426f},
-    {0.0013695223f, -0.0690998915f, 0.306875999f},
-    {-0.00132920409f, -0.0324628981f, 0.294503672f},
-    {7.23658072e-5f, -0.00318906377f, 0.082158182f},
-};
+static const float vndf_beckmann_nearness[2] = {0.0f, 1.0f};
 
-VNDF_INLINE lanes_m vndf_beckmann_is_near(lanes_f bound)
+/* `inverse` is 1/K. */
+VNDF_INLINE void vndf_beckmann_start(vndf_beckmann_incidence *w, lanes_f inverse)
 {
-    return lanes_less(bound, lanes_set(2.0f));
-}
-
-/* `half` is 1/(2 K). */
-VNDF_INLINE void vndf_beckmann_start(vndf_beckmann_incidence *w, lanes_f half)
-{
-    lanes_m near = vndf_beckmann_is_near(w->bound);
-    lanes_f k = lanes_pick(near, w->bound, half);
+    lanes_m near = lanes_less(w->bound, lanes_set(2.0f));
+    lanes_f k = lanes_least(w->bound, 4.0f * inverse);
+    w->near = lanes_one_of(vndf_beckmann_nearness, near);
     for (int i = 0; i < VNDF_BECKMANN_STARTS; i++) {
-        const float *n = vndf_beckmann_near[i], *f = vndf_beckmann_far[i];
-        lanes_f a = lanes_pick(near, lanes_set(n[0]), lanes_set(f[0]));
-        lanes_f b = lanes_pick(near, lanes_set(n[1]), lanes_set(f[1]));
-        lanes_f c = lanes_pick(near, lanes_set(n[2]), lanes_set(f[2]));
-        w->start[i] = a + k * (b + k * c);
+        const float(*c)[2] = vndf_beckmann_starts[i];
+        w->start[i] = lanes_one_of(c[0], near) + k * (lanes_one_of(c[1], near) + k * lanes_one_of(c[2], near));
     }
 }
 
@@ -76,8 +63,8 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
     vndf_erfc_ratio e = vndf_erfc_lanes(z);
     lanes_f part = z * e.above / e.below, less = vndf_exp_less_one_lanes(-(z * z)), tail = less - (part + part * less);
     vndf_beckmann_incidence w = {ax, ay, x * per, y * per, bound, line, tail,
-                                 0.886226925f * (1.0f + (line + tail)) * (ax * ay), {lanes_set(0.0f)}, lanes_all()};
-    vndf_beckmann_start(&w, 0.5f * across2 * both);
+                                 0.886226925f * (1.0f + (line + tail)) * (ax * ay), lanes_set(0.0f), {lanes_set(0.0f)}, lanes_all()};
+    vndf_beckmann_start(&w, across2 * both);
     w.plain = lanes_both(vndf_aim_is_plain(ax, ay, bound), lanes_less(lanes_most(bound, per), lanes_set(1e10f)));
     return w;
 }
@@ -88,8 +75,8 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_of(const vndf_view *
     const float *w = v->closed;
     vndf_beckmann_incidence of = {
         lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]), lanes_set(w[2]), lanes_set(w[3]),
-        lanes_set(w[4]), lanes_set(w[5]),
-        {lanes_set(w[6]), lanes_set(w[7]), lanes_set(w[8]), lanes_set(w[9]), lanes_set(w[10])},
+        lanes_set(w[4]), lanes_set(w[5]), lanes_set(w[6]),
+        {lanes_set(w[7]), lanes_set(w[8]), lanes_set(w[9]), lanes_set(w[10]), lanes_set(w[11])},
         v->plain ? lanes_all() : lanes_none()};
     return of;
 }
@@ -99,17 +86,28 @@ typedef struct vndf_beckmann_place {
     lanes_f x, d;
 } vndf_beckmann_place;
 
-/* Where to start; `product` is 4 u (1 - u). */
-VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidence *w, lanes_f u, lanes_f product)
+/* 1 at u = 1/2, 0 at both ends. */
+VNDF_INLINE lanes_f vndf_beckmann_product(lanes_f u)
 {
-    lanes_f l = 127.0f - lanes_float(lanes_bits(product)) * 0x1p-23f; /* -log2 */
-    lanes_f z = (u - (1.0f - u)) * (0.880354f + l * (0.176364f + l * (-7.7609e-4f - l * 9.60636e-5f)));
+    return 4.0f * u * (1.0f - u);
+}
+
+/* Where to start. */
+VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidence *w, lanes_f u)
+{
+    lanes_f l = 127.0f - lanes_float(lanes_bits(vndf_beckmann_product(u))) * 0x1p-23f; /* -log2 */
+    lanes_f z = (u - (1.0f - u)) * ((0.880354f + l * 0.176364f) - l * l * (7.7609e-4f + l * 9.60636e-5f));
     const lanes_f *c = w->start;
-    lanes_f p = c[0] + z * (c[1] + z * (c[2] + z * (c[3] + z * c[4])));
-    lanes_m near = vndf_beckmann_is_near(w->bound);
-    lanes_f x = lanes_pick(near, w->bound - p * p, z - p);
-    vndf_beckmann_place at = {x, lanes_pick(near, p * p, w->bound - x)};
+    lanes_f z2 = z * z, p = (c[0] + z * c[1]) + z2 * ((c[2] + z * c[3]) + z2 * c[4]);
+    lanes_f x = (z + w->near * (w->bound - z)) - p * (1.0f + w->near * (p - 1.0f)); /* K - p^2 or z - p */
+    vndf_beckmann_place at = {x, w->bound - x};
     return at;
+}
+
+/* `left` for x < 0, else `right`: left <= right, from -1 to 1. No branch would foresee the sign. */
+VNDF_INLINE lanes_f vndf_beckmann_by_sign(lanes_f x, lanes_f left, lanes_f right)
+{
+    return lanes_least(lanes_most(lanes_sign(lanes_set(2.0f), x), left), right);
 }
 
 /* F''/F' = -1/d - 2x and F'''/F' = 4x/d + 4x^2 - 2. `rest` is (2 sqrt(pi)/s) (u F(K) - what F has more for x >= 0),
@@ -117,8 +115,7 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidenc
 VNDF_INLINE vndf_beckmann_place vndf_beckmann_step(const vndf_beckmann_incidence *w, vndf_beckmann_place at, lanes_f u)
 {
     vndf_erfc_ratio e = vndf_erfc_lanes(lanes_abs(at.x));
-    lanes_m left = lanes_less(at.x, lanes_set(0.0f));
-    lanes_f v = 1.0f - u, lean = lanes_pick(left, -u, v) * w->line, t = u * w->tail, rest = u + (t - lean);
+    lanes_f v = 1.0f - u, lean = vndf_beckmann_by_sign(at.x, -u, v) * w->line, t = u * w->tail, rest = u + (t - lean);
     lanes_f per = 1.0f / (at.d * e.below), nearness = per * e.below;
     lanes_f miss = (v + (lean - t)) - rest * vndf_exp_less_one_lanes(at.x * at.x);
     lanes_f h = 0.5f * per * (miss * e.below - lanes_sign(w->bound * e.above, at.x));
@@ -138,17 +135,21 @@ VNDF_INLINE lanes_m vndf_beckmann_is_plain(const vndf_beckmann_incidence *w, con
     return lanes_both(w->plain, lanes_both(inside, lanes_less(0.06f * terms, at->d)));
 }
 
-/* Good where *plain stays. */
-VNDF_INLINE vndf_drawn vndf_beckmann_lanes(const vndf_beckmann_incidence *w, lanes_f u1, lanes_f u2, lanes_m *plain)
+VNDF_INLINE lanes_f vndf_beckmann_second(lanes_f u)
 {
-    lanes_f product1 = 4.0f * u1 * (1.0f - u1), product2 = 4.0f * u2 * (1.0f - u2);
-    vndf_beckmann_place at = vndf_beckmann_step(w, vndf_beckmann_first(w, u1, product1), u1);
-    lanes_f y = vndf_quantile_lanes(u2, -vndf_log_lanes(product2)), square = at.x * at.x + y * y;
-    lanes_f mx = w->ax * (w->sin_phi * y - w->cos_phi * at.x), my = -w->ay * (w->sin_phi * at.x + w->cos_phi * y);
+    return vndf_quantile_lanes(u, -vndf_log_lanes(vndf_beckmann_product(u)));
+}
+
+/* The normal of two slopes. Good where *plain stays. */
+VNDF_INLINE vndf_drawn vndf_beckmann_normal(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at, lanes_f y,
+                                            lanes_f product, lanes_m *plain)
+{
+    lanes_f square = at->x * at->x + y * y;
+    lanes_f mx = w->ax * (w->sin_phi * y - w->cos_phi * at->x), my = -w->ay * (w->sin_phi * at->x + w->cos_phi * y);
     lanes_f m2 = (mx * mx + my * my) + 1.0f, length = lanes_root(m2);
     lanes_f both = 1.0f / (length * w->spread), per = w->spread * both;
-    *plain = vndf_beckmann_is_plain(w, &at, y, square, lanes_least(product1, product2));
-    vndf_drawn n = {mx * per, my * per, per, vndf_exp_lanes(-square) * at.d * (m2 * m2 * both)};
+    *plain = vndf_beckmann_is_plain(w, at, y, square, product);
+    vndf_drawn n = {mx * per, my * per, per, vndf_exp_lanes(-square) * at->d * (m2 * m2 * both)};
     return n;
 }
 

@@ -42,8 +42,8 @@ static vndf_view view_beckmann(const vndf_surface *surface, vndf_vec3 wi)
         return view_carefully(surface, wi);
     vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
                       .ay = w.ay, .plain = 1,
-                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.start[0], w.start[1],
-                                 w.start[2], w.start[3], w.start[4]}};
+                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.start[0],
+                                 w.start[1], w.start[2], w.start[3], w.start[4]}};
     return view;
 }
 
@@ -132,7 +132,9 @@ static vndf_vec3 sample_beckmann(const vndf_view *view, float u1, float u2, floa
 {
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m plain;
-    vndf_drawn n = vndf_beckmann_lanes(&w, u1, u2, &plain);
+    lanes_f y = vndf_beckmann_second(u2), product = lanes_least(vndf_beckmann_product(u1), vndf_beckmann_product(u2));
+    vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
+    vndf_drawn n = vndf_beckmann_normal(&w, &at, y, product, &plain);
     if (!plain)
         return vndf_closed_sample_carefully(view, u1, u2, pdf);
     if (pdf)
