@@ -27,7 +27,7 @@ enum { VNDF_BECKMANN_STARTS = 5 };
 /* Surface and stretched direction: K, and (2 sqrt(pi)/s) F(K) = 1 + line + tail, line = 2 sqrt(pi) K. */
 typedef struct vndf_beckmann_incidence {
     lanes_f ax, ay, cos_phi, sin_phi, bound, line, tail, spread;
-    lanes_f near, start[VNDF_BECKMANN_STARTS]; /* 1 for K < 2, else 0; coefficients of p */
+    lanes_f near, p0, p1, p2, p3, p4; /* 1 for K < 2, else 0; coefficients of p */
     lanes_m plain;
 } vndf_beckmann_incidence;
 
@@ -41,31 +41,34 @@ static const float vndf_beckmann_starts[VNDF_BECKMANN_STARTS][3][2] = {
 };
 static const float vndf_beckmann_nearness[2] = {0.0f, 1.0f};
 
-/* `inverse` is 1/K. */
-VNDF_INLINE void vndf_beckmann_start(vndf_beckmann_incidence *w, lanes_f inverse)
+/* exp(-K^2) (1 - K E(K)) - 1; 3e-9 is left of the first term where K is beyond 4. */
+VNDF_INLINE lanes_f vndf_beckmann_tail(lanes_f bound)
 {
-    lanes_m near = lanes_less(w->bound, lanes_set(2.0f));
-    lanes_f k = lanes_least(w->bound, 4.0f * inverse);
-    w->near = lanes_one_of(vndf_beckmann_nearness, near);
-    for (int i = 0; i < VNDF_BECKMANN_STARTS; i++) {
-        const float(*c)[2] = vndf_beckmann_starts[i];
-        w->start[i] = lanes_one_of(c[0], near) + k * (lanes_one_of(c[1], near) + k * lanes_one_of(c[2], near));
-    }
+    lanes_f z = lanes_limit(bound, 4.0f), less = vndf_exp_less_one_lanes(-(z * z));
+    vndf_erfc_ratio e = vndf_erfc_lanes(z);
+    lanes_f part = z * e.above / e.below;
+    return less - (part + part * less);
 }
 
-/* exp(-K^2) (1 - K E(K)) = 1 + tail, 3e-9 where K is beyond 4. */
+/* k is the lesser of K and 4/K. */
+VNDF_INLINE lanes_f vndf_beckmann_start(int i, lanes_f k, lanes_m near)
+{
+    const float(*c)[2] = vndf_beckmann_starts[i];
+    return lanes_one_of(c[0], near) + k * (lanes_one_of(c[1], near) + k * lanes_one_of(c[2], near));
+}
+
 VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y,
                                                       lanes_f wi_z)
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, across = lanes_root(across2);
     lanes_f both = 1.0f / (across * wi_z), per = wi_z * both, bound = wi_z * per;
-    lanes_f z = lanes_limit(bound, 4.0f), line = 3.54490770f * bound;
-    vndf_erfc_ratio e = vndf_erfc_lanes(z);
-    lanes_f part = z * e.above / e.below, less = vndf_exp_less_one_lanes(-(z * z)), tail = less - (part + part * less);
-    vndf_beckmann_incidence w = {ax, ay, x * per, y * per, bound, line, tail,
-                                 0.886226925f * (1.0f + (line + tail)) * (ax * ay), lanes_set(0.0f), {lanes_set(0.0f)}, lanes_all()};
-    vndf_beckmann_start(&w, across2 * both);
-    w.plain = lanes_both(vndf_aim_is_plain(ax, ay, bound), lanes_less(lanes_most(bound, per), lanes_set(1e10f)));
+    lanes_f line = 3.54490770f * bound, tail = vndf_beckmann_tail(bound), k = lanes_least(bound, across2 * both * 4.0f);
+    lanes_m near = lanes_less(bound, lanes_set(2.0f));
+    vndf_beckmann_incidence w = {
+        ax, ay, x * per, y * per, bound, line, tail, 0.886226925f * (1.0f + (line + tail)) * (ax * ay),
+        lanes_one_of(vndf_beckmann_nearness, near), vndf_beckmann_start(0, k, near), vndf_beckmann_start(1, k, near),
+        vndf_beckmann_start(2, k, near), vndf_beckmann_start(3, k, near), vndf_beckmann_start(4, k, near),
+        lanes_both(vndf_aim_is_plain(ax, ay, bound), lanes_less(lanes_most(bound, per), lanes_set(1e10f)))};
     return w;
 }
 
@@ -76,7 +79,7 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_of(const vndf_view *
     vndf_beckmann_incidence of = {
         lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]), lanes_set(w[2]), lanes_set(w[3]),
         lanes_set(w[4]), lanes_set(w[5]), lanes_set(w[6]),
-        {lanes_set(w[7]), lanes_set(w[8]), lanes_set(w[9]), lanes_set(w[10]), lanes_set(w[11])},
+        lanes_set(w[7]), lanes_set(w[8]), lanes_set(w[9]), lanes_set(w[10]), lanes_set(w[11]),
         v->plain ? lanes_all() : lanes_none()};
     return of;
 }
@@ -97,8 +100,7 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidenc
 {
     lanes_f l = 127.0f - lanes_float(lanes_bits(vndf_beckmann_product(u))) * 0x1p-23f; /* -log2 */
     lanes_f z = (u - (1.0f - u)) * ((0.880354f + l * 0.176364f) - l * l * (7.7609e-4f + l * 9.60636e-5f));
-    const lanes_f *c = w->start;
-    lanes_f z2 = z * z, p = (c[0] + z * c[1]) + z2 * ((c[2] + z * c[3]) + z2 * c[4]);
+    lanes_f z2 = z * z, p = (w->p0 + z * w->p1) + z2 * ((w->p2 + z * w->p3) + z2 * w->p4);
     lanes_f x = (z + w->near * (w->bound - z)) - p * (1.0f + w->near * (p - 1.0f)); /* K - p^2 or z - p */
     vndf_beckmann_place at = {x, w->bound - x};
     return at;

@@ -42,8 +42,8 @@ static vndf_view view_beckmann(const vndf_surface *surface, vndf_vec3 wi)
         return view_carefully(surface, wi);
     vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
                       .ay = w.ay, .plain = 1,
-                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.start[0],
-                                 w.start[1], w.start[2], w.start[3], w.start[4]}};
+                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1, w.p2,
+                                 w.p3, w.p4}};
     return view;
 }
 
