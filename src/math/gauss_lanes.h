@@ -2,8 +2,8 @@
  * drawn with where all is of plain size. Errors before rounding, which adds some 1e-7; each polynomial was fitted
  * for the least largest error of its kind, by weighted least squares.
  *
- *   exp       |x| <= 80. x = k log 2 + r: k + 127 appears in the low bits of a sum that is too large for
- *             fractions, and goes from there to the exponent. Relative error 4e-9, and 6e-8 x from k log 2.
+ *   exp       |x| <= 80. 2^(k + r): k + 127 appears in the low bits of a sum that is too large for fractions, and
+ *             goes from there to the exponent. Relative error 4e-9, and 6e-8 x from the product with log2(e).
  *   log       x = 2^k m, 1/sqrt(2) <= m < sqrt(2); log(m)/(m - 1) a polynomial: absolute error 2.1e-7.
  *   quantile  y with (1 + erf y)/2 = u is (2u - 1) P(w), w = -log(4 u (1 - u)) (Giles, "Approximating the erfinv
  *             function", GPU Computing Gems 2, 2011), P of degree 10 for w < 8: relative error 9e-8.
@@ -20,9 +20,10 @@ typedef struct vndf_exp_parts {
 
 VNDF_INLINE vndf_exp_parts vndf_exp_parts_lanes(lanes_f x)
 {
-    lanes_f shifted = x * 1.44269504f + 12583039.0f, r = x - (shifted - 12583039.0f) * 0.693147181f;
-    lanes_f r2 = r * r, high = (0.041666201f + r * 0.00836907296f) + r2 * 0.00139508087f;
-    vndf_exp_parts e = {r + r2 * ((0.5f + r * 0.166665173f) + r2 * high), lanes_of_bits(lanes_bits(shifted) << 23)};
+    lanes_f t = x * 1.44269504f, shifted = t + 12583039.0f, r = t - (shifted - 12583039.0f), r2 = r * r;
+    lanes_f high = (0.00961802162f + r * 0.00133907425f) + r2 * 0.000154722028f;
+    vndf_exp_parts e = {r * 0.693147181f + r2 * ((0.240226507f + r * 0.0555036112f) + r2 * high),
+                        lanes_of_bits(lanes_bits(shifted) << 23)};
     return e;
 }
 

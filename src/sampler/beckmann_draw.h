@@ -101,7 +101,7 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidenc
     lanes_f l = 127.0f - lanes_float(lanes_bits(vndf_beckmann_product(u))) * 0x1p-23f; /* -log2 */
     lanes_f z = (u - (1.0f - u)) * ((0.880354f + l * 0.176364f) - l * l * (7.7609e-4f + l * 9.60636e-5f));
     lanes_f z2 = z * z, p = (w->p0 + z * w->p1) + z2 * ((w->p2 + z * w->p3) + z2 * w->p4);
-    lanes_f x = (z + w->near * (w->bound - z)) - p * (1.0f + w->near * (p - 1.0f)); /* K - p^2 or z - p */
+    lanes_f far = 1.0f - w->near, x = (far * z + w->near * w->bound) - p * (far + w->near * p); /* z - p or K - p^2 */
     vndf_beckmann_place at = {x, w->bound - x};
     return at;
 }
