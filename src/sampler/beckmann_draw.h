@@ -40,11 +40,13 @@ static const float vndf_beckmann_starts[VNDF_BECKMANN_STARTS][3][2] = {
     {{7.23658072e-05f, 0.00177108034f}, {-0.000398632971f, 0.00383808773f}, {0.00128372159f, -0.00235014441f}},
 };
 static const float vndf_beckmann_nearness[2] = {0.0f, 1.0f};
+/* Up to where K is looked at for the tail. A number would make gcc compile a branch that nothing foresees. */
+static const float vndf_beckmann_most[2] = {4.0f, 2.0f};
 
 /* exp(-K^2) (1 - K E(K)) - 1; 3e-9 is left of the first term where K is beyond 4. */
-VNDF_INLINE lanes_f vndf_beckmann_tail(lanes_f bound)
+VNDF_INLINE lanes_f vndf_beckmann_tail(lanes_f bound, lanes_m near)
 {
-    lanes_f z = lanes_limit(bound, 4.0f), less = vndf_exp_less_one_lanes(-(z * z));
+    lanes_f z = lanes_least(bound, lanes_one_of(vndf_beckmann_most, near)), less = vndf_exp_less_one_lanes(-(z * z));
     vndf_erfc_ratio e = vndf_erfc_lanes(z);
     lanes_f part = z * e.above / e.below;
     return less - (part + part * less);
@@ -62,8 +64,9 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, across = lanes_root(across2);
     lanes_f both = 1.0f / (across * wi_z), per = wi_z * both, bound = wi_z * per;
-    lanes_f line = 3.54490770f * bound, tail = vndf_beckmann_tail(bound), k = lanes_least(bound, across2 * both * 4.0f);
     lanes_m near = lanes_less(bound, lanes_set(2.0f));
+    lanes_f line = 3.54490770f * bound, tail = vndf_beckmann_tail(bound, near);
+    lanes_f k = lanes_least(bound, across2 * both * 4.0f);
     vndf_beckmann_incidence w = {
         ax, ay, x * per, y * per, bound, line, tail, 0.886226925f * (1.0f + (line + tail)) * (ax * ay),
         lanes_one_of(vndf_beckmann_nearness, near), vndf_beckmann_start(0, k, near), vndf_beckmann_start(1, k, near),

@@ -14,8 +14,7 @@
 
 /* ---- views ---- */
 
-/* Where float does not do. */
-VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !vndf_is_usable_direction(wi))
@@ -25,33 +24,16 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
-static vndf_view view_ggx(const vndf_surface *surface, vndf_vec3 wi)
-{
-    vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
-    if (!w.plain)
-        return view_carefully(surface, wi);
-    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
-                      .ay = w.ay, .plain = 1, .closed = {w.x, w.y, w.c, w.q, w.spread}};
-    return view;
-}
-
-static vndf_view view_beckmann(const vndf_surface *surface, vndf_vec3 wi)
+vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
-        return view_carefully(surface, wi);
+        return vndf_closed_view_carefully(surface, wi);
     vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
                       .ay = w.ay, .plain = 1,
                       .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1, w.p2,
                                  w.p3, w.p4}};
     return view;
-}
-
-vndf_view vndf_closed_view_from(const vndf_surface *surface, vndf_vec3 wi)
-{
-    if (surface->distribution->kind == VNDF_KIND_GGX)
-        return view_ggx(surface, wi);
-    return view_beckmann(surface, wi);
 }
 
 /* A view with its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
@@ -116,7 +98,7 @@ vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2
     return wm;
 }
 
-static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_ggx_incidence w = vndf_ggx_incidence_of(view);
     lanes_m plain;
@@ -128,7 +110,7 @@ static vndf_vec3 sample_ggx(const vndf_view *view, float u1, float u2, float *pd
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
-static vndf_vec3 sample_beckmann(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m plain;
@@ -140,11 +122,4 @@ static vndf_vec3 sample_beckmann(const vndf_view *view, float u1, float u2, floa
     if (pdf)
         *pdf = n.density;
     return vndf_vec3_of(n.x, n.y, n.z);
-}
-
-vndf_vec3 vndf_closed_sample(const vndf_view *view, float u1, float u2, float *pdf)
-{
-    if (view->distribution->kind == VNDF_KIND_GGX)
-        return sample_ggx(view, u1, u2, pdf);
-    return sample_beckmann(view, u1, u2, pdf);
 }

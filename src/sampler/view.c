@@ -43,12 +43,14 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
     return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
-/* Whatever comes in, of a table. */
+/* Whatever comes in. */
 VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !vndf_is_usable_direction(wi))
         return vndf_invalid_view();
+    if (surface->distribution->kind != VNDF_KIND_TABLE)
+        return vndf_closed_view_carefully(surface, wi);
     float scale = vndf_unit_scale_float(surface->distribution); /* lanes have no double */
     float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
     float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
@@ -61,8 +63,12 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     if (!surface || !surface->distribution)
         return vndf_invalid_view();
     const vndf_distribution *d = surface->distribution;
-    if (d->kind != VNDF_KIND_TABLE)
-        return vndf_closed_view_from(surface, wi);
+    if (d->kind == VNDF_KIND_GGX) {
+        vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+        return w.plain ? vndf_ggx_view_of(surface, wi, &w) : view_carefully(surface, wi);
+    }
+    if (d->kind == VNDF_KIND_BECKMANN)
+        return vndf_beckmann_view_from(surface, wi);
     float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
     lanes_m ready = 1;
     vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
@@ -91,9 +97,11 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
             *pdf = 0.0f;
         return up;
     }
-    if (view->distribution->kind == VNDF_KIND_TABLE)
-        return vndf_engine_sample(view, u1, u2, pdf);
-    return vndf_closed_sample(view, u1, u2, pdf);
+    if (view->distribution->kind == VNDF_KIND_GGX)
+        return vndf_ggx_view_sample(view, u1, u2, pdf);
+    if (view->distribution->kind == VNDF_KIND_BECKMANN)
+        return vndf_beckmann_view_sample(view, u1, u2, pdf);
+    return vndf_engine_sample(view, u1, u2, pdf);
 }
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
