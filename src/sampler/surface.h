@@ -37,7 +37,4 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
 /* vndf_sample of a valid view, where densities in float are known not to do. */
 vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* D(wm) for roughness times the table's scale (ax, ay). */
-double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wm);
-
 #endif

@@ -6,6 +6,7 @@
 #include "sampler/frame.h"
 #include "sampler/ggx.h"
 #include "sampler/ggx_draw.h"
+#include "sampler/given_closed.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
@@ -101,16 +102,17 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
 }
 
-VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)
+/* Dv of a valid view; facing = wi . wm > 0. */
+VNDF_INLINE float visible_facing(const vndf_view *view, vndf_vec3 wm)
 {
-    vndf_normal n = vndf_normal_of(wm);
-    double facing = vndf_facing(view, n);
-    if (!(wm.z >= 0.0f) || !(facing > 0.0))
-        return 0.0f;
-    vndf_stretched w = vndf_stretched_of(view);
-    return vndf_positive(vndf_density_from(view->distribution->kind == VNDF_KIND_GGX
-                                               ? vndf_ggx_visible(view, &w, n, facing)
-                                               : vndf_beckmann_visible(view, &w, n, facing)));
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_density_from(vndf_visible_of(view->distribution, &g, vndf_exact_dot(view->wi, wm)));
+}
+
+/* Whether wm is a normal that wi sees. */
+VNDF_INLINE int is_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
 }
 
 /* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding:
@@ -120,7 +122,7 @@ static vndf_vec3 turn_closed(const vndf_view *view, vndf_vec3 wm)
     double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, highest = level / -(double)view->wi.z;
     if (view->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))
         wm.z = fminf(wm.z, (float)(highest * (1.0 - 0x1p-23)));
-    return vndf_facing(view, vndf_normal_of(wm)) > 0.0 ? wm : vndf_turn_to_face(view, wm);
+    return vndf_exact_dot(view->wi, wm) > 0.0 ? wm : vndf_turn_to_face(view, wm);
 }
 
 static vndf_vec3 sample_closed_carefully(const vndf_view *view, float u1, float u2, float *pdf)
@@ -129,10 +131,10 @@ static vndf_vec3 sample_closed_carefully(const vndf_view *view, float u1, float 
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(s, c, u1, u2)
                                                             : vndf_beckmann_sample(s, c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(view, n));
-    if (!(vndf_facing(view, vndf_normal_of(wm)) > 0.0))
+    if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = turn_closed(view, wm);
     if (pdf)
-        *pdf = visible_closed(view, wm);
+        *pdf = vndf_pdf(view, wm);
     return wm;
 }
 
@@ -202,11 +204,11 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return visible_closed(view, wm);
-    if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
+    if (!is_facing(view, wm))
         return 0.0f;
-    return vndf_engine_pdf(view, wm);
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return vndf_engine_pdf(view, wm);
+    return vndf_positive(visible_facing(view, wm));
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
@@ -226,11 +228,8 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 
 float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return visible_closed(view, wm);
-    double facing = view->distribution ? vndf_exact_dot(view->wi, wm) : 0.0;
-    if (!(wm.z >= 0.0f) || !(facing > 0.0) || !(view->area > 0.0f))
+    if (!is_facing(view, wm))
         return 0.0f;
-    double ndf = vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm);
-    return vndf_density_from(ndf * (facing * vndf_stretched_of(view).per_length) / view->area);
+    float visible = visible_facing(view, wm);
+    return view->distribution->kind == VNDF_KIND_TABLE ? visible : vndf_positive(visible);
 }

@@ -13,11 +13,22 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
 
 /* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
  * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
-VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
+VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
 {
-    const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
-    span -= y < span->begin;
-    return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
+    doubles_u i = vndf_guide_doubles(&wedge->knot_guide, doubles_narrow(y)), one = doubles_set_u(1);
+    for (;;) {
+        doubles_long_lines lines = doubles_long_lines_at(wedge->piece->coefficient, VNDF_AREA_SPAN, i);
+        doubles_two place = doubles_load_two(&lines, VNDF_AREA_ORDER); /* begin, per_width */
+        doubles_m early = doubles_both(doubles_less(y, place.a), doubles_at_most_u(one, i));
+        if (doubles_any(early)) {
+            i -= doubles_pick_u(early, one, doubles_set_u(0));
+            continue;
+        }
+        doubles_two b0 = doubles_load_two(&lines, 0), b2 = doubles_load_two(&lines, 2);
+        doubles_two b4 = doubles_load_two(&lines, 4);
+        const doubles b[VNDF_AREA_ORDER] = {b0.a, b0.b, b2.a, b2.b, b4.a, b4.b};
+        return vndf_area_piece_at(b, (y - place.a) * place.b);
+    }
 }
 
 /* The same in float, where that is good enough: for drawing, and for densities where it is no small part and

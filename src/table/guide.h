@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "math/lanes.h"
+#include "math/doubles.h"
 #include "table/table.h"
 
 /* The bits of a float >= 0 grow with it. */
@@ -48,6 +48,29 @@ VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
             return i;
         i += lanes_pick_u(more, one, none);
     }
+}
+
+/* The same beside doubles, of which the floats are. */
+VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f value)
+{
+#if VNDF_DOUBLES == 1
+    return vndf_guide_find(guide, value);
+#else
+    const doubles_u one = doubles_set_u(1), none = doubles_set_u(0), low = doubles_set_u(guide->low);
+    const doubles_u last = doubles_set_u(guide->last);
+    doubles_u bits = doubles_bits(value), above = doubles_pick_u(doubles_at_most_u(low, bits), bits - low, none);
+    doubles_u bucket = above >> guide->shift;
+    bucket = doubles_pick_u(doubles_at_most_u(bucket, last), bucket, last);
+    doubles_u i = doubles_gather_u16(guide->first, bucket);
+    doubles_m more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
+    i += doubles_pick_u(more, one, none);
+    for (;;) {
+        more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
+        if (!doubles_any(more))
+            return i;
+        i += doubles_pick_u(more, one, none);
+    }
+#endif
 }
 
 #endif

@@ -35,7 +35,8 @@ enum {
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_FEW = 16,           /* so many numbers are looked up in registers */
-    VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
+    VNDF_AREA_ORDER = 6,     /* coefficients of a piece of an area's spline */
+    VNDF_AREA_SPAN = 8       /* doubles from piece to piece */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
