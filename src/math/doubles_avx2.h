@@ -45,6 +45,11 @@ VNDF_INLINE void doubles_store_f(float *to, doubles_f x)
     _mm_storeu_ps(to, x);
 }
 
+VNDF_INLINE doubles_u doubles_load_u(const uint32_t *from)
+{
+    return (doubles_u)_mm_loadu_si128((const __m128i *)from);
+}
+
 VNDF_INLINE void doubles_store_u(uint32_t *to, doubles_u x)
 {
     _mm_storeu_si128((__m128i *)to, (__m128i)x);

@@ -44,6 +44,11 @@ VNDF_INLINE void doubles_store_f(float *to, doubles_f x)
     _mm256_storeu_ps(to, x);
 }
 
+VNDF_INLINE doubles_u doubles_load_u(const uint32_t *from)
+{
+    return (doubles_u)_mm256_loadu_si256((const __m256i *)from);
+}
+
 VNDF_INLINE void doubles_store_u(uint32_t *to, doubles_u x)
 {
     _mm256_storeu_si256((__m256i *)to, (__m256i)x);
