@@ -66,7 +66,7 @@ VNDF_INLINE doubles_lines doubles_lines_at(const float *base, uint32_t stride, d
 {
     uint32_t at[VNDF_DOUBLES];
     doubles_lines lines;
-    doubles_store_u(at, index * stride);
+    doubles_spill_u(at, index * stride);
     for (int i = 0; i < VNDF_DOUBLES; i++)
         lines.at[i] = base + at[i];
     return lines;
@@ -76,7 +76,7 @@ VNDF_INLINE doubles_long_lines doubles_long_lines_at(const double *base, uint32_
 {
     uint32_t at[VNDF_DOUBLES];
     doubles_long_lines lines;
-    doubles_store_u(at, index * stride);
+    doubles_spill_u(at, index * stride);
     for (int i = 0; i < VNDF_DOUBLES; i++)
         lines.at[i] = base + at[i];
     return lines;

@@ -54,6 +54,13 @@ VNDF_INLINE void doubles_store_u(uint32_t *to, doubles_u x)
     _mm256_storeu_si256((__m256i *)to, (__m256i)x);
 }
 
+/* To be read one by one, from memory: taken out of the register they cost more. */
+VNDF_INLINE void doubles_spill_u(uint32_t to[VNDF_DOUBLES], doubles_u x)
+{
+    doubles_store_u(to, x);
+    __asm__("" : "+m"(*(uint32_t(*)[VNDF_DOUBLES])to));
+}
+
 VNDF_INLINE doubles doubles_root(doubles x)
 {
     return _mm512_sqrt_pd(x);
@@ -109,6 +116,16 @@ VNDF_INLINE uint32_t doubles_mask_bits(doubles_m m)
     return m;
 }
 
+VNDF_INLINE doubles_u doubles_least_u(doubles_u a, doubles_u b)
+{
+    return (doubles_u)_mm256_min_epu32((__m256i)a, (__m256i)b);
+}
+
+VNDF_INLINE doubles_u doubles_most_u(doubles_u a, doubles_u b)
+{
+    return (doubles_u)_mm256_max_epu32((__m256i)a, (__m256i)b);
+}
+
 VNDF_INLINE doubles_u doubles_bits(doubles_f x)
 {
     return (doubles_u)_mm256_castps_si256(x);
@@ -120,19 +137,21 @@ VNDF_INLINE doubles doubles_power_of_two(doubles shifted)
     return _mm512_castsi512_pd(_mm512_slli_epi64(sum, 52));
 }
 
+/* Loads put together one by one: gathers take twice the time. */
 VNDF_INLINE doubles doubles_gather(const float *base, doubles_u index)
 {
-    return doubles_widen(_mm256_i32gather_ps(base, (__m256i)index, 4));
+    uint32_t at[VNDF_DOUBLES];
+    doubles_spill_u(at, index);
+    return doubles_widen(_mm256_setr_ps(base[at[0]], base[at[1]], base[at[2]], base[at[3]],
+                                        base[at[4]], base[at[5]], base[at[6]], base[at[7]]));
 }
 
 VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
 {
-    return (doubles_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 4);
-}
-
-VNDF_INLINE doubles_u doubles_gather_u16(const uint16_t *base, doubles_u index)
-{
-    return (doubles_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 2) & 0xffffu;
+    uint32_t at[VNDF_DOUBLES];
+    doubles_spill_u(at, index);
+    doubles_u made = {base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]], base[at[5]], base[at[6]], base[at[7]]};
+    return made;
 }
 
 #endif

@@ -92,6 +92,16 @@ VNDF_INLINE doubles_u doubles_pick_u(doubles_m m, doubles_u yes, doubles_u no)
     return m ? yes : no;
 }
 
+VNDF_INLINE doubles_u doubles_least_u(doubles_u a, doubles_u b)
+{
+    return a < b ? a : b;
+}
+
+VNDF_INLINE doubles_u doubles_most_u(doubles_u a, doubles_u b)
+{
+    return a < b ? b : a;
+}
+
 VNDF_INLINE doubles_u doubles_bits(doubles_f x)
 {
     uint32_t bits;
@@ -115,12 +125,6 @@ VNDF_INLINE doubles doubles_gather(const float *base, doubles_u index)
 }
 
 VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
-{
-    return base[index];
-}
-
-/* Reads a half word more than it gives. */
-VNDF_INLINE doubles_u doubles_gather_u16(const uint16_t *base, doubles_u index)
 {
     return base[index];
 }

@@ -32,12 +32,12 @@ VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles oute
     return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
 }
 
-/* The guide finds the cell but for the rounding of the slope. */
+/* The guide finds the cell, or one near it. */
 VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, doubles z)
 {
     const doubles_u none = doubles_set_u(0);
     vndf_spot at;
-    at.cell = vndf_guide_doubles(&d->slope_guide, doubles_narrow(x / z));
+    at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x / z));
     for (;;) {
         at.line = doubles_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, at.cell);
         doubles_four knots = doubles_load_four(&at.line, 4);

@@ -50,27 +50,34 @@ VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
     }
 }
 
-/* The same beside doubles, of which the floats are. */
-VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f value)
+/* The same beside doubles, or an index somewhat too large: entries are rounded, and what is below all knots counts as
+ * the second; it may be too small unless the guide is `single`. Others have to look themselves. */
+VNDF_INLINE doubles_u vndf_guide_about(const vndf_guide *guide, doubles_f value)
 {
 #if VNDF_DOUBLES == 1
     return vndf_guide_find(guide, value);
 #else
-    const doubles_u one = doubles_set_u(1), none = doubles_set_u(0), low = doubles_set_u(guide->low);
-    const doubles_u last = doubles_set_u(guide->last);
-    doubles_u bits = doubles_bits(value), above = doubles_pick_u(doubles_at_most_u(low, bits), bits - low, none);
-    doubles_u bucket = above >> guide->shift;
-    bucket = doubles_pick_u(doubles_at_most_u(bucket, last), bucket, last);
-    doubles_u i = doubles_gather_u16(guide->first, bucket);
-    doubles_m more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
-    i += doubles_pick_u(more, one, none);
-    for (;;) {
-        more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
+    const uint32_t places = (1u << VNDF_GUIDE_SHIFT) - 1, most = (1u << guide->shift) - 1;
+    doubles_u low = doubles_set_u(guide->low), above = doubles_most_u(doubles_bits(value), low) - low;
+    doubles_u bucket = doubles_least_u(above >> guide->shift, doubles_set_u(guide->last));
+    doubles_u entry = doubles_gather_u(guide->entry, bucket);
+    doubles_u off = doubles_least_u(above - (bucket << guide->shift), doubles_set_u(most)) >> guide->drop;
+    return (entry >> VNDF_GUIDE_SHIFT) +
+           doubles_pick_u(doubles_at_most_u(entry & places, off), doubles_set_u(1), doubles_set_u(0));
+#endif
+}
+
+/* ... but never too small. */
+VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f value)
+{
+    doubles_u i = vndf_guide_about(guide, value), bits = doubles_bits(value);
+    while (!guide->single) {
+        doubles_m more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
         if (!doubles_any(more))
             return i;
-        i += doubles_pick_u(more, one, none);
+        i += doubles_pick_u(more, doubles_set_u(1), doubles_set_u(0));
     }
-#endif
+    return i;
 }
 
 #endif

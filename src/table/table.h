@@ -36,7 +36,8 @@ enum {
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_FEW = 16,           /* so many numbers are looked up in registers */
     VNDF_AREA_ORDER = 6,     /* coefficients of a piece of an area's spline */
-    VNDF_AREA_SPAN = 8       /* doubles from piece to piece */
+    VNDF_AREA_SPAN = 8,      /* doubles from piece to piece */
+    VNDF_GUIDE_SHIFT = 19    /* bits of a guide's entry below the index of a knot */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -65,8 +66,10 @@ typedef struct vndf_radial_cell {
  * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
+    uint32_t drop, single;     /* of entries; whether one step is always enough */
     uint16_t *first;
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
+    uint32_t *entry;           /* first, and where in its bucket the next is: for lanes of doubles */
 } vndf_guide;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
