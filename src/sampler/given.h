@@ -1,5 +1,5 @@
 /* The density of a given normal under a table where it is plain, for one or for lanes, in double from the very
- * numbers that came in: what density.c has for all, with one square root and four divisions in front of wi. The
+ * numbers that came in: what density.c has for all, with two square roots and two divisions in front of wi. The
  * normal is (X cos a, X sin a, Z) = (ay wm.x, ax wm.y, ax ay wm.z), the direction (S, 0, +-U) as long as the
  * stretched one is: neither is brought to a length, since a density is a quotient that drops both. With A = ax ay,
  *
@@ -9,7 +9,7 @@
  * and the mass m under that law (math/rational_cell.h), at a place x + z = sum,
  *
  *     mass per xi = p m^2/b^2,    p = e1 xi^2 + 2 m xi eta + e0 eta^2,  b = m + (e0 + e1 - 2 m) xi eta,
- *     density     = azimuth/mass of the law   p m^2/b^2   sum^3 A^2 / (width x (X + Z)^3),
+ *     density     = azimuth/mass of the law   p m^2/b^2   (x + z)^3 A^2 / (width x (X + Z)^3),
  *
  * and in front of wi azimuth/mass of the law = 1/(X total), total = 2 (front + wedge), the area.
  *
@@ -83,18 +83,21 @@ VNDF_INLINE doubles vndf_given_ndf(const vndf_distribution *d, const vndf_bare *
 
 /* ---- the cell of the radius ---- */
 
-/* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k). */
+/* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k); xi, eta, x and x + z
+ * stand here times inner + outer, which drops out. */
 VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bare *n, doubles c, doubles k)
 {
-    doubles_four f = doubles_load_four(&at->line, 0), more = doubles_load_four(&at->line, 8);
+    doubles_four f = doubles_load_four(&at->line, 0);
     doubles w0 = c * at->z0 + k * at->x0, w1 = c * at->z1 + k * at->x1, e0 = f.a * w0, e1 = f.b * w1;
-    doubles m = w0 * f.c + w1 * f.d, xi = at->xi, eta = at->eta, twice = 2.0 * m, sum = vndf_spot_sum(at);
-    doubles b = m + (e0 + e1 - twice) * (xi * eta), length = n->across + n->z;
+    doubles m = w0 * f.c + w1 * f.d, xi = at->inner, eta = at->outer, twice = 2.0 * m, whole = xi + eta;
+    doubles b = m * (whole * whole) + (e0 + e1 - twice) * (xi * eta), length = n->across + n->z;
     /* over X where f begins at 0 as X does */
     doubles_m first = doubles_both(vndf_spot_is_first(at), doubles_at_most(f.a, doubles_set(0.0)));
     doubles over = e1 * xi + twice * eta, p = doubles_pick(first, over, xi * over + e0 * (eta * eta));
-    doubles x = doubles_pick(first, at->x1, eta * at->x0 + xi * at->x1), part = m * n->product;
-    vndf_quotient q = {p * (part * part) * (sum * sum * sum), b * b * (more.c * x) * (length * length * length)};
+    doubles x = doubles_pick(first, at->x1, vndf_spot_between(at, at->x0, at->x1)), part = m * n->product;
+    doubles sum = vndf_spot_between(at, at->x0 + at->z0, at->x1 + at->z1);
+    vndf_quotient q = {p * (part * part) * (sum * sum * sum),
+                       b * b * (vndf_spot_width(at) * x) * (length * length * length)};
     return q;
 }
 

@@ -4,8 +4,7 @@
  *     inner = X z0 - Z x0,   outer = Z x1 - X z1        for the knots (x0, z0), (x1, z1) of the cell
  *
  * xi = inner/(inner + outer) and eta = outer/(inner + outer) are each exact where they are small. Knots have
- * x + z = 1 but for their rounding; `sum` is x + z at the place: what is per X + Z = sum becomes what it is for
- * the normal. */
+ * x + z = 1 but for their rounding; x + z at the place tells what is for the normal from what is for the table. */
 #ifndef VNDF_SAMPLER_SPOT_H
 #define VNDF_SAMPLER_SPOT_H
 
@@ -18,7 +17,7 @@ enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
 typedef struct vndf_spot {
     doubles_u cell;
     doubles_lines line;     /* the cell's members */
-    doubles xi, eta;
+    doubles inner, outer;
     doubles x0, x1, z0, z1; /* the knots */
 } vndf_spot;
 
@@ -32,12 +31,13 @@ VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles oute
     return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
 }
 
-/* The guide finds the cell, or one near it. */
+/* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
+ * way. */
 VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, doubles z)
 {
     const doubles_u none = doubles_set_u(0);
     vndf_spot at;
-    at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x / z));
+    at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z));
     for (;;) {
         at.line = doubles_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, at.cell);
         doubles_four knots = doubles_load_four(&at.line, 4);
@@ -47,9 +47,8 @@ VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, double
             at.cell += step;
             continue;
         }
-        doubles per = 1.0 / (inner + outer);
-        at.xi = inner * per;
-        at.eta = outer * per;
+        at.inner = inner;
+        at.outer = outer;
         at.x0 = knots.a;
         at.x1 = knots.b;
         at.z0 = knots.c;
@@ -58,9 +57,16 @@ VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, double
     }
 }
 
-VNDF_INLINE doubles vndf_spot_sum(const vndf_spot *at)
+/* Of numbers at the inner and at the outer knot, that at the place, times inner + outer. */
+VNDF_INLINE doubles vndf_spot_between(const vndf_spot *at, doubles in, doubles out)
 {
-    return at->eta * (at->x0 + at->z0) + at->xi * (at->x1 + at->z1);
+    return at->outer * in + at->inner * out;
+}
+
+/* The length of the cell: R = X/Z grows by width/Z^2 as xi grows. */
+VNDF_INLINE doubles vndf_spot_width(const vndf_spot *at)
+{
+    return at->x1 * at->z0 - at->x0 * at->z1;
 }
 
 /* Whether it is the cell where X begins. */
@@ -88,13 +94,15 @@ typedef struct vndf_quotient {
 
 VNDF_INLINE vndf_quotient vndf_spot_p22(const vndf_spot *at)
 {
-    doubles_four f = doubles_load_four(&at->line, 0), rest = doubles_load_four(&at->line, 8);
+    doubles_four f = doubles_load_four(&at->line, 0);
     vndf_bump bump = vndf_bump_of(f);
-    doubles rise = f.b + at->eta * (bump.a + bump.b * at->xi), sum = vndf_spot_sum(at), square = sum * sum;
+    doubles per = 1.0 / (at->inner + at->outer), xi = at->inner * per, eta = at->outer * per;
+    doubles rise = f.b + eta * (bump.a + bump.b * xi);
+    doubles sum = eta * (at->x0 + at->z0) + xi * (at->x1 + at->z1), square = sum * sum;
     doubles_m first = vndf_spot_is_first(at);
-    doubles above = doubles_pick(first, rise, f.a * at->eta + at->xi * rise);
-    doubles x = doubles_pick(first, at->x1, at->x0 * at->eta + at->x1 * at->xi);
-    vndf_quotient p22 = {above * (square * square), x * rest.c};
+    doubles above = doubles_pick(first, rise, f.a * eta + xi * rise);
+    doubles x = doubles_pick(first, at->x1, at->x0 * eta + at->x1 * xi);
+    vndf_quotient p22 = {above * (square * square), x * vndf_spot_width(at)};
     return p22;
 }
 
