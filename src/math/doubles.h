@@ -24,39 +24,42 @@ typedef struct doubles_two {
     doubles a, b;
 } doubles_two;
 
-/* Where lanes begin to read: `index` times `stride` numbers on. */
+/* Where lanes begin to read: at[lane] numbers after the base. */
 typedef struct doubles_lines {
-    const float *at[VNDF_DOUBLES];
+    const float *base;
+    uint32_t at[VNDF_DOUBLES];
 } doubles_lines;
 
 typedef struct doubles_long_lines {
-    const double *at[VNDF_DOUBLES];
+    const double *base;
+    uint32_t at[VNDF_DOUBLES];
 } doubles_long_lines;
 
 #if VNDF_LANES == 1
 
 VNDF_INLINE doubles_lines doubles_lines_at(const float *base, uint32_t stride, doubles_u index)
 {
-    doubles_lines lines = {{base + (size_t)stride * index}};
+    doubles_lines lines = {base, {stride * index}};
     return lines;
 }
 
 VNDF_INLINE doubles_long_lines doubles_long_lines_at(const double *base, uint32_t stride, doubles_u index)
 {
-    doubles_long_lines lines = {{base + (size_t)stride * index}};
+    doubles_long_lines lines = {base, {stride * index}};
     return lines;
 }
 
 VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t first)
 {
-    const float *at = lines->at[0] + first;
+    const float *at = lines->base + lines->at[0] + first;
     doubles_four four = {at[0], at[1], at[2], at[3]};
     return four;
 }
 
 VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t first)
 {
-    doubles_two two = {lines->at[0][first], lines->at[0][first + 1]};
+    const double *at = lines->base + lines->at[0] + first;
+    doubles_two two = {at[0], at[1]};
     return two;
 }
 
@@ -64,21 +67,15 @@ VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t
 
 VNDF_INLINE doubles_lines doubles_lines_at(const float *base, uint32_t stride, doubles_u index)
 {
-    uint32_t at[VNDF_DOUBLES];
-    doubles_lines lines;
-    doubles_spill_u(at, index * stride);
-    for (int i = 0; i < VNDF_DOUBLES; i++)
-        lines.at[i] = base + at[i];
+    doubles_lines lines = {.base = base};
+    doubles_spill_u(lines.at, index * stride);
     return lines;
 }
 
 VNDF_INLINE doubles_long_lines doubles_long_lines_at(const double *base, uint32_t stride, doubles_u index)
 {
-    uint32_t at[VNDF_DOUBLES];
-    doubles_long_lines lines;
-    doubles_spill_u(at, index * stride);
-    for (int i = 0; i < VNDF_DOUBLES; i++)
-        lines.at[i] = base + at[i];
+    doubles_long_lines lines = {.base = base};
+    doubles_spill_u(lines.at, index * stride);
     return lines;
 }
 
@@ -92,8 +89,8 @@ VNDF_INLINE int doubles_any(doubles_m m)
 /* Lanes i and i + 4. */
 VNDF_INLINE __m256 doubles_load_halves(const doubles_lines *lines, int i, size_t first)
 {
-    __m256 row = _mm256_castps128_ps256(_mm_loadu_ps(lines->at[i] + first));
-    return _mm256_insertf128_ps(row, _mm_loadu_ps(lines->at[i + 4] + first), 1);
+    __m256 row = _mm256_castps128_ps256(_mm_loadu_ps(lines->base + lines->at[i] + first));
+    return _mm256_insertf128_ps(row, _mm_loadu_ps(lines->base + lines->at[i + 4] + first), 1);
 }
 
 VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t first)
@@ -110,10 +107,10 @@ VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t fi
 /* Lanes i, i + 2, i + 4, i + 6. */
 VNDF_INLINE doubles doubles_load_pairs(const doubles_long_lines *lines, int i, size_t first)
 {
-    __m512d row = _mm512_castpd128_pd512(_mm_loadu_pd(lines->at[i] + first));
-    row = _mm512_insertf64x2(row, _mm_loadu_pd(lines->at[i + 2] + first), 1);
-    row = _mm512_insertf64x2(row, _mm_loadu_pd(lines->at[i + 4] + first), 2);
-    return _mm512_insertf64x2(row, _mm_loadu_pd(lines->at[i + 6] + first), 3);
+    __m512d row = _mm512_castpd128_pd512(_mm_loadu_pd(lines->base + lines->at[i] + first));
+    row = _mm512_insertf64x2(row, _mm_loadu_pd(lines->base + lines->at[i + 2] + first), 1);
+    row = _mm512_insertf64x2(row, _mm_loadu_pd(lines->base + lines->at[i + 4] + first), 2);
+    return _mm512_insertf64x2(row, _mm_loadu_pd(lines->base + lines->at[i + 6] + first), 3);
 }
 
 VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t first)
@@ -127,8 +124,8 @@ VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t
 
 VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t first)
 {
-    __m128 r0 = _mm_loadu_ps(lines->at[0] + first), r1 = _mm_loadu_ps(lines->at[1] + first);
-    __m128 r2 = _mm_loadu_ps(lines->at[2] + first), r3 = _mm_loadu_ps(lines->at[3] + first);
+    __m128 r0 = _mm_loadu_ps(lines->base + lines->at[0] + first), r1 = _mm_loadu_ps(lines->base + lines->at[1] + first);
+    __m128 r2 = _mm_loadu_ps(lines->base + lines->at[2] + first), r3 = _mm_loadu_ps(lines->base + lines->at[3] + first);
     __m128 a = _mm_unpacklo_ps(r0, r1), b = _mm_unpackhi_ps(r0, r1);
     __m128 c = _mm_unpacklo_ps(r2, r3), d = _mm_unpackhi_ps(r2, r3);
     doubles_four four = {_mm256_cvtps_pd(_mm_shuffle_ps(a, c, 0x44)), _mm256_cvtps_pd(_mm_shuffle_ps(a, c, 0xee)),
@@ -139,8 +136,8 @@ VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t fi
 /* Lanes i and i + 2. */
 VNDF_INLINE doubles doubles_load_pairs(const doubles_long_lines *lines, int i, size_t first)
 {
-    __m256d row = _mm256_castpd128_pd256(_mm_loadu_pd(lines->at[i] + first));
-    return _mm256_insertf128_pd(row, _mm_loadu_pd(lines->at[i + 2] + first), 1);
+    __m256d row = _mm256_castpd128_pd256(_mm_loadu_pd(lines->base + lines->at[i] + first));
+    return _mm256_insertf128_pd(row, _mm_loadu_pd(lines->base + lines->at[i + 2] + first), 1);
 }
 
 VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t first)
