@@ -154,4 +154,11 @@ VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
     return made;
 }
 
+/* One of sixteen numbers, in registers. */
+VNDF_INLINE doubles doubles_few(const double *table, doubles_u index)
+{
+    __m512i at = _mm512_cvtepu32_epi64((__m256i)index);
+    return _mm512_permutex2var_pd(_mm512_loadu_pd(table), at, _mm512_loadu_pd(table + 8));
+}
+
 #endif

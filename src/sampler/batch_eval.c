@@ -93,7 +93,7 @@ static void read_block(vndf_eval_block *block, const call *c, size_t first, copi
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
             continue; /* need not be there */
         unsigned bit = n <= VNDF_EVAL_ALPHA_Y ? VNDF_SHARED_ALPHA : n <= VNDF_EVAL_WI_Z ? VNDF_SHARED_WI : 0;
-        block->of[n] = input_at(from[n], (b->shared & bit) != 0, first, block->count, own->of[n]);
+        block->in.of[n] = input_at(from[n], (b->shared & bit) != 0, first, block->count, own->of[n]);
     }
 }
 

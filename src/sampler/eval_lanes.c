@@ -13,35 +13,22 @@
 
 /* ---- what is given ---- */
 
-VNDF_INLINE doubles input(const vndf_eval_block *b, int which, uint32_t i)
+VNDF_INLINE doubles input(const vndf_eval_inputs *in, int which, uint32_t i)
 {
-    return doubles_load(b->of[which] + i);
+    return doubles_load(in->of[which] + i);
 }
 
-VNDF_INLINE vndf_direction direction_at(const vndf_eval_block *b, uint32_t i, double scale)
+VNDF_INLINE vndf_direction direction_at(const vndf_eval_inputs *in, uint32_t i, double scale)
 {
-    vndf_direction w = {input(b, VNDF_EVAL_ALPHA_X, i) * scale, input(b, VNDF_EVAL_ALPHA_Y, i) * scale,
-                        input(b, VNDF_EVAL_WI_X, i), input(b, VNDF_EVAL_WI_Y, i), input(b, VNDF_EVAL_WI_Z, i)};
+    vndf_direction w = {input(in, VNDF_EVAL_ALPHA_X, i) * scale, input(in, VNDF_EVAL_ALPHA_Y, i) * scale,
+                        input(in, VNDF_EVAL_WI_X, i), input(in, VNDF_EVAL_WI_Y, i), input(in, VNDF_EVAL_WI_Z, i)};
     return w;
 }
 
-VNDF_INLINE vndf_given given_at(const vndf_eval_block *b, uint32_t i, double scale)
+VNDF_INLINE vndf_given given_at(const vndf_eval_inputs *in, uint32_t i, double scale)
 {
-    vndf_given g = {direction_at(b, i, scale), input(b, VNDF_EVAL_X, i), input(b, VNDF_EVAL_Y, i),
-                    input(b, VNDF_EVAL_Z, i)};
-    return g;
-}
-
-VNDF_INLINE doubles gathered(const vndf_eval_block *b, int which, doubles_u index)
-{
-    return doubles_gather(b->of[which], index);
-}
-
-VNDF_INLINE vndf_given gathered_given(const vndf_eval_block *b, doubles_u i, double scale)
-{
-    vndf_given g = {{gathered(b, VNDF_EVAL_ALPHA_X, i) * scale, gathered(b, VNDF_EVAL_ALPHA_Y, i) * scale,
-                     gathered(b, VNDF_EVAL_WI_X, i), gathered(b, VNDF_EVAL_WI_Y, i), gathered(b, VNDF_EVAL_WI_Z, i)},
-                    gathered(b, VNDF_EVAL_X, i), gathered(b, VNDF_EVAL_Y, i), gathered(b, VNDF_EVAL_Z, i)};
+    vndf_given g = {direction_at(in, i, scale), input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+                    input(in, VNDF_EVAL_Z, i)};
     return g;
 }
 
@@ -76,7 +63,7 @@ static void answer_area(const vndf_distribution *d, vndf_eval_block *b)
 {
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_direction w = direction_at(b, i, scale);
+        vndf_direction w = direction_at(&b->in, i, scale);
         doubles_store_f(b->value + i, vndf_area_of(d, &w));
     }
 }
@@ -85,7 +72,7 @@ static void answer_lambda(const vndf_distribution *d, vndf_eval_block *b)
 {
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_direction w = direction_at(b, i, scale);
+        vndf_direction w = direction_at(&b->in, i, scale);
         doubles_store_f(b->value + i, vndf_lambda_of(d, &w));
     }
 }
@@ -94,7 +81,7 @@ static void answer_g1(const vndf_distribution *d, vndf_eval_block *b)
 {
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_direction w = direction_at(b, i, scale);
+        vndf_direction w = direction_at(&b->in, i, scale);
         doubles_store_f(b->value + i, vndf_g1_of(d, &w));
     }
 }
@@ -104,10 +91,11 @@ static void answer_g1(const vndf_distribution *d, vndf_eval_block *b)
 static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
 {
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    const vndf_eval_inputs *in = &b->in;
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = {{input(b, VNDF_EVAL_ALPHA_X, i) * scale, input(b, VNDF_EVAL_ALPHA_Y, i) * scale, one, one, one},
-                        input(b, VNDF_EVAL_X, i), input(b, VNDF_EVAL_Y, i), input(b, VNDF_EVAL_Z, i)};
+        vndf_given g = {{input(in, VNDF_EVAL_ALPHA_X, i) * scale, input(in, VNDF_EVAL_ALPHA_Y, i) * scale, one, one, one},
+                        input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i), input(in, VNDF_EVAL_Z, i)};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
         doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_ndf_of(d, &g), nothing)));
@@ -128,7 +116,7 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
     const doubles nothing = doubles_set(0.0);
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = given_at(b, i, scale);
+        vndf_given g = given_at(&b->in, i, scale);
         doubles facing = vndf_given_facing(&g);
         doubles_m seen = is_seen(&g, facing);
         g = picked_given(seen, &g);
@@ -142,10 +130,15 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
 
 enum { IN_FRONT, BEHIND, BELOW, WAYS };
 
-/* Indices of those that take each way, and room for the last group. */
+/* Indices of those that take each way. */
 typedef struct sorted {
-    uint32_t index[WAYS][VNDF_EVAL_BLOCK + VNDF_DOUBLES], count[WAYS];
+    uint32_t index[WAYS][VNDF_EVAL_BLOCK], count[WAYS];
 } sorted;
+
+/* What those that take a way are given, side by side, and room for the last group. */
+typedef struct gathered {
+    float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK + VNDF_DOUBLES];
+} gathered;
 
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
 VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, doubles_m m, uint32_t first, uint32_t end)
@@ -164,7 +157,7 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
     const doubles nothing = doubles_set(0.0);
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = given_at(b, i, scale);
+        vndf_given g = given_at(&b->in, i, scale);
         doubles_m seen = is_seen(&g, vndf_given_facing(&g)), below = doubles_less(g.wi.z, nothing);
         doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_given_along(&g));
         s->count[IN_FRONT] = append(s->index[IN_FRONT], s->count[IN_FRONT], doubles_both(above, front), i, b->count);
@@ -172,9 +165,20 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
         s->count[BELOW] = append(s->index[BELOW], s->count[BELOW], doubles_both(seen, below), i, b->count);
         doubles_store_f(b->value + i, doubles_narrow(nothing));
     }
-    for (int way = 0; way < WAYS; way++)
-        for (uint32_t i = 0; i < VNDF_DOUBLES; i++) /* lanes that are not needed repeat one */
-            s->index[way][s->count[way] + i] = s->index[way][0];
+}
+
+/* Of a way; `own` becomes a block like b. One after the other: gathers cost more. */
+VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count, gathered *own)
+{
+    vndf_eval_inputs made;
+    for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++) {
+        uint32_t from = index[i < count ? i : 0]; /* lanes that are not needed repeat one */
+        for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+            own->of[n][i] = b->in.of[n][from];
+    }
+    for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+        made.of[n] = own->of[n];
+    return made;
 }
 
 /* A group's answers to where its normals were; what is not plain is left. */
@@ -193,9 +197,13 @@ VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t cou
 VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, const sorted *s, int way)
 {
     double scale = vndf_unit_scale(d);
+    gathered own;
+    if (s->count[way] == 0)
+        return;
+    const vndf_eval_inputs in = gather_way(b, s->index[way], s->count[way], &own);
     for (uint32_t i = 0; i < s->count[way]; i += VNDF_DOUBLES) {
         const uint32_t *index = s->index[way] + i;
-        vndf_given g = gathered_given(b, doubles_load_u(index), scale);
+        vndf_given g = given_at(&in, i, scale);
         doubles_m plain = doubles_at_most(g.z, g.z);
         doubles density = way == IN_FRONT ? vndf_given_in_front(d, &g, &plain)
                                           : vndf_given_of_wedge(d, &g, way == BELOW, &plain);

@@ -18,12 +18,16 @@ typedef enum vndf_question {
 enum { VNDF_EVAL_ALPHA_X, VNDF_EVAL_ALPHA_Y, VNDF_EVAL_WI_X, VNDF_EVAL_WI_Y, VNDF_EVAL_WI_Z, VNDF_EVAL_X, VNDF_EVAL_Y,
        VNDF_EVAL_Z, VNDF_EVAL_INPUTS };
 
-/* Arrays that lanes may read to the end of the last group, and the answers. */
+/* Arrays that lanes may read to the end of the last group; those that the question wants. */
+typedef struct vndf_eval_inputs {
+    const float *of[VNDF_EVAL_INPUTS];
+} vndf_eval_inputs;
+
 typedef struct vndf_eval_block {
-    const float *of[VNDF_EVAL_INPUTS]; /* those that the question wants */
+    vndf_eval_inputs in;
     uint32_t count, left_count;
     uint32_t left[VNDF_EVAL_BLOCK];    /* indices without an answer */
-    float value[VNDF_EVAL_BLOCK];
+    float value[VNDF_EVAL_BLOCK];      /* the answers */
 } vndf_eval_block;
 
 #if VNDF_HAS_LANES

@@ -250,7 +250,7 @@ static void derive_rows(vndf_wedge *wedge)
 static void derive_area(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < VNDF_FEW; i++)
-        wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
+        wedge->few_exact[VNDF_AREA_ORDER][i] = wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
         vndf_area_span *span = &wedge->piece[i];
         double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
@@ -269,6 +269,10 @@ static void derive_area(vndf_wedge *wedge)
         if (i < VNDF_FEW) {
             wedge->few[VNDF_AREA_ORDER][i] = quick->begin;
             wedge->few[VNDF_AREA_ORDER + 1][i] = quick->per_width;
+            for (int n = 0; n < VNDF_AREA_ORDER; n++)
+                wedge->few_exact[n][i] = span->coefficient[n];
+            wedge->few_exact[VNDF_AREA_ORDER][i] = span->begin;
+            wedge->few_exact[VNDF_AREA_ORDER + 1][i] = span->per_width;
         }
     }
 }

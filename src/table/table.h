@@ -104,6 +104,7 @@ typedef struct vndf_wedge {
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
     float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
