@@ -50,12 +50,26 @@ VNDF_INLINE doubles vndf_area_below_ggx(doubles across, doubles up)
     return 0.5 * across2 / (doubles_root(across2 + up * up) + up);
 }
 
-/* K is at most 1e30, and exp at least 1e-304: neither shows. */
+/* K, at most 1e30: more does not show. */
+VNDF_INLINE doubles vndf_beckmann_cotangent(doubles across, doubles up)
+{
+    doubles least = 1e-30 * up;
+    return up / doubles_pick(doubles_less(least, across), across, least);
+}
+
+/* exp(-K^2), at least 1e-304, which does not show either. */
+VNDF_INLINE doubles vndf_beckmann_falloff(doubles k)
+{
+    return vndf_exp_near(-doubles_between(k * k, 0.0, 700.0));
+}
+
+static const double vndf_per_two_root_pi = 0.28209479177387814;
+
 VNDF_INLINE doubles vndf_area_below_beckmann(doubles across, doubles up)
 {
-    doubles least = 1e-30 * up, k = up / doubles_pick(doubles_less(least, across), across, least);
-    doubles n = vndf_erfc_remainder(k), square = doubles_between(k * k, 0.0, 700.0);
-    return 0.28209479177387814 * across * vndf_exp_near(-square) * (n / (n + k));
+    doubles k = vndf_beckmann_cotangent(across, up);
+    vndf_erfc_quotient n = vndf_erfc_remainder_parts(k);
+    return vndf_per_two_root_pi * across * vndf_beckmann_falloff(k) * (n.above / (n.above + k * n.below));
 }
 
 /* A(-|w|). */

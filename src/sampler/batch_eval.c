@@ -6,6 +6,7 @@
 #include "sampler/batch.h"
 #include "sampler/batch_lanes.h"
 #include "sampler/eval_lanes.h"
+#include "sampler/surface.h"
 
 /* What a call asks of all elements. */
 typedef struct call {
@@ -38,31 +39,15 @@ static float answer_of(const call *c, size_t i)
     default:
         break;
     }
-    vndf_view view = vndf_batch_view(c->batch, i);
+    vndf_view view = vndf_view_bare(&surface, vndf_batch_wi(c->batch, i));
     vndf_vec3 wm = vndf_batch_normal(c->wm, i);
     return c->question == VNDF_ASK_PDF ? vndf_pdf(&view, wm) : vndf_visible(&view, wm);
 }
 
-VNDF_INLINE void pdf_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
-{
-    c->to1[i] = vndf_pdf(view, vndf_batch_normal(c->wm, i));
-}
-
-VNDF_INLINE void visible_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
-{
-    c->to1[i] = vndf_visible(view, vndf_batch_normal(c->wm, i));
-}
-
 static void answer_one_by_one(const call *c)
 {
-    vndf_batch_call views = {c->wm, NULL, NULL, c->to, NULL};
-    if (c->question == VNDF_ASK_PDF)
-        vndf_batch_for_each_view(c->batch, &views, pdf_one);
-    else if (c->question == VNDF_ASK_VISIBLE)
-        vndf_batch_for_each_view(c->batch, &views, visible_one);
-    else
-        for (size_t i = 0; i < c->batch->count; i++)
-            c->to[i] = answer_of(c, i);
+    for (size_t i = 0; i < c->batch->count; i++)
+        c->to[i] = answer_of(c, i);
 }
 
 /* ---- in lanes ---- */

@@ -43,15 +43,31 @@ VNDF_INLINE doubles vndf_ndf_of(const vndf_distribution *d, const vndf_given *g)
 
 /* ---- visible ---- */
 
-/* D exp(K^2) over A exp(K^2) below the horizon. */
-VNDF_INLINE doubles vndf_beckmann_below(const vndf_given *g, doubles across, doubles facing)
+/* R^2 - K^2 below the horizon. */
+VNDF_INLINE doubles vndf_beckmann_exponent_below(const vndf_given *g, doubles facing, doubles r)
 {
-    doubles ax = g->wi.ax, ay = g->wi.ay, a = ax * ay, z = a * g->z, r = 1.0 / (z * z), up = doubles_abs(g->wi.z);
-    doubles p = ax * g->wi.x, q = ay * g->wi.y, side = ax * p * g->y - ay * q * g->x;
-    doubles along = a * a * facing * (facing - 2.0 * g->wi.z * g->z);
-    doubles scaled = vndf_beckmann_scaled(a, r, (side * side + along) / (p * p + q * q) * r);
-    doubles k = up / across, n = vndf_erfc_remainder(k);
-    return scaled * (2.0 * vndf_root_pi * (n + k) / (across * n));
+    doubles ax = g->wi.ax, ay = g->wi.ay, a = ax * ay, p = ax * g->wi.x, q = ay * g->wi.y;
+    doubles side = ax * p * g->y - ay * q * g->x, along = a * a * facing * (facing - 2.0 * g->wi.z * g->z);
+    return (side * side + along) / (p * p + q * q) * r;
+}
+
+/* D over A; below the horizon both are without exp(-K^2), and A without U. */
+VNDF_INLINE doubles vndf_beckmann_visible(const vndf_given *g, doubles facing)
+{
+    const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    doubles a = g->wi.ax * g->wi.ay, x = g->wi.ay * g->x, y = g->wi.ax * g->y, z = a * g->z, r = 1.0 / (z * z);
+    doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), falloff = one;
+    doubles k = vndf_beckmann_cotangent(across, up), exponent = r * (x * x + y * y);
+    doubles_m below = doubles_less(g->wi.z, nothing), above = doubles_at_most(nothing, g->wi.z);
+    if (doubles_any(below))
+        exponent = doubles_pick(below, vndf_beckmann_exponent_below(g, facing, r), exponent);
+    if (doubles_any(above))
+        falloff = doubles_pick(below, one, vndf_beckmann_falloff(k));
+    vndf_erfc_quotient n = vndf_erfc_remainder_parts(k);
+    doubles t = n.above + k * n.below, least = vndf_per_two_root_pi * across * (falloff * n.above);
+    doubles per = t / (least + doubles_pick(below, nothing, up) * t);
+    doubles visible = vndf_beckmann_scaled(a, r, exponent) * (facing * per);
+    return doubles_pick(doubles_without(below, doubles_less(nothing, across)), nothing, visible);
 }
 
 /* a^3/(pi Q^2) over A = (L + U)/2, or S^2/(2 (L + U)) below the horizon. */
@@ -72,15 +88,10 @@ VNDF_INLINE doubles vndf_visible_of(const vndf_distribution *d, const vndf_given
     const doubles nothing = doubles_set(0.0);
     if (d->kind == VNDF_KIND_GGX)
         return vndf_ggx_visible(g, facing);
-    doubles_m valid = vndf_direction_is_valid(&g->wi);
-    doubles area = vndf_area_below(d, &g->wi, valid) + doubles_positive(g->wi.z);
-    doubles per = vndf_ndf_of(d, g) / area, across = vndf_direction_across(&g->wi);
-    if (d->kind == VNDF_KIND_BECKMANN) {
-        doubles_m below = doubles_less(g->wi.z, nothing);
-        if (doubles_any(below))
-            per = doubles_pick(below, vndf_beckmann_below(g, across, facing), per);
-    }
-    return doubles_pick(doubles_less(nothing, area), per * facing, nothing);
+    if (d->kind == VNDF_KIND_BECKMANN)
+        return vndf_beckmann_visible(g, facing);
+    doubles area = vndf_area_below(d, &g->wi, vndf_direction_is_valid(&g->wi)) + doubles_positive(g->wi.z);
+    return doubles_pick(doubles_less(nothing, area), vndf_ndf_of(d, g) / area * facing, nothing);
 }
 
 #endif

@@ -87,6 +87,14 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     return view_scaled(surface->distribution, ax, ay, x, y, wi);
 }
 
+vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_view view = {.wi = wi};
+    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && is_usable_direction(wi))
+        view.distribution = surface->distribution;
+    return view;
+}
+
 /* What is plain and ready is valid: nothing else has to be looked at. */
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
