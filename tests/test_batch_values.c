@@ -1,7 +1,7 @@
 /* A batch of densities, visible densities, D, areas, Lambda, G1 or inverses gives to the bit what the calls of one
- * give, for every instruction set there is, distribution and count, shared or not, in place or not: directions of
- * the whole sphere, grazing, straight up and down, below the horizon; roughness from 1e-8 to 10, 1e4 apart in x and
- * y; normals that were drawn, any normals, at the horizon and beside the cut; and invalid numbers. With the argument
+ * give, for every instruction set there is, distribution and count, shared or not, in place or not: directions of the
+ * whole sphere, grazing, straight up and down, below the horizon; roughness from 1e-8 to 10, 1e4 apart in x and y;
+ * normals that were drawn, any normals, at the horizon and beside the cut; and invalid numbers. With the argument
  * avx2 or avx512 that instruction set alone. */
 #include <float.h>
 #include <stdint.h>
@@ -30,7 +30,8 @@ static float odd_number(size_t i)
 static float random_alpha(unsigned long long *state)
 {
     float kind = test_uniform(state), u = test_uniform(state);
-    return kind < 0.6f ? 0.01f + u * u : kind < 0.95f ? powf(10.0f, 9.0f * u - 8.0f) : powf(10.0f, 40.0f * u - 20.0f);
+    float exponent = kind < 0.95f ? 9.0f * u - 8.0f : 40.0f * u - 20.0f;
+    return kind < 0.6f ? 0.01f + u * u : powf(10.0f, exponent);
 }
 
 static vndf_vec3 random_direction(unsigned long long *state)
@@ -163,8 +164,8 @@ static void test_call(kind which, const vndf_distribution *d, const char *name, 
             call_batch(which, &b, normals_of(&given), made.of[OUT], made.of[OUT_2]);
             size_t different = differences(which, &b, &given, made.of[OUT], made.of[OUT_2], &seen);
             if (!TEST(different == 0))
-                fprintf(stderr, "  %s, %s, instructions %d, shared %u: %lu of %lu differ\n", name, kind_names[which],
-                        (int)limit, shared, (unsigned long)different, (unsigned long)count);
+                fprintf(stderr, "  %s, %s, instructions %d, shared %u: %lu of %lu differ\n", name,
+                        kind_names[which], (int)limit, shared, (unsigned long)different, (unsigned long)count);
             TEST(memcmp(&made.of[OUT][count], &given.of[OUT][count], sizeof(float)) == 0); /* nothing beyond */
             TEST(count < 1000 || !d || seen > count / 4 || which == INVERT || (shared & VNDF_SHARED_WI));
         }

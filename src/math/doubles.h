@@ -99,8 +99,9 @@ VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t fi
     __m256 r2 = doubles_load_halves(lines, 2, first), r3 = doubles_load_halves(lines, 3, first);
     __m256 a = _mm256_unpacklo_ps(r0, r1), b = _mm256_unpackhi_ps(r0, r1);
     __m256 c = _mm256_unpacklo_ps(r2, r3), d = _mm256_unpackhi_ps(r2, r3);
-    doubles_four four = {_mm512_cvtps_pd(_mm256_shuffle_ps(a, c, 0x44)), _mm512_cvtps_pd(_mm256_shuffle_ps(a, c, 0xee)),
-                         _mm512_cvtps_pd(_mm256_shuffle_ps(b, d, 0x44)), _mm512_cvtps_pd(_mm256_shuffle_ps(b, d, 0xee))};
+    doubles_four four = {
+        doubles_widen(_mm256_shuffle_ps(a, c, 0x44)), doubles_widen(_mm256_shuffle_ps(a, c, 0xee)),
+        doubles_widen(_mm256_shuffle_ps(b, d, 0x44)), doubles_widen(_mm256_shuffle_ps(b, d, 0xee))};
     return four;
 }
 
@@ -124,12 +125,13 @@ VNDF_INLINE doubles_two doubles_load_two(const doubles_long_lines *lines, size_t
 
 VNDF_INLINE doubles_four doubles_load_four(const doubles_lines *lines, size_t first)
 {
-    __m128 r0 = _mm_loadu_ps(lines->base + lines->at[0] + first), r1 = _mm_loadu_ps(lines->base + lines->at[1] + first);
-    __m128 r2 = _mm_loadu_ps(lines->base + lines->at[2] + first), r3 = _mm_loadu_ps(lines->base + lines->at[3] + first);
+    const float *from = lines->base + first;
+    __m128 r0 = _mm_loadu_ps(from + lines->at[0]), r1 = _mm_loadu_ps(from + lines->at[1]);
+    __m128 r2 = _mm_loadu_ps(from + lines->at[2]), r3 = _mm_loadu_ps(from + lines->at[3]);
     __m128 a = _mm_unpacklo_ps(r0, r1), b = _mm_unpackhi_ps(r0, r1);
     __m128 c = _mm_unpacklo_ps(r2, r3), d = _mm_unpackhi_ps(r2, r3);
-    doubles_four four = {_mm256_cvtps_pd(_mm_shuffle_ps(a, c, 0x44)), _mm256_cvtps_pd(_mm_shuffle_ps(a, c, 0xee)),
-                         _mm256_cvtps_pd(_mm_shuffle_ps(b, d, 0x44)), _mm256_cvtps_pd(_mm_shuffle_ps(b, d, 0xee))};
+    doubles_four four = {doubles_widen(_mm_shuffle_ps(a, c, 0x44)), doubles_widen(_mm_shuffle_ps(a, c, 0xee)),
+                         doubles_widen(_mm_shuffle_ps(b, d, 0x44)), doubles_widen(_mm_shuffle_ps(b, d, 0xee))};
     return four;
 }
 

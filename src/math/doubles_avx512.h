@@ -142,19 +142,25 @@ VNDF_INLINE doubles doubles_gather(const float *base, doubles_u index)
 {
     uint32_t at[VNDF_DOUBLES];
     doubles_spill_u(at, index);
-    return doubles_widen(_mm256_setr_ps(base[at[0]], base[at[1]], base[at[2]], base[at[3]],
-                                        base[at[4]], base[at[5]], base[at[6]], base[at[7]]));
+    return doubles_widen(_mm256_setr_ps(base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]],
+                                        base[at[5]], base[at[6]], base[at[7]]));
 }
 
 VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
 {
     uint32_t at[VNDF_DOUBLES];
     doubles_spill_u(at, index);
-    doubles_u made = {base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]], base[at[5]], base[at[6]], base[at[7]]};
+    doubles_u made = {base[at[0]], base[at[1]], base[at[2]], base[at[3]],
+                      base[at[4]], base[at[5]], base[at[6]], base[at[7]]};
     return made;
 }
 
 /* One of sixteen numbers, in registers. */
+VNDF_INLINE doubles doubles_few_f(const float *table, doubles_u index)
+{
+    return doubles_widen(_mm256_permutex2var_ps(_mm256_loadu_ps(table), (__m256i)index, _mm256_loadu_ps(table + 8)));
+}
+
 VNDF_INLINE doubles doubles_few(const double *table, doubles_u index)
 {
     __m512i at = _mm512_cvtepu32_epi64((__m256i)index);

@@ -1,9 +1,9 @@
-/* Projected area, Lambda and G1 of any distribution, in double from the very numbers that came in, for one or for
- * lanes. All three come from the area A(-|w|) of the direction turned below the horizon, which is a sum of positive
+/* Projected area, Lambda and G1 of any distribution, in double from the very numbers that came in, for one or
+ * for lanes. All three come from the area A(-|w|) of the direction turned below the horizon, a sum of positive
  * terms: A(w) - A(-w) = cos(theta), so A(|w|) = cos(theta) + A(-|w|) and Lambda = A(-|w|)/cos(theta).
  *
- * The direction (alpha_x w.x, alpha_y w.y, w.z) stays as long as it is: an area grows with the length, and quotients
- * drop it. With S its part across, U = |w.z| and L^2 = S^2 + U^2
+ * The direction (alpha_x w.x, alpha_y w.y, w.z) stays as long as it is: an area grows with the length, and
+ * quotients drop it. With S its part across, U = |w.z| and L^2 = S^2 + U^2
  *
  *     table     2 (S + U) M(S/(S + U)),    M the mass of half the wedge below (sampler/engine.h)
  *     GGX       S^2/(2 (L + U)),
@@ -110,7 +110,8 @@ VNDF_INLINE doubles_f vndf_g1_of(const vndf_distribution *d, const vndf_directio
     doubles_m valid = vndf_direction_is_valid(w);
     doubles up = w->z, g1 = up / (up + vndf_area_below(d, w, valid)), one = doubles_set(1.0);
     g1 = doubles_pick(doubles_less(g1, one), g1, one);
-    return doubles_narrow(doubles_pick(doubles_both(valid, doubles_less(doubles_set(0.0), up)), g1, doubles_set(0.0)));
+    doubles_m above = doubles_both(valid, doubles_less(doubles_set(0.0), up));
+    return doubles_narrow(doubles_pick(above, g1, doubles_set(0.0)));
 }
 
 #endif

@@ -1,5 +1,5 @@
-/* Densities, D, areas, Lambda and G1 of many: in lanes of doubles where there are any (eval_lanes.h), else one after
- * the other. The inverse is always that. */
+/* Densities, D, areas, Lambda and G1 of many: in lanes of doubles where there are any (eval_lanes.h), else one
+ * after the other. The inverse is always that. */
 #include <string.h>
 
 #include "core/inline.h"
@@ -72,7 +72,8 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
 static void read_block(vndf_eval_block *block, const call *c, size_t first, copies *own)
 {
     const vndf_batch *b = c->batch;
-    const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z, c->wm.x, c->wm.y, c->wm.z};
+    const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
+                                           b->wi_z, c->wm.x, c->wm.y, c->wm.z};
     int last = is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
     for (int n = 0; n <= last; n++) {
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)

@@ -94,8 +94,9 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
     const vndf_eval_inputs *in = &b->in;
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = {{input(in, VNDF_EVAL_ALPHA_X, i) * scale, input(in, VNDF_EVAL_ALPHA_Y, i) * scale, one, one, one},
-                        input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i), input(in, VNDF_EVAL_Z, i)};
+        doubles ax = input(in, VNDF_EVAL_ALPHA_X, i) * scale, ay = input(in, VNDF_EVAL_ALPHA_Y, i) * scale;
+        vndf_given g = {{ax, ay, one, one, one}, input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+                        input(in, VNDF_EVAL_Z, i)};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
         doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_ndf_of(d, &g), nothing)));
@@ -141,14 +142,13 @@ typedef struct gathered {
 } gathered;
 
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
-VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, doubles_m m, uint32_t first, uint32_t end)
+VNDF_INLINE void append(sorted *s, int way, doubles_m m, uint32_t first, uint32_t end)
 {
     uint32_t bits = doubles_mask_bits(m);
     if (end - first < VNDF_DOUBLES)
         bits &= (1u << (end - first)) - 1;
     for (; bits != 0; bits &= bits - 1)
-        list[count++] = first + (uint32_t)__builtin_ctz(bits);
-    return count;
+        s->index[way][s->count[way]++] = first + (uint32_t)__builtin_ctz(bits);
 }
 
 /* What is not seen has the answer 0. */
@@ -160,15 +160,16 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
         vndf_given g = given_at(&b->in, i, scale);
         doubles_m seen = is_seen(&g, vndf_given_facing(&g)), below = doubles_less(g.wi.z, nothing);
         doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_given_along(&g));
-        s->count[IN_FRONT] = append(s->index[IN_FRONT], s->count[IN_FRONT], doubles_both(above, front), i, b->count);
-        s->count[BEHIND] = append(s->index[BEHIND], s->count[BEHIND], doubles_without(above, front), i, b->count);
-        s->count[BELOW] = append(s->index[BELOW], s->count[BELOW], doubles_both(seen, below), i, b->count);
+        append(s, IN_FRONT, doubles_both(above, front), i, b->count);
+        append(s, BEHIND, doubles_without(above, front), i, b->count);
+        append(s, BELOW, doubles_both(seen, below), i, b->count);
         doubles_store_f(b->value + i, doubles_narrow(nothing));
     }
 }
 
-/* Of a way; `own` becomes a block like b. One after the other: gathers cost more. */
-VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count, gathered *own)
+/* What those of a way are given, put into `own` one after the other: gathers cost more. */
+VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count,
+                                        gathered *own)
 {
     vndf_eval_inputs made;
     for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++) {
@@ -182,7 +183,8 @@ VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t
 }
 
 /* A group's answers to where its normals were; what is not plain is left. */
-VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density, doubles_m plain)
+VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density,
+                         doubles_m plain)
 {
     float value[VNDF_DOUBLES];
     uint32_t bits = doubles_mask_bits(plain);

@@ -15,8 +15,8 @@ typedef enum vndf_question {
 } vndf_question;
 
 /* What a block is given: members of vndf_given, in their order. */
-enum { VNDF_EVAL_ALPHA_X, VNDF_EVAL_ALPHA_Y, VNDF_EVAL_WI_X, VNDF_EVAL_WI_Y, VNDF_EVAL_WI_Z, VNDF_EVAL_X, VNDF_EVAL_Y,
-       VNDF_EVAL_Z, VNDF_EVAL_INPUTS };
+enum { VNDF_EVAL_ALPHA_X, VNDF_EVAL_ALPHA_Y, VNDF_EVAL_WI_X, VNDF_EVAL_WI_Y, VNDF_EVAL_WI_Z, VNDF_EVAL_X,
+       VNDF_EVAL_Y, VNDF_EVAL_Z, VNDF_EVAL_INPUTS };
 
 /* Arrays that lanes may read to the end of the last group; those that the question wants. */
 typedef struct vndf_eval_inputs {

@@ -5,8 +5,8 @@
  *
  *     S X cos a = A (wi.x wm.x + wi.y wm.y) = K,       S X |sin a| = |ax wi.x (ax wm.y) - ay wi.y (ay wm.x)|,
  *
- * the law of the radius has the weights (C, K), C = +-U X, times X. In a cell with the densities e0, e1 at its ends
- * and the mass m under that law (math/rational_cell.h), at a place x + z = sum,
+ * the law of the radius has the weights (C, K), C = +-U X, times X. In a cell with the densities e0, e1 at its
+ * ends and the mass m under that law (math/rational_cell.h), at a place (x, z),
  *
  *     mass per xi = p m^2/b^2,    p = e1 xi^2 + 2 m xi eta + e0 eta^2,  b = m + (e0 + e1 - 2 m) xi eta,
  *     density     = azimuth/mass of the law   p m^2/b^2   (x + z)^3 A^2 / (width x (X + Z)^3),

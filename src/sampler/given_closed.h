@@ -79,7 +79,7 @@ VNDF_INLINE doubles vndf_ggx_visible(const vndf_given *g, doubles facing)
     doubles_m below = doubles_less(g->wi.z, doubles_set(0.0)), seen = doubles_less(doubles_set(0.0), s2);
     doubles part = q * q * doubles_pick(below, s2, sum * sum);
     doubles visible = 2.0 * vndf_inverse_pi * (a * a * a) * (facing * sum) / part;
-    return doubles_pick(doubles_without(below, seen), doubles_set(0.0), visible); /* nothing is from straight below */
+    return doubles_pick(doubles_without(below, seen), doubles_set(0.0), visible); /* straight down sees nothing */
 }
 
 /* Dv where wi . wm = facing > 0 and all is valid. */

@@ -22,15 +22,44 @@ VNDF_INLINE doubles vndf_shares_mix(const vndf_shares *s, const float *array)
            s->last * doubles_gather(array + 2, s->row);
 }
 
+VNDF_INLINE vndf_shares vndf_shares_from(doubles_u i, doubles y, doubles from, doubles to)
+{
+    doubles m = y - from, rest = to - y, width = to - from;
+    vndf_shares s = {i * 2u, rest * rest, 2.0 * rest * m, m * m, width * width, m, m};
+    return s;
+}
+
+#if VNDF_DOUBLES == 8
+
+/* Where there are no more than VNDF_FEW knots of rows: all is found and read in registers. */
+VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
+{
+    doubles_u i = doubles_set_u(0);
+    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
+        i = doubles_pick_u(doubles_at_most(doubles_few_f(w->few_y, i + step), y), i + step, i);
+    i = doubles_least_u(i, doubles_set_u(w->row_count / 2 - 1)); /* at the last knot, too, there are three */
+    vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->few_y, i), doubles_few_f(w->few_y + 1, i));
+    const float *p = w->few_aspects[0], *p_between = w->few_aspects[1];
+    const float *r = w->few_aspects[2], *r_between = w->few_aspects[3];
+    s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(p_between, i) + s.last * doubles_few_f(p + 1, i);
+    s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(r_between, i) + s.last * doubles_few_f(r + 1, i);
+    return s;
+}
+
+#endif
+
 /* The guide finds the knot but for the rounding of y. */
 VNDF_INLINE vndf_shares vndf_shares_at(const vndf_wedge *w, doubles y)
 {
+#if VNDF_DOUBLES == 8
+    if (w->row_count / 2 < VNDF_FEW)
+        return vndf_shares_few(w, y);
+#endif
     const doubles_u one = doubles_set_u(1), none = doubles_set_u(0);
     doubles_u i = vndf_guide_doubles(&w->row_guide, doubles_narrow(y));
     doubles_m early = doubles_both(doubles_less(y, doubles_gather(w->row_y, i)), doubles_at_most_u(one, i));
     i -= doubles_pick_u(early, one, none);
-    doubles from = doubles_gather(w->row_y, i), to = doubles_gather(w->row_y + 1, i), m = y - from, rest = to - y;
-    vndf_shares s = {i * 2u, rest * rest, 2.0 * rest * m, m * m, (to - from) * (to - from), m, m};
+    vndf_shares s = vndf_shares_from(i, y, doubles_gather(w->row_y, i), doubles_gather(w->row_y + 1, i));
     s.p = vndf_shares_mix(&s, w->aspect_p);
     s.r = vndf_shares_mix(&s, w->aspect_r);
     return s;
@@ -62,6 +91,16 @@ VNDF_INLINE doubles_u vndf_cell_of_q(const vndf_wedge *w, doubles q)
     return j;
 }
 
+/* The ends of cell j of q. */
+VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j)
+{
+#if VNDF_DOUBLES == 8
+    if (w->stride <= VNDF_FEW) /* q is padded to that */
+        return doubles_few_f(w->q + end, j);
+#endif
+    return doubles_gather(w->q + end, j);
+}
+
 /* Mass per radian of the row, times `square`, as above/below; cosine and sine >= 0 and of any length. */
 VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, doubles cosine, doubles sine)
 {
@@ -70,8 +109,9 @@ VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_share
     doubles q = aside * reach * per, rest = along * (reach + along) * per;
     doubles_u j = vndf_cell_of_q(w, q);
     vndf_mixed_cell cell = vndf_shares_cell(w, s, j);
-    doubles from = doubles_gather(w->q, j), to = doubles_gather(w->q + 1, j), h = to - from;
-    doubles a = q - from, b = rest - (1.0 - to), ab = a * b, twice = 2.0 * cell.mass, e0 = cell.begin * h, e1 = cell.end * h;
+    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j), h = to - from;
+    doubles a = q - from, b = rest - (1.0 - to), ab = a * b;
+    doubles twice = 2.0 * cell.mass, e0 = cell.begin * h, e1 = cell.end * h;
     doubles over = e1 * (a * a) + twice * ab + e0 * (b * b), under = cell.mass * (h * h) + (e0 + e1 - twice) * ab;
     doubles x = s->p * rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
     vndf_quotient density = {over * (mass * mass) * (h * (x * x + y * y)),
@@ -85,8 +125,8 @@ VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_share
 VNDF_INLINE doubles vndf_bump_part(doubles f0, doubles f1, vndf_bump bump, doubles h)
 {
     const double sixth = 1.0 / 6.0, twelfth = 1.0 / 12.0;
-    doubles slope = f1 - f0;
-    doubles whole = 0.5 * f0 + h * (sixth * (slope + bump.a) + h * (twelfth * (bump.b - bump.a) - h * (0.05 * bump.b)));
+    doubles slope = f1 - f0, bend = twelfth * (bump.b - bump.a) - h * (0.05 * bump.b);
+    doubles whole = 0.5 * f0 + h * (sixth * (slope + bump.a) + h * bend);
     doubles least = 1e-3 * (0.5 * f0 + h * (sixth * slope));
     return doubles_pick(doubles_less(least, whole), whole, least);
 }
@@ -130,7 +170,8 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles 
 /* ---- both ---- */
 
 /* The normal's azimuth and radius. */
-VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_given *g, int below, doubles_m *plain)
+VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_given *g, int below,
+                                        doubles_m *plain)
 {
     const vndf_wedge *w = below ? &d->below : &d->above;
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;

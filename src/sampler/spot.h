@@ -27,7 +27,8 @@ VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles oute
     const doubles nothing = doubles_set(0.0);
     const doubles_u one = doubles_set_u(1), zero = doubles_set_u(0);
     doubles_m in = doubles_both(doubles_less(inner, nothing), doubles_at_most_u(one, cell));
-    doubles_m out = doubles_both(doubles_at_most(outer, nothing), doubles_at_most_u(cell + 2u, doubles_set_u(count)));
+    doubles_m more = doubles_at_most_u(cell + 2u, doubles_set_u(count));
+    doubles_m out = doubles_both(doubles_at_most(outer, nothing), more);
     return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
 }
 

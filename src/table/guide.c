@@ -13,8 +13,8 @@ static uint32_t shift_for(uint32_t span, uint32_t count)
     return shift;
 }
 
-/* Where in bucket b the knot after its first stands, in steps of 2^drop, rounded down: so no value is taken for less
- * than it is. Beyond every value if it is in none. */
+/* Where in bucket b the knot after its first stands, in steps of 2^drop, rounded down: so no value is taken for
+ * less than it is. Beyond every value if it is in none. */
 static uint32_t place_in_bucket(const vndf_guide *guide, uint32_t b)
 {
     uint32_t start = guide->low + (b << guide->shift), next = guide->next[guide->first[b]];

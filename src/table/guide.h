@@ -50,8 +50,8 @@ VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
     }
 }
 
-/* The same beside doubles, or an index somewhat too large: entries are rounded, and what is below all knots counts as
- * the second; it may be too small unless the guide is `single`. Others have to look themselves. */
+/* The same beside doubles, or an index somewhat too large: entries are rounded, and what is below all knots counts
+ * as the second; it may be too small unless the guide is `single`. Callers look themselves. */
 VNDF_INLINE doubles_u vndf_guide_about(const vndf_guide *guide, doubles_f value)
 {
 #if VNDF_DOUBLES == 1

@@ -105,6 +105,8 @@ typedef struct vndf_wedge {
     vndf_area_quick *quick;              /* and once more */
     float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
     double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
+    float few_y[VNDF_FEW + 1];           /* row_y, if there are so few */
+    float few_aspects[4][VNDF_FEW + 1];  /* p and then r of rows 0, 2, 4, ..., then of those between */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
