@@ -26,7 +26,7 @@ static void test_view(const vndf_walk *walk, const vndf_view *view, const char *
     size_t count = walk_count(SAMPLES);
     int closed = view->distribution == vndf_ggx() || view->distribution == vndf_beckmann();
     unsigned long long state = 20160724;
-    walk_mean weight = {0, 0, 0};
+    walk_mean weight = {0, 0, 0, 0};
     for (size_t i = 0; i < count; i++) {
         float u[3];
         vndf_walked w;

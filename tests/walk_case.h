@@ -126,13 +126,14 @@ static inline size_t walk_count(size_t usual)
 /* ---- means and their errors ---- */
 
 typedef struct walk_mean {
-    double sum, squares, count;
+    double sum, squares, count, largest;
 } walk_mean;
 
 static inline void walk_add(walk_mean *m, double x)
 {
     m->sum += x;
     m->squares += x * x;
+    m->largest = x > m->largest ? x : m->largest;
 }
 
 static inline double walk_value(const walk_mean *m)

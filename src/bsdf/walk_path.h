@@ -154,6 +154,21 @@ VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float
     return facet;
 }
 
+/* Two uniform numbers for the normal of an event; one for its lobe is returned. */
+VNDF_INLINE double vndf_walk_numbers(const vndf_walk *walk, vndf_walk_path *path, float u[2])
+{
+    vndf_walk_pair(&path->random, u);
+    return walk->transmits ? vndf_walk_uniform(&path->random) : 0.0;
+}
+
+/* Radiance is not constant along a ray that changes its medium, power is: over the square of the index ratio, of
+ * which only the whole way from side to side is left. */
+VNDF_INLINE double vndf_walk_transport(const vndf_walk *walk, int turned)
+{
+    double eta = walk->eta;
+    return turned && walk->transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (eta * eta) : 1.0;
+}
+
 /* Nothing is carried on. */
 VNDF_INLINE int vndf_walk_is_dark(const vndf_walk_path *path)
 {

@@ -34,31 +34,18 @@ static double share_of(const vndf_walk *walk, const vndf_view *view)
     return 0.001 + 0.999 * (share > 0.0 ? share : 0.0);
 }
 
-static double reflected(const vndf_view *view, vndf_vec3 wo)
+static double scattered(const vndf_walk *walk, const vndf_view *view, vndf_vec3 o, int across)
 {
-    vndf_walk_half half;
-    return vndf_walk_half_reflected(view->wi, wo, &half)
-        ? vndf_walk_visible(view, half.wm, half.cosine) * half.jacobian : 0.0;
+    vndf_walk_scattered s;
+    return vndf_walk_scatter(walk, view, walk->eta, o, across, &s) ? s.drawn : 0.0;
 }
 
-static double folded(const vndf_view *view, vndf_vec3 wo)
-{
-    return reflected(view, wo) + reflected(view, vndf_vec3_of(wo.x, wo.y, -wo.z));
-}
-
-/* Over the whole sphere, by the lobes' parts. */
+/* Above the horizon, or over the whole sphere. */
 static double first_event(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
 {
-    double f[VNDF_WAVELENGTHS], density = 0.0;
-    vndf_walk_half half;
-    if (vndf_walk_half_reflected(view->wi, wo, &half))
-        density = vndf_walk_visible(view, half.wm, half.cosine) * half.jacobian *
-                  vndf_walk_reflectances(walk, half.cosine, walk->eta, f);
-    vndf_vec3 turned = vndf_vec3_of(-wo.x, -wo.y, -wo.z);
-    if (vndf_walk_half_refracted(view->wi, turned, walk->eta, &half))
-        density += vndf_walk_visible(view, half.wm, half.cosine) * half.jacobian *
-                   (1.0 - vndf_walk_reflectances(walk, half.cosine, walk->eta, f));
-    return density;
+    double density = scattered(walk, view, wo, 0);
+    vndf_vec3 mirrored = vndf_vec3_of(wo.x, wo.y, -wo.z), turned = vndf_vec3_of(-wo.x, -wo.y, -wo.z);
+    return density + scattered(walk, view, walk->transmits ? turned : mirrored, walk->transmits);
 }
 
 float vndf_walk_pdf(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
@@ -66,8 +53,6 @@ float vndf_walk_pdf(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
     double share = share_of(walk, view);
     if (!walk->transmits && !(wo.z > 0.0f))
         return 0.0f;
-    double cosine = fabs((double)wo.z) * inverse_pi;
-    double density = walk->transmits ? (1.0 - share) * first_event(walk, view, wo) + share * 0.5 * cosine
-                                     : (1.0 - share) * folded(view, wo) + share * cosine;
-    return vndf_density_from(density);
+    double cosine = fabs((double)wo.z) * inverse_pi * (walk->transmits ? 0.5 : 1.0);
+    return vndf_density_from((1.0 - share) * first_event(walk, view, wo) + share * cosine);
 }
