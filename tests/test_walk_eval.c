@@ -3,60 +3,7 @@
  * with the square of the index ratio (Walter et al. 2007, section 5): means at 5 sigmas, 6e-7 each, of some 3000.
  *
  * Bins are compared where there are errors to speak of: 100 samples and evaluations, none of them a tenth of all. */
-#include "walk_case.h"
-
-/* ---- directions to evaluate at: half of them as one event scatters, half by a cosine ---- */
-
-static double reflected_density(const vndf_view *view, vndf_vec3 wo)
-{
-    vndf_vec3 wi = view->wi, sum = {wi.x + wo.x, wi.y + wo.y, wi.z + wo.z};
-    double length = sqrt((double)sum.x * sum.x + (double)sum.y * sum.y + (double)sum.z * sum.z);
-    vndf_vec3 wm = {(float)(sum.x / length), (float)(sum.y / length), (float)(sum.z / length)};
-    return vndf_pdf(view, wm) / (2.0 * length);
-}
-
-static double refracted_density(const vndf_view *view, vndf_vec3 wo, double eta)
-{
-    vndf_vec3 wi = view->wi;
-    double x = wi.x + eta * wo.x, y = wi.y + eta * wo.y, z = wi.z + eta * wo.z, square = x * x + y * y + z * z;
-    double per = copysign(1.0 / sqrt(square), 1.0 - eta);
-    vndf_vec3 wm = {(float)(x * per), (float)(y * per), (float)(z * per)};
-    double facing_o = -(wo.x * x + wo.y * y + wo.z * z) * per;
-    return facing_o > 0.0 ? vndf_pdf(view, wm) * eta * eta * facing_o / square : 0.0;
-}
-
-static double proposal_density(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
-{
-    vndf_vec3 mirrored = {wo.x, wo.y, -wo.z};
-    double cosine = fabs((double)wo.z) / walk_pi;
-    if (!walk->transmits)
-        return 0.5 * (reflected_density(view, wo) + reflected_density(view, mirrored)) + 0.5 * cosine;
-    return 0.25 * (reflected_density(view, wo) + refracted_density(view, wo, walk->eta)) + 0.25 * cosine;
-}
-
-static vndf_vec3 scattered_once(const vndf_view *view, double eta, vndf_vec3 wm)
-{
-    vndf_vec3 v = view->wi;
-    double c = (double)v.x * wm.x + (double)v.y * wm.y + (double)v.z * wm.z, t2 = eta * eta - 1.0 + c * c;
-    double along = eta == 0.0 ? 2.0 * c : t2 > 0.0 ? (c - sqrt(t2)) / eta : NAN, per = eta == 0.0 ? 1.0 : 1.0 / eta;
-    vndf_vec3 wo = {walk_rounded(along * wm.x - per * v.x), walk_rounded(along * wm.y - per * v.y),
-                    walk_rounded(along * wm.z - per * v.z)};
-    return wo;
-}
-
-/* NaN in z where there is none: total reflection. */
-static vndf_vec3 propose(const vndf_walk *walk, const vndf_view *view, unsigned long long *state)
-{
-    float u[3];
-    walk_numbers(state, u);
-    double side = walk->transmits && test_uniform(state) < 0.5f ? -1.0 : 1.0;
-    if (u[2] < 0.5f)
-        return walk_direction(side * sqrt((double)u[0]), 2.0 * walk_pi * u[1]);
-    vndf_vec3 wm = vndf_sample(view, u[0], u[1], NULL);
-    vndf_vec3 wo = scattered_once(view, side < 0.0 ? (double)walk->eta : 0.0, wm);
-    wo.z = walk->transmits ? wo.z : fabsf(wo.z);
-    return wo;
-}
+#include "walk_proposal.h"
 
 /* ---- the two histograms ---- */
 
@@ -73,6 +20,15 @@ static void sample_bins(const vndf_walk *walk, const vndf_view *view, size_t cou
     }
 }
 
+/* NaN in z where there is none: total reflection. */
+static vndf_vec3 propose(const vndf_walk *walk, const vndf_view *view, unsigned long long *state)
+{
+    float u[3];
+    walk_numbers(state, u);
+    int below = walk->transmits && test_uniform(state) < 0.5f;
+    return u[2] < 0.5f ? walk_propose_cosine(below, u[0], u[1]) : walk_propose_event(walk, view, below, u[0], u[1]);
+}
+
 static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[], size_t hits[])
 {
     unsigned long long state = 32;
@@ -83,7 +39,7 @@ static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count
             continue;
         vndf_walk_eval(walk, view, wo, i, value);
         TEST(value[0] >= 0.0 && value[0] < HUGE_VAL);
-        walk_add(&bins[walk_bin(wo)], value[0] / proposal_density(walk, view, wo));
+        walk_add(&bins[walk_bin(wo)], value[0] / walk_proposal_density(walk, view, wo));
         hits[walk_bin(wo)]++;
     }
 }
