@@ -1,13 +1,16 @@
-/* The mean of eval is what sample scatters: over 96 bins of the sphere, all orders, the integral of eval against the
- * mean weight of the samples that fall in; and f does not change when wi and wo change places, across the boundary
- * with the square of the index ratio (Walter et al. 2007, section 5): means at 5 sigmas, 6e-7 each, of some 3000.
+/* The mean of eval is what sample scatters: over 96 bins of the sphere, all orders, the integral of eval against
+ * the mean weight of the samples that fall in; and f does not change when wi and wo change places, across the
+ * boundary with the square of the index ratio (Walter et al. 2007, section 5): means at 5 sigmas, 6e-7 each, of
+ * some 3000.
  *
- * Bins are compared where there are errors to speak of: 100 samples and evaluations, none of them a tenth of all. */
+ * Bins are compared where there are errors to speak of: 100 samples and evaluations, none of them a tenth of
+ * all. */
 #include "walk_proposal.h"
 
 /* ---- the two histograms ---- */
 
-static void sample_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[], size_t hits[])
+static void sample_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[],
+                        size_t hits[])
 {
     unsigned long long state = 31;
     for (size_t i = 0; i < count; i++) {
@@ -26,10 +29,12 @@ static vndf_vec3 propose(const vndf_walk *walk, const vndf_view *view, unsigned 
     float u[3];
     walk_numbers(state, u);
     int below = walk->transmits && test_uniform(state) < 0.5f;
-    return u[2] < 0.5f ? walk_propose_cosine(below, u[0], u[1]) : walk_propose_event(walk, view, below, u[0], u[1]);
+    return u[2] < 0.5f ? walk_propose_cosine(below, u[0], u[1])
+                       : walk_propose_event(walk, view, below, u[0], u[1]);
 }
 
-static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[], size_t hits[])
+static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[],
+                      size_t hits[])
 {
     unsigned long long state = 32;
     for (size_t i = 0; i < count; i++) {
@@ -67,8 +72,8 @@ static void test_bins(const vndf_walk *walk, const vndf_view *view, const char *
         compared += sampled[b].sum;
         if (!TEST(walk_agree(&sampled[b], &evaluated[b], 5.0, 0.0)))
             fprintf(stderr, "  %s, alpha %g %g, cos %g, eta %g, bin %d: sample %g, eval %g +- %g\n", name,
-                    view->alpha_x, view->alpha_y, (double)view->wi.z, walk->transmits ? (double)walk->eta : 0.0, b,
-                    walk_value(&sampled[b]), walk_value(&evaluated[b]), sqrt(walk_variance(&evaluated[b])));
+                    view->alpha_x, view->alpha_y, (double)view->wi.z, walk->transmits ? (double)walk->eta : 0.0,
+                    b, walk_value(&sampled[b]), walk_value(&evaluated[b]), sqrt(walk_variance(&evaluated[b])));
     }
     if (!TEST(compared > least * all))
         fprintf(stderr, "  %s, alpha %g %g, cos %g: compared %g\n", name, view->alpha_x, view->alpha_y,
@@ -137,7 +142,8 @@ static void test_reciprocity(int subject)
     float scale = (float)vndf_distribution_info(d).scale;
     for (int i = 0; d && i < 6; i++) {
         double from = i % 2 ? 0.9 : 0.2, to = i % 3 ? 0.35 : 0.8;
-        test_pair(d, 1.0f / scale, (i < 3 ? 1.0f : 0.4f) / scale, walk_direction(from, 0.3), walk_direction(to, 2.0 + i));
+        test_pair(d, 1.0f / scale, (i < 3 ? 1.0f : 0.4f) / scale, walk_direction(from, 0.3),
+                  walk_direction(to, 2.0 + i));
     }
     walk_subject_free(d);
 }

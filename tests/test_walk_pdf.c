@@ -1,6 +1,6 @@
-/* vndf_walk_pdf is a density: its integral over the directions that it covers is 1 within 1e-4, it is positive there,
- * and it is near the law of the samples: a total variation over 96 bins below 0.42 everywhere (0.39 measured, for a
- * hazy mirror of roughness 0.1 x 1), and below 0.05 where alpha is 0.1 (0.034). */
+/* vndf_walk_pdf is a density: its integral over the directions that it covers is 1 within 1e-4, it is positive
+ * there, and it is near the law of the samples: a total variation over 96 bins below 0.42 everywhere (0.39
+ * measured, for a hazy mirror of roughness 0.1 x 1), and below 0.05 where alpha is 0.1 (0.034). */
 #include "walk_proposal.h"
 
 /* integral of pdf = sum over the parts of a proposal of the mean of pdf/proposal, which is bounded: points of a

@@ -1,6 +1,6 @@
-/* The numbers of a walk are uniform and independent, within a walk and from walk to walk, also where seeds follow
- * each other or uniform numbers differ in their last bit: chi-square over 64 x 64 cells of pairs, 1e-4 each; and the
- * exponential has its mean and variance. */
+/* The numbers of a walk are uniform and independent, within a walk and from walk to walk, also where seeds
+ * follow each other or uniform numbers differ in their last bit: chi-square over 64 x 64 cells of pairs, 1e-4
+ * each; and the exponential has its mean and variance. */
 #include "bsdf/walk_random.h"
 #include "statistics.h"
 #include "test.h"

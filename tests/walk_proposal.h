@@ -1,5 +1,5 @@
-/* Directions to look at a random walk in, with their density: half of them as one event scatters, half by cosines;
- * with transmission half of each on either lobe or side. Written apart from src/bsdf. */
+/* Directions to look at a random walk in, with their density: half of them as one event scatters, half by
+ * cosines; with transmission half of each on either lobe or side. Written apart from src/bsdf. */
 #ifndef TESTS_WALK_PROPOSAL_H
 #define TESTS_WALK_PROPOSAL_H
 
@@ -27,10 +27,10 @@ static inline double walk_refracted_density(const vndf_view *view, vndf_vec3 wo,
 static inline double walk_proposal_density(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
 {
     vndf_vec3 mirrored = {wo.x, wo.y, -wo.z};
-    double cosine = fabs((double)wo.z) / walk_pi;
+    double cosine = fabs((double)wo.z) / walk_pi, event = walk_reflected_density(view, wo);
     if (!walk->transmits)
-        return 0.5 * (walk_reflected_density(view, wo) + walk_reflected_density(view, mirrored)) + 0.5 * cosine;
-    return 0.25 * (walk_reflected_density(view, wo) + walk_refracted_density(view, wo, walk->eta)) + 0.25 * cosine;
+        return 0.5 * (event + walk_reflected_density(view, mirrored) + cosine);
+    return 0.25 * (event + walk_refracted_density(view, wo, walk->eta) + cosine);
 }
 
 static inline vndf_vec3 walk_propose_cosine(int below, double u1, double u2)
@@ -43,7 +43,8 @@ static inline vndf_vec3 walk_scattered_once(const vndf_view *view, double eta, i
 {
     vndf_vec3 v = view->wi;
     double c = (double)v.x * wm.x + (double)v.y * wm.y + (double)v.z * wm.z, t2 = eta * eta - 1.0 + c * c;
-    double along = !refracted ? 2.0 * c : t2 > 0.0 ? (c - sqrt(t2)) / eta : NAN, per = refracted ? 1.0 / eta : 1.0;
+    double along = !refracted ? 2.0 * c : t2 > 0.0 ? (c - sqrt(t2)) / eta : NAN;
+    double per = refracted ? 1.0 / eta : 1.0;
     vndf_vec3 wo = {walk_rounded(along * wm.x - per * v.x), walk_rounded(along * wm.y - per * v.y),
                     walk_rounded(along * wm.z - per * v.z)};
     return wo;

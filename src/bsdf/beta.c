@@ -6,8 +6,8 @@
  *
  *     log Beta = log(2 pi)/2 + (b - 1/2) log b - b log(a + b) - (a - 1/2) log(1 + b/a) + R(a) + R(b) - R(a + b),
  *
- * where nothing of the size of a cancels. Factors a + b of the first steps are taken over the last one, so that they
- * do not overflow; its powers join the logarithm. */
+ * where nothing of the size of a cancels. Factors a + b of the first steps are taken over the last one, so that
+ * they do not overflow; its powers join the logarithm. */
 #include "bsdf/beta.h"
 
 #include "math/elementary.h"

@@ -71,8 +71,8 @@ typedef struct vndf_walk_scattered {
 } vndf_walk_scattered;
 
 /* From a view to o, on its side or `across`; 0 where nothing goes there. */
-VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, double eta, vndf_vec3 o, int across,
-                                  vndf_walk_scattered *s)
+VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, double eta, vndf_vec3 o,
+                                  int across, vndf_walk_scattered *s)
 {
     vndf_walk_half half;
     if (across ? !vndf_walk_half_refracted(view->wi, o, eta, &half)

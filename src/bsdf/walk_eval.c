@@ -1,16 +1,16 @@
 /* f of a random walk, estimated from both ends.
  *
- * A walk from wi, with a connection from each of its events to wo, estimates the orders from the second on; so does
- * one from wo with connections to wi, since f is reciprocal (over the square of the index ratio across the
+ * A walk from wi, with a connection from each of its events to wo, estimates the orders from the second on; so
+ * does one from wo with connections to wi, since f is reciprocal (over the square of the index ratio across the
  * boundary). A path of k events is drawn by the first with all of its factors but that of the last event towards
- * wo, by the second with all but that of the first towards wi. With E_o and E_i for those two factors - density of
- * scattering to the end, chance to leave, 1/cosine - their densities are as 1/E_o to 1/E_i, and the balance
+ * wo, by the second with all but that of the first towards wi. With E_o and E_i for those two factors - density
+ * of scattering to the end, chance to leave, 1/cosine - their densities are as 1/E_o to 1/E_i, and the balance
  * heuristic (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995)
  *
  *     weight of the walk from wi   E_i/(E_i + E_o),     of that from wo   E_o/(E_i + E_o)
  *
- * leaves of a path's contribution half the harmonic mean of what the two would have given: a narrow lobe at one end
- * is no spike unless it is met at both. */
+ * leaves of a path's contribution half the harmonic mean of what the two would have given: a narrow lobe at one
+ * end is no spike unless it is met at both. */
 #include "bsdf/beta.h"
 #include "bsdf/walk.h"
 #include "bsdf/walk_connect.h"
@@ -121,7 +121,8 @@ void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, 
     if (wo.z == 0.0f || (wo.z < 0.0f && !walk->transmits))
         return;
     end far = far_end(walk, view, wo), near = end_at(walk, view, far.target.beyond);
-    double eta = walk->eta, index = far.target.beyond ? eta * eta : 1.0, factor = vndf_walk_transport(walk, wo.z < 0.0f);
+    double eta = walk->eta, index = far.target.beyond ? eta * eta : 1.0;
+    double factor = vndf_walk_transport(walk, far.target.beyond);
     add_single(&near, &far, value);
     add_walk(&near, &far, seed, 1.0, value);
     add_walk(&far, &near, ~seed, index * far.cosine / near.cosine, value);

@@ -26,8 +26,8 @@ VNDF_INLINE vndf_vec3 vndf_walk_unit(vndf_normal w)
     return vndf_vec3_of((float)(w.x * per), (float)(w.y * per), (float)(w.z * per));
 }
 
-/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top there is no end to it; 1e-300 keeps
- * it a number that a walk may come back from. */
+/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top there is no end to it; 1e-300
+ * keeps it a number that a walk may come back from. */
 VNDF_INLINE double vndf_walk_other_depth(double depth)
 {
     double below = depth > 1e-5 ? 1.0 - vndf_exp(-depth) : depth - 0.5 * depth * depth;
@@ -122,7 +122,8 @@ VNDF_INLINE void vndf_walk_turn(vndf_walk_path *path)
     path->depth = vndf_walk_other_depth(path->depth);
 }
 
-VNDF_INLINE void vndf_walk_weigh(vndf_walk_path *path, const double f[VNDF_WAVELENGTHS], double mean, int reflected)
+VNDF_INLINE void vndf_walk_weigh(vndf_walk_path *path, const double f[VNDF_WAVELENGTHS], double mean,
+                                 int reflected)
 {
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         path->weight[i] *= reflected ? f[i] / mean : (1.0 - f[i]) / (1.0 - mean);

@@ -9,8 +9,8 @@ static double visible_of_table(const vndf_view *view, const vndf_stretched *w, v
         return 0.0; /* it has underflowed, far below the horizon */
     double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay;
     double x = sqrt(mx * mx + my * my), per = 1.0 / (x + wm.z);
-    double ndf = vndf_engine_p22_over_z4(view->distribution, x * per, wm.z * per) * (per / ax) * (per / ay) * per * per;
-    return ndf * (facing * w->per_length) / view->area;
+    double p22 = vndf_engine_p22_over_z4(view->distribution, x * per, wm.z * per);
+    return p22 * (per / ax) * (per / ay) * per * per * (facing * w->per_length) / view->area;
 }
 
 double vndf_walk_visible(const vndf_view *view, vndf_normal wm, double facing)
