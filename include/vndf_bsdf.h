@@ -8,8 +8,9 @@
  *     vndf_description glass = {.distribution = vndf_ggx(), .alpha_x = 0.1f, .alpha_y = 0.1f, .eta = 1.5f,
  *         .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
  *     if (vndf_material_resolve(&glass, &material, &error) != VNDF_OK) ...
- *     vndf_bsdf bsdf = vndf_bsdf_at(&material, wi);
+ *     vndf_bsdf bsdf;
  *     vndf_scattered s;
+ *     vndf_bsdf_at(&bsdf, &material, wi);
  *     vndf_bsdf_sample(&bsdf, u, &s);         weight s.weight, direction s.wo, density s.density
  *
  * Conventions are those of vndf.h: z is the geometric normal, directions are unit and point away from the surface,
@@ -125,6 +126,13 @@ typedef struct vndf_description {
     unsigned order_limit;                      /* scattering events in a walk at most; 0: 64 */
 } vndf_description;
 
+/* The roughness of one hit, as from a texture. The cosine and sine of the rotation are read where axes are rotated;
+ * they are unit within rounding. */
+typedef struct vndf_roughness {
+    float alpha_x, alpha_y;
+    float cos_rotation, sin_rotation;
+} vndf_roughness;
+
 /* A material, resolved: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
@@ -132,8 +140,8 @@ typedef struct vndf_material {
     const struct vndf_routines *unrotated;           /* and in the frame of the roughness */
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
-    float cos_rotation, sin_rotation;
-    float eta_inside;                                /* 1/eta */
+    vndf_roughness roughness;
+    int two_sided;
 } vndf_material;
 
 /* VNDF_OK, or VNDF_ERROR_ARGUMENT with the combination or number that is refused; *material is then unusable but
@@ -143,32 +151,27 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 
 /* ---- one hit ------------------------------------------------------------------------------------ */
 
-/* The roughness of one hit, as from a texture. The cosine and sine of the rotation are read where axes are rotated;
- * they are unit within rounding. */
-typedef struct vndf_roughness {
-    float alpha_x, alpha_y;
-    float cos_rotation, sin_rotation;
-} vndf_roughness;
-
 /* Everything that depends on the material and wi alone; a plain value, valid while the material lives and is not
  * moved. Its members are private. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
     vndf_view view;                  /* of wi in the frame of the roughness, turned up */
-    vndf_surface surface;
     float eta;                       /* index on the other side over that on the side of wi */
+    float carried;                   /* what transmission has more than for importance: 1/eta^2 for radiance */
     float side;                      /* -1 where wi is on the side of -z, 1 else */
-    float area, below;               /* projected areas along wi and -wi */
+    float area;                      /* projected area along wi */
     float cos_rotation, sin_rotation;
     double bounds[6];                /* bounded normals: what their law takes of the direction */
 } vndf_bsdf;
 
 /* With the roughness of the material. wi is unit within 1e-6. Materials that do not transmit and have no Fresnel
- * term for a dielectric are seen from z > 0 only; others from both sides. */
-VNDF_API vndf_bsdf vndf_bsdf_at(const vndf_material *material, vndf_vec3 wi);
+ * term for a dielectric are seen from z > 0 only; others from both sides. 0 if nothing is scattered from there. (By
+ * a pointer: what is returned would be copied, and waited for.) */
+VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* With the roughness of the hit; NULL: that of the material. */
-VNDF_API vndf_bsdf vndf_bsdf_rough(const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
+VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness,
+                             vndf_vec3 wi);
 
 /* Which way light went. */
 typedef enum vndf_lobe {

@@ -17,5 +17,6 @@ int command_eval(int argc, char **argv);
 int command_plot(int argc, char **argv);
 int command_report(int argc, char **argv);
 int command_bench(int argc, char **argv);
+int command_masking(int argc, char **argv);
 
 #endif

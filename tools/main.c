@@ -23,6 +23,7 @@ static const subcommand subcommands[] = {
     {"plot", command_plot, "draw density and samples as an SVG"},
     {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
+    {"masking", command_masking, "which masking functions are exact, over incident angles"},
 };
 
 static const size_t subcommand_count = sizeof subcommands / sizeof subcommands[0];

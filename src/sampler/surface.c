@@ -41,14 +41,18 @@ float vndf_p22(const vndf_surface *surface, float x, float y)
     return vndf_density_from(p22 / ax / ay);
 }
 
+float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w)
+{
+    vndf_stretched s = vndf_stretch(w, ax, ay, d->kind == VNDF_KIND_TABLE);
+    return (float)(vndf_unit_area(d, s.s, s.c) / (s.per_length * sqrt(vndf_exact_dot(w, w))));
+}
+
 float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 {
     vndf_view view = vndf_view_from(surface, w);
     if (!view.distribution)
         return 0.0f;
-    double length = sqrt(vndf_exact_dot(view.wi, view.wi));
-    vndf_stretched s = vndf_stretched_of(&view);
-    return (float)(vndf_unit_area(view.distribution, s.s, s.c) / (s.per_length * length));
+    return vndf_area_scaled(view.distribution, view.alpha_x, view.alpha_y, w);
 }
 
 /* Lambda(w) = A(-w)/cos(theta) above the horizon, without a difference; -1 - Lambda(-w) below. */

@@ -31,6 +31,12 @@ VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, dou
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;
 }
 
+/* A(w) of the surface with this roughness times the distribution's scale. */
+float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w);
+
+/* vndf_view_from where the view is part of something: assigned, it would be copied, and waited for. */
+void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
+
 /* The view of a usable direction for roughness times the table's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 

@@ -48,17 +48,33 @@ VNDF_INLINE vndf_aim aim_in_float(const vndf_distribution *d, float x, float y, 
 }
 
 /* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
-VNDF_INLINE vndf_view view_of(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi,
-                              vndf_aim aim)
+VNDF_INLINE void set_view(vndf_view *v, const vndf_distribution *d, double ax, double ay, float x, float y,
+                          vndf_vec3 wi, vndf_aim aim)
 {
     vndf_beckmann_law law = {0.0, 0.0, 0.0};
     if (d->kind == VNDF_KIND_BECKMANN) {
         law = vndf_beckmann_law_at(aim.s, aim.c);
         aim.area = vndf_beckmann_area_of(&law, aim.s, aim.c);
     }
-    vndf_view view = {d, wi, ax, ay, x, y, aim.s, aim.c, aim.cos_phi, aim.sin_phi, aim.front, aim.wedge,
-                      aim.area, aim.area * (x * y), vndf_aim_is_plain(x, y, aim.c), law.whole, law.line};
-    return view;
+    v->distribution = d;
+    v->wi.x = wi.x;
+    v->wi.y = wi.y;
+    v->wi.z = wi.z;
+    v->alpha_x = ax;
+    v->alpha_y = ay;
+    v->ax = x;
+    v->ay = y;
+    v->s = aim.s;
+    v->c = aim.c;
+    v->cos_phi = aim.cos_phi;
+    v->sin_phi = aim.sin_phi;
+    v->front = aim.front;
+    v->wedge = aim.wedge;
+    v->area = aim.area;
+    v->spread = aim.area * (x * y);
+    v->plain = vndf_aim_is_plain(x, y, aim.c);
+    v->whole = law.whole;
+    v->line = law.line;
 }
 
 /* For roughness times the table's scale, as it is and as it is drawn with. */
@@ -66,7 +82,9 @@ static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, f
 {
     lanes_m ready = 1;
     vndf_aim aim = aim_in_float(d, x, y, wi, &ready);
-    return view_of(d, ax, ay, x, y, wi, ready ? aim : aim_exactly(d, ax, ay, wi));
+    vndf_view view;
+    set_view(&view, d, ax, ay, x, y, wi, ready ? aim : aim_exactly(d, ax, ay, wi));
+    return view;
 }
 
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
@@ -78,7 +96,7 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
 VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax, ay;
-    if (!vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
+    if (!surface || !vndf_surface_scaled(surface, &ax, &ay) || !is_usable_direction(wi))
         return invalid_view();
     float scale = vndf_unit_scale_float(surface->distribution); /* lanes have no double */
     float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
@@ -87,18 +105,33 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 }
 
 /* What is plain and ready is valid: nothing else has to be looked at. */
-vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+VNDF_INLINE int set_plainly(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     if (!surface || !surface->distribution)
-        return invalid_view();
+        return 0;
     const vndf_distribution *d = surface->distribution;
     float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
     lanes_m ready = 1;
     vndf_aim aim = aim_in_float(d, x, y, wi, &ready);
     if (!(ready & vndf_aim_is_plain(x, y, aim.c)))
-        return view_carefully(surface, wi);
+        return 0;
     double exact = vndf_unit_scale(d);
-    return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
+    set_view(view, d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
+    return 1;
+}
+
+vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_view view;
+    if (!set_plainly(&view, surface, wi))
+        return view_carefully(surface, wi);
+    return view;
+}
+
+void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    if (!set_plainly(view, surface, wi))
+        *view = view_carefully(surface, wi);
 }
 
 VNDF_INLINE float visible_closed(const vndf_view *view, vndf_vec3 wm)

@@ -1,0 +1,166 @@
+/* The calls of many. Visible normals are drawn in lanes (sampler/batch.c), a block at a time; the rest is done one
+ * after the other, with what the call of one does after it has drawn, so the bits are the same. */
+#include "bsdf/routines.h"
+#include "math/vector.h"
+
+enum { BLOCK = 256 };
+
+/* ---- elements ---- */
+
+VNDF_INLINE size_t at_of(const vndf_bsdf_batch *b, size_t i, unsigned shared)
+{
+    return b->shared & shared ? 0 : i;
+}
+
+VNDF_INLINE vndf_vec3 wi_at(const vndf_bsdf_batch *b, size_t i)
+{
+    size_t at = at_of(b, i, VNDF_SHARED_WI);
+    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
+}
+
+VNDF_INLINE vndf_roughness roughness_at(const vndf_bsdf_batch *b, size_t i)
+{
+    size_t at = at_of(b, i, VNDF_SHARED_ALPHA);
+    vndf_roughness r = b->material->roughness;
+    if (b->alpha_x) {
+        r.alpha_x = b->alpha_x[at];
+        r.alpha_y = b->alpha_y[at];
+    }
+    if (b->cos_rotation) {
+        r.cos_rotation = b->cos_rotation[at];
+        r.sin_rotation = b->sin_rotation[at];
+    }
+    return r;
+}
+
+VNDF_INLINE int is_one_roughness(const vndf_bsdf_batch *b)
+{
+    return (b->shared & VNDF_SHARED_ALPHA) || (!b->alpha_x && !b->cos_rotation);
+}
+
+/* Whether all elements are one hit. */
+static int is_one_hit(const vndf_bsdf_batch *b)
+{
+    return (b->shared & VNDF_SHARED_WI) && is_one_roughness(b);
+}
+
+VNDF_INLINE void hit_at(vndf_bsdf *hit, const vndf_bsdf_batch *b, size_t i)
+{
+    vndf_roughness r = roughness_at(b, i);
+    vndf_bsdf_hit(hit, b->material, &r, wi_at(b, i));
+}
+
+VNDF_INLINE vndf_vec3 direction_at(vndf_normals w, size_t i)
+{
+    return vndf_vec3_of(w.x[i], w.y[i], w.z[i]);
+}
+
+/* ---- sample ---- */
+
+VNDF_INLINE void put(const vndf_scattered_n *to, size_t i, const vndf_scattered *s)
+{
+    to->wo.x[i] = s->wo.x;
+    to->wo.y[i] = s->wo.y;
+    to->wo.z[i] = s->wo.z;
+    for (int n = 0; n < VNDF_WAVELENGTHS; n++)
+        to->weight[n][i] = s->weight[n];
+    to->density[i] = s->density;
+    to->lobe[i] = (uint8_t)s->lobe;
+}
+
+static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
+{
+    int one = is_one_hit(b);
+    vndf_bsdf hit;
+    for (size_t i = 0; i < b->count; i++) {
+        const float numbers[3] = {u[0][i], u[1][i], u[2][i]};
+        vndf_scattered s;
+        if (i == 0 || !one)
+            hit_at(&hit, b, i);
+        vndf_bsdf_sample(&hit, numbers, &s);
+        put(to, i, &s);
+    }
+}
+
+/* Normals of a block, drawn from where the element stands. */
+typedef struct block {
+    float x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], up[BLOCK];
+} block;
+
+/* The elements from `first` on, as the sampler wants them: turned up. */
+static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, float *up)
+{
+    const vndf_material *m = b->material;
+    size_t wi = at_of(b, first, VNDF_SHARED_WI), heights = b->shared & VNDF_SHARED_WI ? 1 : count;
+    vndf_batch part = {m->is.distribution, count, b->shared, b->limit, &m->roughness.alpha_x, &m->roughness.alpha_y,
+                       b->wi_x + wi, b->wi_y + wi, b->wi_z + wi};
+    if (b->alpha_x) {
+        part.alpha_x = b->alpha_x + at_of(b, first, VNDF_SHARED_ALPHA);
+        part.alpha_y = b->alpha_y + at_of(b, first, VNDF_SHARED_ALPHA);
+    } else
+        part.shared |= VNDF_SHARED_ALPHA;
+    for (size_t i = 0; i < heights; i++)
+        up[i] = fabsf(b->wi_z[wi + i]);
+    part.wi_z = up;
+    return part;
+}
+
+static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
+{
+    void (*scatter)(const vndf_bsdf *, vndf_vec3, float, float, vndf_scattered *) = b->material->routines->scatter;
+    int one = is_one_hit(b);
+    block drawn;
+    vndf_normals wm = {drawn.x, drawn.y, drawn.z};
+    vndf_bsdf hit;
+    for (size_t first = 0; first < b->count; first += BLOCK) {
+        size_t count = b->count - first < BLOCK ? b->count - first : BLOCK;
+        vndf_batch part = part_of(b, first, count, drawn.up);
+        vndf_sample_n(&part, u[0] + first, u[1] + first, wm, drawn.density);
+        for (size_t i = 0; i < count; i++) {
+            vndf_scattered s;
+            if (first + i == 0 || !one)
+                hit_at(&hit, b, first + i);
+            if (hit.material == b->material)
+                scatter(&hit, direction_at(wm, i), drawn.density[i], u[2][first + i], &s);
+            else
+                vndf_bsdf_sample(&hit, u[0], &s); /* of nothing */
+            put(to, first + i, &s);
+        }
+    }
+}
+
+void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_scattered_n scattered)
+{
+    if (b->material->routines->scatter)
+        sample_in_blocks(b, u, &scattered);
+    else
+        sample_one_by_one(b, u, &scattered);
+}
+
+/* ---- eval, pdf ---- */
+
+void vndf_bsdf_eval_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed,
+                      float *const value[VNDF_WAVELENGTHS])
+{
+    int one = is_one_hit(b);
+    vndf_bsdf hit;
+    for (size_t i = 0; i < b->count; i++) {
+        float f[VNDF_WAVELENGTHS];
+        if (i == 0 || !one)
+            hit_at(&hit, b, i);
+        vndf_bsdf_eval(&hit, direction_at(wo, i), seed ? seed[i] : 0, f);
+        for (int n = 0; n < VNDF_WAVELENGTHS; n++)
+            value[n][i] = f[n];
+    }
+}
+
+void vndf_bsdf_pdf_n(const vndf_bsdf_batch *b, vndf_normals wo, float *pdf)
+{
+    int one = is_one_hit(b);
+    vndf_bsdf hit;
+    for (size_t i = 0; i < b->count; i++) {
+        if (i == 0 || !one)
+            hit_at(&hit, b, i);
+        pdf[i] = vndf_bsdf_pdf(&hit, direction_at(wo, i));
+    }
+}

@@ -1,0 +1,121 @@
+/* A description becomes a material: the one place where effects are looked at. */
+#include "bsdf/material.h"
+
+#include "bsdf/dielectric.h"
+#include "bsdf/fresnel.h"
+#include "bsdf/masking.h"
+#include "bsdf/multiple.h"
+#include "bsdf/rotated.h"
+#include "math/half_turn.h"
+
+/* ---- nothing ---- */
+
+static int prepare_nothing(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    (void)b;
+    (void)r;
+    (void)wi;
+    return 0;
+}
+
+static void sample_nothing(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE};
+    (void)b;
+    (void)u;
+    *s = none;
+}
+
+static void eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+{
+    (void)b;
+    (void)wo;
+    (void)seed;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        value[i] = 0.0f;
+}
+
+static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    (void)b;
+    (void)wo;
+    return 0.0f;
+}
+
+static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
+const vndf_material vndf_material_of_nothing = {.routines = &nothing, .unrotated = &nothing};
+
+/* ---- effects to routines ---- */
+
+static const vndf_fresnel_routine *fresnel_of(const vndf_effects *e)
+{
+    switch (e->fresnel) {
+    case VNDF_FRESNEL_SCHLICK:
+        return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_schlick : &vndf_fresnel_of_schlick_thin;
+    case VNDF_FRESNEL_DIELECTRIC:
+        return &vndf_fresnel_of_dielectric;
+    case VNDF_FRESNEL_CONDUCTOR:
+        return &vndf_fresnel_of_conductor;
+    default:
+        return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_total : &vndf_fresnel_of_nothing;
+    }
+}
+
+static const vndf_masking_routine *masking_of(const vndf_effects *e)
+{
+    switch (e->masking) {
+    case VNDF_MASKING_SEPARABLE:
+        return &vndf_masking_separable;
+    case VNDF_MASKING_V_CAVITIES:
+        return &vndf_masking_v_cavities;
+    case VNDF_MASKING_NONE:
+        return &vndf_masking_none;
+    default:
+        return &vndf_masking_height_correlated;
+    }
+}
+
+static const vndf_routines *routines_of(const vndf_description *is)
+{
+    const vndf_effects *e = &is->effects;
+    if (e->scattering == VNDF_SCATTERING_MULTIPLE)
+        return e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f
+                   ? &vndf_routines_unbent
+                   : &vndf_routines_multiple;
+    if (e->lobes == VNDF_LOBES_TRANSMISSION)
+        return &vndf_routines_transmission[e->normals];
+    if (e->lobes == VNDF_LOBES_BOTH)
+        return &vndf_routines_both[e->normals];
+    if (e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED)
+        return &vndf_routines_bare[e->normals];
+    return &vndf_routines_reflection[e->normals];
+}
+
+/* Cosine and sine of half a turn u and back, 2 pi u. */
+static void set_rotation(vndf_material *m, double angle)
+{
+    double turns = angle * 0.15915494309189535, part = turns - floor(turns);
+    vndf_turn half = vndf_half_turn((float)part);
+    m->roughness.cos_rotation = (float)(half.cosine * half.cosine - half.sine * half.sine);
+    m->roughness.sin_rotation = (float)(2.0 * half.cosine * half.sine);
+}
+
+vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, vndf_error *error)
+{
+    *m = vndf_material_of_nothing;
+    vndf_status status = vndf_description_check(is, error);
+    if (status != VNDF_OK)
+        return status;
+    const vndf_effects *e = &is->effects;
+    m->is = *is;
+    m->roughness.alpha_x = is->alpha_x;
+    m->roughness.alpha_y = is->alpha_y;
+    m->is.order_limit = is->order_limit ? is->order_limit : 64;
+    m->fresnel = fresnel_of(e);
+    m->masking = masking_of(e);
+    m->unrotated = routines_of(is);
+    m->routines = e->axes == VNDF_AXES_ROTATED ? &vndf_routines_rotated : m->unrotated;
+    m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
+    set_rotation(m, e->axes == VNDF_AXES_ROTATED ? is->rotation : 0.0);
+    return VNDF_OK;
+}

@@ -1,0 +1,13 @@
+/* What resolution chooses from. */
+#ifndef VNDF_BSDF_MATERIAL_H
+#define VNDF_BSDF_MATERIAL_H
+
+#include "bsdf/routines.h"
+
+/* Scatters nothing: what is wrong resolves to it, and a hit that sees nothing is one of it. */
+extern const vndf_material vndf_material_of_nothing;
+
+/* Whether the numbers and the combination of effects make sense; else an error that names what does not. */
+vndf_status vndf_description_check(const vndf_description *is, vndf_error *error);
+
+#endif

@@ -1,0 +1,130 @@
+/* Combinations of effects that make no sense, and numbers out of range: each is refused by name. */
+#include <math.h>
+
+#include "bsdf/material.h"
+#include "core/error.h"
+
+/* ---- effects ---- */
+
+typedef struct effect_range {
+    const char *name;
+    unsigned value, last;
+} effect_range;
+
+static vndf_status check_range(const vndf_effects *e, vndf_error *error)
+{
+    const effect_range ranges[] = {
+        {"lobes", (unsigned)e->lobes, VNDF_LOBES_BOTH},
+        {"fresnel", (unsigned)e->fresnel, VNDF_FRESNEL_CONDUCTOR},
+        {"masking", (unsigned)e->masking, VNDF_MASKING_NONE},
+        {"normals", (unsigned)e->normals, VNDF_NORMALS_V_CAVITY},
+        {"scattering", (unsigned)e->scattering, VNDF_SCATTERING_MULTIPLE},
+        {"transport", (unsigned)e->transport, VNDF_TRANSPORT_IMPORTANCE},
+        {"axes", (unsigned)e->axes, VNDF_AXES_ROTATED},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
+        if (ranges[i].value > ranges[i].last)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects.%s is %u, which is none of its choices",
+                             ranges[i].name, ranges[i].value);
+    return VNDF_OK;
+}
+
+/* What is wrong with a combination; NULL if nothing. */
+static const char *lobes_refused(const vndf_effects *e)
+{
+    if (e->lobes == VNDF_LOBES_REFLECTION)
+        return NULL;
+    if (e->fresnel == VNDF_FRESNEL_CONDUCTOR)
+        return "fresnel is VNDF_FRESNEL_CONDUCTOR, and a conductor transmits nothing: lobes must be "
+               "VNDF_LOBES_REFLECTION";
+    if (e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE)
+        return "lobes is VNDF_LOBES_BOTH and fresnel is VNDF_FRESNEL_NONE: nothing says which lobe light takes";
+    if (e->normals == VNDF_NORMALS_BOUNDED)
+        return "normals is VNDF_NORMALS_BOUNDED, normals that reflect to above the horizon: lobes must be "
+               "VNDF_LOBES_REFLECTION";
+    return NULL;
+}
+
+static const char *masking_refused(const vndf_effects *e)
+{
+    if (e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES)
+        return "normals is VNDF_NORMALS_V_CAVITY, so masking must be VNDF_MASKING_V_CAVITIES";
+    return NULL;
+}
+
+static const char *walk_refused(const vndf_effects *e)
+{
+    if (e->scattering == VNDF_SCATTERING_SINGLE)
+        return NULL;
+    if (e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
+        return "scattering is VNDF_SCATTERING_MULTIPLE, whose masking is Smith's by height: masking must be "
+               "VNDF_MASKING_HEIGHT_CORRELATED";
+    if (e->normals != VNDF_NORMALS_VISIBLE)
+        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk over visible normals: normals must be "
+               "VNDF_NORMALS_VISIBLE";
+    if (e->lobes == VNDF_LOBES_TRANSMISSION)
+        return "scattering is VNDF_SCATTERING_MULTIPLE and lobes is VNDF_LOBES_TRANSMISSION: a walk that transmits "
+               "also reflects, so lobes must be VNDF_LOBES_BOTH";
+    return NULL;
+}
+
+/* ---- numbers ---- */
+
+static vndf_status check_number(const char *name, double x, double least, double most, vndf_error *error)
+{
+    if (x >= least && x <= most) /* false for NaN */
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s is %g, it must be in [%g, %g]", name, x, least, most);
+}
+
+static vndf_status check_optics(const vndf_description *is, vndf_error *error)
+{
+    vndf_status status = VNDF_OK;
+    if (is->effects.lobes != VNDF_LOBES_REFLECTION || is->effects.fresnel == VNDF_FRESNEL_DIELECTRIC)
+        status = check_number("eta", is->eta, 0.01, 100.0, error);
+    if (status == VNDF_OK && is->effects.scattering == VNDF_SCATTERING_MULTIPLE &&
+        is->effects.lobes == VNDF_LOBES_BOTH && is->effects.fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
+        status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
+                           "since light that goes straight on has no density");
+    for (int i = 0; i < VNDF_WAVELENGTHS && status == VNDF_OK; i++) {
+        if (is->effects.fresnel == VNDF_FRESNEL_SCHLICK)
+            status = check_number("f0", is->f0[i], 0.0, 1.0, error);
+        if (is->effects.fresnel != VNDF_FRESNEL_CONDUCTOR)
+            continue;
+        status = check_number("conductor_eta", is->conductor_eta[i], 0.0, 1000.0, error);
+        if (status == VNDF_OK)
+            status = check_number("conductor_k", is->conductor_k[i], 0.0, 1000.0, error);
+        if (status == VNDF_OK && !(is->conductor_eta[i] + is->conductor_k[i] > 0.0f))
+            status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
+    }
+    return status;
+}
+
+static vndf_status check_roughness(const vndf_description *is, vndf_error *error)
+{
+    vndf_surface surface = {is->distribution, is->alpha_x, is->alpha_y};
+    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    if (!is->distribution)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "distribution is NULL");
+    if (!vndf_view_from(&surface, up).distribution)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
+                         "distribution within [1e-18, 1e18]", (double)is->alpha_x, (double)is->alpha_y);
+    if (is->effects.axes == VNDF_AXES_ROTATED)
+        return check_number("rotation", is->rotation, -1e4, 1e4, error);
+    return VNDF_OK;
+}
+
+vndf_status vndf_description_check(const vndf_description *is, vndf_error *error)
+{
+    vndf_status status = check_range(&is->effects, error);
+    const char *refused = NULL;
+    if (status != VNDF_OK)
+        return status;
+    if (!(refused = lobes_refused(&is->effects)) && !(refused = masking_refused(&is->effects)))
+        refused = walk_refused(&is->effects);
+    if (refused)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
+    status = check_roughness(is, error);
+    return status == VNDF_OK ? check_optics(is, error) : status;
+}

@@ -1,0 +1,47 @@
+/* What a material is resolved to: functions made for its set of effects, called through pointers that the set
+ * chose. Nothing below asks at a hit whether an effect was wanted.
+ *
+ * All of it works in the frame of the hit: turned by the rotation of the axes, and mirrored at the surface if wi came
+ * from below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is reflection,
+ * wo.z < 0 transmission. */
+#ifndef VNDF_BSDF_ROUTINES_H
+#define VNDF_BSDF_ROUTINES_H
+
+#include "core/inline.h"
+#include "sampler/closed.h"
+#include "vndf_bsdf.h"
+
+/* `prepare` finds material, eta, side and carried, and adds what the others take of the direction; 0 if nothing can
+ * be seen from there. */
+typedef struct vndf_routines {
+    int (*prepare)(vndf_bsdf *bsdf, const vndf_roughness *roughness, vndf_vec3 wi);
+    void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
+    void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
+    float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
+    /* `sample` after vndf_sample drew wm with `density`; NULL if it draws otherwise */
+    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
+} vndf_routines;
+
+/* What the first three calls of vndf_bsdf.h do; 0 if nothing is scattered from there. */
+int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
+
+/* Reflectances at a microfacet, `cosine` = wi.wm; in double, so that 1 - f keeps its digits. */
+typedef struct vndf_fresnel_routine {
+    void (*reflectance)(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS]);
+} vndf_fresnel_routine;
+
+/* A microfacet between two directions; sizes of cosines. */
+typedef struct vndf_event {
+    vndf_vec3 wo;            /* turned up */
+    double cos_i, cos_o;     /* to the surface's normal */
+    double facing_i, facing_o; /* to the microfacet's */
+    double cos_m;            /* wm.z */
+} vndf_event;
+
+/* G2/(cos_i cos_o), which stays finite where the cosines vanish; of reflection and of transmission. */
+typedef struct vndf_masking_routine {
+    double (*reflection)(const vndf_bsdf *bsdf, const vndf_event *event);
+    double (*transmission)(const vndf_bsdf *bsdf, const vndf_event *event);
+} vndf_masking_routine;
+
+#endif
