@@ -77,6 +77,29 @@ static void test_orders(void)
     }
 }
 
+/* The weight after one event is what the table lacks to the true D at the normal it drew. */
+static void test_ratio(void)
+{
+    const vndf_distribution *d = walk_subject(7);
+    vndf_walk walk = walk_of_mirror();
+    vndf_view view = walk_view(d, 1.0f, 0.6f, 0.4, 0.3);
+    unsigned long long state = 6;
+    double furthest = 0.0;
+    for (int i = 0; i < 5000; i++) {
+        float u[3];
+        vndf_walked w;
+        walk_numbers(&state, u);
+        vndf_walk_sample(&walk, &view, u, &w);
+        vndf_vec3 wm = vndf_sample(&view, u[0], u[1], NULL);
+        double ratio = (double)vndf_visible(&view, wm) / (double)vndf_pdf(&view, wm);
+        if (w.order == 1)
+            TEST_NEAR(w.weight[0], ratio, 2e-5 * ratio);
+        furthest = fmax(furthest, fabs(ratio - 1.0));
+    }
+    TEST(furthest > 0.01);
+    walk_subject_free(d);
+}
+
 /* Radiance: the same walks, over the square of the index ratio where they end on the other side. */
 static void test_radiance(void)
 {
@@ -101,6 +124,7 @@ int main(int arguments, char **argument)
         if (arguments < 2 || atoi(argument[1]) == i)
             test_subject(i);
     test_orders();
+    test_ratio();
     test_radiance();
     return test_done();
 }

@@ -95,6 +95,7 @@ static void test_subject(int subject)
     const vndf_distribution *d = walk_subject(subject);
     float scale = (float)vndf_distribution_info(d).scale;
     walks[0].reflectance = walk_schlick;
+    walks[0].order_limit = 3;
     for (int i = 0; d && i < SETTING_COUNT * WALK_COUNT; i++) {
         const setting *s = &SETTINGS[i % SETTING_COUNT];
         vndf_view view = walk_view(d, s->alpha_x / scale, s->alpha_y / scale, s->cosine, 0.9);
