@@ -58,7 +58,7 @@ static void test_bins(const vndf_walk *walk, const vndf_view *view, const char *
 {
     size_t count = walk_count(100000), drawn[WALK_BINS] = {0}, seen[WALK_BINS] = {0};
     walk_mean sampled[WALK_BINS], evaluated[WALK_BINS];
-    double all = 0.0, compared = 0.0;
+    double all = 0.0, compared = 0.0, part = getenv("VNDF_TEST_QUICK") ? 0.6 * least : least;
     for (int b = 0; b < WALK_BINS; b++) {
         walk_mean none = {0, 0, (double)count, 0};
         sampled[b] = evaluated[b] = none;
@@ -75,7 +75,7 @@ static void test_bins(const vndf_walk *walk, const vndf_view *view, const char *
                     view->alpha_x, view->alpha_y, (double)view->wi.z, walk->transmits ? (double)walk->eta : 0.0,
                     b, walk_value(&sampled[b]), walk_value(&evaluated[b]), sqrt(walk_variance(&evaluated[b])));
     }
-    if (!TEST(compared > least * all))
+    if (!TEST(compared > part * all))
         fprintf(stderr, "  %s, alpha %g %g, cos %g: compared %g\n", name, view->alpha_x, view->alpha_y,
                 (double)view->wi.z, compared / all);
 }

@@ -52,10 +52,9 @@ typedef struct vndf_walked {
  * three. */
 void vndf_walk_sample(const vndf_walk *walk, const vndf_view *view, const float u[3], vndf_walked *walked);
 
-/* f |cos_o|: a random number of that mean. The first order is exact - the model of single scattering with
- * height-correlated masking - and of the others, those of one walk from wi are taken, each with the density of
- * scattering towards wo and leaving. The mean over what vndf_walk_sample draws is the same: for any function g of
- * directions the mean of weight g(wo) is the integral of eval(wo) g(wo). */
+/* f |cos_o|: a random number of that mean. The first order is exact, the model of single scattering with
+ * height-correlated masking; the others are those of two walks, one from either end (walk_eval.c). For any function
+ * g of directions the mean of weight g(wo) over what vndf_walk_sample draws is the integral of eval(wo) g(wo). */
 void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed,
                     double value[VNDF_WAVELENGTHS]);
 
