@@ -1,7 +1,7 @@
 /* A lossless walk loses nothing: each sample that leaves has weight 1 (closed forms: to the bit; tables, whose
  * weight holds the ratio of true to drawn density: in the mean), and the order limit of 64 loses less than 1e-3
- * of a mirror at alpha 1; directions are unit and on the side that the lobe says; reflectances multiply, once
- * for each event. Means at 4.5 sigmas, 7e-6 each, of 8 x 5 x 6 x 4. */
+ * of any; directions are unit and on the side that the lobe says; reflectances multiply, once
+ * for each event. Means at 4.5 sigmas, 7e-6 each, of 17 x 5 x 6 x 4. */
 #include "walk_case.h"
 
 static const float ALPHAS[][2] = {{0.05f, 0.05f}, {0.3f, 0.3f}, {1, 1}, {0.1f, 1}, {1e-3f, 1e-3f}};
