@@ -36,7 +36,7 @@ static end far_end(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
 {
     float side = wo.z > 0.0f ? 1.0f : -1.0f;
     vndf_vec3 up = vndf_vec3_of(side * wo.x, side * wo.y, side * wo.z);
-    vndf_view seen = vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, up);
+    vndf_view seen = vndf_walk_look(view, up);
     end e = end_at(walk, &seen, wo.z < 0.0f);
     e.walk.eta = wo.z < 0.0f ? 1.0f / walk->eta : walk->eta;
     return e;
@@ -78,7 +78,7 @@ static int step(const vndf_walk *walk, vndf_walk_path *path, vndf_vec3 *along)
 static double begin_factor(const end *from, const vndf_walk_path *path, vndf_vec3 along, double depth)
 {
     vndf_walk_scattered s;
-    vndf_view view = vndf_view_scaled(path->view.distribution, path->view.alpha_x, path->view.alpha_y, along);
+    vndf_view view = vndf_walk_look(&path->view, along);
     if (!vndf_walk_scatter(&from->walk, &view, path->eta, from->target.wo, path->turned, &s))
         return 0.0;
     return s.drawn * vndf_walk_leaving(depth, 0, &from->target) / from->cosine;

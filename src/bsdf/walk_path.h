@@ -42,6 +42,23 @@ VNDF_INLINE double vndf_walk_slant(const vndf_view *view, vndf_vec3 w)
     return vndf_unit_area(d, s.s, s.c) / fabs(s.c);
 }
 
+/* The same of the view's own direction: a table's view has its area. Infinite where c is no more a float. */
+VNDF_INLINE double vndf_walk_view_slant(const vndf_view *view)
+{
+    int table = view->distribution->kind == VNDF_KIND_TABLE;
+    return table ? (double)view->area / fabsf(view->c) : vndf_walk_slant(view, view->wi);
+}
+
+/* The view of another direction. */
+VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
+{
+    const vndf_distribution *d = view->distribution;
+    if (d->kind == VNDF_KIND_TABLE)
+        return vndf_view_scaled(d, view->alpha_x, view->alpha_y, w);
+    vndf_surface surface = {d, view->ax, view->ay};
+    return vndf_view_from(&surface, w);
+}
+
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
  * leaves. */
 VNDF_INLINE int vndf_walk_leaves(vndf_walk_path *path, vndf_vec3 back, double distance)
@@ -56,9 +73,9 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
     double distance = vndf_walk_exponential(&path->random);
     if (back.z < 0.0f && vndf_walk_leaves(path, back, distance))
         return 0;
-    path->view = vndf_view_scaled(path->view.distribution, path->view.alpha_x, path->view.alpha_y, back);
+    path->view = vndf_walk_look(&path->view, back);
     if (back.z > 0.0f)
-        path->depth += distance * path->view.c / path->view.area;
+        path->depth += distance / vndf_walk_view_slant(&path->view);
     return 1;
 }
 
@@ -67,7 +84,7 @@ VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_vie
 {
     vndf_walk_path path = {*view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0,
                            vndf_walk_random_from(seed)};
-    path.depth = vndf_walk_exponential(&path.random) * view->c / view->area;
+    path.depth = vndf_walk_exponential(&path.random) / vndf_walk_view_slant(view);
     return path;
 }
 
