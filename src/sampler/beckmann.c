@@ -160,6 +160,20 @@ vndf_beckmann_slopes vndf_beckmann_draw(const vndf_beckmann_law *law, float u1, 
     return drawn;
 }
 
+double vndf_beckmann_part(const vndf_beckmann_law *law, double x, double d)
+{
+    slope p = {x, d};
+    double z = fabs(x), rest = vndf_erfc_remainder(z), gauss = vndf_exp(-exponent(law, p));
+    double mass = (x > 0.0 ? rest - d : rest + d) / (rest + z) * gauss + (x > 0.0 ? law->line : 0.0);
+    return mass / law->whole;
+}
+
+double vndf_beckmann_slope(const vndf_beckmann_law *law, double u)
+{
+    const double most = 1.0 - 0x1p-40;
+    return solve(law, u > 0x1p-64 ? (u < most ? u : most) : 0x1p-64).x;
+}
+
 vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
 {
     vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
@@ -174,9 +188,6 @@ void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
     vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
     double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
-    slope p = {-n.x / z, front > 0.0 ? front : 0.0};
-    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = vndf_exp(-exponent(&g, p));
-    double mass = (p.x > 0.0 ? rest - p.d : rest + p.d) / (rest + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
-    *u1 = vndf_clamp_unit((float)(mass / g.whole));
+    *u1 = vndf_clamp_unit((float)vndf_beckmann_part(&g, -n.x / z, front > 0.0 ? front : 0.0));
     *u2 = (float)vndf_half_erfc(n.y / z);
 }

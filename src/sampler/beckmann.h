@@ -27,6 +27,10 @@ typedef struct vndf_beckmann_slopes {
     double x, y, d;
 } vndf_beckmann_slopes;
 
+/* The part F(x)/F(K) of the law at x = K - d, to 1e-8 of itself, and the slope x at a part u of it, as drawn. */
+double vndf_beckmann_part(const vndf_beckmann_law *law, double x, double d);
+double vndf_beckmann_slope(const vndf_beckmann_law *law, double u);
+
 vndf_beckmann_slopes vndf_beckmann_draw(const vndf_beckmann_law *law, float u1, float u2);
 
 /* A1 = c (1 + erf(c/s))/2 + s exp(-(c/s)^2)/(2 sqrt(pi)), relative error below 2e-7 on the whole sphere as

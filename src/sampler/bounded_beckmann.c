@@ -1,0 +1,132 @@
+/* Bounded visible normals of Beckmann (bounded.h). Stretched slopes (x, y), x along wi (beckmann.c), are independent, x
+ * with the distribution function F(x)/F(K), y normal. The real slope is of squared length q = qxx x^2 + 2 qxy x y +
+ * qyy y^2, and with h = s/c the disc is the ellipse
+ *
+ *     q + 2 h x < 1,
+ *
+ * of extent x0 < x < x1 and chords y = (-qxy x +- sqrt(det (x1 - x) (x - x0)))/qyy, where det = (alpha_x alpha_y)^2
+ * and x0, x1 are the roots of det x^2 + 2 h qyy x = qyy. x1 < K/2: normals turned away are not in it.
+ *
+ * u1 moves x through the part of F between x0 and x1, u2 moves y through the part of the normal law on the chord; kept
+ * is the product of both parts. Of the two tails of y the one is used where the chord has its middle, so that a
+ * chord far out keeps its digits; on a short one the part is had by quadrature and inverted by Newton's steps. */
+#include "math/elementary.h"
+#include "math/erf_quantile.h"
+#include "math/vector.h"
+#include "sampler/beckmann.h"
+#include "sampler/bounded.h"
+
+/* What of a direction is in `bounds`. */
+enum { X0, X1, BEGIN, SPAN };
+
+/* The ellipse in the frame turned to the stretched wi. */
+typedef struct ellipse {
+    double qxx, qxy, qyy, det;
+} ellipse;
+
+static ellipse ellipse_of(const vndf_view *view)
+{
+    double a2 = view->alpha_x * view->alpha_x, b2 = view->alpha_y * view->alpha_y, c = view->cos_phi, s = view->sin_phi;
+    ellipse e = {a2 * c * c + b2 * s * s, (b2 - a2) * s * c, a2 * s * s + b2 * c * c, a2 * b2};
+    return e;
+}
+
+static vndf_beckmann_law law_of(const vndf_view *view)
+{
+    vndf_beckmann_law law = {vndf_beckmann_bound(view->s, view->c), view->whole, view->line};
+    return law;
+}
+
+/* K - x1 = root/(h (h qyy + root)) is no difference. */
+void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
+{
+    ellipse e = ellipse_of(view);
+    vndf_beckmann_law law = law_of(view);
+    double h = 1.0 / law.bound, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
+    bounds[X0] = -sum / e.det;
+    bounds[X1] = e.qyy / sum;
+    bounds[BEGIN] = vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
+    bounds[SPAN] = vndf_beckmann_part(&law, bounds[X1], root * law.bound / sum) - bounds[BEGIN];
+}
+
+/* ---- the chord ---- */
+
+/* y from low to high, with the middle at or below 0, after `mirrored` ones have been turned round; the part of the
+ * normal law below and on it. */
+typedef struct chord {
+    double low, high, before, part;
+    int mirrored, is_short;
+} chord;
+
+/* integral exp(-y^2)/sqrt(pi) over a short interval: three points of Gauss. */
+static double short_part(double low, double high)
+{
+    double half = 0.5 * (high - low), middle = low + half, away = 0.77459666924148338 * half;
+    double below = middle - away, above = middle + away;
+    double sum = 8.0 * vndf_exp(-middle * middle) + 5.0 * (vndf_exp(-below * below) + vndf_exp(-above * above));
+    return half * sum / (9.0 * vndf_root_pi);
+}
+
+static chord chord_at(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
+{
+    double square = e->det * (bounds[X1] - x) * (x - bounds[X0]), half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
+    double middle = -e->qxy * x / e->qyy;
+    chord h = {-fabs(middle) - half, -fabs(middle) + half, 0.0, 0.0, middle > 0.0, 0};
+    h.is_short = half * (1.0 + fabs(middle)) < 0.125;
+    h.before = vndf_half_erfc(-h.low);
+    h.part = h.is_short ? short_part(h.low, h.high) : vndf_half_erfc(-h.high) - h.before;
+    return h;
+}
+
+/* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord. */
+static double short_draw(const chord *h, double u)
+{
+    double y = h->low + u * (h->high - h->low), target = u * h->part;
+    for (int i = 0; i < 3; i++)
+        y += (target - short_part(h->low, y)) * (vndf_root_pi * vndf_exp(y * y));
+    return y;
+}
+
+static double draw_across(const chord *h, double u)
+{
+    if (h->mirrored)
+        u = 1.0 - u;
+    double v = h->before + u * h->part, y = 0.0;
+    if (h->is_short && h->part > 1e-300)
+        y = short_draw(h, u);
+    else
+        y = vndf_erf_quantile(v > 0x1p-64 ? (v < 1.0 - 0x1p-26 ? v : 1.0 - 0x1p-26) : 0x1p-64);
+    y = y > h->low ? (y < h->high ? y : h->high) : h->low;
+    return h->mirrored ? -y : y;
+}
+
+/* ---- both ---- */
+
+/* x of a normal, in the frame of the view. */
+static double slope_along(const vndf_view *view, vndf_normal wm)
+{
+    double c = view->cos_phi, s = view->sin_phi;
+    return -(c * wm.x / view->alpha_x + s * wm.y / view->alpha_y) / ((c * c + s * s) * wm.z);
+}
+
+vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const double bounds[VNDF_BOUNDS],
+                                              vndf_normal wm, double facing)
+{
+    ellipse e = ellipse_of(view);
+    vndf_stretched w = vndf_stretched_of(view);
+    chord h = chord_at(&e, bounds, slope_along(view, wm));
+    vndf_bounded_factors at = {vndf_beckmann_visible(view, &w, wm, facing), bounds[SPAN] * h.part};
+    return at;
+}
+
+vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
+{
+    ellipse e = ellipse_of(view);
+    vndf_beckmann_law law = law_of(view);
+    double x = vndf_beckmann_slope(&law, bounds[BEGIN] + u1 * bounds[SPAN]);
+    x = x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
+    chord h = chord_at(&e, bounds, x);
+    double y = draw_across(&h, u2), c = view->cos_phi, s = view->sin_phi;
+    vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
+    return vndf_bounded_settled(view, bounds, m);
+}
