@@ -37,7 +37,7 @@ static vndf_beckmann_law law_of(const vndf_view *view)
     return law;
 }
 
-/* K - x1 = root/(h (h qyy + root)) is no difference. */
+/* K - x1 = root/(h (h qyy + root)) is no difference. Beyond 7 there is nothing. */
 void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     ellipse e = ellipse_of(view);
@@ -45,8 +45,9 @@ void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
     double h = 1.0 / law.bound, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds[X0] = -sum / e.det;
     bounds[X1] = e.qyy / sum;
-    bounds[BEGIN] = vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
-    bounds[SPAN] = vndf_beckmann_part(&law, bounds[X1], root * law.bound / sum) - bounds[BEGIN];
+    bounds[BEGIN] = bounds[X0] < -7.0 ? 0.0 : vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
+    bounds[SPAN] = (bounds[X1] > 7.0 ? 1.0 : vndf_beckmann_part(&law, bounds[X1], root * law.bound / sum))
+                 - bounds[BEGIN];
 }
 
 /* ---- the chord ---- */
@@ -119,6 +120,17 @@ vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const doubl
     return at;
 }
 
+/* Whether the density is that of the normal as it is rounded: slopes move by 1.2e-7 of themselves, the ends of the
+ * chord with them, and the part on it by no more than (1 - part) (2 |y| + 1.2) times that. */
+static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], const ellipse *e, const chord *h,
+                      double x, double y)
+{
+    double farther = -h->low, root = 0.5 * (h->high - h->low) * e->qyy;
+    double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds[X1] - bounds[X0]);
+    double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
+    return view->plain && x * x + y * y < 12.0 && change < 30.0 * h->part * e->qyy * root;
+}
+
 vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
 {
     ellipse e = ellipse_of(view);
@@ -128,5 +140,11 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
     chord h = chord_at(&e, bounds, x);
     double y = draw_across(&h, u2), c = view->cos_phi, s = view->sin_phi;
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
-    return vndf_bounded_settled(view, bounds, m);
+    double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
+    if (!(1.00001 * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
+        return vndf_bounded_settled(view, bounds, m);
+    double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
+    double density = vndf_beckmann_p22(x * x + y * y) * (up * length2 * length) / (view->spread * kept);
+    vndf_bounded b = {vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per), (float)density, (float)kept};
+    return b;
 }

@@ -25,11 +25,8 @@
 #include "math/elementary.h"
 #include "math/half_turn.h"
 #include "math/vector.h"
-#include "sampler/bounded.h"
+#include "sampler/bounded_ggx.h"
 
-/* What of a direction is in `bounds`: the part of psi in front; kept over those of the roots, in front and in the
- * wedge; where u1 begins and the part of it that tangents leave, 1 for all. */
-enum { FRONT, IN_FRONT, IN_WEDGE, BEGIN, SPAN };
 
 /* The unit problem in double. M0 = (across of M0, its z), as the other members in the stretched, turned frame. */
 typedef struct frame {
@@ -120,19 +117,19 @@ static void find_tangents(const frame *f, double bounds[VNDF_BOUNDS])
         y[i] *= side;
     }
     int first = x[0] * y[1] - y[0] * x[1] < 0.0;
-    double begin = part_before(f, bounds[FRONT], x[first], y[first]);
-    double end = part_before(f, bounds[FRONT], x[1 - first], y[1 - first]);
-    bounds[BEGIN] = begin;
-    bounds[SPAN] = end - begin + (end < begin ? 1.0 : 0.0);
-    bounds[IN_FRONT] = bounds[IN_WEDGE] = bounds[SPAN];
+    double begin = part_before(f, bounds[VNDF_GGX_FRONT], x[first], y[first]);
+    double end = part_before(f, bounds[VNDF_GGX_FRONT], x[1 - first], y[1 - first]);
+    bounds[VNDF_GGX_BEGIN] = begin;
+    bounds[VNDF_GGX_SPAN] = end - begin + (end < begin ? 1.0 : 0.0);
+    bounds[VNDF_GGX_IN_FRONT] = bounds[VNDF_GGX_IN_WEDGE] = bounds[VNDF_GGX_SPAN];
 }
 
 /* Of the two sides the one that keeps more is where M0.M1 < 0. */
-void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS])
+void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     frame f = frame_of(view);
-    bounds[FRONT] = 1.0 / (1.0 + f.c);
-    bounds[IN_FRONT] = bounds[IN_WEDGE] = bounds[SPAN] = 1.0;
+    bounds[VNDF_GGX_FRONT] = 1.0 / (1.0 + f.c);
+    bounds[VNDF_GGX_IN_FRONT] = bounds[VNDF_GGX_IN_WEDGE] = bounds[VNDF_GGX_SPAN] = 1.0;
     if (f.c0 > 0.0) {
         find_tangents(&f, bounds);
         return;
@@ -142,9 +139,9 @@ void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS])
     double beside = chord_at(&f, 0.0, dot(f.m0, side) < 0.0 ? 1.0 : -1.0).part;
     double front = toward > beside ? toward : beside, wedge = away > beside ? away : beside;
     double all = front + f.c * wedge, whole = all / (1.0 + f.c);
-    bounds[FRONT] = front / all;
-    bounds[IN_FRONT] = whole / front;
-    bounds[IN_WEDGE] = whole / wedge;
+    bounds[VNDF_GGX_FRONT] = front / all;
+    bounds[VNDF_GGX_IN_FRONT] = whole / front;
+    bounds[VNDF_GGX_IN_WEDGE] = whole / wedge;
 }
 
 /* ---- in double ---- */
@@ -160,15 +157,15 @@ vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bou
     cosine = length > 0.0 ? cosine * per : 1.0;
     chord h = chord_at(&f, cosine, sine * per);
     vndf_bounded_factors at = {vndf_ggx_visible(view, &w, wm, facing),
-                               h.part * bounds[cosine >= 0.0 ? IN_FRONT : IN_WEDGE]};
+                               h.part * bounds[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
     return at;
 }
 
 /* psi, cosine and sine but for a factor; u1 in [0, 1]. */
 static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], double u1, double azimuth[2])
 {
-    double u = bounds[BEGIN] + bounds[SPAN] * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0, part = fabs(half);
-    double front = bounds[FRONT];
+    double u = bounds[VNDF_GGX_BEGIN] + bounds[VNDF_GGX_SPAN] * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0, part = fabs(half);
+    double front = bounds[VNDF_GGX_FRONT];
     if (part < front || !(front < 1.0)) {
         vndf_turn turn = vndf_half_turn(vndf_clamp_unit((float)(0.5 * part / front)));
         azimuth[0] = turn.cosine;
@@ -180,7 +177,7 @@ static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], doubl
     }
 }
 
-VNDF_RARE vndf_bounded bounded_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
+vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
 {
     frame f = frame_of(view);
     double azimuth[2];
@@ -192,9 +189,4 @@ VNDF_RARE vndf_bounded bounded_carefully(const vndf_view *view, const double bou
     vndf_normal m = {cosine * f.m0.x + sine * h.m1.x, cosine * f.m0.y + sine * h.m1.y,
                      cosine * f.m0.z + sine * h.m1.z};
     return vndf_bounded_settled(view, bounds, m);
-}
-
-vndf_bounded vndf_bounded_ggx(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
-{
-    return bounded_carefully(view, bounds, u1, u2);
 }

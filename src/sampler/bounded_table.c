@@ -59,33 +59,53 @@ typedef struct border {
     float x, z, kept;
 } border;
 
-/* The law of the bearing, not scaled. kept moves with the slope of the border by `rise` of itself, and that by 1e-7 of
- * s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. In the two cells at the cut kept
- * is from where cells are whole or not. */
+/* Mass of a cell up to a place between its knots, by the parts `inner` and `outer` of its width, and its quotients
+ * for P(border): mass = (before below + above)/below. */
+typedef struct inside {
+    float above, below, rise; /* rise: mass per xi, times (below/(mass width))^2 */
+} inside;
+
+VNDF_INLINE inside inside_of(const vndf_rational_cell *in, float width, float inner, float outer)
+{
+    float m = in->mass, w = inner * outer, inner2 = inner * inner;
+    inside at = {m * (m * inner2 + in->e0 * w), m * (width * width) + (in->e0 + in->e1 - 2.0f * m) * w,
+                 in->e1 * inner2 + 2.0f * m * w + in->e0 * (outer * outer)};
+    return at;
+}
+
+/* In the two cells beside the cut, which are others (radial_cut.h), and the cell at it: where there is none that is at
+ * infinity, and little is lost. */
+static border border_beside(const vndf_radial_law *law, float total, border at, vndf_radius place, lanes_m *plain)
+{
+    vndf_radial_law scaled = vndf_radial_scaled(*law, total);
+    at.kept = vndf_radial_cdf(&scaled, place);
+    *plain &= at.kept > 0.999f;
+    return at;
+}
+
+/* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by 1e-7 of
+ * s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
 VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law, int whole,
                              lanes_m *plain)
 {
     const vndf_distribution *d = law->table;
-    float q = b->level.square * (b->c * b->c), root = sqrtf(b->k * b->k + q);
-    border at = {whole ? b->k + root : b->c, whole ? b->level.square * b->c : root - b->k, 1.0f};
-    uint32_t j = vndf_guide_find(&d->slope_guide, at.x / at.z);
+    float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c), n = w->s * b->c, root_c = w->c * root;
+    border at = {whole ? b->k + root : b->c, whole ? qc : root - b->k, 1.0f};
+    float around = at.x + at.z, per = 1.0f / (around * at.z), x = at.x * (at.z * per), z = at.z * (at.z * per);
+    uint32_t j = vndf_guide_find(&d->slope_guide, at.x * (around * per));
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    float inner = lanes_positive(at.x * cell.z0 - at.z * cell.x0);
-    float outer = lanes_positive(at.z * cell.x1 - at.x * cell.z1), sum = inner + outer;
-    vndf_radius place = {j, inner / sum, outer / sum};
-    *plain &= 0.02f * (w->s * b->c) < w->c * root;
+    float inner = lanes_positive(x * cell.z0 - z * cell.x0), outer = lanes_positive(z * cell.x1 - x * cell.z1);
+    *plain &= 0.02f * n < root_c;
     if (j + 3 > law->cut) {
-        vndf_radial_law scaled = vndf_radial_scaled(*law, b->total);
-        at.kept = vndf_radial_cdf(&scaled, place);
-        *plain &= at.kept > 0.999f;
-        return at;
+        vndf_radius place = {j, inner / (inner + outer), outer / (inner + outer)};
+        return border_beside(law, b->total, at, place, plain);
     }
     vndf_rational_cell in = vndf_radial_plain(law, &cell);
     float before = whole ? vndf_radial_before_whole(law, &cell) : vndf_radial_before(law, &cell);
-    float mass = before + vndf_rational_cdf(&in, place.xi), around = at.x + at.z;
-    float rise = vndf_rational_density(&in, place.xi) * (at.x * at.z);
-    at.kept = mass / b->total;
-    *plain &= rise * (w->c * root + w->s * b->c) < 30.0f * w->c * root * mass * (cell.width * (around * around));
+    inside mass = inside_of(&in, cell.width, inner, outer);
+    float per_mass = 1.0f / (mass.below * b->total), scale = in.mass * (per_mass * b->total);
+    at.kept = (before * mass.below + mass.above) * per_mass;
+    *plain &= mass.rise * (scale * scale) * (cell.width * (x * z)) * (root_c + n) < 30.0f * root_c * (at.kept * b->total);
     return at;
 }
 
