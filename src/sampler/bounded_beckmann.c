@@ -16,17 +16,19 @@
 #include "sampler/beckmann.h"
 #include "sampler/bounded.h"
 
-/* What of a direction is in `bounds`. */
-enum { X0, X1, BEGIN, SPAN };
+/* What of a direction is in `bounds`: the extent, the part of F before it and on it, and the azimuth of wi, in double:
+ * of a float the last bits would put normals beside the extent. */
+enum { X0, X1, BEGIN, SPAN, COS_PHI, SIN_PHI };
 
 /* The ellipse in the frame turned to the stretched wi. */
 typedef struct ellipse {
     double qxx, qxy, qyy, det;
 } ellipse;
 
-static ellipse ellipse_of(const vndf_view *view)
+static ellipse ellipse_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
 {
-    double a2 = view->alpha_x * view->alpha_x, b2 = view->alpha_y * view->alpha_y, c = view->cos_phi, s = view->sin_phi;
+    double a2 = view->alpha_x * view->alpha_x, b2 = view->alpha_y * view->alpha_y;
+    double c = bounds[COS_PHI], s = bounds[SIN_PHI];
     ellipse e = {a2 * c * c + b2 * s * s, (b2 - a2) * s * c, a2 * s * s + b2 * c * c, a2 * b2};
     return e;
 }
@@ -37,16 +39,20 @@ static vndf_beckmann_law law_of(const vndf_view *view)
     return law;
 }
 
-/* K - x1 = root/(h (h qyy + root)) is no difference. Beyond 7 there is nothing. */
+/* Beyond 7 there is nothing. */
 void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
-    ellipse e = ellipse_of(view);
     vndf_beckmann_law law = law_of(view);
-    double h = 1.0 / law.bound, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
+    vndf_stretched w = vndf_stretched_of(view);
+    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
+    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
+    bounds[SIN_PHI] = w.y * per;
+    ellipse e = ellipse_of(view, bounds);
+    double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds[X0] = -sum / e.det;
     bounds[X1] = e.qyy / sum;
     bounds[BEGIN] = bounds[X0] < -7.0 ? 0.0 : vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
-    bounds[SPAN] = (bounds[X1] > 7.0 ? 1.0 : vndf_beckmann_part(&law, bounds[X1], root * law.bound / sum))
+    bounds[SPAN] = (bounds[X1] > 7.0 ? 1.0 : vndf_beckmann_part(&law, bounds[X1], law.bound - bounds[X1]))
                  - bounds[BEGIN];
 }
 
@@ -103,19 +109,13 @@ static double draw_across(const chord *h, double u)
 
 /* ---- both ---- */
 
-/* x of a normal, in the frame of the view. */
-static double slope_along(const vndf_view *view, vndf_normal wm)
-{
-    double c = view->cos_phi, s = view->sin_phi;
-    return -(c * wm.x / view->alpha_x + s * wm.y / view->alpha_y) / ((c * c + s * s) * wm.z);
-}
-
 vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const double bounds[VNDF_BOUNDS],
                                               vndf_normal wm, double facing)
 {
-    ellipse e = ellipse_of(view);
+    ellipse e = ellipse_of(view, bounds);
     vndf_stretched w = vndf_stretched_of(view);
-    chord h = chord_at(&e, bounds, slope_along(view, wm));
+    double along = bounds[COS_PHI] * wm.x / view->alpha_x + bounds[SIN_PHI] * wm.y / view->alpha_y;
+    chord h = chord_at(&e, bounds, -along / wm.z);
     vndf_bounded_factors at = {vndf_beckmann_visible(view, &w, wm, facing), bounds[SPAN] * h.part};
     return at;
 }
@@ -128,17 +128,19 @@ static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], c
     double farther = -h->low, root = 0.5 * (h->high - h->low) * e->qyy;
     double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds[X1] - bounds[X0]);
     double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
-    return view->plain && x * x + y * y < 12.0 && change < 30.0 * h->part * e->qyy * root;
+    double turned = view->s * (fabs(x) + fabs(y)) + view->c, facing = view->c - view->s * x;
+    int plain = view->plain && x * x + y * y < 12.0 && 0.05 * turned < facing;
+    return plain && change < 30.0 * h->part * e->qyy * root;
 }
 
 vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
 {
-    ellipse e = ellipse_of(view);
+    ellipse e = ellipse_of(view, bounds);
     vndf_beckmann_law law = law_of(view);
     double x = vndf_beckmann_slope(&law, bounds[BEGIN] + u1 * bounds[SPAN]);
     x = x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
     chord h = chord_at(&e, bounds, x);
-    double y = draw_across(&h, u2), c = view->cos_phi, s = view->sin_phi;
+    double y = draw_across(&h, u2), c = bounds[COS_PHI], s = bounds[SIN_PHI];
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
     double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
     if (!(1.00001 * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))

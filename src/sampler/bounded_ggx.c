@@ -76,8 +76,8 @@ static chord chord_at(const frame *f, double cosine, double sine)
     chord h = {{0.0, 0.0}, {1.0, 1.0}, 0.0, stretched(f, -f->c * cosine, sine, f->s * cosine)};
     double a = f->c * dot(h.m1, h.m1), b = f->c * dot(f->m0, h.m1) - f->s * cosine, square = b * b - a * f->c0;
     double root = square > 0.0 ? sqrt(square) : 0.0, wedge2 = f->s * f->s * cosine * cosine / (f->c * f->c);
-    if (f->c0 > 0.0 && !(b < 0.0 && square > 0.0))
-        return h;
+    if (f->c0 > 0.0 && !(b < 0.0))
+        return h; /* behind w; beside a tangent the chord is a point */
     if (f->c0 > 0.0)
         set_end(&h, 0, f->c0, root - b);
     if (b > 0.0)

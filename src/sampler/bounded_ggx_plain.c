@@ -38,7 +38,7 @@ static int is_plain(const vndf_view *view, const outlook *o)
 /* ---- the law of psi ---- */
 
 /* The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and of the
- * sides: fractions n/d with (M1, N) (c^2 e1 + s^2, c) c^2 and (e2, 1). Three quotients that do not wait for each other. */
+ * sides: fractions n/d with (M1, N) (c^2 e1 + s^2, c) c^2 and (e2, 1). The quotients do not wait for each other. */
 void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     outlook o = outlook_of(view);
@@ -55,6 +55,7 @@ void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS])
     bounds[VNDF_GGX_FRONT] = d / all;
     bounds[VNDF_GGX_IN_FRONT] = all / (d * one);
     bounds[VNDF_GGX_IN_WEDGE] = all / (n * one);
+    bounds[VNDF_GGX_RATE] = 0.5f * all / (c * n);
     bounds[VNDF_GGX_BEGIN] = 0.0;
     bounds[VNDF_GGX_SPAN] = 1.0;
 }
@@ -69,9 +70,9 @@ typedef struct azimuth {
 static azimuth draw_azimuth(const outlook *o, const double bounds[VNDF_BOUNDS], float half)
 {
     float front = (float)bounds[VNDF_GGX_FRONT], in_front = (float)bounds[VNDF_GGX_IN_FRONT];
-    float in_wedge = (float)bounds[VNDF_GGX_IN_WEDGE], part = fabsf(half), one = 0.5f + 0.5f * o->c;
-    int ahead = part < front; /* 1/front = factor (1 + c), and c over that of the rest */
-    float turned = ahead ? part * (in_front * one) : (part - front) * (in_wedge * one) / o->c;
+    float in_wedge = (float)bounds[VNDF_GGX_IN_WEDGE], rate = (float)bounds[VNDF_GGX_RATE], part = fabsf(half);
+    int ahead = part < front; /* 1/front = factor (1 + c) */
+    float turned = ahead ? part * (in_front * (0.5f + 0.5f * o->c)) : (part - front) * rate;
     vndf_turn turn = vndf_half_turn(turned < 0.5f ? turned : 0.5f);
     float x = ahead ? turn.cosine : -o->c * turn.sine, y = ahead ? turn.sine : turn.cosine;
     azimuth a = {x, copysignf(y, half), ahead ? 1.0f : x * x + y * y, ahead ? in_front : in_wedge};
@@ -119,7 +120,7 @@ vndf_bounded vndf_bounded_ggx(const vndf_view *view, const double bounds[VNDF_BO
     float mx = view->ax * (view->cos_phi * x - view->sin_phi * y);
     float my = view->ay * (view->sin_phi * x + view->cos_phi * y);
     float length2 = mx * mx + my * my + z * z, length = sqrtf(length2), per = 1.0f / length;
-    int inside = 1.00001f * (o.c * length2) < 2.0f * cosine * z && 0.02f * o.c * cosine < z;
+    int inside = 1.00001f * (o.c * length2) < 2.0f * cosine * z && 0.02f * o.c * cosine < z && 0.03f < cosine;
     if (!inside || !is_settled(&o, &at, &h, sine))
         return vndf_bounded_ggx_carefully(view, bounds, u1, u2);
     float kept = h.kept * at.factor, density = length2 * length * cosine / (3.14159265f * view->spread * kept);
