@@ -1,9 +1,10 @@
-/* Bounded visible normals, and the directions that they reflect wi to, follow the density that vndf_pdf_bounded claims:
- * chi-square over 24 x 32 bins of each at 4e5 samples, level 0.01 for all together (Sidak).
+/* Bounded visible normals, and the directions that they reflect wi to, follow the density that vndf_pdf_bounded
+ * claims: chi-square over 24 x 32 bins of each at 4e5 samples, level 0.01 for all together (Sidak).
  *
- * Normals are binned in the disc of slopes that bounds them, in polar coordinates about the pole with the radius over
- * that of the border; directions wo by height and azimuth, their density vndf_pdf_bounded/(4 wi.wm). Expected counts
- * are from 8 x 8 points of Gauss to a bin, 32 x 32 where the density of GGX or Beckmann has an edge. */
+ * Normals are binned in the disc of slopes that bounds them, in polar coordinates about the pole with the radius
+ * over that of the border; directions wo by height and azimuth, their density vndf_pdf_bounded/(4 wi.wm).
+ * Expected counts are from 8 x 8 points of Gauss to a bin, 32 x 32 where the density of GGX or Beckmann has an
+ * edge. */
 #include "oracle.h"
 #include "sampler/bounded.h"
 #include "statistics.h"
@@ -114,7 +115,8 @@ typedef struct setting {
     double cosine;
 } setting;
 
-static const setting SETTINGS[] = {{0.5f, 0.5f, 0.999}, {1, 1, 0.5}, {1, 1, 0.0872}, {0.8f, 0.2f, 0.3}, {2, 0.5f, 0.3}};
+static const setting SETTINGS[] = {{0.5f, 0.5f, 0.999}, {1, 1, 0.5}, {1, 1, 0.0872}, {0.8f, 0.2f, 0.3},
+                                   {2, 0.5f, 0.3}};
 enum { SETTING_COUNT = 5, SUBJECT_COUNT = 4 };
 
 static void test_setting(const char *name, const vndf_distribution *d, setting is, unsigned long long seed)
@@ -122,7 +124,8 @@ static void test_setting(const char *name, const vndf_distribution *d, setting i
     long samples = oracle_quick() ? 100000 : 400000;
     static long counts[2][BINS];
     vndf_surface surface = {d, is.alpha_x, is.alpha_y};
-    double sine = sqrt(1 - is.cosine * is.cosine), level = statistics_sidak(0.01, 2 * SETTING_COUNT * SUBJECT_COUNT);
+    double sine = sqrt(1 - is.cosine * is.cosine);
+    double level = statistics_sidak(0.01, 2 * SETTING_COUNT * SUBJECT_COUNT);
     vndf_vec3 wi = {(float)(0.6 * sine), (float)(0.8 * sine), (float)is.cosine};
     subject g = {vndf_view_from(&surface, wi), {0}};
     vndf_bounds_of(&g.view, g.bounds);
@@ -138,7 +141,7 @@ static void test_setting(const char *name, const vndf_distribution *d, setting i
     }
     for (int reflected = 0; reflected < 2; reflected++) {
         double mass, p = chance(&g, reflected, counts[reflected], samples, &mass);
-        if (!TEST(p > level) | !TEST_NEAR(mass, 1, 3e-4))
+        if (!(TEST(p > level) & TEST_NEAR(mass, 1, 3e-4)))
             fprintf(stderr, "  %s, alpha %g %g, cos %g, %s: p %g\n", name, is.alpha_x, is.alpha_y, is.cosine,
                     reflected ? "directions" : "normals", p);
     }

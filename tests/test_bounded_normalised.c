@@ -1,8 +1,9 @@
-/* The integral of vndf_pdf_bounded over all normals is 1 within 1e-5, for tables, GGX and Beckmann, even, stretched and
- * at any angle; and so the density is 0 below the horizon and what is kept is right to that, small parts included.
+/* The integral of vndf_pdf_bounded over all normals is 1 within 1e-5, for tables, GGX and Beckmann, even,
+ * stretched and at any angle; and so the density is 0 below the horizon and what is kept is right to that, small
+ * parts included.
  *
- * Coordinates are those in which the density has its edges along lines: where the disc of bounded.h begins and ends on a
- * line is found by bisection of the sign of wo.z, and quadrature goes between. */
+ * Coordinates are those in which the density has its edges along lines: where the disc of bounded.h begins and
+ * ends on a line is found by bisection of the sign of wo.z, and quadrature goes between. */
 #include "oracle.h"
 #include "sampler/bounded.h"
 #include "sampler/wedge.h"
@@ -48,7 +49,8 @@ static int is_inside(const subject *g, vndf_normal m)
     return m.z > 0 && 2 * (wi.x * m.x + wi.y * m.y + wi.z * m.z) * m.z > wi.z * square;
 }
 
-/* At m = A R n, n of any length: density per the volume element of n over that of its length, dwm = ax ay dn/|m|^3. */
+/* At m = A R n, n of any length: density per the volume element of n over that of its length, dwm = ax ay
+ * dn/|m|^3. */
 static double density(const subject *g, vndf_normal m)
 {
     double length = sqrt(m.x * m.x + m.y * m.y + m.z * m.z);
@@ -84,8 +86,8 @@ static double over_angle(double angle, const void *user)
     return density(user, at_angle(user, angle)) * sin(angle);
 }
 
-/* An angle of the line in the disc, where 2 (wi.M) M.z - wi.z |M|^2 of M = M0 + tan(angle) M1 is largest; below 0 if
- * there is none. 0 where w itself is in it. */
+/* An angle of the line in the disc, where 2 (wi.M) M.z - wi.z |M|^2 of M = M0 + tan(angle) M1 is largest; below 0
+ * if there is none. 0 where w itself is in it. */
 static double angle_inside(const subject *g)
 {
     double value[3];
@@ -276,7 +278,8 @@ int main(int arguments, char **argument)
     if (oracle_wanted(arguments, argument, 1, "beckmann"))
         test_subject("beckmann", vndf_beckmann());
     for (size_t i = 2; i < 4; i++) {
-        const char *path = i == 2 ? VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf" : VNDF_SOURCE_DIR "/tables/epd-0.6.vndf";
+        const char *path = i == 2 ? VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf"
+                                  : VNDF_SOURCE_DIR "/tables/epd-0.6.vndf";
         if (!oracle_wanted(arguments, argument, i, path))
             continue;
         vndf_distribution *table = vndf_load(path, &error);

@@ -24,9 +24,9 @@ static vndf_vec3 rounded(vndf_normal n)
     return wm;
 }
 
-/* The normal of the same azimuth on the border of the disc: b + sqrt(b^2 + wi.z^2) and wi.z are its slope, b = wi.xy
- * along the azimuth. Then inwards, until rounding no longer matters: along any azimuth the disc holds all down to
- * the pole. */
+/* The normal of the same azimuth on the border of the disc: b + sqrt(b^2 + wi.z^2) and wi.z are its slope, b =
+ * wi.xy along the azimuth. Then inwards, until rounding no longer matters: along any azimuth the disc holds all
+ * down to the pole. */
 VNDF_RARE vndf_vec3 turned_in(const vndf_view *view, vndf_vec3 wm)
 {
     double x = wm.x, y = wm.y, across = sqrt(x * x + y * y), per = across > 0.0 ? 1.0 / across : 0.0;

@@ -1,5 +1,5 @@
-/* Visible normals bounded by the horizon: those of wi that reflect it to above the surface. No sample is lost, for
- * any D; wi is above the horizon, else nothing is drawn.
+/* Visible normals bounded by the horizon: those of wi that reflect it to above the surface. No sample is lost,
+ * for any D; wi is above the horizon, else nothing is drawn.
  *
  * With slopes m = wm.xy/wm.z, wo = 2 (wi.wm) wm - wi and b = wi.xy/wi.z
  *
@@ -11,9 +11,9 @@
  *
  *     density = (that of vndf_pdf)/kept,     kept = P(chord) of the visible normals of that line,            (2)
  *
- * times a constant of the direction where the first law is cut or weighted too. A reflection has the weight kept F
- * G2/G1: what would be lost has been summed in closed form, so the variance is below that of visible normals, where
- * a sample has F G2/G1 or 0 (Rao-Blackwell). Published bounds (Tokuyoshi & Eto, "Bounded VNDF Sampling for
+ * times a constant of the direction where the first law is cut or weighted too. A reflection has the weight kept
+ * F G2/G1: what would be lost has been summed in closed form, so the variance is below that of visible normals,
+ * where a sample has F G2/G1 or 0 (Rao-Blackwell). Published bounds (Tokuyoshi & Eto, "Bounded VNDF Sampling for
  * Smith-GGX Reflections", SIGGRAPH Asia 2023 Technical Communications) are for GGX and loose; this one is tight.
  *
  *     tables     azimuth about z, then the slope length               bounded_table.c
@@ -28,17 +28,18 @@
 enum { VNDF_BOUNDS = 6 };
 void vndf_bounds_of(const vndf_view *view, double bounds[VNDF_BOUNDS]);
 
-/* A normal, its density per steradian within [FLT_MIN, FLT_MAX], and `kept` in [FLT_MIN, 1]: the density is that of
- * vndf_pdf over it, to 1e-5. */
+/* A normal, its density per steradian within [FLT_MIN, FLT_MAX], and `kept` in [FLT_MIN, 1]: the density is that
+ * of vndf_pdf over it, to 1e-5. */
 typedef struct vndf_bounded {
     vndf_vec3 wm;
     float density, kept;
 } vndf_bounded;
 
-/* From two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit, wi.wm > 0 and wo.z > 0 for wm as it is returned
- * and wi as it was given, by 2^-21 of wi.z. Continuous and monotone as vndf_sample, in its order for tables and
- * Beckmann; for GGX u1 turns the normal about the stretched wi, from below it through the side (1/4) and the top (1/2)
- * round again, and u2 moves it away. An invalid view or one from below: (0, 0, 1) with density and kept 0. */
+/* From two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit, wi.wm > 0 and wo.z > 0 for wm as it is
+ * returned and wi as it was given, by 2^-21 of wi.z. Continuous and monotone as vndf_sample, in its order for
+ * tables and Beckmann; for GGX u1 turns the normal about the stretched wi, from below it through the side (1/4)
+ * and the top (1/2) round again, and u2 moves it away. An invalid view or one from below: (0, 0, 1) with density
+ * and kept 0. */
 vndf_bounded vndf_sample_bounded(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2);
 
 /* The density with which vndf_sample_bounded draws wm, unit but for rounding; 0 where it reflects wi to below the
@@ -65,8 +66,8 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
 vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const double bounds[VNDF_BOUNDS],
                                               vndf_normal wm, double facing);
 
-/* A normal as it was drawn, of any length: turned into the disc if rounding has put it outside, and with the density
- * of that. */
+/* A normal as it was drawn, of any length: turned into the disc if rounding has put it outside, and with the
+ * density of that. */
 vndf_bounded vndf_bounded_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], vndf_normal drawn);
 
 #endif

@@ -1,23 +1,24 @@
-/* Bounded visible normals of Beckmann (bounded.h). Stretched slopes (x, y), x along wi (beckmann.c), are independent, x
- * with the distribution function F(x)/F(K), y normal. The real slope is of squared length q = qxx x^2 + 2 qxy x y +
- * qyy y^2, and with h = s/c the disc is the ellipse
+/* Bounded visible normals of Beckmann (bounded.h). Stretched slopes (x, y), x along wi (beckmann.c), are
+ * independent, x with the distribution function F(x)/F(K), y normal. The real slope is of squared length q = qxx
+ * x^2 + 2 qxy x y + qyy y^2, and with h = s/c the disc is the ellipse
  *
  *     q + 2 h x < 1,
  *
- * of extent x0 < x < x1 and chords y = (-qxy x +- sqrt(det (x1 - x) (x - x0)))/qyy, where det = (alpha_x alpha_y)^2
- * and x0, x1 are the roots of det x^2 + 2 h qyy x = qyy. x1 < K/2: normals turned away are not in it.
+ * of extent x0 < x < x1 and chords y = (-qxy x +- sqrt(det (x1 - x) (x - x0)))/qyy, where det = (alpha_x
+ * alpha_y)^2 and x0, x1 are the roots of det x^2 + 2 h qyy x = qyy. x1 < K/2: normals turned away are not in it.
  *
- * u1 moves x through the part of F between x0 and x1, u2 moves y through the part of the normal law on the chord; kept
- * is the product of both parts. Of the two tails of y the one is used where the chord has its middle, so that a
- * chord far out keeps its digits; on a short one the part is had by quadrature and inverted by Newton's steps. */
+ * u1 moves x through the part of F between x0 and x1, u2 moves y through the part of the normal law on the chord;
+ * kept is the product of both parts. Of the two tails of y the one is used where the chord has its middle, so
+ * that a chord far out keeps its digits; on a short one the part is had by quadrature and inverted by Newton's
+ * steps. */
 #include "math/elementary.h"
 #include "math/erf_quantile.h"
 #include "math/vector.h"
 #include "sampler/beckmann.h"
 #include "sampler/bounded.h"
 
-/* What of a direction is in `bounds`: the extent, the part of F before it and on it, and the azimuth of wi, in double:
- * of a float the last bits would put normals beside the extent. */
+/* What of a direction is in `bounds`: the extent, the part of F before it and on it, and the azimuth of wi, in
+ * double: of a float the last bits would put normals beside the extent. */
 enum { X0, X1, BEGIN, SPAN, COS_PHI, SIN_PHI };
 
 /* The ellipse in the frame turned to the stretched wi. */
@@ -58,8 +59,8 @@ void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
 
 /* ---- the chord ---- */
 
-/* y from low to high, with the middle at or below 0, after `mirrored` ones have been turned round; the part of the
- * normal law below and on it. */
+/* y from low to high, with the middle at or below 0, after `mirrored` ones have been turned round; the part of
+ * the normal law below and on it. */
 typedef struct chord {
     double low, high, before, part;
     int mirrored, is_short;
@@ -76,7 +77,8 @@ static double short_part(double low, double high)
 
 static chord chord_at(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
 {
-    double square = e->det * (bounds[X1] - x) * (x - bounds[X0]), half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
+    double square = e->det * (bounds[X1] - x) * (x - bounds[X0]);
+    double half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
     double middle = -e->qxy * x / e->qyy;
     chord h = {-fabs(middle) - half, -fabs(middle) + half, 0.0, 0.0, middle > 0.0, 0};
     h.is_short = half * (1.0 + fabs(middle)) < 0.125;
@@ -85,7 +87,8 @@ static chord chord_at(const ellipse *e, const double bounds[VNDF_BOUNDS], double
     return h;
 }
 
-/* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord. */
+/* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord.
+ * */
 static double short_draw(const chord *h, double u)
 {
     double y = h->low + u * (h->high - h->low), target = u * h->part;
@@ -120,8 +123,8 @@ vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const doubl
     return at;
 }
 
-/* Whether the density is that of the normal as it is rounded: slopes move by 1.2e-7 of themselves, the ends of the
- * chord with them, and the part on it by no more than (1 - part) (2 |y| + 1.2) times that. */
+/* Whether the density is that of the normal as it is rounded: slopes move by 1.2e-7 of themselves, the ends of
+ * the chord with them, and the part on it by no more than (1 - part) (2 |y| + 1.2) times that. */
 static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], const ellipse *e, const chord *h,
                       double x, double y)
 {
@@ -147,6 +150,7 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
         return vndf_bounded_settled(view, bounds, m);
     double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
     double density = vndf_beckmann_p22(x * x + y * y) * (up * length2 * length) / (view->spread * kept);
-    vndf_bounded b = {vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per), (float)density, (float)kept};
+    vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
+    vndf_bounded b = {wm, (float)density, (float)kept};
     return b;
 }

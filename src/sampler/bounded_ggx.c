@@ -1,10 +1,11 @@
-/* Bounded visible normals of GGX (bounded.h), in the unit problem (ggx.h), s^2 + c^2 = 1: azimuth psi about w = (s, 0, c),
+/* Bounded visible normals of GGX (bounded.h), in the unit problem (ggx.h), s^2 + c^2 = 1: azimuth psi about w =
+ * (s, 0, c),
  *
  *     n = cos(g) w + sin(g) u,     u = cos(psi) (-c, 0, s) + sin(psi) (0, 1, 0).
  *
- * There D = 1/pi and the density of visible normals is 2 cos(g)/(pi (1 + c)), uniform in sin(g)^2 dpsi: uniform on the
- * projection of the hemisphere along w, half a disc and half an ellipse (Heitz, "Sampling the GGX Distribution of
- * Visible Normals", JCGT 2018). For a given psi sin(g)^2 goes from 0 to
+ * There D = 1/pi and the density of visible normals is 2 cos(g)/(pi (1 + c)), uniform in sin(g)^2 dpsi: uniform
+ * on the projection of the hemisphere along w, half a disc and half an ellipse (Heitz, "Sampling the GGX
+ * Distribution of Visible Normals", JCGT 2018). For a given psi sin(g)^2 goes from 0 to
  *
  *     1 in front, where cos(psi) >= 0;      c^2/(c^2 + s^2 cos(psi)^2) in the wedge,
  *
@@ -13,15 +14,16 @@
  *
  *     c |M1|^2 t^2 + 2 (c M0.M1 - s cos(psi)) t + c (|M0|^2 - 2) < 0,
  *
- * since wi.M is the same for all t. Everything is a quadratic and one root. In these coordinates lines are lines: the
- * disc is convex. w itself is in it where |M0|^2 < 2, for all roughness up to sqrt(2): sin(g)^2 is drawn from 0 to
- * that of the root. Otherwise psi is drawn between the two tangents and sin(g)^2 between two roots.
+ * since wi.M is the same for all t. Everything is a quadratic and one root. In these coordinates lines are lines:
+ * the disc is convex. w itself is in it where |M0|^2 < 2, for all roughness up to sqrt(2): sin(g)^2 is drawn from
+ * 0 to that of the root. Otherwise psi is drawn between the two tangents and sin(g)^2 between two roots.
  *
- * The front, of mass 1/(1 + c), keeps more than the wedge, of mass c/(1 + c): kept is 1 and 1/4 to 1/2 at
- * roughness 1 near grazing. So psi is drawn with these masses times the largest kept of either, which stands at psi =
- * 0 or pi, or at the side; that halves the variance there (0.079 -> 0.045 at 85 degrees, plain visible normals have
- * 0.087), and kept, over those factors, stays below 1. The other order - angle in the plane of incidence, then the
- * chord across - has more variance up to roughness 0.5 and wants the quantile of a semicircle. */
+ * he front, of mass 1/(1 + c), keeps more than the wedge, of mass c/(1 + c): near grazing, at roughness 1, nearly
+ * all, and 1/4 to 1/2. So psi is drawn with the mass of the wedge times the largest kept there, which stands at
+ * psi = pi or at a side. At 85 degrees that takes the variance of the albedo from 0.079 to 0.052 (plain visible
+ * normals: 0.088), and kept, over the factors of both, stays below 1. The other order - angle in the plane of
+ * incidence, then the chord across - has more variance up to roughness 0.5 and wants the quantile of a
+ * semicircle. */
 #include "math/elementary.h"
 #include "math/half_turn.h"
 #include "math/vector.h"
@@ -50,7 +52,8 @@ static frame frame_of(const vndf_view *view)
 {
     vndf_stretched w = vndf_stretched_of(view);
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
-    frame f = {view->alpha_x, view->alpha_y, w.s, w.c, across > 0.0 ? w.x * per : 1.0, w.y * per, {0.0, 0.0, 0.0}, 0.0};
+    frame f = {view->alpha_x, view->alpha_y, w.s, w.c, across > 0.0 ? w.x * per : 1.0, w.y * per,
+               {0.0, 0.0, 0.0}, 0.0};
     f.m0 = stretched(&f, w.s, 0.0, w.c);
     f.c0 = w.c * (dot(f.m0, f.m0) - 2.0);
     return f;
@@ -102,8 +105,8 @@ static double part_before(const frame *f, double front, double cosine, double si
     return 0.5 + 0.5 * copysign(half, sine);
 }
 
-/* The two azimuths where the chord ends, each by a vector: roots of d11 x^2 + 2 d12 x y + d22 y^2, what is under the
- * root of chord_at. */
+/* The two azimuths where the chord ends, each by a vector: roots of d11 x^2 + 2 d12 x y + d22 y^2, what is under
+ * the root of chord_at. */
 static void find_tangents(const frame *f, double bounds[VNDF_BOUNDS])
 {
     vndf_normal m1 = stretched(f, -f->c, 0.0, f->s), m2 = stretched(f, 0.0, 1.0, 0.0);
@@ -135,13 +138,12 @@ void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS]
         return;
     }
     vndf_normal side = stretched(&f, 0.0, 1.0, 0.0);
-    double toward = chord_at(&f, 1.0, 0.0).part, away = chord_at(&f, -1.0, 0.0).part;
+    double away = chord_at(&f, -1.0, 0.0).part;
     double beside = chord_at(&f, 0.0, dot(f.m0, side) < 0.0 ? 1.0 : -1.0).part;
-    double front = toward > beside ? toward : beside, wedge = away > beside ? away : beside;
-    double all = front + f.c * wedge, whole = all / (1.0 + f.c);
-    bounds[VNDF_GGX_FRONT] = front / all;
-    bounds[VNDF_GGX_IN_FRONT] = whole / front;
-    bounds[VNDF_GGX_IN_WEDGE] = whole / wedge;
+    double wedge = away > beside ? away : beside, all = 1.0 + f.c * wedge;
+    bounds[VNDF_GGX_FRONT] = 1.0 / all;
+    bounds[VNDF_GGX_IN_FRONT] = all / (1.0 + f.c);
+    bounds[VNDF_GGX_IN_WEDGE] = all / ((1.0 + f.c) * wedge);
 }
 
 /* ---- in double ---- */
@@ -164,8 +166,8 @@ vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bou
 /* psi, cosine and sine but for a factor; u1 in [0, 1]. */
 static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], double u1, double azimuth[2])
 {
-    double u = bounds[VNDF_GGX_BEGIN] + bounds[VNDF_GGX_SPAN] * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0, part = fabs(half);
-    double front = bounds[VNDF_GGX_FRONT];
+    double u = bounds[VNDF_GGX_BEGIN] + bounds[VNDF_GGX_SPAN] * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0;
+    double front = bounds[VNDF_GGX_FRONT], part = fabs(half);
     if (part < front || !(front < 1.0)) {
         vndf_turn turn = vndf_half_turn(vndf_clamp_unit((float)(0.5 * part / front)));
         azimuth[0] = turn.cosine;
@@ -177,7 +179,8 @@ static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], doubl
     }
 }
 
-vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
+vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1,
+                                        float u2)
 {
     frame f = frame_of(view);
     double azimuth[2];
@@ -185,7 +188,8 @@ vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double boun
     double per = 1.0 / sqrt(azimuth[0] * azimuth[0] + azimuth[1] * azimuth[1]);
     chord h = chord_at(&f, azimuth[0] * per, azimuth[1] * per);
     double rest = 1.0 - u2;
-    double sine = sqrt(rest * h.sine2[0] + u2 * h.sine2[1]), cosine = sqrt(rest * h.cosine2[0] + u2 * h.cosine2[1]);
+    double sine = sqrt(rest * h.sine2[0] + u2 * h.sine2[1]);
+    double cosine = sqrt(rest * h.cosine2[0] + u2 * h.cosine2[1]);
     vndf_normal m = {cosine * f.m0.x + sine * h.m1.x, cosine * f.m0.y + sine * h.m1.y,
                      cosine * f.m0.z + sine * h.m1.z};
     return vndf_bounded_settled(view, bounds, m);

@@ -1,13 +1,14 @@
 /* Bounded visible normals of GGX where all is of plain size and nothing cancels: bounded_ggx.c in float.
  *
- * With (e1, e12; e12, e2) the matrix R^T A^2 R of the level directions and u' = N u for (X, Y) = N (cos psi, sin psi),
+ * With (e1, e12; e12, e2) the matrix R^T A^2 R of the level directions and u' = N u for (X, Y) = N (cos psi, sin
+ * psi),
  *
  *     |M0|^2 = s^2 e1 + c^2,     |M1|^2 N^2 = X^2 (c^2 e1 + s^2) - 2 c X Y e12 + Y^2 e2,
  *     (c M0.M1 - s cos psi) N = -s (s^2 + c^2 e1) X + c s e12 Y,
  *
- * so the root of the chord, t/N = above/below, takes no vectors. N = 1 in front; in the wedge (X, Y) = (-c cos v, sin v)
- * and N^2 is the largest sin(g)^2. Either way kept is (t/N)^2/(1 + t^2), times the factor of the side, and sin(g)^2/N^2
- * is u2 times that. */
+ * so the root of the chord, t/N = above/below, takes no vectors. N = 1 in front; in the wedge (X, Y) = (-c cos v,
+ * sin v) and N^2 is the largest sin(g)^2. Either way kept is (t/N)^2/(1 + t^2), times the factor of the side, and
+ * sin(g)^2/N^2 is u2 times that. */
 #include "math/half_turn.h"
 #include "math/vector.h"
 #include "sampler/bounded_ggx.h"
@@ -37,8 +38,9 @@ static int is_plain(const vndf_view *view, const outlook *o)
 
 /* ---- the law of psi ---- */
 
-/* The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and of the
- * sides: fractions n/d with (M1, N) (c^2 e1 + s^2, c) c^2 and (e2, 1). The quotients do not wait for each other. */
+/* The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and
+ * of the sides: fractions n/d with (M1, N) (c^2 e1 + s^2, c) c^2 and (e2, 1). The quotients do not wait for each
+ * other. */
 void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     outlook o = outlook_of(view);
@@ -96,10 +98,10 @@ static chord draw_chord(const outlook *o, const azimuth *at, float u2)
     return h;
 }
 
-/* Whether the density is that of the normal as it is rounded. That turns psi by some 1e-7/sin(g), and d log(t)/d psi is
- * below (2 root E/|M1| + c E |M0| + s)/root, E^2 = e1 + e2, which bears on kept by twice cos(g)^2 at the end; the matrix
- * may hide what is small in E. That bound is far above what is measured: at 150 the density is within 4e-6. In front and
- * in the wedge kept differs. */
+/* Whether the density is that of the normal as it is rounded. That turns psi by some 1e-7/sin(g), and d log(t)/d
+ * psi is below (2 root E/|M1| + c E |M0| + s)/root, E^2 = e1 + e2, which bears on kept by twice cos(g)^2 at the
+ * end; the matrix may hide what is small in E. That bound is far above what is measured: at 150 the density is
+ * within 4e-6. In front and in the wedge kept differs. */
 static int is_settled(const outlook *o, const azimuth *at, const chord *h, float sine)
 {
     float n = sqrtf(at->n2), e2 = o->e1 + o->e2, gain = o->c * (0.7f + 0.7f * e2) + o->s;

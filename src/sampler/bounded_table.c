@@ -1,12 +1,12 @@
-/* Bounded visible normals of a table (bounded.h): azimuth first, whose law stays, then the slope length r up to the
- * border of the disc. Along an azimuth a of the stretched frame, where real slopes are r times a vector of squared
- * length q, with k = s cos a
+/* Bounded visible normals of a table (bounded.h): azimuth first, whose law stays, then the slope length r up to
+ * the border of the disc. Along an azimuth a of the stretched frame, where real slopes are r times a vector of
+ * squared length q, with k = s cos a
  *
  *     c q r^2 - 2 k r - c < 0,     r < (k + sqrt(k^2 + q c^2))/(q c) = c/(sqrt(k^2 + q c^2) - k),
  *
  * below half the slope at which normals turn away. `kept` is the part of the law of r up to there and u2 is
- * multiplied by it: the sample is that of vndf_sample for (u1, kept u2), and sums from the pole keep the digits of a
- * small part. In float where that is good enough; elsewhere by just that, with kept from density.c. */
+ * multiplied by it: the sample is that of vndf_sample for (u1, kept u2), and sums from the pole keep the digits
+ * of a small part. In float where that is good enough; elsewhere by just that, with kept from density.c. */
 #include "math/vector.h"
 #include "sampler/bounded.h"
 #include "sampler/draw.h"
@@ -59,8 +59,8 @@ typedef struct border {
     float x, z, kept;
 } border;
 
-/* Mass of a cell up to a place between its knots, by the parts `inner` and `outer` of its width, and its quotients
- * for P(border): mass = (before below + above)/below. */
+/* Mass of a cell up to a place between its knots, by the parts `inner` and `outer` of its width, and its
+ * quotients for P(border): mass = (before below + above)/below. */
 typedef struct inside {
     float above, below, rise; /* rise: mass per xi, times (below/(mass width))^2 */
 } inside;
@@ -73,8 +73,8 @@ VNDF_INLINE inside inside_of(const vndf_rational_cell *in, float width, float in
     return at;
 }
 
-/* In the two cells beside the cut, which are others (radial_cut.h), and the cell at it: where there is none that is at
- * infinity, and little is lost. */
+/* In the two cells beside the cut, which are others (radial_cut.h), and the cell at it: where there is none that
+ * is at infinity, and little is lost. */
 static border border_beside(const vndf_radial_law *law, float total, border at, vndf_radius place, lanes_m *plain)
 {
     vndf_radial_law scaled = vndf_radial_scaled(*law, total);
@@ -83,13 +83,14 @@ static border border_beside(const vndf_radial_law *law, float total, border at, 
     return at;
 }
 
-/* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by 1e-7 of
- * s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
-VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law, int whole,
-                             lanes_m *plain)
+/* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by
+ * 1e-7 of s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
+VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law,
+                             int whole, lanes_m *plain)
 {
     const vndf_distribution *d = law->table;
-    float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c), n = w->s * b->c, root_c = w->c * root;
+    float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c);
+    float n = w->s * b->c, root_c = w->c * root;
     border at = {whole ? b->k + root : b->c, whole ? qc : root - b->k, 1.0f};
     float around = at.x + at.z, per = 1.0f / (around * at.z), x = at.x * (at.z * per), z = at.z * (at.z * per);
     uint32_t j = vndf_guide_find(&d->slope_guide, at.x * (around * per));
@@ -105,7 +106,8 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, con
     inside mass = inside_of(&in, cell.width, inner, outer);
     float per_mass = 1.0f / (mass.below * b->total), scale = in.mass * (per_mass * b->total);
     at.kept = (before * mass.below + mass.above) * per_mass;
-    *plain &= mass.rise * (scale * scale) * (cell.width * (x * z)) * (root_c + n) < 30.0f * root_c * (at.kept * b->total);
+    float rise = mass.rise * (scale * scale) * (cell.width * (x * z));
+    *plain &= rise * (root_c + n) < 30.0f * root_c * (at.kept * b->total);
     return at;
 }
 
