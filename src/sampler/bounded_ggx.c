@@ -18,7 +18,7 @@
  * the disc is convex. w itself is in it where |M0|^2 < 2, for all roughness up to sqrt(2): sin(g)^2 is drawn from
  * 0 to that of the root. Otherwise psi is drawn between the two tangents and sin(g)^2 between two roots.
  *
- * he front, of mass 1/(1 + c), keeps more than the wedge, of mass c/(1 + c): near grazing, at roughness 1, nearly
+ * The front, of mass 1/(1 + c), keeps more than the wedge, of mass c/(1 + c): near grazing at roughness 1 nearly
  * all, and 1/4 to 1/2. So psi is drawn with the mass of the wedge times the largest kept there, which stands at
  * psi = pi or at a side. At 85 degrees that takes the variance of the albedo from 0.079 to 0.052 (plain visible
  * normals: 0.088), and kept, over the factors of both, stays below 1. The other order - angle in the plane of

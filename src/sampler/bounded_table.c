@@ -59,8 +59,8 @@ typedef struct border {
     float x, z, kept;
 } border;
 
-/* Mass of a cell up to a place between its knots, by the parts `inner` and `outer` of its width, and its
- * quotients for P(border): mass = (before below + above)/below. */
+/* Mass of a cell, above/below, up to a place that is `inner` and `outer` of its width from its knots: a quotient
+ * that is left to be formed with another. */
 typedef struct inside {
     float above, below, rise; /* rise: mass per xi, times (below/(mass width))^2 */
 } inside;
