@@ -7,7 +7,9 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, n, choice, 1, &out)) {
+    /* on short chords of the disc the density changes within a rounding */
+    int settled = choice.normals != VNDF_NORMALS_BOUNDED || n->quotient > 0.1f * b->area;
+    if (!vndf_reflect(b, n, choice, settled, &out)) {
         vndf_scatter_nothing(s);
         return;
     }
