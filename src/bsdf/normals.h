@@ -4,6 +4,7 @@
 
 #include "bsdf/masking.h"
 #include "math/vector.h"
+#include "sampler/all_normals.h"
 #include "sampler/given.h"
 #include "sampler/surface.h"
 
@@ -38,9 +39,21 @@ VNDF_INLINE int vndf_prepare_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf
     return vndf_prepare_visible(b, r, wi);
 }
 
+/* No view: roughness and direction, and the area for masking. */
 VNDF_INLINE int vndf_prepare_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    return vndf_prepare_visible(b, r, wi);
+    const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
+    vndf_view *view = &b->view;
+    view->distribution = surface.distribution;
+    view->wi.x = wi.x;
+    view->wi.y = wi.y;
+    view->wi.z = wi.z;
+    if (!vndf_surface_scaled(&surface, &view->alpha_x, &view->alpha_y) || !(vndf_dot(wi, wi) < HUGE_VALF))
+        return 0;
+    view->ax = (float)view->alpha_x;
+    view->ay = (float)view->alpha_y;
+    b->area = vndf_bsdf_area(b, wi);
+    return 1;
 }
 
 /* ---- drawing ---- */
@@ -60,18 +73,52 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1
     return vndf_bsdf_visible(b, wm, density);
 }
 
+/* D is not quite what a table draws with. */
+VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float facing, float density)
+{
+    return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_all(const vndf_bsdf *b, float u1, float u2)
+{
+    const vndf_view *v = &b->view;
+    vndf_bsdf_normal n;
+    n.wm = vndf_sample_all(v->distribution, v->alpha_x, v->alpha_y, u1, u2, &n.density);
+    n.facing = vndf_dot(v->wi, n.wm);
+    n.quotient = v->distribution->kind == VNDF_KIND_TABLE ? vndf_bsdf_quotient(b, n.wm, n.facing, n.density)
+                                                          : n.facing / n.wm.z;
+    return n;
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_v_cavity(const vndf_bsdf *b, float u1, float u2)
+{
+    const vndf_view *v = &b->view;
+    vndf_bsdf_normal n;
+    n.wm = vndf_sample_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, u1, u2, &n.density);
+    n.facing = vndf_dot(v->wi, n.wm);
+    n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
+    return n;
+}
+
 /* `normals` is a constant. */
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw(const vndf_bsdf *b, float u1, float u2, vndf_normals_drawn normals)
 {
-    (void)normals;
+    if (normals == VNDF_NORMALS_ALL)
+        return vndf_bsdf_draw_all(b, u1, u2);
+    if (normals == VNDF_NORMALS_V_CAVITY)
+        return vndf_bsdf_draw_v_cavity(b, u1, u2);
     return vndf_bsdf_draw_visible(b, u1, u2);
 }
 
 /* The density with which wm is drawn, unit but for rounding, facing = wi.wm > 0. */
 VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, double facing, vndf_normals_drawn normals)
 {
-    (void)normals;
-    return vndf_pdf_of(&b->view, wm, facing);
+    const vndf_view *v = &b->view;
+    if (normals == VNDF_NORMALS_ALL)
+        return vndf_pdf_all(v->distribution, v->alpha_x, v->alpha_y, wm);
+    if (normals == VNDF_NORMALS_V_CAVITY)
+        return vndf_pdf_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, wm);
+    return vndf_pdf_of(v, wm, facing);
 }
 
 #endif

@@ -161,7 +161,7 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
                              vndf_outcome *out)
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_lifted(vndf_reflected(wi, n->wm, n->facing), choice);
-    if (!(wo.z > 0.0f))
+    if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     if (!(settled & vndf_is_settled(b, n->facing)))
         return vndf_reflect_carefully(b, wo, out);
@@ -187,9 +187,10 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, doub
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
     double eta = b->eta, rise = eta * eta - 1.0, sum = n->facing + eta * beyond;
-    if (!(wo.z < 0.0f) || !(n->facing > 0.0))
+    if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    if (rise != 0.0 && !(beyond > 0.1 && vndf_is_settled(b, 0.4f * (float)(fabs(rise) * beyond))))
+    float gain = 0.4f * (float)(fabs(rise) * beyond);
+    if (rise != 0.0 && !(beyond > 0.1 && n->facing > 0.1f && vndf_is_settled(b, gain)))
         return vndf_refract_carefully(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
     out->wo = wo;
