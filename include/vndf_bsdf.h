@@ -156,8 +156,8 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 typedef struct vndf_bsdf {
     const vndf_material *material;
     vndf_view view;                  /* of wi in the frame of the roughness, turned up */
-    float eta;                       /* index on the other side over that on the side of wi */
-    float carried;                   /* what transmission has more than for importance: 1/eta^2 for radiance */
+    double eta;                      /* index on the other side over that on the side of wi */
+    double carried;                  /* what transmission has more than for importance: 1/eta^2 for radiance */
     float side;                      /* -1 where wi is on the side of -z, 1 else */
     float area;                      /* projected area along wi */
     float cos_rotation, sin_rotation;

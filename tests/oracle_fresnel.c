@@ -45,11 +45,11 @@ long double oracle_fresnel(long double cosine, long double n, long double k)
     long double sin2 = (1 - cosine) * (1 + cosine);
     complex_number m = {n, k}, c = {cosine, 0}, bent = over((complex_number){sin2, 0}, times(m, m));
     complex_number t = root((complex_number){1 - bent.re, -bent.im});
-    if (k <= 0 && n * n <= sin2)
-        return 1; /* in total reflection, exactly */
-    if (n == 1 && k <= 0)
-        return 0;
     if (cosine <= 0)
         return 1;
+    if (n == 1 && k <= 0)
+        return 0;
+    if (k <= 0 && n * n <= sin2)
+        return 1; /* in total reflection, exactly */
     return (ratio_square(c, times(m, t)) + ratio_square(times(m, c), t)) / 2;
 }

@@ -23,12 +23,12 @@ VNDF_INLINE void set_reflected(const vndf_bsdf *b, const vndf_outcome *out, cons
 VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_outcome *out, const double *f, double part,
                                vndf_scattered *s)
 {
-    int straight = b->eta == 1.0f;
+    int straight = b->eta == 1.0;
     s->wo = vndf_mirrored(out->wo, b->side);
     s->density = straight ? 1.0f : out->density * (float)part;
     s->lobe = straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = out->weight * b->carried * (float)((1.0 - f[i]) / part);
+        s->weight[i] = out->weight * (float)(b->carried * ((1.0 - f[i]) / part));
 }
 
 VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)
