@@ -74,15 +74,17 @@ static double beta_by_quadrature(double a, double b)
     return sum * step * exp(peak);
 }
 
-static double g1_of_cavity(const double w[3], const double wm[3])
+static double g1_of_cavity(const double w[3], const double wm[3], double facing)
 {
-    return fmin(1, 2 * fabs(wm[2] * w[2] / dot(w, wm)));
+    return fmin(1, 2 * fabs(wm[2] * w[2] / facing));
 }
 
+/* The cosines of both to wm are given. */
 static double g2_of(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wo[3],
-                    const double wm[3])
+                    const double wm[3], double facing, double beyond)
 {
-    double up[3] = {wo[0], wo[1], fabs(wo[2])}, gi = g1_of_cavity(wi, wm), go = g1_of_cavity(wo, wm);
+    double up[3] = {wo[0], wo[1], fabs(wo[2])};
+    double gi = g1_of_cavity(wi, wm, facing), go = g1_of_cavity(wo, wm, beyond);
     double one_li = oracle_ndf_area(o->ndf, alpha, wi) / (wi[2] / sqrt(dot(wi, wi)));
     double one_lo = oracle_ndf_area(o->ndf, alpha, up) / (up[2] / sqrt(dot(up, up)));
     switch (o->is.effects.masking) {
@@ -124,31 +126,39 @@ static double mean(const double f[VNDF_WAVELENGTHS])
 
 /* ---- f and its density ---- */
 
-static double normal_density(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wm[3])
+static double normal_density(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wm[3],
+                             double facing)
 {
-    double d = oracle_ndf_density(o->ndf, alpha, wm);
     switch (o->is.effects.normals) {
     case VNDF_NORMALS_ALL:
-        return d * wm[2];
-    case VNDF_NORMALS_V_CAVITY:
-        return d * g1_of_cavity(wi, wm) * dot(wi, wm) / wi[2];
+        return oracle_ndf_all(o->ndf, alpha, wm);
+    case VNDF_NORMALS_V_CAVITY: /* of a normal and its twin (-x, -y, z) the one that is seen */
+        return oracle_ndf_all(o->ndf, alpha, wm) * g1_of_cavity(wi, wm, facing) * facing / (wi[2] * wm[2]);
     case VNDF_NORMALS_BOUNDED:
         return -1;
     default:
-        return oracle_ndf_visible(o->ndf, alpha, wi, wm);
+        return oracle_ndf_visible(o->ndf, alpha, wi, wm) * facing / dot(wi, wm);
     }
 }
 
-static void reflect(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wo[3],
-                    double ratio, oracle_value *value)
+/* wi.wm where both graze hangs on lengths: there they are made unit in any case. */
+static void reflect(const oracle_bsdf *o, const double alpha[2], double wi[3], double wo[3], double ratio,
+                    oracle_value *value)
 {
     double wm[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
+    if (dot(wm, wm) < 0.0064) {
+        scale_to(wi, 1);
+        scale_to(wo, 1);
+        for (int i = 0; i < 3; i++)
+            wm[i] = wi[i] + wo[i];
+    }
     scale_to(wm, 1);
-    double facing = dot(wi, wm), shape = oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm);
+    double facing = dot(wi, wm), shape = oracle_ndf_density(o->ndf, alpha, wm);
+    shape *= g2_of(o, alpha, wi, wo, wm, facing, facing);
     oracle_bsdf_fresnel(o, fmin(facing, 1), ratio, value->fresnel);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         value->f[i] = value->fresnel[i] * shape / (4 * wi[2] * wo[2]);
-    value->pdf = normal_density(o, alpha, wi, wm) / (4 * facing);
+    value->pdf = normal_density(o, alpha, wi, wm, facing) / (4 * facing);
     if (o->is.effects.lobes == VNDF_LOBES_BOTH)
         value->pdf *= mean(value->fresnel);
 }
@@ -163,14 +173,14 @@ static void transmit(const oracle_bsdf *o, const double alpha[2], const double w
     double facing = dot(wi, wm), beyond = -dot(wo, wm), sum = facing - ratio * beyond;
     if (!(facing > 0) || !(beyond > 0))
         return;
-    double shape = oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm) * facing * beyond;
+    double shape = oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm, facing, beyond) * facing * beyond;
     double per = wi[2] * -wo[2] * sum * sum, jacobian = ratio * ratio * beyond / (sum * sum);
     if (o->is.effects.transport == VNDF_TRANSPORT_IMPORTANCE)
         per /= ratio * ratio;
     oracle_bsdf_fresnel(o, fmin(facing, 1), ratio, value->fresnel);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         value->f[i] = (1 - value->fresnel[i]) * shape / per;
-    value->pdf = normal_density(o, alpha, wi, wm) * jacobian;
+    value->pdf = normal_density(o, alpha, wi, wm, facing) * jacobian;
     if (o->is.effects.lobes == VNDF_LOBES_BOTH)
         value->pdf *= 1 - mean(value->fresnel);
 }

@@ -32,8 +32,11 @@ void oracle_ndf_close(oracle_ndf *ndf);
 double oracle_ndf_density(const oracle_ndf *ndf, const double alpha[2], const double wm[3]);
 double oracle_ndf_area(const oracle_ndf *ndf, const double alpha[2], const double w[3]);
 
-/* The density with which visible normals are drawn: max(0, wi.wm) D/A, or what the table has for it. */
+/* The density with which visible normals are drawn: max(0, wi.wm) D/A, or what the table has for it; unit vectors. */
 double oracle_ndf_visible(const oracle_ndf *ndf, const double alpha[2], const double wi[3], const double wm[3]);
+
+/* The density with which all normals are drawn: D cos(theta_m), or what the table has for it. */
+double oracle_ndf_all(const oracle_ndf *ndf, const double alpha[2], const double wm[3]);
 
 /* ---- optics ---- */
 

@@ -83,8 +83,19 @@ double oracle_ndf_visible(const oracle_ndf *ndf, const double alpha[2], const do
     oracle_query q = query_of(alpha, wi, wm);
     if (ndf->kind == ORACLE_NDF_TABLE)
         return oracle_table_densities(&ndf->table, &q, value) ? value[0] : 0;
-    double li = sqrt(wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2]);
-    double lm = sqrt(wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2]);
-    double facing = (wi[0] * wm[0] + wi[1] * wm[1] + wi[2] * wm[2]) / (li * lm);
+    double facing = wi[0] * wm[0] + wi[1] * wm[1] + wi[2] * wm[2];
     return fmax(facing, 0) * oracle_ndf_density(ndf, alpha, wm) / oracle_ndf_area(ndf, alpha, wi);
+}
+
+/* A table draws the slopes of visible normals straight from above, with an even azimuth in place of its own, which is
+ * even too where it is towards wi: total0 of what the front and the wedge hold. */
+double oracle_ndf_all(const oracle_ndf *ndf, const double alpha[2], const double wm[3])
+{
+    const oracle_table *t = &ndf->table;
+    double length = sqrt(wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2]), above[3] = {1e-30, 0, 1};
+    double toward[3] = {fabs(wm[0]), wm[1], wm[2]};
+    if (ndf->kind != ORACLE_NDF_TABLE)
+        return oracle_ndf_density(ndf, alpha, wm) * wm[2] / length;
+    double per_radian = t->total0 / (t->total0 * PI + 2 * oracle_wedge_mass(&t->above, 1));
+    return oracle_ndf_visible(ndf, alpha, above, toward) / (2 * PI * per_radian);
 }

@@ -72,22 +72,35 @@ typedef struct vndf_half {
     double jacobian; /* dwm/dwo */
 } vndf_half;
 
-VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
-{
-    double x = (double)wi.x + wo.x, y = (double)wi.y + wo.y, z = (double)wi.z + wo.z;
-    double per = 1.0 / sqrt(x * x + y * y + z * z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    double facing = wi.x * wm.x + wi.y * wm.y + wi.z * wm.z;
-    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
-    vndf_half half = {wm, e, 0.25 / facing};
-    return half;
-}
-
 VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
     double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
     vndf_normal n = {w.x * per, w.y * per, w.z * per};
     return n;
+}
+
+VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
+{
+    double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
+    vndf_normal wm = {x * per, y * per, z * per};
+    return wm;
+}
+
+/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both graze
+ * it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. careful.c has all samples
+ * that are there. */
+VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
+{
+    vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
+    double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    if (facing < 0.04) {
+        i = vndf_unit(wi);
+        wm = vndf_halfway(i, vndf_unit(wo));
+        facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    }
+    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
+    vndf_half half = {wm, e, 0.25 / facing};
+    return half;
 }
 
 /* Lengths that are 1 but for rounding count where wi + r wo is small, so they are made 1. */
