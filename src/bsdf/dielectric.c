@@ -52,8 +52,8 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
     double f[VNDF_WAVELENGTHS];
     vndf_reflectance(b, n->facing, f);
     double square = vndf_refracted_square(n->facing, b->eta);
-    int reflects = u3 < part_of(f) || !(square > 0.0);
-    if (!(reflects ? vndf_reflect(b, n, choice, fabs(square) > 0.01, &out) : vndf_refract(b, n, sqrt(square), &out))) {
+    int reflects = u3 < part_of(f) || !(square > 0.0), settled = vndf_keeps_reflectance(b, n->facing);
+    if (!(reflects ? vndf_reflect(b, n, choice, settled, &out) : vndf_refract(b, n, sqrt(square), &out))) {
         vndf_scatter_nothing(s);
         return;
     }

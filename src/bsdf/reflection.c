@@ -7,7 +7,7 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, n, choice, 1, &out)) {
+    if (!vndf_reflect(b, n, choice, choice.bare || vndf_keeps_reflectance(b, n->facing), &out)) {
         vndf_scatter_nothing(s);
         return;
     }
