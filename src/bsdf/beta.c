@@ -34,6 +34,8 @@ double vndf_beta(double a, double b)
         return vndf_beta(b, a);
     if (!(a < 1e300))
         return 0.0;
+    if (a > 1e30) /* ten factors of that size overflow: Beta falls as a^-b */
+        return vndf_beta(1e30, b) * vndf_exp(b * vndf_log(1e30 / a));
     double factor = raised(&a, b);
     factor *= raised(&b, a);
     double large = a > b ? a : b, small = a > b ? b : a;
