@@ -42,6 +42,13 @@ VNDF_INLINE double vndf_walk_slant(const vndf_view *view, vndf_vec3 w)
     return vndf_unit_area(d, s.s, s.c) / fabs(s.c);
 }
 
+/* The same of the direction of a view from above. Those of tables hold it. */
+VNDF_INLINE double vndf_walk_slant_seen(const vndf_view *view)
+{
+    return view->distribution->kind == VNDF_KIND_TABLE ? (double)view->area / view->c
+                                                       : vndf_walk_slant(view, view->wi);
+}
+
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
  * leaves. */
 VNDF_INLINE int vndf_walk_leaves(vndf_walk_path *path, vndf_vec3 back, double distance)
@@ -58,7 +65,7 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
         return 0;
     path->view = vndf_view_scaled(path->view.distribution, path->view.alpha_x, path->view.alpha_y, back);
     if (back.z > 0.0f)
-        path->depth += distance * path->view.c / path->view.area;
+        path->depth += distance / vndf_walk_slant_seen(&path->view);
     return 1;
 }
 
@@ -67,7 +74,7 @@ VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_vie
 {
     vndf_walk_path path = {*view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0,
                            vndf_walk_random_from(seed)};
-    path.depth = vndf_walk_exponential(&path.random) * view->c / view->area;
+    path.depth = vndf_walk_exponential(&path.random) / vndf_walk_slant_seen(view);
     return path;
 }
 

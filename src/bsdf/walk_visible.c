@@ -13,12 +13,12 @@ static double visible_of_table(const vndf_view *view, const vndf_stretched *w, v
 
 double vndf_walk_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
-    if (!(wm.z >= 0.0) || !(facing > 0.0) || !(view->area > 0.0f))
+    if (!(wm.z >= 0.0) || !(facing > 0.0))
         return 0.0;
     vndf_stretched w = vndf_stretched_of(view);
     if (view->distribution->kind == VNDF_KIND_GGX)
         return vndf_ggx_visible(view, &w, wm, facing);
     if (view->distribution->kind == VNDF_KIND_BECKMANN)
         return vndf_beckmann_visible(view, &w, wm, facing);
-    return visible_of_table(view, &w, wm, facing);
+    return view->area > 0.0f ? visible_of_table(view, &w, wm, facing) : 0.0;
 }

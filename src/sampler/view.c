@@ -40,7 +40,9 @@ static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, f
 
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
+    const vndf_surface surface = {d, (float)ax, (float)ay}; /* as they were given, if d is no table */
+    return d->kind == VNDF_KIND_TABLE ? view_scaled(d, ax, ay, (float)ax, (float)ay, wi)
+                                      : vndf_view_from(&surface, wi);
 }
 
 /* Whatever comes in. */
