@@ -2,13 +2,6 @@
 #include "bsdf/material.h"
 #include "math/vector.h"
 
-/* All that is far from it is invalid: lengths are not divided out below, and overflow in what they enter. */
-static int is_near_unit(vndf_vec3 w)
-{
-    float square = w.x * w.x + w.y * w.y + w.z * w.z;
-    return square > 0.25f && square < 4.0f; /* 0 for NaN */
-}
-
 int vndf_bsdf_hit(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
 {
     b->material = material;
@@ -20,7 +13,7 @@ int vndf_bsdf_hit(vndf_bsdf *b, const vndf_material *material, const vndf_roughn
         b->carried = material->is.effects.transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (b->eta * b->eta) : 1.0;
         wi.z = fabsf(wi.z);
     }
-    if (is_near_unit(wi) && wi.z > 0.0f && material->routines->prepare(b, r, wi))
+    if (vndf_is_near_unit(wi) && wi.z > 0.0f && material->routines->prepare(b, r, wi))
         return 1;
     b->material = &vndf_material_of_nothing;
     return 0;

@@ -47,7 +47,7 @@ static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
     m->unrotated->eval(b, wo, 0, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         if (f[i] < below)
-            s->weight[i] = f[i] * fabsf(wo.z) / density;
+            s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
