@@ -11,7 +11,7 @@
 #include "bsdf_case.h"
 #include "statistics.h"
 
-enum { SPHERE_ROWS = 65, SPHERE_TURNS = 130, SPHERE_BINS = SPHERE_ROWS * SPHERE_TURNS, SPHERE_PILOTS = 4001 };
+enum { SPHERE_ROWS = 65, SPHERE_TURNS = 130, SPHERE_BINS = SPHERE_ROWS * SPHERE_TURNS, SPHERE_PILOTS = 20001 };
 
 typedef struct sphere_map {
     const vndf_bsdf *bsdf;
@@ -37,12 +37,14 @@ static inline double sphere_turn(double phi)
     return remainder(phi, 2 * SPHERE_PI);
 }
 
-/* Every second border is even, the others are quantiles; the surface itself is a border of z. */
+/* Every second border is even, the others are quantiles, from the least to the largest: beyond them a quadrature that
+ * looks at few places may find nothing. The surface itself is a border of z. */
 static inline void sphere_place(double *border, size_t parts, double low, double high, const double *sorted, size_t count)
 {
+    size_t steps = (parts - 1) / 2 - 1;
     for (size_t i = 0; i <= parts; i++)
-        border[i] = i % 2 || !count ? low + (high - low) * (double)i / (double)parts
-                                    : sorted[count * i / (parts + 1)];
+        border[i] = i % 2 || !count || i < 2 ? low + (high - low) * (double)i / (double)parts
+                                             : sorted[(count - 1) * (i / 2 - 1) / steps];
     border[0] = low;
     border[parts] = high;
     qsort(border, parts + 1, sizeof *border, sphere_ascending);

@@ -35,7 +35,7 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
     vndf_vec3 wi = oracle_toward((double)at->z, (double)at->phi);
     vndf_material material;
     vndf_bsdf bsdf;
-    sphere_result r;
+    sphere_result r = {0, 0, 0, 0};
     if (!oracle_bsdf_two_sided(effects))
         wi.z = fabsf(wi.z);
     TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK && vndf_bsdf_at(&bsdf, &material, wi));
