@@ -188,7 +188,7 @@ static inline int sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t sample
         return 0;
     observed = probability + SPHERE_BINS + 1;
     sphere_map map = sphere_for(bsdf, wi, state);
-    sphere_integrate(&map, 0.02 / (double)samples, probability);
+    sphere_integrate(&map, 1e-7, probability);
     result->mass = 0;
     for (size_t i = 0; i < SPHERE_BINS; i++)
         result->mass += probability[i];

@@ -5,7 +5,7 @@
 #include "bsdf/masking.h"
 #include "math/vector.h"
 #include "sampler/all_normals.h"
-#include "sampler/given.h"
+#include "sampler/given_normal.h"
 #include "sampler/surface.h"
 
 /* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density. */
@@ -16,7 +16,7 @@ typedef struct vndf_bsdf_normal {
 
 VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
 {
-    return vndf_ndf_of(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
+    return vndf_normal_ndf(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
 }
 
 /* ---- what a direction needs ---- */
@@ -111,15 +111,15 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw(const vndf_bsdf *b, float u1, float 
     return vndf_bsdf_draw_visible(b, u1, u2);
 }
 
-/* The density with which wm is drawn, unit but for rounding, facing = wi.wm > 0. */
-VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, double facing, vndf_normals_drawn normals)
+/* The density with which wm is drawn, unit but for rounding, wi.wm > 0. */
+VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, vndf_normals_drawn normals)
 {
     const vndf_view *v = &b->view;
     if (normals == VNDF_NORMALS_ALL)
         return vndf_pdf_all(v->distribution, v->alpha_x, v->alpha_y, wm);
     if (normals == VNDF_NORMALS_V_CAVITY)
         return vndf_pdf_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, wm);
-    return vndf_pdf_of(v, wm, facing);
+    return vndf_normal_pdf(v, wm);
 }
 
 #endif

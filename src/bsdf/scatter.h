@@ -125,7 +125,7 @@ VNDF_INLINE int vndf_is_refraction(const vndf_half *half)
 
 VNDF_INLINE double vndf_half_density(const vndf_bsdf *b, const vndf_half *half, vndf_normals_drawn normals)
 {
-    return vndf_bsdf_density(b, half->wm, half->event.facing_i, normals) * half->jacobian;
+    return vndf_bsdf_density(b, half->wm, normals) * half->jacobian;
 }
 
 /* ---- samples ---- */

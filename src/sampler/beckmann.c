@@ -57,12 +57,6 @@ static law law_at(float s, float c)
     return g;
 }
 
-float vndf_beckmann_area(float s, float c)
-{
-    double k = vndf_beckmann_bound(s, c), z = fabs(k), n = vndf_erfc_remainder(z);
-    return (float)((c > 0.0f ? c : 0.0f) + s * vndf_exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
-}
-
 /* m rho = d exp(2 K d/3) solved for d by an approximation of Lambert's function, good to 2%. */
 static double end_distance(double bound, double mrho)
 {

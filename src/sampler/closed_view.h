@@ -44,9 +44,6 @@ vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* vndf_pdf and vndf_visible of a valid view. */
-float vndf_closed_visible(const vndf_view *view, vndf_vec3 wm);
-
 /* vndf_invert of a valid view, wm.z >= 0, but for clamping. */
 void vndf_closed_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 

@@ -13,6 +13,7 @@
 
 #include "math/vector.h"
 #include "sampler/engine.h"
+#include "sampler/given_wedge.h"
 #include "sampler/stretch.h"
 #include "sampler/wedge.h"
 #include "table/moment_cubic.h"
@@ -302,11 +303,12 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
     return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
 }
 
-float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+/* Any normal that faces wi. */
+VNDF_RARE double density_carefully(const vndf_view *view, const vndf_given *g)
 {
-    double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
-    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, facing = vndf_exact_dot(view->wi, wm);
-    double cosine = 1.0, sine = 0.0, scale = 1.0 / (x + wm.z);
+    double ax = view->alpha_x, ay = view->alpha_y, mx = g->x / ax, my = g->y / ay, x = sqrt(mx * mx + my * my);
+    double level = vndf_given_level(g), facing = vndf_given_facing(g), cosine = 1.0, sine = 0.0;
+    double scale = 1.0 / (x + g->z);
     vndf_stretched w = vndf_stretched_of(view);
     if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
         double per = w.s > 0.0 ? w.per_length / (w.s * x) : 1.0 / x;
@@ -314,21 +316,33 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
         sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
     }
     vndf_engine_ray ray = ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
-    double density = vndf_engine_ray_density(&ray, x * scale, wm.z * scale, facing * w.per_length * scale);
-    return vndf_positive(vndf_density_from(density * scale * scale * scale / (ax * ay)));
+    double density = vndf_engine_ray_density(&ray, x * scale, g->z * scale, facing * w.per_length * scale);
+    return density * scale * scale * scale / (ax * ay);
+}
+
+/* The cases of given.h and given_wedge.h first. */
+double vndf_engine_density(const vndf_view *view, const vndf_given *g)
+{
+    const vndf_distribution *d = view->distribution;
+    int toward = vndf_given_along(g) >= 0.0;
+    doubles_m plain = 1;
+    double density = vndf_is_below(view) ? vndf_given_of_wedge(d, g, 1, &plain)
+                     : toward            ? vndf_given_in_front(d, g, &plain)
+                                         : vndf_given_of_wedge(d, g, 0, &plain);
+    return plain ? density : density_carefully(view, g);
+}
+
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_positive(vndf_density_from(vndf_engine_density(view, &g)));
 }
 
 /* ---- D ---- */
 
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 {
-    place at = place_of(d, x, z);
-    const vndf_radial_cell *cell = &d->cells[at.cell];
-    const float *kx = d->knots.x + at.cell;
-    vndf_moment_cubic bend = bump_of(cell);
-    double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
-    double f_over_x = at.cell == 0 ? rise / kx[1]
-                                   : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
-    double sum = sum_at(d, at), square = sum * sum;
-    return f_over_x > 0.0 ? f_over_x / cell->width * (square * square) : 0.0;
+    vndf_spot at = vndf_spot_at(d, x, z);
+    vndf_quotient p22 = vndf_spot_p22(&at);
+    return p22.above > 0.0 ? p22.above / p22.below : 0.0;
 }

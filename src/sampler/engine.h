@@ -62,6 +62,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 /* The same where densities in float are known not to do. */
 vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
 
+struct vndf_given; /* sampler/given.h */
+double vndf_engine_density(const vndf_view *view, const struct vndf_given *given);
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */

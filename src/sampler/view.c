@@ -40,9 +40,7 @@ static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, f
 
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
-    const vndf_surface surface = {d, (float)ax, (float)ay}; /* as they were given, if d is no table */
-    return d->kind == VNDF_KIND_TABLE ? view_scaled(d, ax, ay, (float)ax, (float)ay, wi)
-                                      : vndf_view_from(&surface, wi);
+    return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
 /* Whatever comes in. */
@@ -57,6 +55,14 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
     float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
     return view_scaled(surface->distribution, ax, ay, x, y, wi);
+}
+
+vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_view view = {.wi = wi};
+    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && is_usable_direction(wi))
+        view.distribution = surface->distribution;
+    return view;
 }
 
 /* What is plain and ready is valid: nothing else has to be looked at. */
@@ -121,11 +127,11 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return vndf_closed_visible(view, wm);
-    if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
+    if (!is_facing(view, wm))
         return 0.0f;
-    return vndf_engine_pdf(view, wm);
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return vndf_engine_pdf(view, wm);
+    return vndf_positive(visible_facing(view, wm));
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
@@ -143,11 +149,8 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 
 float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return vndf_closed_visible(view, wm);
-    double facing = view->distribution ? vndf_exact_dot(view->wi, wm) : 0.0;
-    if (!(wm.z >= 0.0f) || !(facing > 0.0) || !(view->area > 0.0f))
+    if (!is_facing(view, wm))
         return 0.0f;
-    double ndf = vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm);
-    return vndf_density_from(ndf * (facing * vndf_stretched_of(view).per_length) / view->area);
+    float visible = visible_facing(view, wm);
+    return view->distribution->kind == VNDF_KIND_TABLE ? visible : vndf_positive(visible);
 }
