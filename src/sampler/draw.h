@@ -25,9 +25,9 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
 /* ---- where the density of the place is that of the normal, as it was rounded ---- */
 
 /* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
- * azimuth, a part of `across`, does to it; in a wedge that is no small part, where not all normals have a small W.
- * Rounding must not take the azimuth from the front to the wedge or back either, as the wedge's density is the
- * table's. */
+ * azimuth, a part of `across`, does to it; in a wedge whose mass is not so small that the rounding of the direction
+ * would show. Rounding must not take the azimuth from the front to the wedge or back either, as the wedge's density
+ * is the table's. */
 static const float VNDF_PLAIN_SIDE = 1e-6f;
 
 VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
@@ -42,21 +42,22 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f front, lan
                                         lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    lanes_m large = lanes_both(lanes_less(0.1f * front, wedge), lanes_at_most(lanes_set(0.25f), c));
-    return lanes_both(large, lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
-                                        lanes_less(0.1f * (across + up), along + up)));
+    lanes_m seen = lanes_less(0.05f * (across + up), along + up);
+    return lanes_both(lanes_both(lanes_less(0.01f * front, wedge), seen),
+                      lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)));
 }
 
-/* Away from the border of the unit square and from knots, where the density changes little from a normal to its
- * rounded self. */
+/* Away from the border of the unit square and from knots that may matter, where the density changes little from a
+ * normal to its rounded self. */
 VNDF_INLINE lanes_m vndf_plain_place(lanes_f half, lanes_f u2, const vndf_radial_lanes *at,
                                      const vndf_rational_cell *cell, lanes_f xi, lanes_m whole)
 {
     lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
                                 lanes_less(lanes_abs(half), lanes_set(0.9999f)));
     lanes_m calm = lanes_both(whole, lanes_less(lanes_set(0.0f), at->calm));
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
     lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), calm);
-    return lanes_without(inside, lanes_either(rough, vndf_radial_is_beside_knot(xi)));
+    return lanes_without(inside, lanes_either(rough, lanes_without(vndf_radial_is_beside_knot(xi), smooth)));
 }
 
 /* ---- the normal ---- */

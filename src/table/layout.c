@@ -142,6 +142,24 @@ static void derive_cells(vndf_distribution *table)
     }
 }
 
+/* Whether a cell and the next are calm, and D the same on both sides of the knot between them. */
+static int is_smooth_after(const vndf_radial_cell *cell)
+{
+    double left = cell[0].f1 / (double)cell[0].width, right = cell[1].f0 / (double)cell[1].width;
+    return cell[0].calm > 0.0f && cell[1].calm > 0.0f && fabs(left - right) <= 1e-6 * right;
+}
+
+static void derive_smooth(vndf_distribution *table)
+{
+    int before = 0;
+    for (uint32_t j = 0; j + 1 < table->radial_count; j++) {
+        int after = is_smooth_after(&table->cells[j]);
+        if (before && after)
+            table->cells[j].calm = 2.0f;
+        before = after;
+    }
+}
+
 /* What a cell repeats of its knots. */
 static void derive_copies(vndf_distribution *table)
 {
@@ -284,6 +302,7 @@ static int derive_wedge(vndf_wedge *wedge)
 int vndf_table_derive(vndf_distribution *table)
 {
     derive_cells(table);
+    derive_smooth(table);
     derive_pole(table);
     derive_tail(table);
     derive_copies(table);

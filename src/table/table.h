@@ -56,7 +56,8 @@ typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
     float x0, x1, z0, z1;        /* the knots */
     float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
-    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h) */
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h), 2 if
+                                  * those beside it are calm too and D does not jump at its ends */
     float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
 
