@@ -107,6 +107,11 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return (lanes_u)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, m);
 }
 
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return x - (lanes_u)m;
+}
+
 VNDF_INLINE uint32_t lanes_mask_bits(lanes_m m)
 {
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(m));

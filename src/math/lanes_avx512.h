@@ -109,6 +109,12 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return (lanes_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
 }
 
+/* One more in the lanes of m. */
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return (lanes_u)_mm512_mask_add_epi32((__m512i)x, m, (__m512i)x, _mm512_set1_epi32(1));
+}
+
 /* Bit i is lane i. */
 VNDF_INLINE uint32_t lanes_mask_bits(lanes_m m)
 {

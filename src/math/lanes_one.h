@@ -94,6 +94,11 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return m ? yes : no;
 }
 
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return x + (uint32_t)m;
+}
+
 VNDF_INLINE lanes_u lanes_bits(lanes_f x)
 {
     uint32_t bits;

@@ -64,13 +64,25 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, 
     return cell;
 }
 
-/* The azimuth at q, where the mass per `width` of q is `density`. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, lanes_f q, vndf_rational_place in,
-                                         lanes_f width)
+/* Whether the density of a cell may change by more than a factor e^20 per radian, or per xi, at a place: rounding
+ * moves both by 1e-7 or so. Measured by what bounds its change, |e1 - e0| + 3 |e0 + e1 - 2 mass|, over what it has
+ * there or in the mean; turn/n2 is radians per xi. */
+VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_f xi, lanes_f turn, lanes_f n2)
 {
+    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
+    lanes_f least = lanes_least(cell->e0 + rise * xi, cell->mass), change = lanes_abs(rise) + 3.0f * lanes_abs(bend);
+    return lanes_less(20.0f * least * lanes_least(turn, n2), change * n2);
+}
+
+/* The azimuth at a place of a cell; not *plain where the density is steep. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
+                                         const vndf_rational_place *in, lanes_m *plain)
+{
+    lanes_f q = cell->q + in->xi * cell->width;
     lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    lanes_f per = in.below * (2.0f * row->p * row->r * (1.0f + q * q) * width);
-    vndf_azimuth at = {c, s, lanes_root(n2), in.root * n2 / per};
+    lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
+    vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
+    *plain = lanes_without(*plain, vndf_azimuth_is_steep(&cell->cell, in->xi, turn, n2));
     return at;
 }
 
@@ -105,12 +117,12 @@ VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f targe
 }
 
 /* The azimuth with mass `target` before it, in the last of `count` cells. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target)
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target, lanes_m *plain)
 {
     lanes_u j = lanes_pick_u(lanes_at_most_u(lanes_set_u(1), count), count - 1u, lanes_set_u(0));
     vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
     vndf_rational_place in = vndf_rational_invert(&cell.cell, target - cell.before);
-    return vndf_azimuth_at(row, cell.q + in.xi * cell.width, in, cell.width);
+    return vndf_azimuth_at(row, &cell, &in, plain);
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
 #include "sampler/batch_lanes.h"
 
+#include "math/lanes_split.h"
 #include "sampler/ggx_draw.h"
 #include "sampler/surface.h"
 
@@ -8,31 +9,46 @@
 
 enum { GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
 
+/* Samples sorted: those in front of wi from the beginning on, those in the wedge from the end down (lanes_split.h).
+ * What all share stands in `shared` alone. */
+typedef struct sorted {
+    float ax[VNDF_BLOCK_SAMPLES], ay[VNDF_BLOCK_SAMPLES], s[VNDF_BLOCK_SAMPLES], c[VNDF_BLOCK_SAMPLES];
+    float cos_phi[VNDF_BLOCK_SAMPLES], sin_phi[VNDF_BLOCK_SAMPLES], spread[VNDF_BLOCK_SAMPLES];
+    float mass[VNDF_BLOCK_SAMPLES], apart[VNDF_BLOCK_SAMPLES], u2[VNDF_BLOCK_SAMPLES];
+    vndf_incidence shared;
+    int is_shared;
+} sorted;
+
+/* What is drawn of them; the density is negative where that is not good enough. */
+typedef struct results {
+    float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
+} results;
+
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
-typedef struct work {
-    vndf_incidence at[GROUPS];
-    lanes_f half[GROUPS], u2[GROUPS];
+typedef struct fronts {
     vndf_bearing bearing[GROUPS];
     lanes_u cell[GROUPS];
     vndf_place place[GROUPS];
     lanes_m plain[GROUPS];
-    uint32_t wedge[VNDF_BLOCK_SAMPLES + VNDF_LANES]; /* the samples that are in the wedge */
-    uint32_t wedge_count;
-} work;
+} fronts;
 
-/* The wedge's samples, side by side. */
-typedef struct wedge_work {
-    vndf_incidence at[GROUPS];
-    lanes_f half[GROUPS], u2[GROUPS], part[GROUPS];
+typedef struct wedges {
     vndf_azimuth_row row[GROUPS];
+    lanes_f part[GROUPS];
     lanes_u count[GROUPS], cell[GROUPS];
-    lanes_m plain[GROUPS];
     vndf_azimuth azimuth[GROUPS];
     vndf_bearing bearing[GROUPS];
     vndf_radial_law law[GROUPS];
     vndf_place place[GROUPS];
-} wedge_work;
+    lanes_m plain[GROUPS];
+} wedges;
+
+/* How a group was sorted, which of it can be drawn here, and for which of those that is good enough so far. */
+typedef struct origin {
+    lanes_split split;
+    lanes_m usable, plain;
+} origin;
 
 static lanes_f clamp_unit(lanes_f u)
 {
@@ -60,17 +76,13 @@ VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, 
         b->left[from] |= VNDF_DELICATE;
 }
 
-/* Of samples from `i` on; plain only where a view in float is good enough. */
-VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i,
-                                        float scale)
+/* Roughness of samples from `i` on, and their direction; *ready where that is good enough in float. */
+VNDF_INLINE vndf_aim aim_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, lanes_f ax, lanes_f ay,
+                            lanes_m *ready)
 {
-    lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
-    lanes_m ready = lanes_all();
     lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
-    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
-    vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
-    w.plain = lanes_both(w.plain, ready);
-    return w;
+    *ready = lanes_all();
+    return d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, ready) : vndf_aim_at(d, x, y, z, ready);
 }
 
 VNDF_INLINE void store(vndf_sample_block *b, uint32_t i, const vndf_drawn *n)
@@ -81,127 +93,191 @@ VNDF_INLINE void store(vndf_sample_block *b, uint32_t i, const vndf_drawn *n)
     lanes_store(b->density + i, n->density);
 }
 
-/* The same member of the groups, of samples `index`: what lies `stride` floats from group to group. */
-VNDF_INLINE lanes_f gathered(const lanes_f *member, size_t stride, lanes_u index)
+/* ---- sorting ---- */
+
+VNDF_INLINE void sort_incidence(sorted *to, const lanes_split *split, const vndf_incidence *w)
 {
-    lanes_u group = index / VNDF_LANES, lane = index & (VNDF_LANES - 1u);
-    return lanes_gather((const float *)member, group * (uint32_t)(stride / sizeof(float)) + lane);
+    lanes_split_store(split, to->ax, w->ax);
+    lanes_split_store(split, to->ay, w->ay);
+    lanes_split_store(split, to->s, w->s);
+    lanes_split_store(split, to->c, w->c);
+    lanes_split_store(split, to->cos_phi, w->cos_phi);
+    lanes_split_store(split, to->sin_phi, w->sin_phi);
+    lanes_split_store(split, to->spread, w->spread);
 }
 
-VNDF_INLINE vndf_incidence gathered_incidence(const vndf_incidence *all, lanes_u index)
+/* Samples from `i` on of a block, between *low and *high. What cannot be drawn goes with the fronts. */
+VNDF_INLINE origin sort_group(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, float scale,
+                              sorted *to, uint32_t *low, uint32_t *high)
 {
-    const size_t stride = sizeof *all;
-    vndf_incidence w = {gathered(&all->ax, stride, index), gathered(&all->ay, stride, index),
-                        gathered(&all->s, stride, index), gathered(&all->c, stride, index),
-                        gathered(&all->cos_phi, stride, index), gathered(&all->sin_phi, stride, index),
-                        gathered(&all->front, stride, index), gathered(&all->wedge, stride, index),
-                        gathered(&all->spread, stride, index), lanes_all()};
-    return w;
+    lanes_f half = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f, u2 = clamp_unit(lanes_load(b->u2 + i));
+    lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
+    origin from;
+    vndf_aim aim = aim_at(d, b, i, ax, ay, &from.usable);
+    vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
+    vndf_sector sector = vndf_sector_at(aim.front, aim.wedge, half);
+    from.usable = lanes_both(from.usable, w.plain);
+    from.plain = lanes_both(from.usable, vndf_sector_is_plain(&sector, aim.front, half, u2));
+    from.split = lanes_split_by(lanes_either(sector.in_front, lanes_without(lanes_all(), from.usable)), low, high);
+    sort_incidence(to, &from.split, &w);
+    lanes_split_store(&from.split, to->mass, sector.mass);
+    lanes_split_store(&from.split, to->apart, sector.apart);
+    lanes_split_store(&from.split, to->u2, u2);
+    return from;
 }
 
-/* ---- in front of wi: all lanes as they come ---- */
-
-VNDF_INLINE void aim(const vndf_distribution *d, const vndf_sample_block *b, work *w)
+/* The same where all have one view, which is plain. */
+VNDF_INLINE origin sort_shared(const vndf_sample_block *b, uint32_t i, sorted *to, uint32_t *low, uint32_t *high)
 {
+    lanes_f half = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f, u2 = clamp_unit(lanes_load(b->u2 + i));
+    lanes_f front = lanes_set(b->view->front);
+    vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->wedge), half);
+    origin from;
+    from.usable = lanes_all();
+    from.plain = vndf_sector_is_plain(&sector, front, half, u2);
+    from.split = lanes_split_by(sector.in_front, low, high);
+    lanes_split_store(&from.split, to->mass, sector.mass);
+    lanes_split_store(&from.split, to->apart, sector.apart);
+    lanes_split_store(&from.split, to->u2, u2);
+    return from;
+}
+
+/* All of a block; how many are in front, or cannot be drawn. */
+VNDF_INLINE uint32_t sort_block(const vndf_distribution *d, const vndf_sample_block *b, sorted *to, origin *from)
+{
+    uint32_t low = 0, high = (b->count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     float scale = vndf_unit_scale_float(d);
-    vndf_incidence shared;
+    to->is_shared = b->view != NULL;
     if (b->view)
-        shared = vndf_incidence_of(b->view);
-    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
-        uint32_t i = g * VNDF_LANES;
-        w->at[g] = b->view ? shared : incidence_at(d, b, i, scale);
-        w->half[g] = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f;
-        w->u2[g] = clamp_unit(lanes_load(b->u2 + i));
+        to->shared = vndf_incidence_of(b->view);
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES)
+        from[i / VNDF_LANES] = b->view ? sort_shared(b, i, to, &low, &high)
+                                       : sort_group(d, b, i, scale, to, &low, &high);
+    return low;
+}
+
+VNDF_INLINE vndf_incidence incidence_at(const sorted *w, uint32_t i)
+{
+    vndf_incidence at = {lanes_load(w->ax + i), lanes_load(w->ay + i), lanes_load(w->s + i), lanes_load(w->c + i),
+                         lanes_load(w->cos_phi + i), lanes_load(w->sin_phi + i), lanes_load(w->spread + i),
+                         lanes_all()};
+    return w->is_shared ? w->shared : at;
+}
+
+VNDF_INLINE vndf_sector sector_at(const sorted *w, uint32_t i)
+{
+    vndf_sector sector = {lanes_all(), lanes_load(w->mass + i), lanes_load(w->apart + i)};
+    return sector;
+}
+
+/* Results to where their samples were; what is not good enough is left. */
+VNDF_INLINE void unsort_block(vndf_sample_block *b, const origin *from, const results *front, const results *wedge)
+{
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        const origin *o = &from[i / VNDF_LANES];
+        vndf_drawn n = {lanes_split_load(&o->split, front->x, wedge->x),
+                        lanes_split_load(&o->split, front->y, wedge->y),
+                        lanes_split_load(&o->split, front->z, wedge->z),
+                        lanes_split_load(&o->split, front->density, wedge->density)};
+        store(b, i, &n);
+        lanes_m good = lanes_both(o->plain, lanes_less(lanes_set(0.0f), n.density));
+        leave(b, lanes_without(lanes_all(), o->usable), lanes_without(o->usable, good), i);
     }
 }
 
-VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, work *w)
+VNDF_INLINE void keep(results *to, uint32_t i, const vndf_drawn *n, lanes_m plain)
 {
-    uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
-    for (uint32_t g = 0; g < groups; g++)
-        w->bearing[g] = vndf_bear_front(d, &w->at[g], w->half[g], w->u2[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_front(d, &w->bearing[g], w->u2[g]);
+    lanes_store(to->x + i, n->x);
+    lanes_store(to->y + i, n->y);
+    lanes_store(to->z + i, n->z);
+    lanes_store(to->density + i, lanes_pick(plain, n->density, lanes_set(-1.0f)));
+}
+
+/* ---- in front of wi ---- */
+
+VNDF_INLINE void draw_fronts(const vndf_distribution *d, const sorted *from, uint32_t count, fronts *w, results *to)
+{
+    uint32_t groups = (count + VNDF_LANES - 1) / VNDF_LANES;
     for (uint32_t g = 0; g < groups; g++) {
-        w->plain[g] = w->at[g].plain;
-        w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g],
+        vndf_incidence at = incidence_at(from, g * VNDF_LANES);
+        vndf_sector sector = sector_at(from, g * VNDF_LANES);
+        w->bearing[g] = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + g * VNDF_LANES));
+    }
+    for (uint32_t g = 0; g < groups; g++)
+        w->cell[g] = vndf_find_front(d, &w->bearing[g], lanes_load(from->u2 + g * VNDF_LANES));
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_incidence at = incidence_at(from, g * VNDF_LANES);
+        w->plain[g] = lanes_all();
+        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], w->cell[g], lanes_load(from->u2 + g * VNDF_LANES),
                                        &w->plain[g]);
     }
     for (uint32_t g = 0; g < groups; g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        store(b, g * VNDF_LANES, &n);
+        keep(to, g * VNDF_LANES, &n, w->plain[g]);
     }
+}
+
+/* ---- in the wedge ---- */
+
+VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t groups,
+                               wedges *w)
+{
     for (uint32_t g = 0; g < groups; g++) {
-        lanes_m usable = w->at[g].plain, plain = w->plain[g];
-        lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
-        w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
-        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain),
-              g * VNDF_LANES);
+        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
+        vndf_sector sector = sector_at(from, first + g * VNDF_LANES);
+        w->row[g] = vndf_wedge_row(&d->above, at.c);
+        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
+        w->part[g] = vndf_wedge_part(lanes_abs(sector.apart), sector.mass);
     }
-}
-
-/* ---- in the wedge: those that are, gathered ---- */
-
-VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_block *b, const work *from,
-                               wedge_work *w)
-{
-    for (uint32_t g = 0; g * VNDF_LANES < from->wedge_count; g++) {
-        lanes_u index = lanes_load_u(from->wedge + g * VNDF_LANES);
-        w->at[g] = b->view ? from->at[0] : gathered_incidence(from->at, index);
-        w->half[g] = gathered(from->half, sizeof *from->half, index);
-        w->u2[g] = gathered(from->u2, sizeof *from->u2, index);
-        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c);
-        w->part[g] = vndf_wedge_part(lanes_abs(w->half[g]), w->at[g].front, w->at[g].wedge);
-    }
-}
-
-/* A group's results to where its samples were; what is not good is left. */
-VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t count, const vndf_drawn *n,
-                         lanes_m good)
-{
-    float out[4][VNDF_LANES];
-    uint32_t bits = lanes_mask_bits(good);
-    lanes_store(out[0], n->x);
-    lanes_store(out[1], n->y);
-    lanes_store(out[2], n->z);
-    lanes_store(out[3], n->density);
-    for (uint32_t lane = 0; lane < count; lane++) {
-        uint32_t to = index[lane];
-        b->x[to] = out[0][lane];
-        b->y[to] = out[1][lane];
-        b->z[to] = out[2][lane];
-        b->density[to] = out[3][lane];
-        b->left[b->left_count] = to | VNDF_DELICATE;
-        b->left_count += !(bits >> lane & 1);
-    }
-}
-
-VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, const work *from, wedge_work *w)
-{
-    uint32_t groups = (from->wedge_count + VNDF_LANES - 1) / VNDF_LANES;
     for (uint32_t g = 0; g < groups; g++)
         w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
     for (uint32_t g = 0; g < groups; g++)
-        w->azimuth[g] = vndf_azimuth_draw(&w->row[g], w->count[g], w->part[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->azimuth[g], w->half[g], w->u2[g]);
+        w->azimuth[g] = vndf_azimuth_draw(&w->row[g], w->count[g], w->part[g], &w->plain[g]);
+}
+
+VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t groups, wedges *w)
+{
+    const float *u2 = from->u2 + first;
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
+        vndf_sector sector = sector_at(from, first + g * VNDF_LANES);
+        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &w->azimuth[g], lanes_load(u2 + g * VNDF_LANES));
+    }
     for (uint32_t g = 0; g < groups; g++)
         w->law[g] = vndf_law_wedge(d, &w->bearing[g]);
     for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
+        w->cell[g] = vndf_find_wedge(d, &w->bearing[g], lanes_load(u2 + g * VNDF_LANES), w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
-        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
-        w->place[g] = vndf_place_wedge(d, &w->at[g], &w->bearing[g], &w->law[g], w->cell[g], w->half[g], w->u2[g],
-                                       &w->plain[g]);
+        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
+        w->place[g] = vndf_place_wedge(d, &at, &w->bearing[g], &w->law[g], w->cell[g],
+                                       lanes_load(u2 + g * VNDF_LANES), &w->plain[g]);
     }
+}
+
+/* From `begin` on to the end; groups end there, so that the first may begin among the fronts. */
+VNDF_INLINE void draw_wedges(const vndf_distribution *d, const sorted *from, uint32_t begin, uint32_t end, wedges *w,
+                             results *to)
+{
+    uint32_t groups = (end - begin + VNDF_LANES - 1) / VNDF_LANES, first = end - groups * VNDF_LANES;
+    draw_azimuths(d, from, first, groups, w);
+    draw_radii(d, from, first, groups, w);
     for (uint32_t g = 0; g < groups; g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        uint32_t first = g * VNDF_LANES, left = from->wedge_count - first;
-        scatter(b, from->wedge + first, left < VNDF_LANES ? left : VNDF_LANES, &n, w->plain[g]);
+        keep(to, first + g * VNDF_LANES, &n, w->plain[g]);
     }
 }
 
 /* ---- GGX ---- */
+
+VNDF_INLINE vndf_incidence incidence_of_ggx(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i)
+{
+    lanes_f ax = lanes_load(b->alpha_x + i), ay = lanes_load(b->alpha_y + i);
+    lanes_m ready;
+    vndf_aim aim = aim_at(d, b, i, ax, ay, &ready);
+    vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
+    w.plain = lanes_both(w.plain, ready);
+    return w;
+}
 
 VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
 {
@@ -209,7 +285,7 @@ VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
     if (b->view)
         shared = vndf_incidence_of(b->view);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
+        vndf_incidence w = b->view ? shared : incidence_of_ggx(d, b, i);
         lanes_m plain = lanes_all();
         vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
                                      &plain);
@@ -220,15 +296,15 @@ VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
 
 static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
-    work all;
-    wedge_work wedges;
-    all.wedge_count = 0;
-    aim(d, b, &all);
-    draw_fronts(d, b, &all);
-    for (uint32_t i = 0; i < VNDF_LANES; i++) /* lanes that are not needed repeat a sample */
-        all.wedge[all.wedge_count + i] = 0;
-    gather_wedges(d, b, &all, &wedges);
-    draw_wedges(d, b, &all, &wedges);
+    sorted samples;
+    origin from[GROUPS];
+    results front, wedge;
+    fronts in_front;
+    wedges in_wedge;
+    uint32_t fronts_end = sort_block(d, b, &samples, from);
+    draw_fronts(d, &samples, fronts_end, &in_front, &front);
+    draw_wedges(d, &samples, fronts_end, (b->count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES, &in_wedge, &wedge);
+    unsort_block(b, from, &front, &wedge);
 }
 
 #if VNDF_LANES == 16

@@ -28,7 +28,7 @@ VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f
 {
 #if VNDF_LANES > 1
     if (wedge->knot_count <= VNDF_FEW + 1)
-        return vndf_area_few_at(wedge->few, y, per_width);
+        return vndf_area_few_at(wedge->few, wedge->knot_count - 1, y, per_width);
 #endif
     return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y, per_width);
 }
@@ -58,11 +58,11 @@ VNDF_INLINE lanes_m vndf_wedge_is_plain(const vndf_azimuth_row *row)
     return lanes_less(lanes_set(4e-3f), row->width);
 }
 
-/* Part of the wedge's mass between the far side, a = pi, and the azimuth where the part `half` of a half turn's
- * mass is between the side of wi and it. */
-VNDF_INLINE lanes_f vndf_wedge_part(lanes_f half, lanes_f front, lanes_f wedge)
+/* Part of the wedge's mass between the far side, a = pi, and the azimuth with the mass `apart` between the side of
+ * wi and it. */
+VNDF_INLINE lanes_f vndf_wedge_part(lanes_f apart, lanes_f mass)
 {
-    lanes_f rest = (half * (front + wedge) - front) / wedge;
+    lanes_f rest = apart / mass;
     return lanes_pick(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest, lanes_set(0.0f));
 }
 

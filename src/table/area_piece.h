@@ -58,15 +58,16 @@ VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, 
     return vndf_area_quick_sum(b, (y - to.c) * to.d);
 }
 
-/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
-VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], lanes_f y,
+/* Where there are `count` pieces, no more than VNDF_FEW: the one of y is found by looking at all, no step of which
+ * waits for another, and read in registers. */
+VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], uint32_t count, lanes_f y,
                                      lanes_f *per_width)
 {
     const float *begin = few[VNDF_AREA_ORDER];
     lanes_u i = lanes_set_u(0);
     lanes_f b[VNDF_AREA_ORDER];
-    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
-        i = lanes_pick_u(lanes_at_most(lanes_few(begin, i + step), y), i + step, i);
+    for (uint32_t n = 1; n < count; n++)
+        i = lanes_count(i, lanes_at_most(lanes_set(begin[n]), y));
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
         b[n] = lanes_few(few[n], i);
     *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], i);
