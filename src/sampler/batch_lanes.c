@@ -76,15 +76,6 @@ VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, 
         b->left[from] |= VNDF_DELICATE;
 }
 
-/* Roughness of samples from `i` on, and their direction; *ready where that is good enough in float. */
-VNDF_INLINE vndf_aim aim_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, lanes_f ax, lanes_f ay,
-                            lanes_m *ready)
-{
-    lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
-    *ready = lanes_all();
-    return d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, ready) : vndf_aim_at(d, x, y, z, ready);
-}
-
 VNDF_INLINE void store(vndf_sample_block *b, uint32_t i, const vndf_drawn *n)
 {
     lanes_store(b->x + i, n->x);
@@ -106,40 +97,50 @@ VNDF_INLINE void sort_incidence(sorted *to, const lanes_split *split, const vndf
     lanes_split_store(split, to->spread, w->spread);
 }
 
+/* Directions of a block's samples, and where they are good enough. */
+VNDF_INLINE void aim_block(const vndf_distribution *d, const vndf_sample_block *b, float scale, vndf_aim *aim,
+                           origin *from)
+{
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
+        uint32_t i = g * VNDF_LANES;
+        lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
+        lanes_m ready = lanes_all();
+        aim[g] = vndf_aim_towards(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i),
+                                  lanes_load(b->wi_z + i), &ready);
+        from[g].usable = lanes_both(ready, vndf_aim_is_plain(ax, ay, aim[g].c));
+    }
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
+        vndf_aim_weigh(d, &aim[g], &from[g].usable);
+}
+
 /* Samples from `i` on of a block, between *low and *high. What cannot be drawn goes with the fronts. */
-VNDF_INLINE origin sort_group(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i, float scale,
-                              sorted *to, uint32_t *low, uint32_t *high)
+VNDF_INLINE void sort_group(const vndf_sample_block *b, uint32_t i, float scale, const vndf_aim *aim, sorted *to,
+                            origin *from, uint32_t *low, uint32_t *high)
 {
     lanes_f half = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f, u2 = clamp_unit(lanes_load(b->u2 + i));
-    lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
-    origin from;
-    vndf_aim aim = aim_at(d, b, i, ax, ay, &from.usable);
-    vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
-    vndf_sector sector = vndf_sector_at(aim.front, aim.wedge, half);
-    from.usable = lanes_both(from.usable, w.plain);
-    from.plain = lanes_both(from.usable, vndf_sector_is_plain(&sector, aim.front, half, u2));
-    from.split = lanes_split_by(lanes_either(sector.in_front, lanes_without(lanes_all(), from.usable)), low, high);
-    sort_incidence(to, &from.split, &w);
-    lanes_split_store(&from.split, to->mass, sector.mass);
-    lanes_split_store(&from.split, to->apart, sector.apart);
-    lanes_split_store(&from.split, to->u2, u2);
-    return from;
+    vndf_incidence w = vndf_incidence_from(lanes_load(b->alpha_x + i) * scale, lanes_load(b->alpha_y + i) * scale, aim);
+    vndf_sector sector = vndf_sector_at(aim->front, aim->wedge, half);
+    from->plain = lanes_both(from->usable, vndf_sector_is_plain(&sector, aim->front, half, u2));
+    from->split = lanes_split_by(lanes_either(sector.in_front, lanes_without(lanes_all(), from->usable)), low, high);
+    sort_incidence(to, &from->split, &w);
+    lanes_split_store(&from->split, to->mass, sector.mass);
+    lanes_split_store(&from->split, to->apart, sector.apart);
+    lanes_split_store(&from->split, to->u2, u2);
 }
 
 /* The same where all have one view, which is plain. */
-VNDF_INLINE origin sort_shared(const vndf_sample_block *b, uint32_t i, sorted *to, uint32_t *low, uint32_t *high)
+VNDF_INLINE void sort_shared(const vndf_sample_block *b, uint32_t i, sorted *to, origin *from, uint32_t *low,
+                             uint32_t *high)
 {
     lanes_f half = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f, u2 = clamp_unit(lanes_load(b->u2 + i));
     lanes_f front = lanes_set(b->view->front);
     vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->wedge), half);
-    origin from;
-    from.usable = lanes_all();
-    from.plain = vndf_sector_is_plain(&sector, front, half, u2);
-    from.split = lanes_split_by(sector.in_front, low, high);
-    lanes_split_store(&from.split, to->mass, sector.mass);
-    lanes_split_store(&from.split, to->apart, sector.apart);
-    lanes_split_store(&from.split, to->u2, u2);
-    return from;
+    from->usable = lanes_all();
+    from->plain = vndf_sector_is_plain(&sector, front, half, u2);
+    from->split = lanes_split_by(sector.in_front, low, high);
+    lanes_split_store(&from->split, to->mass, sector.mass);
+    lanes_split_store(&from->split, to->apart, sector.apart);
+    lanes_split_store(&from->split, to->u2, u2);
 }
 
 /* All of a block; how many are in front, or cannot be drawn. */
@@ -147,12 +148,17 @@ VNDF_INLINE uint32_t sort_block(const vndf_distribution *d, const vndf_sample_bl
 {
     uint32_t low = 0, high = (b->count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     float scale = vndf_unit_scale_float(d);
+    vndf_aim aim[GROUPS];
     to->is_shared = b->view != NULL;
     if (b->view)
         to->shared = vndf_incidence_of(b->view);
-    for (uint32_t i = 0; i < b->count; i += VNDF_LANES)
-        from[i / VNDF_LANES] = b->view ? sort_shared(b, i, to, &low, &high)
-                                       : sort_group(d, b, i, scale, to, &low, &high);
+    else
+        aim_block(d, b, scale, aim, from);
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
+        if (b->view)
+            sort_shared(b, g * VNDF_LANES, to, &from[g], &low, &high);
+        else
+            sort_group(b, g * VNDF_LANES, scale, &aim[g], to, &from[g], &low, &high);
     return low;
 }
 
@@ -269,23 +275,24 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, const sorted *from, uin
 
 /* ---- GGX ---- */
 
-VNDF_INLINE vndf_incidence incidence_of_ggx(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i)
+VNDF_INLINE vndf_incidence incidence_of_ggx(const vndf_sample_block *b, uint32_t i)
 {
     lanes_f ax = lanes_load(b->alpha_x + i), ay = lanes_load(b->alpha_y + i);
-    lanes_m ready;
-    vndf_aim aim = aim_at(d, b, i, ax, ay, &ready);
+    lanes_m ready = lanes_all();
+    vndf_aim aim = vndf_aim_unit(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i), lanes_load(b->wi_z + i),
+                                 &ready);
     vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
     w.plain = lanes_both(w.plain, ready);
     return w;
 }
 
-VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+VNDF_INLINE void draw_ggx(vndf_sample_block *b)
 {
     vndf_incidence shared;
     if (b->view)
         shared = vndf_incidence_of(b->view);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_incidence w = b->view ? shared : incidence_of_ggx(d, b, i);
+        vndf_incidence w = b->view ? shared : incidence_of_ggx(b, i);
         lanes_m plain = lanes_all();
         vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
                                      &plain);
@@ -315,7 +322,7 @@ void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
 {
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)
-        draw_ggx(d, b);
+        draw_ggx(b);
     else
         draw_table(d, b);
 }
