@@ -107,6 +107,26 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return (lanes_u)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, m);
 }
 
+VNDF_INLINE lanes_f lanes_positive(lanes_f x)
+{
+    return _mm256_max_ps(x, _mm256_setzero_ps());
+}
+
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return (lanes_u)_mm256_min_epu32((__m256i)x, (__m256i)most);
+}
+
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return _mm256_and_ps(_mm256_castsi256_ps(m), x);
+}
+
 VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
 {
     return x - (lanes_u)m;

@@ -109,7 +109,27 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return (lanes_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
 }
 
-/* One more in the lanes of m. */
+/* The instructions give the second operand where one is NaN, and of two zeros. */
+VNDF_INLINE lanes_f lanes_positive(lanes_f x)
+{
+    return _mm512_max_ps(x, _mm512_setzero_ps());
+}
+
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return (lanes_u)_mm512_min_epu32((__m512i)x, (__m512i)most);
+}
+
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return _mm512_maskz_mov_ps(m, x);
+}
+
 VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
 {
     return (lanes_u)_mm512_mask_add_epi32((__m512i)x, m, (__m512i)x, _mm512_set1_epi32(1));

@@ -94,9 +94,33 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return m ? yes : no;
 }
 
+/* One more in the lanes of m. */
 VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
 {
     return x + (uint32_t)m;
+}
+
+/* max(x, 0), 0 for NaN. */
+VNDF_INLINE lanes_f lanes_positive(lanes_f x)
+{
+    return x > 0.0f ? x : 0.0f;
+}
+
+/* min(a, b), b for NaN. */
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return a < b ? a : b;
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return x < most ? x : most;
+}
+
+/* x in the lanes of m, else 0. */
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return m ? x : 0.0f;
 }
 
 VNDF_INLINE lanes_u lanes_bits(lanes_f x)

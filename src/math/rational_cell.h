@@ -30,7 +30,7 @@ VNDF_INLINE lanes_f vndf_rational_below(const vndf_rational_cell *cell, lanes_f 
 VNDF_INLINE lanes_f vndf_rational_part(const vndf_rational_cell *cell, lanes_f w)
 {
     lanes_f below = vndf_rational_below(cell, w), nothing = lanes_set(0.0f);
-    return lanes_pick(lanes_less(nothing, below), cell->mass / below, nothing);
+    return lanes_keep(lanes_less(nothing, below), cell->mass / below);
 }
 
 /* Mass before xi. */
@@ -70,8 +70,8 @@ VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *c
     lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
     lanes_m whole = lanes_less(nothing, below);
     lanes_f under = lanes_pick(whole, below, lanes_set(1.0f));
-    lanes_f over = lanes_least(lanes_pick(whole, above, nothing), under), per = 1.0f / under;
-    lanes_f xi = lanes_limit(over * per, 1.0f);
+    lanes_f over = lanes_least(lanes_keep(whole, above), under), per = 1.0f / under;
+    lanes_f xi = lanes_least(over * per, lanes_set(1.0f));
     vndf_rational_place place = {xi, over, under, per, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
     return place; /* 1e-37: of an empty cell the quotient is 0 */
 }

@@ -119,7 +119,7 @@ VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f targe
 /* The azimuth with mass `target` before it, in the last of `count` cells. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target, lanes_m *plain)
 {
-    lanes_u j = lanes_pick_u(lanes_at_most_u(lanes_set_u(1), count), count - 1u, lanes_set_u(0));
+    lanes_u j = count - lanes_limit_u(lanes_set_u(1), count);
     vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
     vndf_rational_place in = vndf_rational_invert(&cell.cell, target - cell.before);
     return vndf_azimuth_at(row, &cell, &in, plain);

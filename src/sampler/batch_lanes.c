@@ -24,24 +24,31 @@ typedef struct results {
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
 } results;
 
+/* The search for the cells of radii. */
+typedef struct search {
+    float c[VNDF_BLOCK_SAMPLES], k[VNDF_BLOCK_SAMPLES], target[VNDF_BLOCK_SAMPLES];
+    uint32_t cell[VNDF_BLOCK_SAMPLES];
+} search;
+
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
 typedef struct fronts {
     vndf_bearing bearing[GROUPS];
-    lanes_u cell[GROUPS];
     vndf_place place[GROUPS];
     lanes_m plain[GROUPS];
+    search cells;
 } fronts;
 
 typedef struct wedges {
     vndf_azimuth_row row[GROUPS];
     lanes_f part[GROUPS];
-    lanes_u count[GROUPS], cell[GROUPS];
+    lanes_u count[GROUPS];
     vndf_azimuth azimuth[GROUPS];
     vndf_bearing bearing[GROUPS];
     vndf_radial_law law[GROUPS];
     vndf_place place[GROUPS];
     lanes_m plain[GROUPS];
+    search cells;
 } wedges;
 
 /* How a group was sorted, which of it can be drawn here, and for which of those that is good enough so far. */
@@ -52,7 +59,7 @@ typedef struct origin {
 
 static lanes_f clamp_unit(lanes_f u)
 {
-    return lanes_limit(lanes_positive(u), 1.0f);
+    return lanes_least(lanes_positive(u), lanes_set(1.0f));
 }
 
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
@@ -201,25 +208,33 @@ VNDF_INLINE void keep(results *to, uint32_t i, const vndf_drawn *n, lanes_m plai
 
 /* ---- in front of wi ---- */
 
+VNDF_INLINE vndf_radial_search search_in(search *cells)
+{
+    vndf_radial_search in = {cells->c, cells->k, cells->target, cells->cell};
+    return in;
+}
+
 VNDF_INLINE void draw_fronts(const vndf_distribution *d, const sorted *from, uint32_t count, fronts *w, results *to)
 {
-    uint32_t groups = (count + VNDF_LANES - 1) / VNDF_LANES;
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_incidence at = incidence_at(from, g * VNDF_LANES);
-        vndf_sector sector = sector_at(from, g * VNDF_LANES);
-        w->bearing[g] = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + g * VNDF_LANES));
+    uint32_t end = (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+    vndf_radial_search cells = search_in(&w->cells);
+    for (uint32_t i = 0; i < end; i += VNDF_LANES) {
+        vndf_incidence at = incidence_at(from, i);
+        vndf_sector sector = sector_at(from, i);
+        vndf_bearing b = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + i));
+        vndf_radial_ask(d, &cells, i, b.code, b.c, b.k, lanes_load(from->u2 + i) * b.total);
+        w->bearing[i / VNDF_LANES] = b;
     }
-    for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_front(d, &w->bearing[g], lanes_load(from->u2 + g * VNDF_LANES));
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_incidence at = incidence_at(from, g * VNDF_LANES);
+    vndf_radial_answer(d, &cells, 0, end, 1);
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = incidence_at(from, i);
         w->plain[g] = lanes_all();
-        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], w->cell[g], lanes_load(from->u2 + g * VNDF_LANES),
-                                       &w->plain[g]);
+        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], lanes_load_u(cells.cell + i),
+                                       lanes_load(from->u2 + i), &w->plain[g]);
     }
-    for (uint32_t g = 0; g < groups; g++) {
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        keep(to, g * VNDF_LANES, &n, w->plain[g]);
+        keep(to, i, &n, w->plain[g]);
     }
 }
 
@@ -244,18 +259,21 @@ VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const sorted *from, u
 VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t groups, wedges *w)
 {
     const float *u2 = from->u2 + first;
+    vndf_radial_search cells = search_in(&w->cells);
     for (uint32_t g = 0; g < groups; g++) {
         vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
         vndf_sector sector = sector_at(from, first + g * VNDF_LANES);
         w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &w->azimuth[g], lanes_load(u2 + g * VNDF_LANES));
     }
-    for (uint32_t g = 0; g < groups; g++)
-        w->law[g] = vndf_law_wedge(d, &w->bearing[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_wedge(d, &w->bearing[g], lanes_load(u2 + g * VNDF_LANES), w->law[g].cut);
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_bearing *b = &w->bearing[g];
+        w->law[g] = vndf_law_wedge(d, b);
+        vndf_radial_ask(d, &cells, g * VNDF_LANES, b->code, b->c, b->k, lanes_load(u2 + g * VNDF_LANES) * b->total);
+    }
+    vndf_radial_answer(d, &cells, 0, groups * VNDF_LANES, 0);
     for (uint32_t g = 0; g < groups; g++) {
         vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
-        w->place[g] = vndf_place_wedge(d, &at, &w->bearing[g], &w->law[g], w->cell[g],
+        w->place[g] = vndf_place_wedge(d, &at, &w->bearing[g], &w->law[g], lanes_load_u(cells.cell + g * VNDF_LANES),
                                        lanes_load(u2 + g * VNDF_LANES), &w->plain[g]);
     }
 }

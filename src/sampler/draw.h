@@ -152,12 +152,6 @@ VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_
     return b;
 }
 
-VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2)
-{
-    lanes_u j = vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 1);
-    return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
-}
-
 /* X and Z at a place in a cell. */
 VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_rational_place *in)
 {
@@ -167,11 +161,12 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
-/* Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
+/* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
  * (radial_cut.h). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
                                         lanes_u j, lanes_f u2, lanes_m *plain)
 {
+    j = lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
@@ -204,15 +199,11 @@ VNDF_INLINE vndf_radial_law vndf_law_wedge(const vndf_distribution *d, vndf_bear
     return vndf_radial_law_above(d, b->c, b->k, &b->total);
 }
 
-VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2, lanes_u cut)
-{
-    return lanes_limit_u(vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 0), cut);
-}
-
 VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
                                         const vndf_radial_law *unscaled, lanes_u j, lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
+    j = lanes_limit_u(j, law.cut);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
     lanes_f before = vndf_radial_before(&law, &cell);

@@ -100,7 +100,8 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
                                      const vndf_sector *sector, float u2, lanes_m *plain)
 {
     vndf_bearing b = vndf_bear_front(d, w, sector, u2);
-    vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u2), u2, plain);
+    uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 1);
+    vndf_place at = vndf_place_front(d, w, &b, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 
@@ -113,7 +114,8 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part, plain);
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
     vndf_radial_law law = vndf_law_wedge(d, &b);
-    vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), u2, plain);
+    uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
+    vndf_place at = vndf_place_wedge(d, w, &b, &law, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 

@@ -89,7 +89,7 @@ VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const v
 /* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
 VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
 {
-    lanes_f scale = lanes_pick(lanes_less(lanes_set(1e-36f), total), 1.0f / total, lanes_set(0.0f));
+    lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
@@ -187,37 +187,41 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
                             : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-#if VNDF_LANES == 1
+#if VNDF_LANES > 1
 
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
-                                     lanes_f target, int whole)
+/* Searches side by side: weights and target; the window's code, which becomes the cell. */
+typedef struct vndf_radial_search {
+    float *c, *k, *target;
+    uint32_t *cell;
+} vndf_radial_search;
+
+/* Those of a group of lanes, from `i` on. Wide windows, which are few, are narrowed at once. */
+VNDF_INLINE void vndf_radial_ask(const vndf_distribution *d, const vndf_radial_search *s, uint32_t i, lanes_u code,
+                                 lanes_f c, lanes_f k, lanes_f target)
 {
-    return vndf_radial_find_one(d, code, c, k, target, whole);
-}
-
-#else
-
-/* All lanes, one after the other: the wide windows first, which are few. */
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
-                                     lanes_f target, int whole)
-{
-    const vndf_knots knots = d->knots;
-    uint32_t first[VNDF_LANES], found[VNDF_LANES];
-    float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
     lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
     uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
-    lanes_store_u(first, code);
-    lanes_store(cs, c);
-    lanes_store(ks, k);
-    lanes_store(targets, target);
+    lanes_store(s->c + i, c);
+    lanes_store(s->k + i, k);
+    lanes_store(s->target + i, target);
+    lanes_store_u(s->cell + i, code);
     for (; wide != 0; wide &= wide - 1) {
-        int i = __builtin_ctz(wide);
-        first[i] = vndf_radial_narrow(&knots, vndf_window_from(first[i]), cs[i], ks[i], targets[i]);
+        uint32_t at = i + (uint32_t)__builtin_ctz(wide);
+        s->cell[at] = vndf_radial_narrow(&d->knots, vndf_window_from(s->cell[at]), s->c[at], s->k[at], s->target[at]);
     }
-    for (int i = 0; i < VNDF_LANES; i++)
-        found[i] = first[i] + (whole ? vndf_radial_count_whole(&knots, first[i] + 1, cs[i], ks[i], targets[i])
-                                     : vndf_radial_count_above(&knots, first[i] + 1, cs[i], ks[i], targets[i]));
-    return lanes_load_u(found);
+}
+
+/* All, one after the other, when the last has been asked: what is stored by vectors and loaded by numbers, or the
+ * other way round, is waited for. */
+VNDF_INLINE void vndf_radial_answer(const vndf_distribution *d, const vndf_radial_search *s, uint32_t begin,
+                                    uint32_t end, int whole)
+{
+    const vndf_knots knots = d->knots;
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t first = s->cell[i];
+        s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
+                                    : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
+    }
 }
 
 #endif
@@ -233,7 +237,7 @@ VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf
 {
     lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
     lanes_f reach = at->x1 * at->z0, here = cell->e0 + rise * xi;
-    lanes_f least = lanes_pick(lanes_less(here, cell->mass), here, cell->mass);
+    lanes_f least = lanes_least(here, cell->mass);
     return lanes_either(lanes_less((float)VNDF_NARROW * at->width, reach),
                         lanes_less(10.0f * least * at->width, (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * reach));
 }

@@ -63,7 +63,7 @@ VNDF_INLINE lanes_m vndf_wedge_is_plain(const vndf_azimuth_row *row)
 VNDF_INLINE lanes_f vndf_wedge_part(lanes_f apart, lanes_f mass)
 {
     lanes_f rest = apart / mass;
-    return lanes_pick(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest, lanes_set(0.0f));
+    return lanes_keep(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest);
 }
 
 #endif

@@ -37,16 +37,15 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 /* The same for lanes. */
 VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
 {
-    const lanes_u one = lanes_set_u(1), none = lanes_set_u(0), low = lanes_set_u(guide->low);
-    lanes_u bits = lanes_bits(value), above = lanes_pick_u(lanes_at_most_u(low, bits), bits - low, none);
+    lanes_u bits = lanes_bits(value), above = bits - lanes_limit_u(lanes_set_u(guide->low), bits);
     lanes_u i = lanes_gather_u16(guide->first, lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last)));
     lanes_m more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
-    i += lanes_pick_u(more, one, none);
+    i = lanes_count(i, more);
     for (;;) {
         more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
         if (!lanes_any(more))
             return i;
-        i += lanes_pick_u(more, one, none);
+        i = lanes_count(i, more);
     }
 }
 
