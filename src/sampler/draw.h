@@ -45,14 +45,23 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, la
                       lanes_less(0.05f * (across + up), along + up));
 }
 
-/* Away from knots that may matter, where the density changes little from a normal to its rounded self. */
-VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi,
-                                     lanes_m whole)
+/* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
+ * wi most cells are known to be so. */
+VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
 {
-    lanes_m calm = lanes_both(whole, lanes_less(lanes_set(0.0f), at->calm));
     lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
-    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), calm);
-    return lanes_without(lanes_all(), lanes_either(rough, lanes_without(vndf_radial_is_beside_knot(xi), smooth)));
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(vndf_radial_is_steep(at, cell, xi), beside));
+}
+
+VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
+    if (!lanes_any(lanes_without(lanes_all(), smooth)))
+        return lanes_all();
+    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), lanes_less(lanes_set(0.0f), at->calm));
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(rough, beside));
 }
 
 /* ---- the normal ---- */
@@ -174,7 +183,7 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
     vndf_place at = vndf_place_in(&cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(&cell, &in_cell, in.xi, lanes_all()));
+    *plain = lanes_both(*plain, vndf_plain_place_whole(&cell, &in_cell, in.xi));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     at.above = in.root;
     at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
@@ -210,7 +219,7 @@ VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_i
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
     vndf_place at = vndf_place_in(&cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(&cell, &in_cell, in.xi, lanes_none()));
+    *plain = lanes_both(*plain, vndf_plain_place(&cell, &in_cell, in.xi));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
     at.above = b->density * in.root;
     at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
