@@ -19,20 +19,13 @@ typedef struct vndf_azimuth_row {
     const vndf_wedge *wedge;
     lanes_u row;                       /* the first */
     lanes_f first, middle, last, p, r; /* weights; aspect */
-    lanes_f width;                     /* in y, from this knot of rows to the next */
+    lanes_f per_width;                 /* one over the distance in y, from this knot of rows to the next */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
 typedef struct vndf_azimuth {
     lanes_f c, s, n, density;
 } vndf_azimuth;
-
-/* Of one number to a row, that of the mix. */
-VNDF_INLINE lanes_f vndf_azimuth_mix(const vndf_azimuth_row *row, const float *array)
-{
-    return row->first * lanes_gather(array, row->row) + row->middle * lanes_gather(array + 1, row->row) +
-           row->last * lanes_gather(array + 2, row->row);
-}
 
 /* A cell of the mix, the mass before it, where it begins in q and how wide it is. */
 typedef struct vndf_azimuth_cell {

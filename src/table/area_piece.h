@@ -6,6 +6,7 @@
 #define VNDF_TABLE_AREA_PIECE_H
 
 #include "math/lanes_lines.h"
+#include "table/guide.h"
 #include "table/table.h"
 
 typedef struct vndf_area_knot {
@@ -58,16 +59,13 @@ VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, 
     return vndf_area_quick_sum(b, (y - to.c) * to.d);
 }
 
-/* Where there are `count` pieces, no more than VNDF_FEW: the one of y is found by looking at all, no step of which
- * waits for another, and read in registers. */
+/* Where there are `count` knots and no more than VNDF_FEW pieces: read in registers. */
 VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], uint32_t count, lanes_f y,
                                      lanes_f *per_width)
 {
     const float *begin = few[VNDF_AREA_ORDER];
-    lanes_u i = lanes_set_u(0);
+    lanes_u i = vndf_guide_count(begin, count, y);
     lanes_f b[VNDF_AREA_ORDER];
-    for (uint32_t n = 1; n < count; n++)
-        i = lanes_count(i, lanes_at_most(lanes_set(begin[n]), y));
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
         b[n] = lanes_few(few[n], i);
     *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], i);

@@ -49,4 +49,13 @@ VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
     }
 }
 
+/* The same for lanes where knots are few: all are looked at, no step of which waits for another. */
+VNDF_INLINE lanes_u vndf_guide_count(const float *knots, uint32_t count, lanes_f value)
+{
+    lanes_u i = lanes_set_u(0);
+    for (uint32_t n = 1; n + 1 < count; n++)
+        i = lanes_count(i, lanes_at_most(lanes_set(knots[n]), value));
+    return i;
+}
+
 #endif

@@ -39,11 +39,13 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->stride = stride;
     wedge->cdf = block;
     size_t per_piece = sizeof *wedge->piece + sizeof *wedge->quick;
-    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell);
+    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell +
+                                  row_knots * sizeof *wedge->row_span);
     if (!block || !wedge->piece)
         return 0;
     wedge->quick = (vndf_area_quick *)(wedge->piece + knots);
     wedge->row_cell = (vndf_row_cell *)(wedge->quick + knots);
+    wedge->row_span = (vndf_row_span *)(wedge->row_cell + row_floats);
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
     wedge->row_y = wedge->density + ends;
@@ -291,9 +293,23 @@ static void derive_area(vndf_wedge *wedge)
     }
 }
 
+static void derive_row_spans(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i + 1 < vndf_row_knots(wedge->row_count); i++) {
+        vndf_row_span *span = &wedge->row_span[i];
+        span->begin = wedge->row_y[i];
+        span->per_width = (float)(1.0 / ((double)wedge->row_y[i + 1] - wedge->row_y[i]));
+        for (uint32_t n = 0; n < 3; n++) {
+            span->p[n] = wedge->aspect_p[2 * i + n];
+            span->r[n] = wedge->aspect_r[2 * i + n];
+        }
+    }
+}
+
 static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
+    derive_row_spans(wedge);
     derive_area(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, vndf_row_knots(wedge->row_count)) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);

@@ -79,6 +79,12 @@ typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
 
+/* What the sampler wants of the three rows between two knots: where they begin, one over their width, and their
+ * aspects. 32 bytes, all floats. */
+typedef struct vndf_row_span {
+    float begin, per_width, p[3], r[3];
+} vndf_row_span;
+
 /* A cell of a row as the sampler wants it: 16 bytes. */
 typedef struct vndf_row_cell {
     float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
@@ -101,6 +107,7 @@ typedef struct vndf_wedge {
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
     float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    vndf_row_span *row_span;             /* row_y and aspects once more, (row_count - 1)/2 */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
