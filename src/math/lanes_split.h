@@ -1,7 +1,7 @@
 /* Lanes of two kinds sorted as they are put into an array: those of a mask from its beginning on, the others
  * from its end down. What is stored beyond either kind is overwritten by what comes next, as long as all of the array
- * is filled, whole vectors at a time; so each member of a record takes a permutation and two stores, or four of
- * half the width. The way back takes loads of the same places. */
+ * is filled, whole vectors at a time; so each member of a record takes a permutation and two stores. The way back
+ * takes loads of the same places. */
 #ifndef VNDF_MATH_LANES_SPLIT_H
 #define VNDF_MATH_LANES_SPLIT_H
 
@@ -9,7 +9,7 @@
 
 #if VNDF_LANES == 16
 
-/* Of one vector: `order` is the lane of each place, `place` the place of each lane, 16 more for the others. */
+/* `order` is the lane of each place, `place` the place of each lane, 16 more for the others. */
 typedef struct lanes_split {
     __m512i order, place;
     uint32_t low, high; /* the places are low, low + 1, ..., and ..., high - 2, high - 1 */
@@ -54,25 +54,32 @@ static const uint16_t LANES_ORDER[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3102,
 static const uint16_t LANES_PLACE[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3021, 0x3120, 0x3102, 0x3210,
                                          0x0321, 0x1320, 0x1302, 0x2310, 0x1032, 0x2130, 0x2103, 0x3210};
 
-/* The lower four lanes, then the upper. */
 typedef struct lanes_split {
     __m256i order, place;
     lanes_m mask;
-    uint32_t low[2], high[2];
+    uint32_t low, high;
 } lanes_split;
 
-VNDF_INLINE __m256i lanes_split_digits(const uint16_t *table, uint32_t bits)
+/* One digit to a lane; instructions that permute heed three bits of it. */
+VNDF_INLINE __m256i lanes_split_digits(uint32_t digits)
 {
-    __m128i lower = _mm_set1_epi32(table[bits & 15]), upper = _mm_set1_epi32(table[bits >> 4]);
-    return _mm256_srlv_epi32(_mm256_set_m128i(upper, lower), _mm256_set_epi32(12, 8, 4, 0, 12, 8, 4, 0));
+    return _mm256_srlv_epi32(_mm256_set1_epi32((int)digits), _mm256_set_epi32(28, 24, 20, 16, 12, 8, 4, 0));
 }
 
+/* Of eight: `lower` of the lower four and `upper` of the upper are in the mask. The places of all four kinds move by
+ * as many as come before. */
 VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 {
-    uint32_t bits = lanes_mask_bits(m), lower = (uint32_t)__builtin_popcount(bits & 15);
-    uint32_t upper = (uint32_t)__builtin_popcount(bits >> 4);
-    lanes_split split = {lanes_split_digits(LANES_ORDER, bits), lanes_split_digits(LANES_PLACE, bits), m,
-                         {*low, *low + lower}, {*high, *high - (4 - lower)}};
+    uint32_t bits = lanes_mask_bits(m), a = LANES_ORDER[bits & 15], b = LANES_ORDER[bits >> 4] | 0x4444u;
+    uint32_t lower = (uint32_t)__builtin_popcount(bits & 15), upper = (uint32_t)__builtin_popcount(bits >> 4);
+    uint32_t a_in = a & ((1u << 4 * lower) - 1), b_in = b & ((1u << 4 * upper) - 1);
+    uint32_t order = a_in | b_in << 4 * lower | (a ^ a_in) << 4 * upper | (b ^ b_in) << 16;
+    uint32_t a_place = LANES_PLACE[bits & 15], b_place = LANES_PLACE[bits >> 4];
+    __m256i in = _mm256_set_m128i(_mm_set1_epi32((int)lower), _mm_setzero_si128());
+    __m256i out = _mm256_set_m128i(_mm_set1_epi32(4), _mm_set1_epi32((int)upper));
+    __m256i place = _mm256_and_si256(lanes_split_digits(a_place | b_place << 16), _mm256_set1_epi32(3));
+    lanes_split split = {lanes_split_digits(order), _mm256_add_epi32(place, _mm256_blendv_epi8(out, in, m)), m,
+                         *low, *high};
     *low += lower + upper;
     *high -= 8 - lower - upper;
     return split;
@@ -80,21 +87,16 @@ VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 
 VNDF_INLINE void lanes_split_store(const lanes_split *split, float *to, lanes_f x)
 {
-    __m256 sorted = _mm256_permutevar_ps(x, split->order);
-    __m128 lower = _mm256_castps256_ps128(sorted), upper = _mm256_extractf128_ps(sorted, 1);
-    _mm_storeu_ps(to + split->low[0], lower);
-    _mm_storeu_ps(to + (split->high[0] - 4), lower);
-    _mm_storeu_ps(to + split->low[1], upper);
-    _mm_storeu_ps(to + (split->high[1] - 4), upper);
+    lanes_f sorted = _mm256_permutevar8x32_ps(x, split->order);
+    lanes_store(to + split->low, sorted);
+    lanes_store(to + (split->high - 8), sorted);
 }
 
 VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low, const float *high)
 {
-    __m256 a = _mm256_castps128_ps256(_mm_loadu_ps(low + split->low[0]));
-    __m256 b = _mm256_castps128_ps256(_mm_loadu_ps(high + (split->high[0] - 4)));
-    a = _mm256_insertf128_ps(a, _mm_loadu_ps(low + split->low[1]), 1);
-    b = _mm256_insertf128_ps(b, _mm_loadu_ps(high + (split->high[1] - 4)), 1);
-    return lanes_pick(split->mask, _mm256_permutevar_ps(a, split->place), _mm256_permutevar_ps(b, split->place));
+    __m256 in = _mm256_permutevar8x32_ps(lanes_load(low + split->low), split->place);
+    __m256 out = _mm256_permutevar8x32_ps(lanes_load(high + (split->high - 8)), split->place);
+    return lanes_pick(split->mask, in, out);
 }
 
 #endif
