@@ -214,6 +214,11 @@ VNDF_INLINE vndf_radial_search search_in(search *cells)
     return in;
 }
 
+VNDF_INLINE void limit_cells(uint32_t *cell, lanes_u most)
+{
+    lanes_store_u(cell, lanes_limit_u(lanes_load_u(cell), most));
+}
+
 VNDF_INLINE void draw_fronts(const vndf_distribution *d, const sorted *from, uint32_t count, fronts *w, results *to)
 {
     uint32_t end = (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
@@ -225,11 +230,14 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const sorted *from, uin
         vndf_radial_ask(d, &cells, i, b.code, b.c, b.k, lanes_load(from->u2 + i) * b.total);
         w->bearing[i / VNDF_LANES] = b;
     }
-    vndf_radial_answer(d, &cells, 0, end, 1);
+    vndf_radial_answer(d, &cells, end, 1);
+    for (uint32_t i = 0; i < end; i += VNDF_LANES)
+        limit_cells(cells.cell + i, lanes_set_u(d->radial_count - 1));
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_incidence at = incidence_at(from, i);
+        vndf_radial_lanes cell = vndf_radial_load_found(d, cells.cell + i);
         w->plain[g] = lanes_all();
-        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], lanes_load_u(cells.cell + i),
+        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], &cell, lanes_load_u(cells.cell + i),
                                        lanes_load(from->u2 + i), &w->plain[g]);
     }
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
@@ -270,11 +278,15 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint
         w->law[g] = vndf_law_wedge(d, b);
         vndf_radial_ask(d, &cells, g * VNDF_LANES, b->code, b->c, b->k, lanes_load(u2 + g * VNDF_LANES) * b->total);
     }
-    vndf_radial_answer(d, &cells, 0, groups * VNDF_LANES, 0);
+    vndf_radial_answer(d, &cells, groups * VNDF_LANES, 0);
+    for (uint32_t g = 0; g < groups; g++)
+        limit_cells(cells.cell + g * VNDF_LANES, w->law[g].cut);
     for (uint32_t g = 0; g < groups; g++) {
         vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
-        w->place[g] = vndf_place_wedge(d, &at, &w->bearing[g], &w->law[g], lanes_load_u(cells.cell + g * VNDF_LANES),
-                                       lanes_load(u2 + g * VNDF_LANES), &w->plain[g]);
+        vndf_radial_lanes cell = vndf_radial_load_found(d, cells.cell + g * VNDF_LANES);
+        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell,
+                                       lanes_load_u(cells.cell + g * VNDF_LANES), lanes_load(u2 + g * VNDF_LANES),
+                                       &w->plain[g]);
     }
 }
 

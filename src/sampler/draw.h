@@ -173,20 +173,18 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
 /* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
  * (radial_cut.h). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                        lanes_u j, lanes_f u2, lanes_m *plain)
+                                        const vndf_radial_lanes *cell, lanes_u j, lanes_f u2, lanes_m *plain)
 {
-    j = lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
-    lanes_f before = vndf_radial_before_whole(&law, &cell);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before_whole(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
-    vndf_place at = vndf_place_in(&cell, &in);
+    vndf_place at = vndf_place_in(cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place_whole(&cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, in.xi));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     at.above = in.root;
-    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
 }
 
@@ -208,21 +206,20 @@ VNDF_INLINE vndf_radial_law vndf_law_wedge(const vndf_distribution *d, vndf_bear
     return vndf_radial_law_above(d, b->c, b->k, &b->total);
 }
 
-VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                        const vndf_radial_law *unscaled, lanes_u j, lanes_f u2, lanes_m *plain)
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bearing *b,
+                                        const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
+                                        lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
-    j = lanes_limit_u(j, law.cut);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
-    lanes_f before = vndf_radial_before(&law, &cell);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
-    vndf_place at = vndf_place_in(&cell, &in);
+    vndf_place at = vndf_place_in(cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(&cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, in.xi));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
     at.above = b->density * in.root;
-    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
 }
 

@@ -101,7 +101,9 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 {
     vndf_bearing b = vndf_bear_front(d, w, sector, u2);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 1);
-    vndf_place at = vndf_place_front(d, w, &b, j, u2, plain);
+    j = j < d->radial_count - 1 ? j : d->radial_count - 1;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 
@@ -115,7 +117,9 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
     vndf_radial_law law = vndf_law_wedge(d, &b);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
-    vndf_place at = vndf_place_wedge(d, w, &b, &law, j, u2, plain);
+    j = j < law.cut ? j : law.cut;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 

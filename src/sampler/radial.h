@@ -46,14 +46,19 @@ typedef struct vndf_radial_lanes {
 } vndf_radial_lanes;
 
 /* What is not used of it is not loaded. */
-VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *lines)
 {
-    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
-    lanes_four f = lanes_load_four(&lines, 0), knots = lanes_load_four(&lines, 4);
-    lanes_four whole = lanes_load_four(&lines, 8), cut = lanes_load_four(&lines, 12);
+    lanes_four f = lanes_load_four(lines, 0), knots = lanes_load_four(lines, 4);
+    lanes_four whole = lanes_load_four(lines, 8), cut = lanes_load_four(lines, 12);
     vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
                               whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
     return cell;
+}
+
+VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+{
+    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
+    return vndf_radial_load_lines(&lines);
 }
 
 /* f at xi from the cubic. */
@@ -213,15 +218,21 @@ VNDF_INLINE void vndf_radial_ask(const vndf_distribution *d, const vndf_radial_s
 
 /* All, one after the other, when the last has been asked: what is stored by vectors and loaded by numbers, or the
  * other way round, is waited for. */
-VNDF_INLINE void vndf_radial_answer(const vndf_distribution *d, const vndf_radial_search *s, uint32_t begin,
-                                    uint32_t end, int whole)
+VNDF_INLINE void vndf_radial_answer(const vndf_distribution *d, const vndf_radial_search *s, uint32_t end, int whole)
 {
     const vndf_knots knots = d->knots;
-    for (uint32_t i = begin; i < end; i++) {
+    for (uint32_t i = 0; i < end; i++) {
         uint32_t first = s->cell[i];
         s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
                                     : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
     }
+}
+
+/* Cells that have long been found. */
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_found(const vndf_distribution *d, const uint32_t *cell)
+{
+    lanes_lines lines = lanes_lines_from(&d->cells->f0, sizeof *d->cells / sizeof(float), cell);
+    return vndf_radial_load_lines(&lines);
 }
 
 #endif
