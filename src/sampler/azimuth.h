@@ -43,13 +43,13 @@ VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_
     return lanes_gather(wedge->q + end, j);
 }
 
-VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, lanes_u j)
+/* Cell j, from where it is to be loaded. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row, lanes_u j, const lanes_lines *lines)
 {
     const vndf_wedge *w = row->wedge;
     const size_t stride = 4 * (size_t)w->stride;
-    lanes_lines lines = lanes_lines_at(&w->row_cell->before, 4, row->row * w->stride + j);
-    lanes_four a = lanes_load_four(&lines, 0), b = lanes_load_four(&lines, stride);
-    lanes_four c = lanes_load_four(&lines, 2 * stride);
+    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, stride);
+    lanes_four c = lanes_load_four(lines, 2 * stride);
     lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(w, 0, j);
     lanes_f h = vndf_azimuth_q(w, 1, j) - q;
     vndf_azimuth_cell cell = {{(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h,
@@ -91,31 +91,20 @@ VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, f
     return count;
 }
 
-VNDF_INLINE lanes_u vndf_azimuth_find(const vndf_azimuth_row *row, lanes_f target)
+/* The cell of one lane's row in which the mass `target` ends. */
+VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, float first, float middle, float last,
+                                       float target)
 {
-#if VNDF_LANES == 1
-    return vndf_azimuth_count(row->wedge, row->row, row->first, row->middle, row->last, target);
-#else
-    uint32_t rows[VNDF_LANES];
-    float first[VNDF_LANES], middle[VNDF_LANES], last[VNDF_LANES], targets[VNDF_LANES];
-    lanes_store_u(rows, row->row);
-    lanes_store(first, row->first);
-    lanes_store(middle, row->middle);
-    lanes_store(last, row->last);
-    lanes_store(targets, target);
-    for (int i = 0; i < VNDF_LANES; i++)
-        rows[i] = vndf_azimuth_count(row->wedge, rows[i], first[i], middle[i], last[i], targets[i]);
-    return lanes_load_u(rows);
-#endif
+    uint32_t count = vndf_azimuth_count(wedge, row, first, middle, last, target);
+    return count > 0 ? count - 1 : 0;
 }
 
-/* The azimuth with mass `target` before it, in the last of `count` cells. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, lanes_u count, lanes_f target, lanes_m *plain)
+/* The azimuth with mass `target` before it, in that cell. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, lanes_f target,
+                                           lanes_m *plain)
 {
-    lanes_u j = count - lanes_limit_u(lanes_set_u(1), count);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    vndf_rational_place in = vndf_rational_invert(&cell.cell, target - cell.before);
-    return vndf_azimuth_at(row, &cell, &in, plain);
+    vndf_rational_place in = vndf_rational_invert(&cell->cell, target - cell->before);
+    return vndf_azimuth_at(row, cell, &in, plain);
 }
 
 #endif

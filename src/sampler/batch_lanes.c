@@ -39,11 +39,16 @@ typedef struct fronts {
     search cells;
 } fronts;
 
+/* The search for the cells of azimuths; `at` is where a cell is among those of all rows. */
+typedef struct row_search {
+    float first[VNDF_BLOCK_SAMPLES], middle[VNDF_BLOCK_SAMPLES], last[VNDF_BLOCK_SAMPLES], part[VNDF_BLOCK_SAMPLES];
+    uint32_t row[VNDF_BLOCK_SAMPLES], cell[VNDF_BLOCK_SAMPLES], at[VNDF_BLOCK_SAMPLES];
+} row_search;
+
 typedef struct wedges {
+    uint32_t span[VNDF_BLOCK_SAMPLES], cut[VNDF_BLOCK_SAMPLES];
     vndf_azimuth_row row[GROUPS];
-    lanes_f part[GROUPS];
-    lanes_u count[GROUPS];
-    vndf_azimuth azimuth[GROUPS];
+    row_search azimuths;
     vndf_bearing bearing[GROUPS];
     vndf_radial_law law[GROUPS];
     vndf_place place[GROUPS];
@@ -248,45 +253,65 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const sorted *from, uin
 
 /* ---- in the wedge ---- */
 
-VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t groups,
-                               wedges *w)
+/* Rows of directions, and what part of them is before the azimuths. */
+VNDF_INLINE void ask_azimuths(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t count,
+                              wedges *w)
 {
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
-        vndf_sector sector = sector_at(from, first + g * VNDF_LANES);
-        w->row[g] = vndf_wedge_row(&d->above, at.c);
-        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
-        w->part[g] = vndf_wedge_part(lanes_abs(sector.apart), sector.mass);
+    row_search *s = &w->azimuths;
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(w->span + i, vndf_wedge_span(&d->above, incidence_at(from, first + i).c));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        lanes_lines lines = lanes_lines_from(&d->above.row_span->begin, VNDF_ROW_SPAN_FLOATS, w->span + i);
+        vndf_sector sector = sector_at(from, first + i);
+        w->row[g] = vndf_wedge_row_from(&d->above, incidence_at(from, first + i).c, lanes_load_u(w->span + i), &lines);
+        lanes_store(s->first + i, w->row[g].first);
+        lanes_store(s->middle + i, w->row[g].middle);
+        lanes_store(s->last + i, w->row[g].last);
+        lanes_store(s->part + i, vndf_wedge_part(lanes_abs(sector.apart), sector.mass));
+        lanes_store_u(s->row + i, w->row[g].row);
     }
-    for (uint32_t g = 0; g < groups; g++)
-        w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->azimuth[g] = vndf_azimuth_draw(&w->row[g], w->count[g], w->part[g], &w->plain[g]);
+    for (uint32_t i = 0; i < count; i++) {
+        s->cell[i] = vndf_azimuth_find(&d->above, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
+        s->at[i] = s->row[i] * d->above.stride + s->cell[i];
+    }
 }
 
-VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t groups, wedges *w)
+/* Azimuths, and where their laws of the radius are cut. */
+VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t count,
+                               wedges *w)
+{
+    const row_search *s = &w->azimuths;
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        lanes_lines lines = lanes_lines_from(&d->above.row_cell->before, 4, s->at + i);
+        vndf_azimuth_cell cell = vndf_azimuth_cell_from(&w->row[g], lanes_load_u(s->cell + i), &lines);
+        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
+        vndf_azimuth a = vndf_azimuth_draw(&w->row[g], &cell, lanes_load(s->part + i), &w->plain[g]);
+        vndf_incidence at = incidence_at(from, first + i);
+        vndf_sector sector = sector_at(from, first + i);
+        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &a, lanes_load(from->u2 + first + i));
+    }
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++)
+        lanes_store_u(w->cut + i, vndf_radial_cut(d, w->bearing[g].c, w->bearing[g].k));
+}
+
+VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint32_t first, uint32_t count, wedges *w)
 {
     const float *u2 = from->u2 + first;
     vndf_radial_search cells = search_in(&w->cells);
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
-        vndf_sector sector = sector_at(from, first + g * VNDF_LANES);
-        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &w->azimuth[g], lanes_load(u2 + g * VNDF_LANES));
-    }
-    for (uint32_t g = 0; g < groups; g++) {
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_bearing *b = &w->bearing[g];
-        w->law[g] = vndf_law_wedge(d, b);
-        vndf_radial_ask(d, &cells, g * VNDF_LANES, b->code, b->c, b->k, lanes_load(u2 + g * VNDF_LANES) * b->total);
+        vndf_radial_lanes cell = vndf_radial_load_found(d, w->cut + i);
+        w->law[g] = vndf_radial_law_cut(d, b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
+        vndf_radial_ask(d, &cells, i, b->code, b->c, b->k, lanes_load(u2 + i) * b->total);
     }
-    vndf_radial_answer(d, &cells, groups * VNDF_LANES, 0);
-    for (uint32_t g = 0; g < groups; g++)
-        limit_cells(cells.cell + g * VNDF_LANES, w->law[g].cut);
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_incidence at = incidence_at(from, first + g * VNDF_LANES);
-        vndf_radial_lanes cell = vndf_radial_load_found(d, cells.cell + g * VNDF_LANES);
-        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell,
-                                       lanes_load_u(cells.cell + g * VNDF_LANES), lanes_load(u2 + g * VNDF_LANES),
-                                       &w->plain[g]);
+    vndf_radial_answer(d, &cells, count, 0);
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        limit_cells(cells.cell + i, lanes_load_u(w->cut + i));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_incidence at = incidence_at(from, first + i);
+        vndf_radial_lanes cell = vndf_radial_load_found(d, cells.cell + i);
+        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(cells.cell + i),
+                                       lanes_load(u2 + i), &w->plain[g]);
     }
 }
 
@@ -294,12 +319,13 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const sorted *from, uint
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const sorted *from, uint32_t begin, uint32_t end, wedges *w,
                              results *to)
 {
-    uint32_t groups = (end - begin + VNDF_LANES - 1) / VNDF_LANES, first = end - groups * VNDF_LANES;
-    draw_azimuths(d, from, first, groups, w);
-    draw_radii(d, from, first, groups, w);
-    for (uint32_t g = 0; g < groups; g++) {
+    uint32_t count = (end - begin + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES, first = end - count;
+    ask_azimuths(d, from, first, count, w);
+    draw_azimuths(d, from, first, count, w);
+    draw_radii(d, from, first, count, w);
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        keep(to, first + g * VNDF_LANES, &n, w->plain[g]);
+        keep(to, first + i, &n, w->plain[g]);
     }
 }
 

@@ -200,12 +200,6 @@ VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_
     return b;
 }
 
-/* The law, not scaled yet; its mass becomes the bearing's total. */
-VNDF_INLINE vndf_radial_law vndf_law_wedge(const vndf_distribution *d, vndf_bearing *b)
-{
-    return vndf_radial_law_above(d, b->c, b->k, &b->total);
-}
-
 VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bearing *b,
                                         const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
                                         lanes_f u2, lanes_m *plain)

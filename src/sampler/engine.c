@@ -31,15 +31,24 @@ VNDF_INLINE const vndf_wedge *wedge_of(const vndf_view *view)
     return vndf_is_below(view) ? &view->distribution->below : &view->distribution->above;
 }
 
+/* The azimuth of a row with the mass `target` before it. */
+VNDF_INLINE vndf_azimuth draw_in_row(const vndf_azimuth_row *row, float target, lanes_m *plain)
+{
+    const vndf_wedge *wedge = row->wedge;
+    uint32_t j = vndf_azimuth_find(wedge, row->row, row->first, row->middle, row->last, target);
+    lanes_lines lines = lanes_lines_at(&wedge->row_cell->before, 4, row->row * wedge->stride + j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_from(row, j, &lines);
+    return vndf_azimuth_draw(row, &cell, target, plain);
+}
+
 /* |a| where the part `half` of a half turn's mass lies between the side of wi and a. */
 static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 {
     int below = vndf_is_below(view);
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c);
     float apart = half * (view->front + view->wedge) - view->front;
-    float target = below ? half : vndf_wedge_part(apart, view->wedge);
     lanes_m plain = 0;
-    vndf_azimuth at = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, target), target, &plain);
+    vndf_azimuth at = draw_in_row(&row, below ? half : vndf_wedge_part(apart, view->wedge), &plain);
     if (!below)
         at.c = -at.c;
     else
@@ -113,9 +122,9 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
     *plain &= vndf_wedge_is_plain(&row);
-    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part, plain);
+    vndf_azimuth a = draw_in_row(&row, part, plain);
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
-    vndf_radial_law law = vndf_law_wedge(d, &b);
+    vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -201,7 +210,8 @@ static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi
                                           !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
+    lanes_lines lines = lanes_lines_at(&row.wedge->row_cell->before, 4, row.row * row.wedge->stride + j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_from(&row, j, &lines);
     return cell.before + vndf_rational_cdf(&cell.cell, xi);
 }
 

@@ -122,12 +122,18 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, la
     return law;
 }
 
-/* c > 0 > k; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
+/* c > 0 > k: the cell of the cut. */
+VNDF_INLINE lanes_u vndf_radial_cut(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
+    return vndf_guide_lanes(&d->slope_guide, c / -k);
+}
+
+/* The law with its cut in that cell; not scaled yet, *total is its mass. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_u j,
+                                                const vndf_radial_lanes *at, lanes_f *total)
+{
+    const vndf_radial_lanes cell = *at;
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
     lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
     law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
@@ -137,6 +143,13 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, la
     law.part_w0 = w0;
     *total = vndf_radial_before(&law, &cell) + law.part_mass;
     return law;
+}
+
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
+{
+    lanes_u j = vndf_radial_cut(d, c, k);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_law_cut(d, c, k, j, &cell, total);
 }
 
 /* A cell away from the cut, where W > 0 without a guard. */

@@ -49,16 +49,25 @@ VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
     return vndf_guide_lanes(&wedge->row_guide, y);
 }
 
-/* The row for the coordinate y. Its mass is 1. Not part of the view, since most samples are in front. */
-VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
+/* The row for the coordinate y in span i, from where it is to be loaded. Its mass is 1. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
+                                                 const lanes_lines *lines)
 {
-    lanes_u i = vndf_wedge_span(wedge, y);
-    lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, sizeof *wedge->row_span / sizeof(float), i);
-    lanes_four a = lanes_load_four(&lines, 0), b = lanes_load_four(&lines, 4); /* begin, per_width, p, r */
+    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, 4); /* begin, per_width, p, r */
     lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
     lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
     vndf_azimuth_row made = {wedge, i * 2u, u, v, t, u * a.c + v * a.d + t * b.a, u * b.b + v * b.c + t * b.d, a.b};
     return made;
+}
+
+enum { VNDF_ROW_SPAN_FLOATS = sizeof(vndf_row_span) / sizeof(float) };
+
+/* Not part of the view, since most samples are in front. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
+{
+    lanes_u i = vndf_wedge_span(wedge, y);
+    lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, VNDF_ROW_SPAN_FLOATS, i);
+    return vndf_wedge_row_from(wedge, y, i, &lines);
 }
 
 /* Whether rows are not so close that a rounding of y changes their shares: lobes hundreds of times apart have
