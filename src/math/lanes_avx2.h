@@ -162,9 +162,11 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 2) & 0xffffu;
 }
 
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
     __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+    if (count <= 8)
+        return low;
     __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), (__m256i)index);
     return _mm256_blendv_ps(low, high, _mm256_castsi256_ps((__m256i)(index << 28)));
 }

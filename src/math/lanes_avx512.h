@@ -166,8 +166,9 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
 
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
+    (void)count;
     return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
 }
 

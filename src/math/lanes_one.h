@@ -152,9 +152,10 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return base[index];
 }
 
-/* One of sixteen numbers, in registers. */
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+/* One of `count` numbers, at most sixteen, in registers. Sixteen are read. */
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
+    (void)count;
     return table[index];
 }
 

@@ -38,7 +38,7 @@ VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_
 {
 #if VNDF_LANES > 1
     if (wedge->stride <= VNDF_FEW) /* q is padded to that */
-        return lanes_few(wedge->q + end, j);
+        return lanes_few(wedge->q + end, wedge->stride, j);
 #endif
     return lanes_gather(wedge->q + end, j);
 }

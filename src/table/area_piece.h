@@ -67,9 +67,9 @@ VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_F
     lanes_u i = vndf_guide_count(begin, count, y);
     lanes_f b[VNDF_AREA_ORDER];
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
-        b[n] = lanes_few(few[n], i);
-    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], i);
-    return vndf_area_quick_sum(b, (y - lanes_few(begin, i)) * *per_width);
+        b[n] = lanes_few(few[n], count - 1, i);
+    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], count - 1, i);
+    return vndf_area_quick_sum(b, (y - lanes_few(begin, count - 1, i)) * *per_width);
 }
 
 #endif
