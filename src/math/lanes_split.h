@@ -1,5 +1,5 @@
-/* Lanes of two kinds sorted as they are put into an array: those of a mask from its beginning on, the others
- * from its end down. What is stored beyond either kind is overwritten by what comes next, as long as all of the array
+/* Lanes of two kinds sorted as they are put into an array: those of a mask from its beginning on, the others from
+ * its end down. What is stored beyond either kind is overwritten by what comes next, as long as all of the array
  * is filled, whole vectors at a time; so each member of a record takes a permutation and two stores. The way back
  * takes loads of the same places. */
 #ifndef VNDF_MATH_LANES_SPLIT_H
@@ -66,8 +66,8 @@ VNDF_INLINE __m256i lanes_split_digits(uint32_t digits)
     return _mm256_srlv_epi32(_mm256_set1_epi32((int)digits), _mm256_set_epi32(28, 24, 20, 16, 12, 8, 4, 0));
 }
 
-/* Of eight: `lower` of the lower four and `upper` of the upper are in the mask. The places of all four kinds move by
- * as many as come before. */
+/* Of eight: `lower` of the lower four and `upper` of the upper are in the mask. The places of all four kinds move
+ * by as many as come before. */
 VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 {
     uint32_t bits = lanes_mask_bits(m), a = LANES_ORDER[bits & 15], b = LANES_ORDER[bits >> 4] | 0x4444u;

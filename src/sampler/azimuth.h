@@ -44,7 +44,8 @@ VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_
 }
 
 /* Cell j, from where it is to be loaded. */
-VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row, lanes_u j, const lanes_lines *lines)
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row, lanes_u j,
+                                                     const lanes_lines *lines)
 {
     const vndf_wedge *w = row->wedge;
     const size_t stride = 4 * (size_t)w->stride;
@@ -63,8 +64,8 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row
 VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_f xi, lanes_f turn, lanes_f n2)
 {
     lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
-    lanes_f least = lanes_least(cell->e0 + rise * xi, cell->mass), change = lanes_abs(rise) + 3.0f * lanes_abs(bend);
-    return lanes_less(20.0f * least * lanes_least(turn, n2), change * n2);
+    lanes_f least = lanes_least(cell->e0 + rise * xi, cell->mass);
+    return lanes_less(20.0f * least * lanes_least(turn, n2), (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * n2);
 }
 
 /* The azimuth at a place of a cell; not *plain where the density is steep. */
@@ -92,16 +93,16 @@ VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, f
 }
 
 /* The cell of one lane's row in which the mass `target` ends. */
-VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, float first, float middle, float last,
-                                       float target)
+VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, float first, float middle,
+                                       float last, float target)
 {
     uint32_t count = vndf_azimuth_count(wedge, row, first, middle, last, target);
     return count > 0 ? count - 1 : 0;
 }
 
 /* The azimuth with mass `target` before it, in that cell. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, lanes_f target,
-                                           lanes_m *plain)
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
+                                           lanes_f target, lanes_m *plain)
 {
     vndf_rational_place in = vndf_rational_invert(&cell->cell, target - cell->before);
     return vndf_azimuth_at(row, cell, &in, plain);

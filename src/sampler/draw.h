@@ -25,9 +25,8 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
 /* ---- where the density of the place is that of the normal, as it was rounded ---- */
 
 /* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
- * azimuth, a part of `across`, does to it; nor is it
- * zero by rounding. Rounding must not take the azimuth from the front to the wedge or back either, as the wedge's density
- * is the table's. */
+ * azimuth, a part of `across`, does to it. Rounding must not take the azimuth from the front to the wedge or back
+ * either, as the wedge's density is the table's. */
 static const float VNDF_PLAIN_SIDE = 1e-6f;
 
 VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)

@@ -205,51 +205,6 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
                             : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-#if VNDF_LANES > 1
-
-/* Searches side by side: weights and target; the window's code, which becomes the cell. */
-typedef struct vndf_radial_search {
-    float *c, *k, *target;
-    uint32_t *cell;
-} vndf_radial_search;
-
-/* Those of a group of lanes, from `i` on. Wide windows, which are few, are narrowed at once. */
-VNDF_INLINE void vndf_radial_ask(const vndf_distribution *d, const vndf_radial_search *s, uint32_t i, lanes_u code,
-                                 lanes_f c, lanes_f k, lanes_f target)
-{
-    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
-    lanes_store(s->c + i, c);
-    lanes_store(s->k + i, k);
-    lanes_store(s->target + i, target);
-    lanes_store_u(s->cell + i, code);
-    for (; wide != 0; wide &= wide - 1) {
-        uint32_t at = i + (uint32_t)__builtin_ctz(wide);
-        s->cell[at] = vndf_radial_narrow(&d->knots, vndf_window_from(s->cell[at]), s->c[at], s->k[at], s->target[at]);
-    }
-}
-
-/* All, one after the other, when the last has been asked: what is stored by vectors and loaded by numbers, or the
- * other way round, is waited for. */
-VNDF_INLINE void vndf_radial_answer(const vndf_distribution *d, const vndf_radial_search *s, uint32_t end, int whole)
-{
-    const vndf_knots knots = d->knots;
-    for (uint32_t i = 0; i < end; i++) {
-        uint32_t first = s->cell[i];
-        s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
-                                    : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
-    }
-}
-
-/* Cells that have long been found. */
-VNDF_INLINE vndf_radial_lanes vndf_radial_load_found(const vndf_distribution *d, const uint32_t *cell)
-{
-    lanes_lines lines = lanes_lines_from(&d->cells->f0, sizeof *d->cells / sizeof(float), cell);
-    return vndf_radial_load_lines(&lines);
-}
-
-#endif
-
 /* ---- where the density of a place is that of its rounded normal ---- */
 
 /* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
