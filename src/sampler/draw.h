@@ -210,7 +210,7 @@ VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bear
     vndf_place at = vndf_place_in(cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
     *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, in.xi));
-    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
+    *plain = lanes_both(*plain, vndf_radial_is_away(&law, j));
     at.above = b->density * in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;

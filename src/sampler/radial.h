@@ -161,6 +161,13 @@ VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, con
     return plain;
 }
 
+/* Whether a cell inside the cut is drawn like that: the second beside the cell at the cut where h is above 1/16,
+ * any further away (c > 0 > k). */
+VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
+{
+    return lanes_at_most_u(lanes_count(j + 2u, lanes_less(law->part, lanes_set(0.0626f))), law->cut);
+}
+
 /* ---- search, one lane at a time ---- */
 
 /* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
