@@ -2,8 +2,8 @@
  * sample is still that of the normal that comes with it, within 1e-5. Such borders are jumps of D: uniform
  * numbers are sought, by bisection of u2, whose normals lie beside the jump, and their neighbours within 128
  * steps of float are tried; there are some on both sides of the jump. The cell before it may be so narrow that
- * a rounding goes through a part of it. Knots of the table, where D does not jump, as far as densities are formed
- * in float: rounding of a sum may be a large part of a cell in the tail. And the side of wi, where azimuths of the front end and those of the
+ * a rounding goes through a part of it. Knots of the table where D does not jump, since rounding of a sum may be
+ * a large part of a cell in the tail. And the side of wi, where azimuths of the front end and those of the
  * wedge begin: u1 is sought likewise, and slopes are large as well, for which a rounding of the azimuth shows
  * in wi.wm. */
 #include "oracle.h"
@@ -108,14 +108,16 @@ static void test_knots(const char *p22)
     vndf_source *source = vndf_source_slope_expression(p22, NULL, 0, NULL);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, NULL) : NULL;
     for (int i = 0; TEST(table != NULL) && i < (oracle_quick() ? 1000 : 5000); i++) {
-        double z = 0.2 + 0.8 * test_uniform_double(&state), knot = table->radial_count * test_uniform_double(&state);
+        double z = 0.2 + 0.8 * test_uniform_double(&state);
+        double knot = table->radial_count * test_uniform_double(&state);
         vndf_surface surface = {table, 0.5f, 0.5f};
         vndf_vec3 wi = {(float)sqrt(1 - z * z), 0, (float)z};
         vndf_view view = vndf_view_from(&surface, wi);
         try_azimuth(&surface, &view, test_uniform(&state), table->slope[(int)knot] * table->scale, 1.1e-4, &t);
     }
     if (!(TEST(t.worst <= 1e-5) & TEST(t.inside > 1000) & TEST(t.outside > 1000)))
-        fprintf(stderr, "  %s: beside knots worst %.3g, %d inside, %d outside\n", p22, t.worst, t.inside, t.outside);
+        fprintf(stderr, "  %s: beside knots worst %.3g, %d inside, %d outside\n", p22, t.worst, t.inside,
+                t.outside);
     vndf_free(table);
     vndf_source_free(source);
 }
