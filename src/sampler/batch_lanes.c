@@ -1,4 +1,4 @@
-/* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
+/* See batch_lanes.h. Lanes past the end of a block are drawn like the others and not written. */
 #include "sampler/batch_lanes.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
