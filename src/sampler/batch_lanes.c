@@ -234,32 +234,42 @@ VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_bloc
                              lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
+/* Step by step over all groups, as for tables. */
 typedef struct beckmann_work {
     vndf_beckmann_incidence at[GROUPS];
     vndf_beckmann_place first[GROUPS];
     lanes_f u1[GROUPS], u2[GROUPS], second[GROUPS];
 } beckmann_work;
 
+/* `one` is the view of all, or NULL. */
+VNDF_INLINE void draw_slopes(const vndf_sample_block *b, beckmann_work *w, const vndf_beckmann_incidence *one,
+                             uint32_t groups)
+{
+    for (uint32_t g = 0; g < groups; g++) {
+        w->u1[g] = clamp_unit(lanes_load(b->u1 + g * VNDF_LANES));
+        w->u2[g] = clamp_unit(lanes_load(b->u2 + g * VNDF_LANES));
+        w->first[g] = vndf_beckmann_first(one ? one : &w->at[g], w->u1[g]);
+        w->second[g] = vndf_beckmann_second(w->u2[g]);
+    }
+    for (uint32_t g = 0; g < groups; g++)
+        w->first[g] = vndf_beckmann_step(one ? one : &w->at[g], w->first[g], w->u1[g]);
+}
+
 static void draw_beckmann(vndf_sample_block *b)
 {
     beckmann_work w;
     uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
+    const vndf_beckmann_incidence *one = b->view ? w.at : NULL;
     if (b->view)
         w.at[0] = vndf_beckmann_incidence_of(b->view);
     for (uint32_t g = 0; g < groups && !b->view; g++)
         w.at[g] = beckmann_incidence_at(b, g * VNDF_LANES);
+    draw_slopes(b, &w, one, groups);
     for (uint32_t g = 0; g < groups; g++) {
-        w.u1[g] = clamp_unit(lanes_load(b->u1 + g * VNDF_LANES));
-        w.u2[g] = clamp_unit(lanes_load(b->u2 + g * VNDF_LANES));
-        w.first[g] = vndf_beckmann_first(&w.at[b->view ? 0 : g], w.u1[g]);
-        w.second[g] = vndf_beckmann_second(w.u2[g]);
-    }
-    for (uint32_t g = 0; g < groups; g++)
-        w.first[g] = vndf_beckmann_step(&w.at[b->view ? 0 : g], w.first[g], w.u1[g]);
-    for (uint32_t g = 0; g < groups; g++) {
-        const vndf_beckmann_incidence *at = &w.at[b->view ? 0 : g];
+        const vndf_beckmann_incidence *at = one ? one : &w.at[g];
         lanes_m plain;
-        vndf_drawn n = vndf_beckmann_normal(at, &w.first[g], w.second[g], lanes_least(vndf_beckmann_product(w.u1[g]), vndf_beckmann_product(w.u2[g])), &plain);
+        vndf_drawn n = vndf_beckmann_normal(at, &w.first[g], w.second[g],
+                                            vndf_beckmann_middle(w.u1[g], w.u2[g]), &plain);
         store(b, g * VNDF_LANES, &n);
         if (lanes_any(lanes_without(lanes_all(), plain)))
             leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain), g * VNDF_LANES);

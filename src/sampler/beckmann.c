@@ -35,9 +35,9 @@ typedef struct slope {
     double x, d;
 } slope;
 
-/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K. For
- * K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that they are
- * not, so that nothing overflows. */
+/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K.
+ * For K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that they
+ * are not, so that nothing overflows. */
 typedef struct law {
     double bound, whole, line;
 } law;
