@@ -115,24 +115,19 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_first(const vndf_beckmann_incidenc
     return at;
 }
 
-/* `left` for x < 0, else `right`: left <= right, from -1 to 1. No branch would foresee the sign. */
-VNDF_INLINE lanes_f vndf_beckmann_by_sign(lanes_f x, lanes_f left, lanes_f right)
-{
-    return lanes_least(lanes_most(lanes_sign(lanes_set(2.0f), x), left), right);
-}
-
 /* F''/F' = -1/d - 2x and F'''/F' = 4x/d + 4x^2 - 2. `rest` is (2 sqrt(pi)/s) (u F(K) - what F has more for
  * x >= 0), and 1 less it is formed without a difference: what is missing of F(K), and of 1 at K = 0, keeps its
- * digits. */
+ * digits. No branch would foresee the side. */
 VNDF_INLINE vndf_beckmann_place vndf_beckmann_step(const vndf_beckmann_incidence *w, vndf_beckmann_place at,
                                                    lanes_f u)
 {
-    vndf_erfc_ratio e = vndf_erfc_lanes(lanes_abs(at.x));
-    lanes_f v = 1.0f - u, lean = vndf_beckmann_by_sign(at.x, -u, v) * w->line, t = u * w->tail;
+    lanes_f side = lanes_sign(lanes_set(1.0f), at.x), v = 1.0f - u, t = u * w->tail;
+    lanes_f lean = lanes_least(lanes_most(side, -u), v) * w->line; /* -u for x < 0, else v */
     lanes_f rest = u + (t - lean);
+    vndf_erfc_ratio e = vndf_erfc_lanes(side * at.x);
     lanes_f per = 1.0f / (at.d * e.below), nearness = per * e.below;
     lanes_f miss = (v + (lean - t)) - rest * vndf_exp_less_one_lanes(at.x * at.x);
-    lanes_f h = 0.5f * per * (miss * e.below - lanes_sign(w->bound * e.above, at.x));
+    lanes_f h = 0.5f * per * (miss * e.below - side * (w->bound * e.above));
     lanes_f second = nearness + 2.0f * at.x, third = at.x * (nearness + at.x) * 0.666666667f - 0.333333333f;
     lanes_f step = h * (1.0f + 0.5f * h * second) / (1.0f + h * (h * third + second));
     vndf_beckmann_place solved = {at.x - step, at.d + step};
@@ -140,8 +135,8 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_step(const vndf_beckmann_incidence
 }
 
 /* Where float has starting values and quantiles (`middle` is vndf_beckmann_middle), and where the density of the
- * slopes is that of the normal, as it was rounded: no small wi . wm, and not far in the tail, which the former sees
- * to, as squares of slopes are below 15. */
+ * slopes is that of the normal, as it was rounded: no small wi . wm, and not far in the tail; the former sees to
+ * that, as squares of slopes are below 15. */
 VNDF_INLINE lanes_m vndf_beckmann_is_plain(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at,
                                            lanes_f y, lanes_f middle)
 {
