@@ -234,7 +234,7 @@ static int run_passes(const effects_plan *plan, const effects_set *set, unsigned
     effects_fill(block, &subject, NAN, 1);
     effects_job job = effects_job_of(block, &subject);
     for (unsigned long long i = 0; i < passes; i++)
-        effects_loops_of(set)->each(&job);
+        subject.loops->each(&job);
     free(block);
     return STATUS_GOOD;
 }

@@ -55,9 +55,12 @@ typedef struct effects_input {
     float u[3];
 } effects_input;
 
+typedef struct effects_loops effects_loops;
+
 /* What a set is of one distribution and roughness. A plain value that stays where it is, as the material in it. */
 typedef struct effects_subject {
     const effects_set *set;
+    const effects_loops *loops;
     vndf_surface surface;
     vndf_material material;
     const vndf_roughness *roughness; /* of the hits of a block, for EFFECTS_ROUGH */
@@ -73,13 +76,11 @@ typedef struct effects_job {
 typedef void effects_loop(const effects_job *job);
 
 /* A hit for each sample; and the hit of the first input for all samples, values and densities. */
-typedef struct effects_loops {
+struct effects_loops {
     effects_loop *each, *shared, *eval, *pdf;
-} effects_loops;
+};
 
 extern const effects_loops effects_loops_library, effects_loops_rough, effects_loops_by_hand, effects_loops_by_caps;
-
-const effects_loops *effects_loops_of(const effects_set *set);
 
 /* VNDF_OK, or why the set cannot be. */
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,

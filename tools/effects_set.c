@@ -55,7 +55,7 @@ const effects_set *effects_find(const char *name)
     return NULL;
 }
 
-const effects_loops *effects_loops_of(const effects_set *set)
+static const effects_loops *loops_of(const effects_set *set)
 {
     static const effects_loops *const of[EFFECTS_KINDS] = {
         [EFFECTS_LIBRARY] = &effects_loops_library,
@@ -72,6 +72,7 @@ vndf_status effects_subject_make(effects_subject *subject, const effects_set *se
     vndf_description is = {.distribution = surface->distribution, .effects = set->effects, .eta = effects_eta};
     memset(subject, 0, sizeof *subject);
     subject->set = set;
+    subject->loops = loops_of(set);
     subject->surface = *surface;
     if (set->stretched)
         subject->surface.alpha_y = subject->surface.alpha_x / 4;

@@ -25,9 +25,8 @@ double effects_now(void)
 
 /* ---- one pass ---------------------------------------------------------------------------------- */
 
-static effects_loop *loop_of(const effects_set *set, int way)
+static effects_loop *loop_of(const effects_loops *loops, int way)
 {
-    const effects_loops *loops = effects_loops_of(set);
     effects_loop *const of[] = {loops->each, loops->shared, loops->eval, loops->pdf};
     return of[way];
 }
@@ -47,7 +46,7 @@ static void run(effects_loop *loop, int way, effects_block *block, const effects
 /* Nanoseconds for a sample. */
 static double pass(const effects_subject *subject, int way, effects_block *block)
 {
-    effects_loop *loop = loop_of(subject->set, way);
+    effects_loop *loop = loop_of(subject->loops, way);
     double start = effects_now();
     run(loop, way, block, subject);
     double once = effects_now() - start;

@@ -52,18 +52,17 @@ static int agrees(const vndf_scattered *drawn, const vndf_scattered *found, doub
 /* Samples of one hit against its values and densities in their directions. */
 static int share_agrees(const effects_job *job, double tolerance)
 {
-    const effects_loops *loops = effects_loops_of(job->of->set);
     effects_input in[EFFECTS_SHARE];
     vndf_scattered drawn[EFFECTS_SHARE];
     effects_job again = {job->of, in, job->out, EFFECTS_SHARE};
-    loops->shared(job);
+    job->of->loops->shared(job);
     for (size_t i = 0; i < EFFECTS_SHARE; i++) {
         in[i] = job->in[i];
         drawn[i] = job->out[i];
         in[i].wo = drawn[i].wo;
     }
-    loops->eval(&again);
-    loops->pdf(&again);
+    job->of->loops->eval(&again);
+    job->of->loops->pdf(&again);
     for (size_t i = 0; i < EFFECTS_SHARE; i++)
         if (!agrees(&drawn[i], &again.out[i], tolerance))
             return 0;
@@ -77,7 +76,7 @@ void effects_verify(effects_entry *entry, effects_block *block)
     int by_hand = set->kind == EFFECTS_BY_HAND || set->kind == EFFECTS_BY_CAPS;
     effects_fill(block, &entry->subject, entry->theta, 500);
     effects_job job = effects_job_of(block, &entry->subject);
-    effects_loops_of(set)->each(&job);
+    entry->subject.loops->each(&job);
     entry->row.wrong = !are_sane(block, 0, EFFECTS_BLOCK);
     job.count = EFFECTS_SHARE;
     for (size_t share = 0; share < SHARES && !walks; share++) {
@@ -121,7 +120,7 @@ static tally weigh(effects_entry *entry, effects_block *block, size_t blocks, ui
         effects_fill(block, &entry->subject, entry->worth_theta, seed + i);
         effects_aim(block, entry->subject.set, entry->worth_theta);
         effects_job job = effects_job_of(block, &entry->subject);
-        effects_loops_of(entry->subject.set)->each(&job);
+        entry->subject.loops->each(&job);
         for (size_t k = 0; k < EFFECTS_BLOCK; k++)
             add(&t, &block->out[k]);
     }
