@@ -42,7 +42,7 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0f;
 }
 
-static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
+static const vndf_routines nothing = {vndf_enter, prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
 const vndf_material vndf_material_of_nothing = {.routines = &nothing, .unrotated = &nothing};
 
 /* ---- effects to routines ---- */

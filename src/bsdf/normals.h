@@ -27,10 +27,11 @@ VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf
     vndf_view_set(&b->view, &surface, wi);
     if (!b->view.distribution)
         return 0;
-    float x = b->view.ax * wi.x, y = b->view.ay * wi.y, across2 = x * x + y * y;
-    float length = b->view.distribution->kind == VNDF_KIND_TABLE ? sqrtf(across2) + wi.z
-                                                                 : sqrtf(across2 + wi.z * wi.z);
-    b->area = b->view.area * length;
+    /* From memory: wi in parts and then as a whole would be stored by fours, loaded by eights and waited for. */
+    const vndf_view *v = &b->view;
+    float x = v->ax * v->wi.x, y = v->ay * v->wi.y, z = v->wi.z, across2 = x * x + y * y;
+    float length = v->distribution->kind == VNDF_KIND_TABLE ? sqrtf(across2) + z : sqrtf(across2 + z * z);
+    b->area = v->area * length;
     return 1;
 }
 
