@@ -87,7 +87,9 @@ static const vndf_routines *routines_of(const vndf_description *is)
     if (e->lobes == VNDF_LOBES_BOTH)
         return &vndf_routines_both[e->normals];
     if (e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED)
-        return &vndf_routines_bare[e->normals];
+        return e->normals == VNDF_NORMALS_VISIBLE && is->distribution->kind == VNDF_KIND_GGX
+                   ? &vndf_routines_bare_ggx
+                   : &vndf_routines_bare[e->normals];
     return &vndf_routines_reflection[e->normals];
 }
 

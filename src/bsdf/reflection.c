@@ -168,6 +168,9 @@ const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT] = {
     /* V-cavities have a masking of their own */
 };
 
+const vndf_routines vndf_routines_bare_ggx =
+    {enter_bare, vndf_prepare_visible, vndf_bare_ggx_sample, eval_bare, pdf_visible, scatter_bare};
+
 const vndf_routines vndf_routines_reflection[VNDF_NORMALS_COUNT] = {
     [VNDF_NORMALS_VISIBLE] = {vndf_enter, vndf_prepare_visible, sample_visible, eval_any, pdf_visible, scatter_visible},
     [VNDF_NORMALS_BOUNDED] = {vndf_enter, vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded, NULL},
