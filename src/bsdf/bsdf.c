@@ -2,7 +2,7 @@
 #include "bsdf/material.h"
 #include "math/vector.h"
 
-int vndf_enter(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
+int vndf_bsdf_hit(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
 {
     b->material = material;
     b->side = b->eta = b->carried = 1.0f;
@@ -18,19 +18,14 @@ int vndf_enter(vndf_bsdf *b, const vndf_material *material, const vndf_roughness
     return 0;
 }
 
-int vndf_bsdf_hit(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
-{
-    return material->routines->enter(b, material, r, wi);
-}
-
 int vndf_bsdf_at(vndf_bsdf *b, const vndf_material *material, vndf_vec3 wi)
 {
-    return material->routines->enter(b, material, &material->roughness, wi);
+    return vndf_bsdf_hit(b, material, &material->roughness, wi);
 }
 
 int vndf_bsdf_rough(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi)
 {
-    return material->routines->enter(b, material, roughness ? roughness : &material->roughness, wi);
+    return vndf_bsdf_hit(b, material, roughness ? roughness : &material->roughness, wi);
 }
 
 void vndf_bsdf_sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)

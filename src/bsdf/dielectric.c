@@ -229,13 +229,13 @@ static float pdf_both_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 const vndf_routines vndf_routines_transmission[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_enter, vndf_prepare_visible, through_visible, eval_through, pdf_through_visible, through_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_enter, vndf_prepare_all, through_all, eval_through, pdf_through_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_enter, vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible, through_drawn},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through, pdf_through_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity, NULL},
 };
 
 const vndf_routines vndf_routines_both[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_enter, vndf_prepare_visible, both_visible, eval_both, pdf_both_visible, both_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_enter, vndf_prepare_all, both_all, eval_both, pdf_both_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_enter, vndf_prepare_all, both_v_cavity, eval_both, pdf_both_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both, pdf_both_visible, both_drawn},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both, pdf_both_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both, pdf_both_v_cavity, NULL},
 };

@@ -42,7 +42,7 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0f;
 }
 
-static const vndf_routines nothing = {vndf_enter, prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
+static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
 const vndf_material vndf_material_of_nothing = {.routines = &nothing, .unrotated = &nothing};
 
 /* ---- effects to routines ---- */
@@ -86,10 +86,11 @@ static const vndf_routines *routines_of(const vndf_description *is)
         return &vndf_routines_transmission[e->normals];
     if (e->lobes == VNDF_LOBES_BOTH)
         return &vndf_routines_both[e->normals];
-    if (e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED)
-        return e->normals == VNDF_NORMALS_VISIBLE && is->distribution->kind == VNDF_KIND_GGX
-                   ? &vndf_routines_bare_ggx
-                   : &vndf_routines_bare[e->normals];
+    int bare = e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
+    if (bare && e->normals == VNDF_NORMALS_VISIBLE && is->distribution == vndf_ggx())
+        return &vndf_routines_bare_ggx;
+    if (bare)
+        return &vndf_routines_bare[e->normals];
     return &vndf_routines_reflection[e->normals];
 }
 

@@ -50,7 +50,7 @@ static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
     return vndf_walk_pdf(&walk, &b->view, wo);
 }
 
-const vndf_routines vndf_routines_multiple = {vndf_enter, vndf_prepare_visible, sample, eval, pdf, NULL};
+const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval, pdf, NULL};
 
 /* ---- eta = 1 ---- */
 
@@ -77,4 +77,4 @@ static float pdf_unbent(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0f;
 }
 
-const vndf_routines vndf_routines_unbent = {vndf_enter, vndf_prepare_visible, sample_unbent, eval_unbent, pdf_unbent, NULL};
+const vndf_routines vndf_routines_unbent = {vndf_prepare_visible, sample_unbent, eval_unbent, pdf_unbent, NULL};

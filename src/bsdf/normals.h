@@ -27,11 +27,11 @@ VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf
     vndf_view_set(&b->view, &surface, wi);
     if (!b->view.distribution)
         return 0;
-    /* From memory: wi in parts and then as a whole would be stored by fours, loaded by eights and waited for. */
-    const vndf_view *v = &b->view;
-    float x = v->ax * v->wi.x, y = v->ay * v->wi.y, z = v->wi.z, across2 = x * x + y * y;
-    float length = v->distribution->kind == VNDF_KIND_TABLE ? sqrtf(across2) + z : sqrtf(across2 + z * z);
-    b->area = v->area * length;
+    if (surface.distribution->kind == VNDF_KIND_TABLE) {
+        float x = b->view.ax * wi.x, y = b->view.ay * wi.y;
+        b->area = b->view.area * (sqrtf(x * x + y * y) + wi.z);
+    } else
+        b->area = vndf_bsdf_area(b, wi);
     return 1;
 }
 

@@ -1,7 +1,6 @@
 /* Reflection: one routine for each way to draw normals, bare and with whatever Fresnel term and masking. */
 #include "bsdf/reflection.h"
 
-#include "bsdf/material.h"
 #include "bsdf/scatter.h"
 
 VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s, vndf_choice choice)
@@ -54,17 +53,6 @@ VNDF_INLINE float pdf(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn norma
 }
 
 /* ---- bare ---- */
-
-/* Neither side nor index is read. */
-static int enter_bare(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
-{
-    b->material = material;
-    b->side = 1.0f;
-    if (wi.z > 0.0f && vndf_prepare_visible(b, r, wi))
-        return 1;
-    b->material = &vndf_material_of_nothing;
-    return 0;
-}
 
 static void bare_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
@@ -162,18 +150,15 @@ static float pdf_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {enter_bare, vndf_prepare_visible, bare_visible, eval_bare, pdf_visible, scatter_bare},
-    [VNDF_NORMALS_BOUNDED] = {vndf_enter, vndf_prepare_bounded, bare_bounded, eval_bare, pdf_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_enter, vndf_prepare_all, bare_all, eval_bare, pdf_all, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare, pdf_visible, scatter_bare},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare, pdf_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare, pdf_all, NULL},
     /* V-cavities have a masking of their own */
 };
 
-const vndf_routines vndf_routines_bare_ggx =
-    {enter_bare, vndf_prepare_visible, vndf_bare_ggx_sample, eval_bare, pdf_visible, scatter_bare};
-
 const vndf_routines vndf_routines_reflection[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_enter, vndf_prepare_visible, sample_visible, eval_any, pdf_visible, scatter_visible},
-    [VNDF_NORMALS_BOUNDED] = {vndf_enter, vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_enter, vndf_prepare_all, sample_all, eval_any, pdf_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_enter, vndf_prepare_all, sample_v_cavity, eval_any, pdf_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_any, pdf_visible, scatter_visible},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_any, pdf_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_any, pdf_v_cavity, NULL},
 };

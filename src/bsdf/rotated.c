@@ -37,4 +37,4 @@ static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
     return b->material->unrotated->pdf(b, to_axes(b, wo));
 }
 
-const vndf_routines vndf_routines_rotated = {vndf_enter, prepare, sample, eval, pdf, NULL};
+const vndf_routines vndf_routines_rotated = {prepare, sample, eval, pdf, NULL};

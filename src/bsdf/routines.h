@@ -11,10 +11,9 @@
 #include "sampler/closed.h"
 #include "vndf_bsdf.h"
 
-/* `enter` is all that a hit does, and its result; vndf_enter does it by `prepare`, which finds material, eta, side and carried, and adds what the
- * others take of the direction; 0 if nothing can be seen from there. */
+/* `prepare` finds material, eta, side and carried, and adds what the others take of the direction; 0 if nothing can
+ * be seen from there. */
 typedef struct vndf_routines {
-    int (*enter)(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
     int (*prepare)(vndf_bsdf *bsdf, const vndf_roughness *roughness, vndf_vec3 wi);
     void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
@@ -22,8 +21,6 @@ typedef struct vndf_routines {
     /* `sample` after vndf_sample drew wm with `density`; NULL if it draws otherwise */
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
 } vndf_routines;
-
-int vndf_enter(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
 
 /* What the first three calls of vndf_bsdf.h do; 0 if nothing is scattered from there. */
 int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);

@@ -163,20 +163,16 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     vndf_vec3 wi = b->view.wi, wo = vndf_lifted(vndf_reflected(wi, n->wm, n->facing), choice);
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
-    if (!(settled & vndf_is_settled(b, n->facing))) {
-        vndf_outcome careful; /* another one, so that *out stays in registers */
-        int seen = vndf_reflect_carefully(b, wo, &careful);
-        *out = careful;
-        return seen;
-    }
+    if (!(settled & vndf_is_settled(b, n->facing)))
+        return vndf_reflect_carefully(b, wo, out);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;
-    if (choice.bare) {
+    if (choice.bare) { /* in one division */
         float below = vndf_bsdf_area(b, wo) - wo.z;
-        float over = wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f);
-        out->weight = wo.z * n->quotient / over;
-        out->density = 0.25f * n->density / n->facing;
+        float over = wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f), both = 1.0f / (over * n->facing);
+        out->weight = wo.z * n->quotient * (n->facing * both);
+        out->density = 0.25f * n->density * (over * both);
         return 1;
     }
     vndf_event e = {wo, wi.z, wo.z, n->facing, n->facing, n->wm.z};
