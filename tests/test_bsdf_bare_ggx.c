@@ -1,5 +1,6 @@
-/* Bare reflection of GGX is drawn by a routine of its own, which gives the bits of the one for any distribution (that
- * batches use) for roughness from 1e-6 to 100, directions up to the horizon and uniform numbers to the border. */
+/* Bare reflection of GGX is drawn by a routine of its own, which gives the bits of the one for any distribution
+ * (that batches use) for roughness from 1e-6 to 100, directions up to the horizon and uniform numbers to the
+ * border. */
 #include "test.h"
 #include "vndf_bsdf.h"
 
@@ -39,7 +40,8 @@ static size_t compare(const vndf_material *m, const inputs *in, size_t *differin
 {
     static float x[COUNT], y[COUNT], z[COUNT], weight[3][COUNT], density[COUNT];
     static uint8_t lobe[COUNT];
-    const vndf_bsdf_batch batch = {.material = m, .count = COUNT, .alpha_x = in->alpha[0], .alpha_y = in->alpha[1],
+    const vndf_bsdf_batch batch = {.material = m, .count = COUNT,
+                                   .alpha_x = in->alpha[0], .alpha_y = in->alpha[1],
                                    .wi_x = in->wi[0], .wi_y = in->wi[1], .wi_z = in->wi[2]};
     const float *const u[3] = {in->u[0], in->u[1], in->u[2]};
     vndf_scattered_n out = {{x, y, z}, {weight[0], weight[1], weight[2]}, density, lobe};
@@ -52,7 +54,7 @@ static size_t compare(const vndf_material *m, const inputs *in, size_t *differin
         const float one[3] = {in->u[0][i], in->u[1][i], in->u[2][i]};
         vndf_bsdf_rough(&hit, m, &r, (vndf_vec3){in->wi[0][i], in->wi[1][i], in->wi[2][i]});
         vndf_bsdf_sample(&hit, one, &s);
-        *differing += memcmp(&s.wo, &(vndf_vec3){x[i], y[i], z[i]}, sizeof s.wo) != 0 || s.density != density[i] ||
+        *differing += s.wo.x != x[i] || s.wo.y != y[i] || s.wo.z != z[i] || s.density != density[i] ||
                       s.weight[0] != weight[0][i] || s.weight[2] != weight[2][i] || s.lobe != (vndf_lobe)lobe[i];
         kept += s.lobe == VNDF_LOBE_REFLECTION;
     }

@@ -1,13 +1,14 @@
-/* The Beta function is within 2e-8 of lgamma's, for arguments from 1 to 1e8 in any order, and goes to 0 without a NaN
- * as they go to infinity. */
+/* The Beta function is within 2e-8 of lgamma's, for arguments from 1 to 1e8 in any order, and goes to 0 without
+ * a NaN as they go to infinity. */
 #include "bsdf/beta.h"
 #include "test.h"
 
-/* Arguments of lgamma are so large that its result has a relative error of 1e-16; of Beta this is as much times the
- * logarithm, hence long double. */
+/* Arguments of lgamma are so large that its result has a relative error of 1e-16; of Beta this is as much times
+ * the logarithm, hence long double. */
 static double truth(double a, double b)
 {
-    return (double)expl(lgammal((long double)a) + lgammal((long double)b) - lgammal((long double)a + (long double)b));
+    long double x = a, y = b;
+    return (double)expl(lgammal(x) + lgammal(y) - lgammal(x + y));
 }
 
 static void test_grid(void)

@@ -1,6 +1,6 @@
-/* What `vndf bench effects` compares is comparable, and what is wrong is noticed: bare reflection by hand has the mean
- * weight of the library's (two means within 5 standard errors, fixed seeds); densities, values, weights, directions
- * and lobes that are off fail verification; every set of every distribution passes it. */
+/* What `vndf bench effects` compares is comparable, and what is wrong is noticed: bare reflection by hand has
+ * the mean weight of the library's (two means within 5 standard errors, fixed seeds); densities, values,
+ * weights, directions and lobes that are off fail verification; every set of every distribution passes it. */
 #include <stdlib.h>
 
 #include "effects.h"

@@ -1,4 +1,5 @@
-/* Cells of the tables that benchmarks print: numbers as people read them, texts and numbers of CSV and Markdown. */
+/* Cells of the tables that benchmarks print: numbers as people read them, texts and numbers of CSV and
+ * Markdown. */
 #ifndef TOOLS_CELLS_H
 #define TOOLS_CELLS_H
 

@@ -7,10 +7,8 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "distribution.h"
-#include "effects.h"
+#include "effects_open.h"
 #include "output.h"
-#include "vndf_build.h"
 
 static const char name[] = "vndf bench effects";
 
@@ -19,15 +17,17 @@ static const char help[] =
     "       vndf bench effects --run SET [--passes N] [--distribution FILE|ggx|beckmann] [--alpha AX[,AY]]\n"
     "\n"
     "Times hit and sample, value and density of each set of effects that vndf_bsdf.h has, from bare reflection\n"
-    "upward, beside bare reflection written by hand; and measures mean, lost samples, largest weight, variance and\n"
-    "efficiency. A second table compares visible with bounded normals by roughness and angle. All take turns in one\n"
-    "process, with the same random directions over the hemisphere; results are verified before they count.\n"
+    "upward, beside bare reflection written by hand; and measures mean, lost samples, largest weight, variance\n"
+    "and efficiency. A second table compares visible with bounded normals by roughness and angle. All take turns\n"
+    "in one process, with the same random directions over the hemisphere; results are verified before they\n"
+    "count.\n"
     "\n"
-    "  --distribution D  a table file, ggx or beckmann, up to 8 times (default: ggx, beckmann and student-t:2.5,\n"
-    "                    which is built)\n"
+    "  --distribution D  a table file, ggx or beckmann, up to 8 times (default: ggx, beckmann and\n"
+    "                    student-t:2.5, which is built)\n"
     "  --alpha AX[,AY]   roughness of the first table (default 0.5)\n"
     "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
-    "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the second table\n"
+    "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the second\n"
+    "                    table\n"
     "  --seconds S       for taking turns, 0.01 to 3600 (default 15); less means more noise\n"
     "  --instructions    counts the instructions of hit and sample, by valgrind (some 0.5 s for each set)\n"
     "  --csv FILE        all numbers as CSV (empty: does not apply); - for stdout\n"
@@ -62,75 +62,6 @@ static int go_on(double done, const char *what, void *user)
     return !output_stopping(w->held);
 }
 
-/* ---- distributions ------------------------------------------------------------------------------ */
-
-typedef struct opened {
-    chosen_distribution of[EFFECTS_DISTRIBUTIONS_MAX];
-    size_t count;
-    vndf_distribution *built;
-    char path[64]; /* of a file of what was built, for other processes; "" if there is none */
-} opened;
-
-static int open_named(opened *o, effects_plan *plan, const char *which)
-{
-    if (!distribution_open(&o->of[o->count], name, which))
-        return 0;
-    plan->of[plan->count++] = (effects_named){which, which, o->of[o->count++].distribution};
-    return 1;
-}
-
-/* 0 after a complaint. */
-static int save_built(opened *o)
-{
-    vndf_error error = {VNDF_OK, ""};
-    strcpy(o->path, "/tmp/vndf-effects-XXXXXX");
-    int file = mkstemp(o->path);
-    if (file >= 0 && close(file) == 0 && vndf_save(o->built, o->path, &error) == VNDF_OK)
-        return 1;
-    if (file >= 0)
-        remove(o->path);
-    o->path[0] = '\0';
-    complain(name, "no temporary table for valgrind: %s", file < 0 ? "cannot write /tmp" : error.message);
-    return 0;
-}
-
-static int build_default(opened *o, effects_plan *plan, int for_others)
-{
-    static const char family[] = "student-t:2.5";
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = vndf_source_family(family, &error);
-    o->built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
-    vndf_source_free(source);
-    if (!o->built) {
-        complain(name, "%s", error.message);
-        return 0;
-    }
-    if (for_others && !save_built(o))
-        return 0;
-    plan->of[plan->count++] = (effects_named){family, o->path[0] ? o->path : NULL, o->built};
-    return 1;
-}
-
-static int open_all(opened *o, effects_plan *plan, const effects_words *given)
-{
-    for (size_t i = 0; i < given->distribution.count; i++)
-        if (!open_named(o, plan, given->distribution.item[i]))
-            return 0;
-    if (plan->count)
-        return 1;
-    return open_named(o, plan, "ggx") && open_named(o, plan, "beckmann") &&
-           build_default(o, plan, given->instructions.count != 0);
-}
-
-static void close_all(opened *o)
-{
-    for (size_t i = 0; i < o->count; i++)
-        distribution_close(&o->of[i]);
-    vndf_free(o->built);
-    if (o->path[0])
-        remove(o->path);
-}
-
 /* ---- output ------------------------------------------------------------------------------------ */
 
 static int print_to(const char *path, const effects_list *list, void (*print)(FILE *, const effects_list *))
@@ -150,7 +81,8 @@ static int print_all(const effects_words *given, const effects_list *list)
     const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
     if (!(csv && strcmp(csv, "-") == 0) && !(markdown && strcmp(markdown, "-") == 0))
         effects_print_text(stdout, list);
-    int status = print_to(csv, list, effects_print_csv), second = print_to(markdown, list, effects_print_markdown);
+    int status = print_to(csv, list, effects_print_csv);
+    int second = print_to(markdown, list, effects_print_markdown);
     return status == STATUS_GOOD ? second : status;
 }
 
@@ -203,10 +135,10 @@ static int run_list(effects_list *list, const effects_plan *plan, const effects_
 static int run_plan(effects_plan *plan, const effects_words *given)
 {
     effects_list list;
-    opened o = {.count = 0, .built = NULL, .path = ""};
+    effects_opened o = {.count = 0, .built = NULL, .path = ""};
     vndf_error error = {VNDF_OK, ""};
     int status = STATUS_USE;
-    if (open_all(&o, plan, given)) {
+    if (effects_open(&o, plan, name, &given->distribution, given->instructions.count != 0)) {
         if (effects_list_make(&list, plan, &error) == VNDF_OK) {
             status = run_list(&list, plan, given);
             effects_list_free(&list);
@@ -214,7 +146,7 @@ static int run_plan(effects_plan *plan, const effects_words *given)
             complain(name, "%s", error.message);
         }
     }
-    close_all(&o);
+    effects_close(&o);
     return status;
 }
 
@@ -242,7 +174,7 @@ static int run_passes(const effects_plan *plan, const effects_set *set, unsigned
 static int run_set(effects_plan *plan, const effects_words *given)
 {
     unsigned long long passes = 1;
-    opened o = {.count = 0, .built = NULL, .path = ""};
+    effects_opened o = {.count = 0, .built = NULL, .path = ""};
     const effects_set *set = effects_find(only_word(&given->run));
     if (!set)
         return complain(name, "--run '%s' is no set of effects; the first column of the table names them",
@@ -252,8 +184,8 @@ static int run_set(effects_plan *plan, const effects_words *given)
     if (!option_count(name, "--passes", &given->passes, 0, 1e9, &passes))
         return STATUS_USE;
     const char *which = given->distribution.count ? given->distribution.item[0] : "ggx";
-    int status = open_named(&o, plan, which) ? run_passes(plan, set, passes) : STATUS_USE;
-    close_all(&o);
+    int status = effects_open_one(&o, plan, name, which) ? run_passes(plan, set, passes) : STATUS_USE;
+    effects_close(&o);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* What each effect of vndf_bsdf.h costs and what it is worth: the inside of `vndf bench effects`.
  *
  *     effects.c               the command: words, output, exit status
+ *     effects_open.c          distributions
  *     effects_set.c           the sets of effects, and what each is made into
  *     effects_run.c           the loops that are timed, with the library
  *     effects_hand.c          bare reflection by hand, what a user would write over vndf.h
@@ -57,7 +58,8 @@ typedef struct effects_input {
 
 typedef struct effects_loops effects_loops;
 
-/* What a set is of one distribution and roughness. A plain value that stays where it is, as the material in it. */
+/* What a set is of one distribution and roughness. A plain value that stays where it is, as the material in it.
+ * */
 typedef struct effects_subject {
     const effects_set *set;
     const effects_loops *loops;
@@ -80,7 +82,8 @@ struct effects_loops {
     effects_loop *each, *shared, *eval, *pdf;
 };
 
-extern const effects_loops effects_loops_library, effects_loops_rough, effects_loops_by_hand, effects_loops_by_caps;
+extern const effects_loops effects_loops_library, effects_loops_rough;
+extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
 
 /* VNDF_OK, or why the set cannot be. */
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
@@ -97,9 +100,9 @@ typedef struct effects_block {
     vndf_roughness roughness[EFFECTS_BLOCK];
 } effects_block;
 
-/* Inputs of stream `seed`, the same for all sets but for the side that wi and wo are on: directions wo uniform over
- * the hemisphere, and so wi if theta is NaN, else at that angle, in degrees. Roughness between 0.5 and 1.5 times
- * that of the subject, of which it becomes that of the block. */
+/* Inputs of stream `seed`, the same for all sets but for the side that wi and wo are on: directions wo uniform
+ * over the hemisphere, and so wi if theta is NaN, else at that angle, in degrees. Roughness between 0.5 and 1.5
+ * times that of the subject, of which it becomes that of the block. */
 void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed);
 
 /* One direction for all, that angle from the normal. */
@@ -143,7 +146,7 @@ typedef struct effects_list {
 
 typedef struct effects_named {
     const char *name;
-    const char *path;           /* what a process of its own opens: "ggx", "beckmann", a file; NULL: there is none */
+    const char *path;           /* what another process opens: "ggx", "beckmann", a file; NULL: there is none */
     const vndf_distribution *distribution;
 } effects_named;
 
@@ -165,7 +168,8 @@ void effects_list_free(effects_list *list);
 /* Whether samples, values and densities are what they have to be and agree; row.wrong if not. */
 void effects_verify(effects_entry *entry, effects_block *block);
 
-/* Fills mean, noise, lost, max_weight and variance from twice `blocks` blocks; row.wrong if two halves disagree. */
+/* Fills mean, noise, lost, max_weight and variance from twice `blocks` blocks; row.wrong if two halves
+ * disagree. */
 void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
 
 /* Seconds of a clock that starts somewhere. */

@@ -1,7 +1,7 @@
-/* Bare reflection of GGX without the library, the shortest that can be written: spherical caps (J. Dupuy, A. Benyoub,
- * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) as published, which is NaN at normal incidence with
- * u2 = 1, wi mirrored at the normal, and G2/G1 of height-correlated masking. With l = |stretched wi| and A = (cos_i +
- * l)/2, the density of the normal is (wi.wm) D/A, and
+/* Bare reflection of GGX without the library, the shortest that can be written: spherical caps (J. Dupuy, A.
+ * Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) as published, which is NaN at normal
+ * incidence with u2 = 1, wi mirrored at the normal, and G2/G1 of height-correlated masking. With l = |stretched
+ * wi| and A = (cos_i + l)/2, the density of the normal is (wi.wm) D/A, and
  *
  *     weight = A(wi) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)).
  *
@@ -59,7 +59,8 @@ static inline void sample(const caps_hit *hit, const float u[3], vndf_scattered 
         return;
     }
     float weight = hit->area * wo.z * masking(hit, wo);
-    *out = (vndf_scattered){wo, {weight, weight, weight}, ndf(hit, wm) / (4.0f * hit->area), VNDF_LOBE_REFLECTION};
+    float density = ndf(hit, wm) / (4.0f * hit->area);
+    *out = (vndf_scattered){wo, {weight, weight, weight}, density, VNDF_LOBE_REFLECTION};
 }
 
 static inline vndf_vec3 half_of(vndf_vec3 wi, vndf_vec3 wo)

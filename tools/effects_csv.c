@@ -10,8 +10,8 @@
 
 void effects_print_csv(FILE *file, const effects_list *list)
 {
-    fputs("set,distribution,alpha_x,alpha_y,directions_theta,weight_theta,wrong,ns,ns_low,ns_high,to_bare,shared_ns,"
-          "eval_ns,pdf_ns,instructions,mean,noise,lost,max_weight,variance,efficiency\n", file);
+    fputs("set,distribution,alpha_x,alpha_y,directions_theta,weight_theta,wrong,ns,ns_low,ns_high,to_bare,"
+          "shared_ns,eval_ns,pdf_ns,instructions,mean,noise,lost,max_weight,variance,efficiency\n", file);
     for (size_t i = 0; i < list->count; i++) {
         const effects_entry *e = &list->entry[i];
         const effects_row *r = &e->row;

@@ -1,11 +1,11 @@
-/* Bare reflection over vndf.h, as one would write it who wants nothing else: a visible normal, wi mirrored at it, and
- * G2/G1 of height-correlated masking,
+/* Bare reflection over vndf.h, as one would write it who wants nothing else: a visible normal, wi mirrored at
+ * it, and G2/G1 of height-correlated masking,
  *
  *     weight = D(wm) (wi.wm)/pdf(wm) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)),
  *
- * where D (wi.wm)/pdf is A(wi) but for tables, and A of GGX is (cos + |stretched w|)/2. No case is taken care of that
- * vndf_bsdf.h takes care of: smooth surfaces, whose directions are rounded by more than their roughness, below all.
- * Compiled without vector loops, as method_*.c. */
+ * where D (wi.wm)/pdf is A(wi) but for tables, and A of GGX is (cos + |stretched w|)/2. No case is taken care
+ * of that vndf_bsdf.h takes care of: smooth surfaces, whose directions are rounded by more than their
+ * roughness, below all. Compiled without vector loops, as method_*.c. */
 #include "method_vector.h"
 
 #include "effects.h"
@@ -28,8 +28,8 @@ static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vnd
 }
 
 /* The view is not part of a struct with wi and the area: to be copied there it would be waited for. */
-static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area, const float u[3],
-                          vndf_scattered *out, hand_kind kind)
+static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area,
+                          const float u[3], vndf_scattered *out, hand_kind kind)
 {
     float pdf, quotient = area;
     vndf_vec3 wm = vndf_sample(view, u[0], u[1], &pdf);

@@ -1,5 +1,5 @@
-/* Instructions for a sample. The program runs itself under `valgrind --tool=callgrind` with the option --run, one set
- * and one block of inputs, once and twice over: the difference is a block, start-up cancels. */
+/* Instructions for a sample. The program runs itself under `valgrind --tool=callgrind` with the option --run,
+ * one set and one block of inputs, once and twice over: the difference is a block, start-up cancels. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>

@@ -10,7 +10,8 @@
 static const float variance_alphas[] = {0.2f, 0.5f, 1.0f};
 static const double variance_thetas[] = {0, 30, 60, 85};
 
-static const char bare_name[] = "bare reflection", bounded_name[] = "bounded normals", variance_name[] = "variance";
+static const char bare_name[] = "bare reflection", bounded_name[] = "bounded normals";
+static const char variance_name[] = "variance";
 
 static effects_row empty_row(void)
 {

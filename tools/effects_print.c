@@ -20,14 +20,14 @@ static const char *const variance_of[COLUMNS] = {"", "", "", "visible", "bounded
                                                  "bounded", "", "visible", "bounded", "", "bounded"};
 
 static const char cost_legend[] =
-    "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies between\n"
-    "quartiles); to bare: ns more than bare reflection in the same turn; shared, eval, pdf: one hit for 256; instr:\n"
-    "instructions of hit and sample. Of the weights of one direction: mean, part of samples lost, largest, variance;\n"
-    "eff: 1/(variance ns) over that of the same with visible normals.\n";
+    "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies\n"
+    "between quartiles); to bare: ns more than bare reflection in the same turn; shared, eval, pdf: one hit for\n"
+    "256; instr: instructions of hit and sample. Of the weights of one direction: mean, part of samples lost,\n"
+    "largest, variance; eff: 1/(variance ns) over that of the same with visible normals.\n";
 
 static const char variance_legend[] =
-    "Bare reflection, the albedo in one direction: variance of the weight with visible normals and with those of\n"
-    "them that reflect to above the horizon, ratio of the two, eff: 1/(variance ns) of bounded over visible.\n";
+    "Bare reflection, the albedo in one direction: variance of the weight with visible normals and with those\n"
+    "of them that reflect to above the horizon, ratio of the two, eff: 1/(variance ns) of bounded over visible.\n";
 
 static void percent(char cell[CELL], double part)
 {

@@ -1,4 +1,5 @@
-/* The sets of effects that are measured, from bare reflection upward: what differs from bare stands in its line. */
+/* The sets of effects that are measured, from bare reflection upward: what differs from bare stands in its
+ * line. */
 #include <string.h>
 
 #include "effects.h"
@@ -34,7 +35,8 @@ const effects_set effects_sets[] = {
      .effects = {.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes, separable",
-     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC, .masking = VNDF_MASKING_SEPARABLE}},
+     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC,
+                 .masking = VNDF_MASKING_SEPARABLE}},
     {.name = "both lobes, from inside",
      .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}, .inside = 1},
     {.name = "walk", .effects = {.scattering = VNDF_SCATTERING_MULTIPLE}},

@@ -1,6 +1,6 @@
-/* Time: all sets take turns, each turn with new random inputs that are the same for all sets, and the medians over
- * the turns count. In a turn a set first runs once over its inputs, so that these and its tables are in the cache, and
- * then against the clock: once if that takes long enough, lest branches are learnt by heart. */
+/* Time: all sets take turns, each turn with new random inputs that are the same for all sets, and the medians
+ * over the turns count. In a turn a set first runs once over its inputs, so that these and its tables are in
+ * the cache, and then against the clock: once if that takes long enough, lest branches are learnt by heart. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>

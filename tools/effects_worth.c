@@ -1,7 +1,7 @@
 /* Whether a set's results are right, and what they are worth. Right means: directions are unit and on the side of
  * their lobe, weights and densities finite and not negative; and but for random walks, whose values are random
- * numbers, the density told for a sample is that of its direction, and its weight is value times cosine over density.
- * The tolerance is wider than what the library promises: rare roundings are the tests' concern. */
+ * numbers, the density told for a sample is that of its direction, and its weight is value times cosine over
+ * density. The tolerance is wider than what the library promises: rare roundings are the tests' concern. */
 #include <math.h>
 
 #include "effects.h"
