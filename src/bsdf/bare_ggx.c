@@ -42,7 +42,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     s->wo.y = wo.y;
     s->wo.z = wo.z;
     s->weight[0] = s->weight[1] = s->weight[2] = weight;
-    s->density = vndf_finite(vndf_ggx_density_of(b, wo));
+    s->density = vndf_positive(vndf_ggx_density_of(b, wo));
     s->lobe = VNDF_LOBE_REFLECTION;
 }
 

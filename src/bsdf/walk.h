@@ -35,7 +35,7 @@ typedef void vndf_walk_reflectance(const vndf_description *is, double cosine, do
 typedef struct vndf_walk {
     vndf_walk_reflectance *reflectance;
     const vndf_description *is; /* handed to it */
-    float eta;                  /* index on the other side over that on the side of wi; not 1 if it transmits */
+    double eta;                 /* index on the other side over that on the side of wi; not 1 if it transmits */
     int transmits;              /* else what is not reflected is lost */
     vndf_transport transport;
     unsigned order_limit;       /* scattering events at most, >= 1; what has not left then is lost */
