@@ -7,7 +7,10 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, n, choice, choice.bare || vndf_keeps_reflectance(b, n->facing), &out)) {
+    int settled = choice.bare || vndf_keeps_reflectance(b, n->facing);
+    if (choice.normals == VNDF_NORMALS_BOUNDED) /* on short chords of the disc the density changes within a rounding */
+        settled &= n->quotient > 0.1f * b->area;
+    if (!vndf_reflect(b, n, choice, settled, &out)) {
         vndf_scatter_nothing(s);
         return;
     }

@@ -152,7 +152,7 @@ typedef struct vndf_outcome {
 /* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
 VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 {
-    return fabs(vndf_refracted_square(facing, b->eta)) > 0.1;
+    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > 0.1;
 }
 
 /* Whether the slope that wo stands for is the one that was drawn, to 5e-6 of the roughness: wo is rounded by 3e-8,

@@ -36,16 +36,20 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
-/* A view with its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
-static vndf_view turned(const vndf_view *view)
+void vndf_closed_turn(vndf_view *view)
 {
     vndf_stretched w = vndf_stretched_of(view);
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
+    view->s = (float)w.s;
+    view->c = (float)w.c;
+    view->cos_phi = across > 0.0 ? (float)(w.x * per) : 1.0f;
+    view->sin_phi = (float)(w.y * per);
+}
+
+static vndf_view turned(const vndf_view *view)
+{
     vndf_view unit = *view;
-    unit.s = (float)w.s;
-    unit.c = (float)w.c;
-    unit.cos_phi = across > 0.0 ? (float)(w.x * per) : 1.0f;
-    unit.sin_phi = (float)(w.y * per);
+    vndf_closed_turn(&unit);
     return unit;
 }
 

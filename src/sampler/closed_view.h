@@ -39,6 +39,9 @@ VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface,
     view->closed[4] = w->spread;
 }
 
+/* Gives a view its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
+void vndf_closed_turn(vndf_view *view);
+
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);

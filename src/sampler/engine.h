@@ -49,6 +49,7 @@
 
 #include <stdint.h>
 
+#include "sampler/closed.h"
 #include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
@@ -75,6 +76,15 @@ typedef struct vndf_engine_ray {
     uint32_t cut;       /* that cell; radial_count if there is none */
 } vndf_engine_ray;
 vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
+
+/* That of a normal, of any length. */
+vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm);
+
+/* The density of that normal per steradian, its length 1 but for rounding and facing = wi.wm > 0. */
+double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing);
+
+/* The part of the law with slopes up to X/Z; c >= 0. */
+double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
 
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
 double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);

@@ -4,6 +4,7 @@
 #include "sampler/closed_view.h"
 #include "sampler/engine.h"
 #include "sampler/frame.h"
+#include "sampler/given_closed.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
@@ -60,7 +61,7 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_view view = {.wi = wi};
-    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && is_usable_direction(wi))
+    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && vndf_is_usable_direction(wi))
         view.distribution = surface->distribution;
     return view;
 }
@@ -84,6 +85,19 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
         return view_carefully(surface, wi);
     double exact = vndf_unit_scale(d);
     return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
+}
+
+/* Dv of a valid view; facing = wi . wm > 0. */
+VNDF_INLINE float visible_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_density_from(vndf_visible_of(view->distribution, &g, vndf_exact_dot(view->wi, wm)));
+}
+
+/* Whether wm is a normal that wi sees. */
+VNDF_INLINE int is_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
 }
 
 /* GGX is so fast that the copy would show. */
