@@ -22,7 +22,7 @@ static int is_tried(const vndf_effects *e)
                                ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
     vndf_masking masking = e->normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES
                                                                : VNDF_MASKING_HEIGHT_CORRELATED;
-    return bsdf_has(e) && e->scattering == VNDF_SCATTERING_SINGLE && e->fresnel == fresnel && e->masking == masking &&
+    return oracle_effects_sensible(e) && e->scattering == VNDF_SCATTERING_SINGLE && e->fresnel == fresnel && e->masking == masking &&
            e->transport == VNDF_TRANSPORT_RADIANCE;
 }
 

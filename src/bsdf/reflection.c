@@ -20,7 +20,7 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
     if (!choice.bare)
         vndf_reflectance(b, out.facing, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = choice.bare ? out.weight : vndf_finite(out.weight * (float)f[i]);
+        s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
 }
 
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
