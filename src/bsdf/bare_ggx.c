@@ -32,7 +32,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_scatter_nothing(s);
         return;
     }
-    if (!(facing > VNDF_GGX_FACING)) {
+    if (!(facing > VNDF_GGX_LEAST_FACING)) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
     }

@@ -177,14 +177,14 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0795774715f * a / b->area * (t * t);
 }
 
-/* Whether it is to be had so: nothing underflows where roughness is plain, and below this cosine lengths begin to
- * count (vndf_half_reflected). */
-static const float VNDF_GGX_FACING = 0.05f;
+/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi and wo,
+ * which are 1 but for rounding, count. */
+static const float VNDF_GGX_LEAST_FACING = 0.05f;
 
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
     return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
-           facing > VNDF_GGX_FACING;
+           facing > VNDF_GGX_LEAST_FACING;
 }
 
 /* 0 if no microfacet does that. */
