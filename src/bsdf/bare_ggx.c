@@ -32,7 +32,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_scatter_nothing(s);
         return;
     }
-    if (!(facing > 1e-3f)) {
+    if (!(facing > 0.0401f)) { /* there lengths are made 1 (vndf_half_reflected) */
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
     }

@@ -181,7 +181,7 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
     return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
-           facing > 1e-3f;
+           facing > 0.0401f; /* below 0.04 vndf_half_reflected has other lengths */
 }
 
 /* 0 if no microfacet does that. */
