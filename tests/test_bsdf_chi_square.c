@@ -51,7 +51,7 @@ int main(int arguments, char **argument)
 {
     static const char *const names[KIND_COUNT] = {"ggx", "beckmann", "student-t-2.5"};
     int quick = oracle_quick();
-    size_t every = arguments > 2 ? 1 : quick ? 3 : 2; /* of the settings */
+    size_t every = arguments > 2 ? 1 : quick ? 5 : 3; /* of the settings */
     size_t samples = arguments > 2 ? (size_t)strtoul(argument[2], NULL, 10) : quick ? 30000 : 200000, sets = 0, done = 0;
     for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
         vndf_effects e = oracle_effects(i);
