@@ -142,6 +142,7 @@ typedef struct vndf_material {
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
     int two_sided;
+    int steep;                                       /* F changes faster than directions are rounded */
 } vndf_material;
 
 /* VNDF_OK, or VNDF_ERROR_ARGUMENT with the combination or number that is refused; *material is then unusable but

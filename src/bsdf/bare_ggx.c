@@ -47,14 +47,31 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     s->lobe = VNDF_LOBE_REFLECTION;
 }
 
+/* Whether both directions are of plain size and their half vector has its digits. */
+VNDF_INLINE int is_plain(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    vndf_vec3 wi = b->view.wi;
+    float x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z, square = x * x + y * y + z * z;
+    return b->view.plain && wo.z > 0.0f && vndf_is_near_unit(wo) &&
+           square > 4.0f * VNDF_GGX_LEAST_FACING * VNDF_GGX_LEAST_FACING;
+}
+
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
 {
-    vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value);
+    if (!is_plain(b, wo)) {
+        vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value);
+        return;
+    }
+    float x = b->view.ax * wo.x, y = b->view.ay * wo.y;
+    float below = 0.5f * (wo.z + sqrtf((x * x + y * y) + wo.z * wo.z)) - wo.z;
+    float over = wo.z * b->area + b->view.wi.z * lanes_positive(below);
+    value[0] = value[1] = value[2] = vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / over));
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
+    return is_plain(b, wo) ? vndf_positive(vndf_ggx_density_of(b, wo))
+                           : vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
 }
 
 static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)

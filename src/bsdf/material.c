@@ -6,6 +6,7 @@
 #include "bsdf/masking.h"
 #include "bsdf/multiple.h"
 #include "bsdf/rotated.h"
+#include "core/error.h"
 #include "math/elementary.h"
 #include "math/half_turn.h"
 
@@ -108,9 +109,20 @@ static void set_rotation(vndf_material *m, double angle)
     m->roughness.sin_rotation = (float)(sine + rest * cosine);
 }
 
+/* A conductor that is nearly a dielectric reflects totally beyond some angle. */
+static int is_steep(const vndf_description *is)
+{
+    int steep = 0;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        steep |= is->conductor_eta[i] < 1.0f && is->conductor_k[i] < 0.05f;
+    return steep && is->effects.fresnel == VNDF_FRESNEL_CONDUCTOR;
+}
+
 vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, vndf_error *error)
 {
     *m = vndf_material_of_nothing;
+    if (!is)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the description is NULL");
     vndf_status status = vndf_description_check(is, error);
     if (status != VNDF_OK)
         return status;
@@ -123,6 +135,7 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->masking = masking_of(e);
     m->unrotated = routines_of(is);
     m->routines = e->axes == VNDF_AXES_ROTATED ? &vndf_routines_rotated : m->unrotated;
+    m->steep = is_steep(is);
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_rotation(m, e->axes == VNDF_AXES_ROTATED ? is->rotation : 0.0);
     return VNDF_OK;

@@ -24,8 +24,8 @@ static vndf_status check_range(const vndf_effects *e, vndf_error *error)
     };
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
         if (ranges[i].value > ranges[i].last)
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects.%s is %u, which is none of its choices",
-                             ranges[i].name, ranges[i].value);
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects.%s is %d, which is none of its choices",
+                             ranges[i].name, (int)ranges[i].value);
     return VNDF_OK;
 }
 
@@ -79,6 +79,7 @@ static vndf_status check_number(const char *name, double x, double least, double
 
 static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 {
+    static const char *const names[VNDF_WAVELENGTHS] = {"f0[0]", "f0[1]", "f0[2]"};
     vndf_status status = VNDF_OK;
     if (is->effects.lobes != VNDF_LOBES_REFLECTION || is->effects.fresnel == VNDF_FRESNEL_DIELECTRIC)
         status = check_number("eta", is->eta, 0.01f, 100.0, error);
@@ -88,7 +89,7 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
                            "since light that goes straight on has no density");
     for (int i = 0; i < VNDF_WAVELENGTHS && status == VNDF_OK; i++) {
         if (is->effects.fresnel == VNDF_FRESNEL_SCHLICK)
-            status = check_number("f0", is->f0[i], 0.0, 1.0, error);
+            status = check_number(names[i], is->f0[i], 0.0, 1.0, error);
         if (is->effects.fresnel != VNDF_FRESNEL_CONDUCTOR)
             continue;
         status = check_number("conductor_eta", is->conductor_eta[i], 0.0, 1000.0, error);

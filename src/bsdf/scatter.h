@@ -194,6 +194,12 @@ VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
     return (b->view.ax > 0.4f) & (b->view.ay > 0.4f) & vndf_is_settled(b, facing);
 }
 
+/* Away from the border of the unit square. */
+VNDF_INLINE int vndf_is_inside(float u)
+{
+    return fabsf(u - 0.5f) < 0.499f;
+}
+
 /* 0 if no microfacet does that. */
 int vndf_reflect_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
 int vndf_refract_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
@@ -216,9 +222,13 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
     int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
-    if (!(settled & (choice.bare | (n->facing > 0.1f)) & (as_drawn | of_wo)))
-        return vndf_reflect_carefully(b, wo, out);
-    float density = as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
+    int plain = settled & (choice.bare | (n->facing > 0.1f)) & (as_drawn | of_wo);
+    if (!plain && vndf_reflect_carefully(b, wo, out))
+        return 1;
+    if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
+        return 0;
+    /* Bounded normals are kept, even where the density of the direction as it was rounded underflows. */
+    float density = !plain ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;
