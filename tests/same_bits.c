@@ -4,15 +4,49 @@
  *
  * A distribution gets COUNT samples, each from a view of its own, over directions of the whole sphere, roughness
  * from 1e-6 to 10 and the corners of the unit square; at every eighth all other functions of vndf.h are asked as
- * well. A line has the hash after so many samples, that number and the distribution; one comes after PREFIX and
+ * well, at every fourth a material, of all sets of effects in turn, is sampled and evaluated. A line has the hash after so many samples, that number and the distribution; one comes after PREFIX and
  * one after COUNT, so that a slow machine that takes fewer can be compared with a fast one. test_same_bits.cmake
  * compares differently compiled copies with each other and with tests/corpus/same_bits.txt. */
 #include <stdlib.h>
 
 #include "hash.h"
 #include "test.h"
+#include "vndf_bsdf.h"
 
 enum { PREFIX = 20000 };
+
+/* Any set of effects that makes sense, by number. */
+static vndf_effects effects_of(unsigned long i)
+{
+    vndf_effects e = {(vndf_lobes)(i % 3),           (vndf_fresnel)(i / 3 % 4),        (vndf_masking)(i / 12 % 4),
+                      (vndf_normals_drawn)(i / 48 % 4), (vndf_scattering)(i / 192 % 2), (vndf_transport)(i / 384 % 2),
+                      (vndf_axes)(i / 768 % 2)};
+    return e;
+}
+
+/* A material's sample, its value and its density towards there; as such a set is refused or not. */
+static unsigned long long hash_material(unsigned long long hash, const vndf_surface *surface, unsigned long i,
+                                        vndf_vec3 wi, const float u[3])
+{
+    vndf_description is = {.distribution = surface->distribution, .effects = effects_of(i), .eta = 1.5f,
+                           .alpha_x = surface->alpha_x, .alpha_y = surface->alpha_y, .rotation = 1.0f,
+                           .f0 = {0.1f, 0.5f, 0.9f}, .conductor_eta = {0.2f, 0.9f, 1.5f},
+                           .conductor_k = {3.9f, 2.4f, 0.0f}};
+    vndf_material material;
+    vndf_bsdf bsdf;
+    vndf_scattered s;
+    float f[VNDF_WAVELENGTHS], per = 1.0f / sqrtf(wi.x * wi.x + wi.y * wi.y + wi.z * wi.z);
+    vndf_vec3 unit = {wi.x * per, wi.y * per, wi.z * per};
+    if (vndf_material_resolve(&is, &material, NULL) != VNDF_OK)
+        return hash_float(hash, 1.0f);
+    vndf_bsdf_at(&bsdf, &material, unit);
+    vndf_bsdf_sample(&bsdf, u, &s);
+    vndf_bsdf_eval(&bsdf, s.wo, i, f);
+    hash = hash_float(hash_float(hash_float(hash, s.wo.x), s.wo.y), s.wo.z);
+    hash = hash_float(hash_float(hash_float(hash, s.weight[0]), s.weight[1]), s.weight[2]);
+    hash = hash_float(hash_float(hash_float(hash, f[0]), f[1]), f[2]);
+    return hash_float(hash_float(hash, s.density), vndf_bsdf_pdf(&bsdf, s.wo));
+}
 
 static void print_hashes(const vndf_distribution *distribution, const char *name, unsigned long count)
 {
@@ -30,6 +64,10 @@ static void print_hashes(const vndf_distribution *distribution, const char *name
         hash = hash_sample(hash, &view, u1, u2, &wm);
         if (i % 8 == 0)
             hash = hash_others(hash, &view, &surface, wi, wm, u1, u2);
+        if (i % 4 == 0) {
+            const float u[3] = {u1, u2, x};
+            hash = hash_material(hash, &surface, i / 4, wi, u);
+        }
         if (i + 1 == PREFIX || i + 1 == count)
             printf("%016llx %lu %s\n", hash, i + 1, name);
     }
