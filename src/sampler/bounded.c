@@ -74,16 +74,15 @@ static int is_drawn(const vndf_view *view)
 
 void vndf_bounds_of(vndf_view *view, double bounds[VNDF_BOUNDS])
 {
-    for (int i = 0; i < VNDF_BOUNDS; i++)
-        bounds[i] = 0.0;
     if (!is_drawn(view) || view->distribution->kind == VNDF_KIND_TABLE)
         return;
+    if (view->distribution->kind == VNDF_KIND_GGX) {
+        vndf_bounds_ggx(view, bounds);
+        return;
+    }
     vndf_closed_turn(view);
     view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
-    if (view->distribution->kind == VNDF_KIND_GGX)
-        vndf_bounds_ggx(view, bounds);
-    else
-        vndf_bounds_beckmann(view, bounds);
+    vndf_bounds_beckmann(view, bounds);
 }
 
 vndf_bounded vndf_sample_bounded(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)

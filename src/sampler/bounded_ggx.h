@@ -1,5 +1,5 @@
-/* What the two files of bounded GGX share: bounded_ggx.c has the mathematics and any direction,
- * bounded_ggx_plain.c those of plain size, in float. */
+/* What the files of bounded GGX share: bounded_ggx.c has the mathematics and any direction, bounded_ggx_draw.h those
+ * of plain size, in float. */
 #ifndef VNDF_SAMPLER_BOUNDED_GGX_H
 #define VNDF_SAMPLER_BOUNDED_GGX_H
 
