@@ -15,11 +15,10 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     if (!w.plain)
         return vndf_prepare_bounded(b, r, wi);
     vndf_ggx_view_set(&b->view, &surface, wi, &w);
-    vndf_outlook_set(&b->view);
-    vndf_outlook o = vndf_outlook_of(&b->view);
+    vndf_outlook o = vndf_outlook_set(&b->view);
     b->area = 0.5f * (wi.z + sqrtf(x * x + y * y + wi.z * wi.z));
     if (vndf_outlook_is_plain(&b->view, &o))
-        vndf_bounds_ggx_plain(&o, b->bounds);
+        vndf_ggx_law_set(&b->view, &o);
     else
         vndf_bounds_ggx_carefully(&b->view, b->bounds);
     return 1;
@@ -45,14 +44,13 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         sample_carefully(b, u, s);
         return;
     }
-    vndf_ggx_bounded n =
-        vndf_ggx_draw_bounded(&b->view, &o, b->bounds, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]));
+    vndf_ggx_bounded n = vndf_ggx_draw_bounded(&b->view, &o, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]));
     /* wi.M = |A wi| cos(g), so neither M nor wi.wm has to be made unit */
     float stretch = 2.0f * b->area - b->view.wi.z, twice = 2.0f * stretch * n.cosine / n.length2;
     float facing = 0.5f * twice * sqrtf(n.length2);
     vndf_vec3 wi = b->view.wi, wo = {twice * n.x - wi.x, twice * n.y - wi.y, twice * n.z - wi.z};
     if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_GGX_LEAST_FACING && wo.z > 0.0f &&
-          vndf_ggx_is_settled(&o, &n, reach_of(b, facing)))) {
+          vndf_ggx_is_settled(&b->view, &o, &n, reach_of(b, facing)))) {
         sample_carefully(b, u, s);
         return;
     }
