@@ -13,9 +13,9 @@
 #ifndef VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 #define VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 
-#include "math/half_turn.h"
 #include "math/vector.h"
 #include "sampler/bounded_ggx.h"
+#include "sampler/ggx_draw.h"
 
 /* ---- directions ---- */
 
@@ -77,26 +77,23 @@ VNDF_INLINE vndf_ggx_law vndf_ggx_law_of(const vndf_view *v)
 }
 
 /* The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and
- * of the sides: fractions n/d with (M1, N) (c^2 e1 + s^2, c) c^2 and (e2, 1). The quotients do not wait for each
- * other. */
+ * of the sides. */
 VNDF_INLINE void vndf_ggx_law_set(vndf_view *v, const vndf_outlook *o)
 {
     float c = o->c, c2 = c * c, b = c * o->q, away = b + sqrtf(b * b - c * c2 * o->q * o->c0);
     float middle = o->s2 * (o->c0 * o->c0), below = away * away + c2 * middle, b2 = c * o->e12;
     float beside = fabsf(b2) + sqrtf(b2 * b2 - c * o->e2 * o->c0), side = o->s2 * (beside * beside);
     float below_side = c2 * (o->e2 * o->e2) + side;
-    float sides = vndf_is_positive(side * below - middle * below_side), rest = 1.0f - sides;
-    float n = sides * side + rest * middle, d = sides * below_side + rest * below, cn = c * n, all = d + cn;
-    float per = 1.0f / (1.0f + c), front = all / d, wedge = all / cn;
-    v->front = 0.5f * front;
-    v->wedge = 0.5f * wedge;
-    v->area = front * per;
-    v->spread = c * wedge * per;
+    float cr = c * lanes_most(middle / below, side / below_side), inverse = 1.0f / cr, per = 1.0f / (1.0f + c);
+    v->front = 0.5f + 0.5f * cr;
+    v->wedge = 0.5f + 0.5f * inverse;
+    v->area = per + per * cr;
+    v->spread = c * (per + per * inverse);
 }
 
 /* ---- drawing ---- */
 
-/* (X, Y) of a sample, (s N)^2, and the factor of its side. The angle of (X, Y), but for c, goes from 0 to pi/2 in
+/* (X, Y) of a sample but for a factor, which N has too; (s N)^2; and the factor of its side. The angle of (X, Y), but for c, goes from 0 to pi/2 in
  * front and on to pi in the wedge, slower and then faster: the larger of two lines. */
 typedef struct vndf_ggx_azimuth {
     float x, y, n2, factor;
@@ -105,10 +102,10 @@ typedef struct vndf_ggx_azimuth {
 VNDF_INLINE vndf_ggx_azimuth vndf_ggx_draw_azimuth(const vndf_outlook *o, const vndf_ggx_law *law, float half)
 {
     float part = fabsf(half), turned = lanes_most(part * law->slow, 1.0f - (1.0f - part) * law->fast);
-    float sine = vndf_sine_quarter(lanes_least(turned, 1.0f - turned)), cosine = vndf_sine_quarter(0.5f - turned);
-    float ahead = vndf_is_positive(0.5f - turned), behind = 1.0f - ahead, x = (ahead + behind * o->c) * cosine;
-    vndf_ggx_azimuth a = {x, copysignf(sine, half), o->s2 * (x * x + sine * sine),
-                          ahead * law->in_front + behind * law->in_wedge};
+    vndf_half_azimuth turn = vndf_half_azimuth_at(turned);
+    float ahead = vndf_is_positive(0.5f - turned), behind = 1.0f - ahead, x = (ahead + behind * o->c) * turn.cosine;
+    vndf_ggx_azimuth a = {x, copysignf(turn.sine, half), o->s2 * (x * x + turn.sine * turn.sine),
+                          o->s2 * turn.square * (ahead * law->in_front + behind * law->in_wedge)};
     return a;
 }
 
@@ -125,7 +122,7 @@ VNDF_INLINE vndf_ggx_chord vndf_ggx_draw_chord(const vndf_outlook *o, const vndf
     float above = toward * sum - away * o->c0, below = away * sum + toward * a;
     float above2 = above * above, below2 = below * below, all = at->n2 * above2, per = 1.0f / (below2 + all);
     float part = above2 * per;
-    vndf_ggx_chord h = {square, root, o->s2 * part, u2 * part, (below2 + (1.0f - u2) * all) * per, below2 * per};
+    vndf_ggx_chord h = {square, root, part, u2 * part, (below2 + (1.0f - u2) * all) * per, below2 * per};
     return h;
 }
 
