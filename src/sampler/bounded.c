@@ -81,7 +81,9 @@ void vndf_bounds_of(vndf_view *view, double bounds[VNDF_BOUNDS])
         return;
     }
     vndf_closed_turn(view);
-    view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
+    view->spread = view->plain ? view->closed[5] * view->s * 0.318309886f
+                               : (float)(vndf_unit_area(view->distribution, view->s, view->c) *
+                                         (view->alpha_x * view->alpha_y));
     vndf_bounds_beckmann(view, bounds);
 }
 

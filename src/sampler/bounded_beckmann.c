@@ -13,6 +13,7 @@
  * steps. */
 #include "math/elementary.h"
 #include "math/erf_quantile.h"
+#include "math/gauss_lanes.h"
 #include "math/vector.h"
 #include "sampler/beckmann.h"
 #include "sampler/bounded.h"
@@ -42,10 +43,38 @@ static vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_
     return law;
 }
 
+/* The part of the law before x, of a plain view, in float: to 3e-7. Beyond 4 there is less than that. */
+static double part_in_float(const vndf_view *view, double x)
+{
+    float bound = view->closed[2], line = view->closed[3], whole = 1.0f + (line + view->closed[4]);
+    float z = lanes_least(fabsf((float)x), 4.0f), side = x < 0.0 ? 1.0f : -1.0f, fall = vndf_exp_lanes(-(z * z));
+    vndf_erfc_ratio e = vndf_erfc_lanes(z);
+    float tail = fall * (1.0f + side * (bound * (e.above / e.below)));
+    return (x < 0.0 ? tail : tail + line) / whole;
+}
+
+/* Of a plain view it is in the view. */
+static vndf_beckmann_law law_at(const vndf_view *view)
+{
+    if (!view->plain)
+        return vndf_beckmann_law_at(view->s, view->c);
+    double bound = vndf_beckmann_bound(view->s, view->c), line = view->closed[3], tail = view->closed[4];
+    double scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
+    vndf_beckmann_law law = {bound, scale * (1.0 + (line + tail)), scale * line};
+    return law;
+}
+
 /* Beyond 7 there is nothing. */
+static double part_at(const vndf_view *view, const vndf_beckmann_law *law, double x)
+{
+    if (view->plain)
+        return part_in_float(view, x);
+    return x < -7.0 ? 0.0 : x > 7.0 ? 1.0 : vndf_beckmann_part(law, x, law->bound - x);
+}
+
 void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
-    vndf_beckmann_law law = vndf_beckmann_law_at(view->s, view->c);
+    vndf_beckmann_law law = law_at(view);
     vndf_stretched w = vndf_stretched_of(view);
     double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
     bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
@@ -56,9 +85,8 @@ void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
     double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds[X0] = -sum / e.det;
     bounds[X1] = e.qyy / sum;
-    bounds[BEGIN] = bounds[X0] < -7.0 ? 0.0 : vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
-    bounds[SPAN] = (bounds[X1] > 7.0 ? 1.0 : vndf_beckmann_part(&law, bounds[X1], law.bound - bounds[X1]))
-                 - bounds[BEGIN];
+    bounds[BEGIN] = part_at(view, &law, bounds[X0]);
+    bounds[SPAN] = part_at(view, &law, bounds[X1]) - bounds[BEGIN];
 }
 
 /* ---- the chord ---- */
