@@ -13,9 +13,9 @@
  * steps. */
 #include "math/elementary.h"
 #include "math/erf_quantile.h"
-#include "math/gauss_lanes.h"
 #include "math/vector.h"
 #include "sampler/beckmann.h"
+#include "sampler/beckmann_draw.h"
 #include "sampler/bounded.h"
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
@@ -107,16 +107,40 @@ static double short_part(double low, double high)
     return half * sum / (9.0 * vndf_root_pi);
 }
 
-static chord chord_at(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
+/* But for its part. */
+static chord chord_on(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
 {
     double square = e->det * (bounds[X1] - x) * (x - bounds[X0]);
     double half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
     double middle = -e->qxy * x / e->qyy;
     chord h = {-fabs(middle) - half, -fabs(middle) + half, 0.0, 0.0, middle > 0.0, 0};
     h.is_short = half * (1.0 + fabs(middle)) < 0.125;
-    h.before = vndf_half_erfc(-h.low);
-    h.part = h.is_short ? short_part(h.low, h.high) : vndf_half_erfc(-h.high) - h.before;
     return h;
+}
+
+static void weigh_chord(chord *h)
+{
+    h->before = vndf_half_erfc(-h->low);
+    h->part = h->is_short ? short_part(h->low, h->high) : vndf_half_erfc(-h->high) - h->before;
+}
+
+/* erfc(-x)/2 to 2e-7. */
+static float half_erfc_in_float(float x)
+{
+    float z = lanes_least(fabsf(x), 4.0f);
+    vndf_erfc_ratio e = vndf_erfc_lanes(z);
+    float tail = 0.282094792f * vndf_exp_lanes(-(z * z)) * (e.above / e.below);
+    return x < 0.0f ? tail : 1.0f - tail;
+}
+
+/* In float where that leaves kept its digits. */
+static void weigh_chord_in_float(chord *h)
+{
+    float before = half_erfc_in_float((float)h->low), part = half_erfc_in_float((float)h->high) - before;
+    h->before = before;
+    h->part = part;
+    if (h->is_short || !(part > 0.1f))
+        weigh_chord(h);
 }
 
 /* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord.
@@ -129,6 +153,9 @@ static double short_draw(const chord *h, double u)
     return y;
 }
 
+/* From here on float has starting values and quantiles (beckmann_draw.h). */
+static const float LEAST_MIDDLE = 3.4e-4f;
+
 static double draw_across(const chord *h, double u)
 {
     if (h->mirrored)
@@ -136,6 +163,8 @@ static double draw_across(const chord *h, double u)
     double v = h->before + u * h->part, y = 0.0;
     if (h->is_short && h->part > 1e-300)
         y = short_draw(h, u);
+    else if (vndf_beckmann_product((float)v) > LEAST_MIDDLE)
+        y = vndf_beckmann_second((float)v);
     else
         y = vndf_erf_quantile(v > 0x1p-64 ? (v < 1.0 - 0x1p-26 ? v : 1.0 - 0x1p-26) : 0x1p-64);
     y = y > h->low ? (y < h->high ? y : h->high) : h->low;
@@ -149,7 +178,8 @@ vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const doubl
 {
     ellipse e = ellipse_of(view, bounds);
     double along = bounds[COS_PHI] * wm.x / view->alpha_x + bounds[SIN_PHI] * wm.y / view->alpha_y;
-    chord h = chord_at(&e, bounds, -along / wm.z);
+    chord h = chord_on(&e, bounds, -along / wm.z);
+    weigh_chord(&h);
     vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing), bounds[SPAN] * h.part};
     return at;
 }
@@ -167,13 +197,29 @@ static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], c
     return plain && change < 30.0 * h->part * e->qyy * root;
 }
 
+/* The slope along wi. */
+static double draw_along(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1)
+{
+    double u = bounds[BEGIN] + u1 * bounds[SPAN], x;
+    if (view->plain && vndf_beckmann_product((float)u) > LEAST_MIDDLE) {
+        vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
+        x = vndf_beckmann_step(&w, vndf_beckmann_first(&w, (float)u), (float)u).x;
+    } else {
+        vndf_beckmann_law law = law_of(view, bounds);
+        x = vndf_beckmann_slope(&law, u);
+    }
+    return x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
+}
+
 vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
 {
     ellipse e = ellipse_of(view, bounds);
-    vndf_beckmann_law law = law_of(view, bounds);
-    double x = vndf_beckmann_slope(&law, bounds[BEGIN] + u1 * bounds[SPAN]);
-    x = x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
-    chord h = chord_at(&e, bounds, x);
+    double x = draw_along(view, bounds, u1);
+    chord h = chord_on(&e, bounds, x);
+    if (view->plain)
+        weigh_chord_in_float(&h);
+    else
+        weigh_chord(&h);
     double y = draw_across(&h, u2), c = bounds[COS_PHI], s = bounds[SIN_PHI];
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
     double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
