@@ -2,8 +2,7 @@
 #include "sampler/bounded.h"
 
 #include "math/vector.h"
-#include "sampler/closed_view.h"
-#include "sampler/engine.h"
+#include "table/table.h"
 
 /* wo.z over wi.z for the normal as it is, or less: per square of its length, and as if that were 1. */
 static double rise_of(const vndf_view *view, vndf_normal wm)
@@ -76,15 +75,10 @@ void vndf_bounds_of(vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     if (!is_drawn(view) || view->distribution->kind == VNDF_KIND_TABLE)
         return;
-    if (view->distribution->kind == VNDF_KIND_GGX) {
+    if (view->distribution->kind == VNDF_KIND_GGX)
         vndf_bounds_ggx(view, bounds);
-        return;
-    }
-    vndf_closed_turn(view);
-    view->spread = view->plain ? view->closed[5] * view->s * 0.318309886f
-                               : (float)(vndf_unit_area(view->distribution, view->s, view->c) *
-                                         (view->alpha_x * view->alpha_y));
-    vndf_bounds_beckmann(view, bounds);
+    else
+        vndf_bounds_beckmann(view, bounds);
 }
 
 vndf_bounded vndf_sample_bounded(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)

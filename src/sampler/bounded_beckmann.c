@@ -17,6 +17,7 @@
 #include "sampler/beckmann.h"
 #include "sampler/beckmann_draw.h"
 #include "sampler/bounded.h"
+#include "sampler/engine.h"
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
 
@@ -37,12 +38,6 @@ static ellipse ellipse_of(const vndf_view *view, const double bounds[VNDF_BOUNDS
     return e;
 }
 
-static vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
-{
-    vndf_beckmann_law law = {vndf_beckmann_bound(view->s, view->c), bounds[WHOLE], bounds[LINE]};
-    return law;
-}
-
 /* The part of the law before x, of a plain view, in float: to 3e-7. Beyond 4 there is less than that. */
 static double part_in_float(const vndf_view *view, double x)
 {
@@ -53,40 +48,51 @@ static double part_in_float(const vndf_view *view, double x)
     return (x < 0.0 ? tail : tail + line) / whole;
 }
 
-/* Of a plain view it is in the view. */
-static vndf_beckmann_law law_at(const vndf_view *view)
+/* Of a plain view it is in the view; else in `bounds`. */
+VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
 {
-    if (!view->plain)
-        return vndf_beckmann_law_at(view->s, view->c);
     double bound = vndf_beckmann_bound(view->s, view->c), line = view->closed[3], tail = view->closed[4];
     double scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
-    vndf_beckmann_law law = {bound, scale * (1.0 + (line + tail)), scale * line};
-    return law;
+    vndf_beckmann_law plain = {bound, scale * (1.0 + (line + tail)), scale * line};
+    vndf_beckmann_law law = {bound, bounds[WHOLE], bounds[LINE]};
+    return view->plain ? plain : law;
 }
 
 /* Beyond 7 there is nothing. */
-static double part_at(const vndf_view *view, const vndf_beckmann_law *law, double x)
+static void set_law(vndf_view *view, double bounds[VNDF_BOUNDS])
 {
-    if (view->plain)
-        return part_in_float(view, x);
-    return x < -7.0 ? 0.0 : x > 7.0 ? 1.0 : vndf_beckmann_part(law, x, law->bound - x);
-}
-
-void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
-{
-    vndf_beckmann_law law = law_at(view);
-    vndf_stretched w = vndf_stretched_of(view);
-    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
-    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
-    bounds[SIN_PHI] = w.y * per;
+    vndf_beckmann_law law = vndf_beckmann_law_at(view->s, view->c);
+    double x0 = bounds[X0], x1 = bounds[X1];
     bounds[WHOLE] = law.whole;
     bounds[LINE] = law.line;
+    bounds[BEGIN] = x0 < -7.0 ? 0.0 : vndf_beckmann_part(&law, x0, law.bound - x0);
+    bounds[SPAN] = (x1 > 7.0 ? 1.0 : vndf_beckmann_part(&law, x1, law.bound - x1)) - bounds[BEGIN];
+    view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
+}
+
+static void set_law_in_float(vndf_view *view, double bounds[VNDF_BOUNDS])
+{
+    bounds[BEGIN] = part_in_float(view, bounds[X0]);
+    bounds[SPAN] = part_in_float(view, bounds[X1]) - bounds[BEGIN];
+    view->spread = view->closed[5] * view->s * 0.318309886f;
+}
+
+void vndf_bounds_beckmann(vndf_view *view, double bounds[VNDF_BOUNDS])
+{
+    vndf_stretched w = vndf_stretched_of(view);
+    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
+    view->s = (float)w.s;
+    view->c = (float)w.c;
+    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
+    bounds[SIN_PHI] = w.y * per;
     ellipse e = ellipse_of(view, bounds);
     double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds[X0] = -sum / e.det;
     bounds[X1] = e.qyy / sum;
-    bounds[BEGIN] = part_at(view, &law, bounds[X0]);
-    bounds[SPAN] = part_at(view, &law, bounds[X1]) - bounds[BEGIN];
+    if (view->plain)
+        set_law_in_float(view, bounds);
+    else
+        set_law(view, bounds);
 }
 
 /* ---- the chord ---- */
@@ -130,7 +136,7 @@ static float half_erfc_in_float(float x)
     float z = lanes_least(fabsf(x), 4.0f);
     vndf_erfc_ratio e = vndf_erfc_lanes(z);
     float tail = 0.282094792f * vndf_exp_lanes(-(z * z)) * (e.above / e.below);
-    return x < 0.0f ? tail : 1.0f - tail;
+    return 0.5f + copysignf(0.5f - tail, x); /* no branch would foresee the side */
 }
 
 /* In float where that leaves kept its digits. */
@@ -226,7 +232,8 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
     if (!(1.00001 * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
         return vndf_bounded_settled(view, bounds, m);
     double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
-    double density = vndf_beckmann_p22(x * x + y * y) * (up * length2 * length) / (view->spread * kept);
+    float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));
+    double density = p22 * (up * length2 * length) / (view->spread * kept);
     vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
     vndf_bounded b = {wm, (float)density, (float)kept};
     return b;
