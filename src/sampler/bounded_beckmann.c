@@ -136,7 +136,7 @@ static float half_erfc_in_float(float x)
     float z = lanes_least(fabsf(x), 4.0f);
     vndf_erfc_ratio e = vndf_erfc_lanes(z);
     float tail = 0.282094792f * vndf_exp_lanes(-(z * z)) * (e.above / e.below);
-    return 0.5f + copysignf(0.5f - tail, x); /* no branch would foresee the side */
+    return x < 0.0f ? tail : 1.0f - tail;
 }
 
 /* In float where that leaves kept its digits. */
