@@ -2,8 +2,7 @@
 #include "sampler/bounded.h"
 
 #include "math/vector.h"
-#include "sampler/closed_view.h"
-#include "sampler/engine.h"
+#include "table/table.h"
 
 /* wo.z over wi.z for the normal as it is, or less: per square of its length, and as if that were 1. */
 static double rise_of(const vndf_view *view, vndf_normal wm)
@@ -74,12 +73,8 @@ static int is_drawn(const vndf_view *view)
 
 void vndf_bounds_of(vndf_view *view, double bounds[VNDF_BOUNDS])
 {
-    for (int i = 0; i < VNDF_BOUNDS; i++)
-        bounds[i] = 0.0;
     if (!is_drawn(view) || view->distribution->kind == VNDF_KIND_TABLE)
         return;
-    vndf_closed_turn(view);
-    view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
     if (view->distribution->kind == VNDF_KIND_GGX)
         vndf_bounds_ggx(view, bounds);
     else

@@ -56,12 +56,12 @@ typedef struct vndf_bounded_factors {
 vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2);
 vndf_bounded_factors vndf_bounded_table_at(const vndf_view *view, vndf_normal wm, double facing);
 
-void vndf_bounds_ggx(const vndf_view *view, double bounds[VNDF_BOUNDS]);
+void vndf_bounds_ggx(vndf_view *view, double bounds[VNDF_BOUNDS]);
 vndf_bounded vndf_bounded_ggx(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2);
 vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bounds[VNDF_BOUNDS], vndf_normal wm,
                                          double facing);
 
-void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS]);
+void vndf_bounds_beckmann(vndf_view *view, double bounds[VNDF_BOUNDS]);
 vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2);
 vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const double bounds[VNDF_BOUNDS],
                                               vndf_normal wm, double facing);

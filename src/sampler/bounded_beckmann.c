@@ -15,7 +15,9 @@
 #include "math/erf_quantile.h"
 #include "math/vector.h"
 #include "sampler/beckmann.h"
+#include "sampler/beckmann_draw.h"
 #include "sampler/bounded.h"
+#include "sampler/engine.h"
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
 
@@ -36,29 +38,61 @@ static ellipse ellipse_of(const vndf_view *view, const double bounds[VNDF_BOUNDS
     return e;
 }
 
-static vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
+/* The part of the law before x, of a plain view, in float: to 3e-7. Beyond 4 there is less than that. */
+static double part_in_float(const vndf_view *view, double x)
 {
-    vndf_beckmann_law law = {vndf_beckmann_bound(view->s, view->c), bounds[WHOLE], bounds[LINE]};
-    return law;
+    float bound = view->closed[2], line = view->closed[3], whole = 1.0f + (line + view->closed[4]);
+    float z = lanes_least(fabsf((float)x), 4.0f), side = x < 0.0 ? 1.0f : -1.0f, fall = vndf_exp_lanes(-(z * z));
+    vndf_erfc_ratio e = vndf_erfc_lanes(z);
+    float tail = fall * (1.0f + side * (bound * (e.above / e.below)));
+    return (x < 0.0 ? tail : tail + line) / whole;
+}
+
+/* Of a plain view it is in the view; else in `bounds`. */
+VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
+{
+    double bound = vndf_beckmann_bound(view->s, view->c), line = view->closed[3], tail = view->closed[4];
+    double scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
+    vndf_beckmann_law plain = {bound, scale * (1.0 + (line + tail)), scale * line};
+    vndf_beckmann_law law = {bound, bounds[WHOLE], bounds[LINE]};
+    return view->plain ? plain : law;
 }
 
 /* Beyond 7 there is nothing. */
-void vndf_bounds_beckmann(const vndf_view *view, double bounds[VNDF_BOUNDS])
+static void set_law(vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     vndf_beckmann_law law = vndf_beckmann_law_at(view->s, view->c);
-    vndf_stretched w = vndf_stretched_of(view);
-    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
-    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
-    bounds[SIN_PHI] = w.y * per;
+    double x0 = bounds[X0], x1 = bounds[X1];
     bounds[WHOLE] = law.whole;
     bounds[LINE] = law.line;
+    bounds[BEGIN] = x0 < -7.0 ? 0.0 : vndf_beckmann_part(&law, x0, law.bound - x0);
+    bounds[SPAN] = (x1 > 7.0 ? 1.0 : vndf_beckmann_part(&law, x1, law.bound - x1)) - bounds[BEGIN];
+    view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
+}
+
+static void set_law_in_float(vndf_view *view, double bounds[VNDF_BOUNDS])
+{
+    bounds[BEGIN] = part_in_float(view, bounds[X0]);
+    bounds[SPAN] = part_in_float(view, bounds[X1]) - bounds[BEGIN];
+    view->spread = view->closed[5] * view->s * 0.318309886f;
+}
+
+void vndf_bounds_beckmann(vndf_view *view, double bounds[VNDF_BOUNDS])
+{
+    vndf_stretched w = vndf_stretched_of(view);
+    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
+    view->s = (float)w.s;
+    view->c = (float)w.c;
+    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
+    bounds[SIN_PHI] = w.y * per;
     ellipse e = ellipse_of(view, bounds);
     double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds[X0] = -sum / e.det;
     bounds[X1] = e.qyy / sum;
-    bounds[BEGIN] = bounds[X0] < -7.0 ? 0.0 : vndf_beckmann_part(&law, bounds[X0], law.bound - bounds[X0]);
-    bounds[SPAN] = (bounds[X1] > 7.0 ? 1.0 : vndf_beckmann_part(&law, bounds[X1], law.bound - bounds[X1]))
-                 - bounds[BEGIN];
+    if (view->plain)
+        set_law_in_float(view, bounds);
+    else
+        set_law(view, bounds);
 }
 
 /* ---- the chord ---- */
@@ -79,16 +113,40 @@ static double short_part(double low, double high)
     return half * sum / (9.0 * vndf_root_pi);
 }
 
-static chord chord_at(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
+/* But for its part. */
+static chord chord_on(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
 {
     double square = e->det * (bounds[X1] - x) * (x - bounds[X0]);
     double half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
     double middle = -e->qxy * x / e->qyy;
     chord h = {-fabs(middle) - half, -fabs(middle) + half, 0.0, 0.0, middle > 0.0, 0};
     h.is_short = half * (1.0 + fabs(middle)) < 0.125;
-    h.before = vndf_half_erfc(-h.low);
-    h.part = h.is_short ? short_part(h.low, h.high) : vndf_half_erfc(-h.high) - h.before;
     return h;
+}
+
+static void weigh_chord(chord *h)
+{
+    h->before = vndf_half_erfc(-h->low);
+    h->part = h->is_short ? short_part(h->low, h->high) : vndf_half_erfc(-h->high) - h->before;
+}
+
+/* erfc(-x)/2 to 2e-7. */
+static float half_erfc_in_float(float x)
+{
+    float z = lanes_least(fabsf(x), 4.0f);
+    vndf_erfc_ratio e = vndf_erfc_lanes(z);
+    float tail = 0.282094792f * vndf_exp_lanes(-(z * z)) * (e.above / e.below);
+    return x < 0.0f ? tail : 1.0f - tail;
+}
+
+/* In float where that leaves kept its digits. */
+static void weigh_chord_in_float(chord *h)
+{
+    float before = half_erfc_in_float((float)h->low), part = half_erfc_in_float((float)h->high) - before;
+    h->before = before;
+    h->part = part;
+    if (h->is_short || !(part > 0.1f))
+        weigh_chord(h);
 }
 
 /* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord.
@@ -101,6 +159,9 @@ static double short_draw(const chord *h, double u)
     return y;
 }
 
+/* From here on float has starting values and quantiles (beckmann_draw.h). */
+static const float LEAST_MIDDLE = 3.4e-4f;
+
 static double draw_across(const chord *h, double u)
 {
     if (h->mirrored)
@@ -108,6 +169,8 @@ static double draw_across(const chord *h, double u)
     double v = h->before + u * h->part, y = 0.0;
     if (h->is_short && h->part > 1e-300)
         y = short_draw(h, u);
+    else if (vndf_beckmann_product((float)v) > LEAST_MIDDLE)
+        y = vndf_beckmann_second((float)v);
     else
         y = vndf_erf_quantile(v > 0x1p-64 ? (v < 1.0 - 0x1p-26 ? v : 1.0 - 0x1p-26) : 0x1p-64);
     y = y > h->low ? (y < h->high ? y : h->high) : h->low;
@@ -121,7 +184,8 @@ vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const doubl
 {
     ellipse e = ellipse_of(view, bounds);
     double along = bounds[COS_PHI] * wm.x / view->alpha_x + bounds[SIN_PHI] * wm.y / view->alpha_y;
-    chord h = chord_at(&e, bounds, -along / wm.z);
+    chord h = chord_on(&e, bounds, -along / wm.z);
+    weigh_chord(&h);
     vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing), bounds[SPAN] * h.part};
     return at;
 }
@@ -139,20 +203,37 @@ static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], c
     return plain && change < 30.0 * h->part * e->qyy * root;
 }
 
+/* The slope along wi. */
+static double draw_along(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1)
+{
+    double u = bounds[BEGIN] + u1 * bounds[SPAN], x;
+    if (view->plain && vndf_beckmann_product((float)u) > LEAST_MIDDLE) {
+        vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
+        x = vndf_beckmann_step(&w, vndf_beckmann_first(&w, (float)u), (float)u).x;
+    } else {
+        vndf_beckmann_law law = law_of(view, bounds);
+        x = vndf_beckmann_slope(&law, u);
+    }
+    return x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
+}
+
 vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
 {
     ellipse e = ellipse_of(view, bounds);
-    vndf_beckmann_law law = law_of(view, bounds);
-    double x = vndf_beckmann_slope(&law, bounds[BEGIN] + u1 * bounds[SPAN]);
-    x = x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
-    chord h = chord_at(&e, bounds, x);
+    double x = draw_along(view, bounds, u1);
+    chord h = chord_on(&e, bounds, x);
+    if (view->plain)
+        weigh_chord_in_float(&h);
+    else
+        weigh_chord(&h);
     double y = draw_across(&h, u2), c = bounds[COS_PHI], s = bounds[SIN_PHI];
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
     double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
     if (!(1.00001 * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
         return vndf_bounded_settled(view, bounds, m);
     double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
-    double density = vndf_beckmann_p22(x * x + y * y) * (up * length2 * length) / (view->spread * kept);
+    float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));
+    double density = p22 * (up * length2 * length) / (view->spread * kept);
     vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
     vndf_bounded b = {wm, (float)density, (float)kept};
     return b;

@@ -27,7 +27,7 @@
 #include "math/elementary.h"
 #include "math/half_turn.h"
 #include "math/vector.h"
-#include "sampler/bounded_ggx.h"
+#include "sampler/bounded_ggx_draw.h"
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
 
@@ -150,9 +150,25 @@ void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS]
 
 /* ---- in double ---- */
 
+/* Where the direction is plain its law is in the view. */
+static const double *law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS], double law[VNDF_BOUNDS])
+{
+    vndf_outlook o = vndf_outlook_of(view);
+    vndf_ggx_law plain = vndf_ggx_law_of(view);
+    if (!vndf_outlook_is_plain(view, &o))
+        return bounds;
+    law[VNDF_GGX_FRONT] = 0.5 / plain.slow;
+    law[VNDF_GGX_IN_FRONT] = plain.in_front;
+    law[VNDF_GGX_IN_WEDGE] = plain.in_wedge;
+    law[VNDF_GGX_BEGIN] = 0.0;
+    law[VNDF_GGX_SPAN] = 1.0;
+    return law;
+}
+
 vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bounds[VNDF_BOUNDS], vndf_normal wm,
                                          double facing)
 {
+    double law[VNDF_BOUNDS];
     frame f = frame_of(view);
     double x = wm.x / f.ax, y = wm.y / f.ay, along = f.cos_phi * x + f.sin_phi * y;
     double cosine = f.s * wm.z - f.c * along, sine = f.cos_phi * y - f.sin_phi * x;
@@ -160,7 +176,7 @@ vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bou
     cosine = length > 0.0 ? cosine * per : 1.0;
     chord h = chord_at(&f, cosine, sine * per);
     vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing),
-                               h.part * bounds[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
+                               h.part * law_of(view, bounds, law)[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
     return at;
 }
 
@@ -184,8 +200,8 @@ vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double boun
                                         float u2)
 {
     frame f = frame_of(view);
-    double azimuth[2];
-    draw_azimuth(&f, bounds, u1, azimuth);
+    double azimuth[2], law[VNDF_BOUNDS];
+    draw_azimuth(&f, law_of(view, bounds, law), u1, azimuth);
     double per = 1.0 / sqrt(azimuth[0] * azimuth[0] + azimuth[1] * azimuth[1]);
     chord h = chord_at(&f, azimuth[0] * per, azimuth[1] * per);
     double rest = 1.0 - u2;
