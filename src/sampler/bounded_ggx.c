@@ -133,6 +133,7 @@ static void find_tangents(const frame *f, double bounds[VNDF_BOUNDS])
 void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS])
 {
     frame f = frame_of(view);
+    bounds[VNDF_GGX_BEGIN] = 0.0;
     bounds[VNDF_GGX_FRONT] = 1.0 / (1.0 + f.c);
     bounds[VNDF_GGX_IN_FRONT] = bounds[VNDF_GGX_IN_WEDGE] = bounds[VNDF_GGX_SPAN] = 1.0;
     if (f.c0 > 0.0) {
