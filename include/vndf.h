@@ -151,11 +151,12 @@ typedef struct vndf_view {
     vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
     double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
     float ax, ay;                  /* the same */
+    int plain;                     /* densities may be formed in float */
+    float closed[12];              /* closed forms: what drawing in float takes, 0 where it is not plain */
+    /* The others are of tables, and 0 for closed forms. */
     float s, c, cos_phi, sin_phi;  /* stretched direction: across (>= 0), along z; its azimuth */
     float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
     float area, spread;            /* projected area of the unit problem; times ax ay */
-    int plain;                     /* densities may be formed in float */
-    double whole, line;            /* Beckmann: what its inversion wants of the direction */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the

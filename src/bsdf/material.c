@@ -86,7 +86,10 @@ static const vndf_routines *routines_of(const vndf_description *is)
         return &vndf_routines_transmission[e->normals];
     if (e->lobes == VNDF_LOBES_BOTH)
         return &vndf_routines_both[e->normals];
-    if (e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED)
+    int bare = e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
+    if (bare && e->normals == VNDF_NORMALS_VISIBLE && is->distribution == vndf_ggx())
+        return &vndf_routines_bare_ggx;
+    if (bare)
         return &vndf_routines_bare[e->normals];
     return &vndf_routines_reflection[e->normals];
 }

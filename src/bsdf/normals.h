@@ -27,10 +27,11 @@ VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf
     vndf_view_set(&b->view, &surface, wi);
     if (!b->view.distribution)
         return 0;
-    float x = b->view.ax * wi.x, y = b->view.ay * wi.y, across2 = x * x + y * y;
-    float length = b->view.distribution->kind == VNDF_KIND_TABLE ? sqrtf(across2) + wi.z
-                                                                 : sqrtf(across2 + wi.z * wi.z);
-    b->area = b->view.area * length;
+    if (surface.distribution->kind == VNDF_KIND_TABLE) {
+        float x = b->view.ax * wi.x, y = b->view.ay * wi.y;
+        b->area = b->view.area * (sqrtf(x * x + y * y) + wi.z);
+    } else
+        b->area = vndf_bsdf_area(b, wi);
     return 1;
 }
 

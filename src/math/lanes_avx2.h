@@ -57,6 +57,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return _mm256_or_ps(_mm256_and_ps(sign, y), _mm256_andnot_ps(sign, x));
 }
 
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return _mm256_max_ps(a, b);
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return _mm256_set1_epi32(-1);
@@ -102,6 +112,11 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(m));
 }
 
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return lanes_pick(m, lanes_set(pair[1]), lanes_set(pair[0]));
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return (lanes_u)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, m);
@@ -120,6 +135,16 @@ VNDF_INLINE lanes_u lanes_bits(lanes_f x)
 VNDF_INLINE lanes_u lanes_whole(lanes_f x)
 {
     return (lanes_u)_mm256_cvttps_epi32(x);
+}
+
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    return _mm256_castsi256_ps((__m256i)x);
+}
+
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    return _mm256_cvtepi32_ps((__m256i)x);
 }
 
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)

@@ -36,23 +36,11 @@ VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f 
     return aim;
 }
 
-/* The same for GGX, s^2 + c^2 = 1. */
-VNDF_INLINE vndf_aim vndf_aim_unit(lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
-{
-    lanes_f across2 = x * x + y * y, across = lanes_root(across2), length = lanes_root(across2 + z * z);
-    lanes_f per = 1.0f / (across * length), c = z * (across * per);
-    *ready = lanes_both(*ready, vndf_aim_is_ready(across2, z, length));
-    vndf_aim aim = {across2 * per, c, x * (length * per), y * (length * per), lanes_set(0.0f), lanes_set(0.0f),
-                    0.5f + 0.5f * c};
-    return aim;
-}
-
 /* Whether densities may be formed in float: nothing underflows on the way. */
 VNDF_INLINE lanes_m vndf_aim_is_plain(lanes_f ax, lanes_f ay, lanes_f c)
 {
-    const lanes_f least = lanes_set(1e-4f), most = lanes_set(1e4f);
-    lanes_m low = lanes_both(lanes_at_most(least, ax), lanes_at_most(least, ay));
-    lanes_m high = lanes_both(lanes_at_most(ax, most), lanes_at_most(ay, most));
+    lanes_m low = lanes_less(lanes_set(1e-4f), lanes_least(ax, ay));
+    lanes_m high = lanes_less(lanes_most(ax, ay), lanes_set(1e4f));
     return lanes_both(lanes_both(low, high), lanes_less(lanes_set(1e-6f), c));
 }
 

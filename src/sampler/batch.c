@@ -1,4 +1,5 @@
 /* The calls of many: in lanes where there are any, else one after the other. */
+#include <stdint.h>
 #include <string.h>
 
 #include "core/inline.h"
@@ -118,12 +119,13 @@ static void sample_one_by_one(const vndf_batch *b, const float *u1, const float 
 
 #if VNDF_HAS_LANES
 
-enum { INPUTS = 7 };
+enum { INPUTS = 7, RESULTS = 4 };
 
 /* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
- * lanes would read beyond. */
+ * lanes would read beyond. Results that do not go where they belong at once: those of the last, and all where what
+ * is read may lie there. */
 typedef struct copies {
-    float of[INPUTS][VNDF_BLOCK_SAMPLES];
+    float of[INPUTS][VNDF_BLOCK_SAMPLES], result[RESULTS][VNDF_BLOCK_SAMPLES];
 } copies;
 
 static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
@@ -156,6 +158,34 @@ static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t firs
     block->wi_z = input_at(b->wi_z, wi, first, n, c->of[6]);
 }
 
+static int overlap(const float *a, const float *b, size_t count)
+{
+    uintptr_t first = (uintptr_t)a, second = (uintptr_t)b, bytes = count * sizeof(float);
+    return first < second + bytes && second < first + bytes;
+}
+
+/* Whether no result lies where a number is read from. */
+static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, const float *pdf)
+{
+    const float *read[INPUTS] = {u1, u2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
+    const float *written[RESULTS] = {wm.x, wm.y, wm.z, pdf};
+    for (int i = 0; i < INPUTS; i++)
+        for (int j = 0; j < RESULTS; j++)
+            if (written[j] && overlap(read[i], written[j], b->count))
+                return 0;
+    return 1;
+}
+
+/* Where the results of a block go first. */
+static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm, float *pdf)
+{
+    int at_once = apart && block->count == VNDF_BLOCK_SAMPLES;
+    block->x = at_once ? wm.x + first : c->result[0];
+    block->y = at_once ? wm.y + first : c->result[1];
+    block->z = at_once ? wm.z + first : c->result[2];
+    block->density = at_once && pdf ? pdf + first : c->result[3];
+}
+
 /* What lanes have left, before the block's results go where its numbers may have come from. */
 static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
@@ -171,9 +201,31 @@ static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t fi
     }
 }
 
+/* Those that are not there yet. */
+static void move_results(const vndf_sample_block *block, size_t first, vndf_normals wm, float *pdf)
+{
+    size_t bytes = block->count * sizeof(float);
+    if (pdf && block->density != pdf + first)
+        memcpy(pdf + first, block->density, bytes);
+    if (block->x == wm.x + first)
+        return;
+    memcpy(wm.x + first, block->x, bytes);
+    memcpy(wm.y + first, block->y, bytes);
+    memcpy(wm.z + first, block->z, bytes);
+}
+
+static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
+{
+    if (wide)
+        vndf_sample_block_avx512(b->distribution, block);
+    else
+        vndf_sample_block_avx2(b->distribution, block);
+}
+
 static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
+    int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, u1, u2, wm, pdf);
     vndf_view view;
     vndf_sample_block block;
     copies own;
@@ -190,25 +242,17 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
         aim_block(&block, b, first, u1, u2, &own);
-        if (wide)
-            vndf_sample_block_avx512(b->distribution, &block);
-        else
-            vndf_sample_block_avx2(b->distribution, &block);
+        place_results(&block, &own, first, apart, wm, pdf);
+        draw_block(b, &block, wide);
         sample_left(&block, b, first);
-        size_t bytes = block.count * sizeof(float);
-        memcpy(wm.x + first, block.x, bytes);
-        memcpy(wm.y + first, block.y, bytes);
-        memcpy(wm.z + first, block.z, bytes);
-        if (pdf)
-            memcpy(pdf + first, block.density, bytes);
+        move_results(&block, first, wm, pdf);
     }
 }
 
 /* Whether lanes draw most samples of a batch. */
 static int has_lanes(const vndf_batch *b)
 {
-    return b->count > 1 && b->distribution && b->distribution->kind != VNDF_KIND_BECKMANN &&
-           vndf_unit_scale_float(b->distribution) > 0.0f &&
+    return b->count > 1 && b->distribution && vndf_unit_scale_float(b->distribution) > 0.0f &&
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 

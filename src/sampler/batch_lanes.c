@@ -1,6 +1,7 @@
 /* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
 #include "sampler/batch_lanes.h"
 
+#include "sampler/beckmann_draw.h"
 #include "sampler/ggx_draw.h"
 #include "sampler/surface.h"
 
@@ -67,7 +68,7 @@ VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_s
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     lanes_m ready = lanes_all();
     lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
-    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
+    vndf_aim aim = vndf_aim_at(d, x, y, z, &ready);
     vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
     w.plain = lanes_both(w.plain, ready);
     return w;
@@ -203,18 +204,65 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, c
 
 /* ---- GGX ---- */
 
-VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    vndf_incidence shared;
+    return vndf_ggx_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                        lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+VNDF_INLINE void draw_ggx(vndf_sample_block *b)
+{
+    vndf_ggx_incidence shared;
     if (b->view)
-        shared = vndf_incidence_of(b->view);
+        shared = vndf_ggx_incidence_of(b->view);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
-        lanes_m plain = lanes_all();
+        vndf_ggx_incidence w = b->view ? shared : ggx_incidence_at(b, i);
+        lanes_m plain;
         vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
                                      &plain);
         store(b, i, &n);
-        leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+    }
+}
+
+/* ---- Beckmann ---- */
+
+VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_block *b, uint32_t i)
+{
+    return vndf_beckmann_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                             lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+typedef struct beckmann_work {
+    vndf_beckmann_incidence at[GROUPS];
+    vndf_beckmann_place first[GROUPS];
+    lanes_f u1[GROUPS], u2[GROUPS], second[GROUPS];
+} beckmann_work;
+
+static void draw_beckmann(vndf_sample_block *b)
+{
+    beckmann_work w;
+    uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
+    if (b->view)
+        w.at[0] = vndf_beckmann_incidence_of(b->view);
+    for (uint32_t g = 0; g < groups && !b->view; g++)
+        w.at[g] = beckmann_incidence_at(b, g * VNDF_LANES);
+    for (uint32_t g = 0; g < groups; g++) {
+        w.u1[g] = clamp_unit(lanes_load(b->u1 + g * VNDF_LANES));
+        w.u2[g] = clamp_unit(lanes_load(b->u2 + g * VNDF_LANES));
+        w.first[g] = vndf_beckmann_first(&w.at[b->view ? 0 : g], w.u1[g]);
+        w.second[g] = vndf_beckmann_second(w.u2[g]);
+    }
+    for (uint32_t g = 0; g < groups; g++)
+        w.first[g] = vndf_beckmann_step(&w.at[b->view ? 0 : g], w.first[g], w.u1[g]);
+    for (uint32_t g = 0; g < groups; g++) {
+        const vndf_beckmann_incidence *at = &w.at[b->view ? 0 : g];
+        lanes_m plain;
+        vndf_drawn n = vndf_beckmann_normal(at, &w.first[g], w.second[g], lanes_least(vndf_beckmann_product(w.u1[g]), vndf_beckmann_product(w.u2[g])), &plain);
+        store(b, g * VNDF_LANES, &n);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain), g * VNDF_LANES);
     }
 }
 
@@ -239,7 +287,9 @@ void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
 {
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)
-        draw_ggx(d, b);
+        draw_ggx(b);
+    else if (d->kind == VNDF_KIND_BECKMANN)
+        draw_beckmann(b);
     else
         draw_table(d, b);
 }

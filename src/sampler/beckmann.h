@@ -5,33 +5,11 @@
 
 #include "sampler/closed.h"
 
-/* One incident direction: K, and F(K) with a factor that beckmann.c says, and what F(x) for x > 0 has more than
- * F for x < 0. */
-typedef struct vndf_beckmann_law {
-    double bound, whole, line;
-} vndf_beckmann_law;
-
-vndf_beckmann_law vndf_beckmann_law_at(float s, float c);
-
-/* vndf_beckmann_area, with less to do for s < c. */
-float vndf_beckmann_area_of(const vndf_beckmann_law *law, float s, float c);
-
 /* K = c/s. At s = 0 a slope bound of 1e30 stands for infinity: no float tells the difference. */
 VNDF_INLINE double vndf_beckmann_bound(float s, float c)
 {
     return c / (s > 1e-30f ? (double)s : 1e-30);
 }
-
-/* The slopes that vndf_beckmann_sample makes its normal of, and d = K - x. */
-typedef struct vndf_beckmann_slopes {
-    double x, y, d;
-} vndf_beckmann_slopes;
-
-vndf_beckmann_slopes vndf_beckmann_draw(const vndf_beckmann_law *law, float u1, float u2);
-
-/* A1 = c (1 + erf(c/s))/2 + s exp(-(c/s)^2)/(2 sqrt(pi)), relative error below 2e-7 on the whole sphere as
- * long as the result is a normal float; it underflows to 0 beyond c/s = -9 (174 degrees). */
-float vndf_beckmann_area(float s, float c);
 
 /* A visible normal: unit, z >= 0, s x + c z >= 0. Slopes are (-x/z, -y/z): u1 moves the first from -infinity
  * (normals leaning towards the incident direction) up to c/s, u2 moves the second, on its own, from -infinity

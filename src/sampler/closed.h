@@ -81,6 +81,10 @@ VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, const vndf_stretched 
 
 /* ---- Beckmann ---- */
 
+/* A1 = c (1 + erf(c/s))/2 + s exp(-(c/s)^2)/(2 sqrt(pi)), relative error below 2e-7 on the whole sphere as
+ * long as the result is a normal float; it underflows to 0 beyond c/s = -9 (174 degrees). */
+float vndf_beckmann_area(float s, float c);
+
 VNDF_INLINE double vndf_beckmann_p22(double r2)
 {
     return vndf_inverse_pi * vndf_exp(-r2);
@@ -99,6 +103,14 @@ VNDF_INLINE double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal
     return vndf_beckmann_scaled(a, r, r * (x * x + y * y));
 }
 
+/* A1 of a view above the horizon, from what drawing in float has of it where there is that (beckmann_draw.h). */
+VNDF_INLINE double vndf_beckmann_view_area(const vndf_view *view, const vndf_stretched *w)
+{
+    if (!view->plain)
+        return vndf_beckmann_area((float)w->s, (float)w->c);
+    return w->s * (1.0 + view->closed[3] + view->closed[4]) / (2.0 * vndf_root_pi);
+}
+
 /* D exp(K^2) below the horizon. */
 VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm, double facing)
 {
@@ -114,7 +126,7 @@ VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, const vndf_stret
 {
     double weight = facing * w->per_length, s = w->s;
     if (w->c >= 0.0)
-        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
+        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / vndf_beckmann_view_area(view, w));
     if (!(s > 0.0))
         return 0.0;
     double z = -w->c / s, n = vndf_erfc_remainder(z);
