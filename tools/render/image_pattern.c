@@ -3,7 +3,7 @@
  * longitude over latitude, as `environment image` takes them: the zenith is the top row and the horizon the
  * middle.
  *
- * * Map: hash and value noise; maps for roughness; fine detail; the studio; stars; the list. */
+ * Map: hash and value noise; maps for roughness; fine detail; the studio; stars; the list. */
 #include "render/image.h"
 
 #include <math.h>

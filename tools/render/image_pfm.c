@@ -104,8 +104,8 @@ static int read_rows(image *made, const pfm_head *head, const unsigned char *byt
 
 int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error)
 {
-    pfm_head head;
-    int x, y;
+    pfm_head head = {0};
+    int x = 0, y = 0;
     *made = (image){0, 0, NULL};
     if (!read_head(bytes, size, &head, name, error))
         return 0;
