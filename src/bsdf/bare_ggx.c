@@ -43,7 +43,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     s->wo.y = wo.y;
     s->wo.z = wo.z;
     s->weight[0] = s->weight[1] = s->weight[2] = weight;
-    s->density = vndf_finite(0.25f * drawn.density * (over * both));
+    s->density = vndf_positive(0.25f * drawn.density * (over * both));
     s->lobe = VNDF_LOBE_REFLECTION;
 }
 

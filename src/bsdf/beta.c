@@ -6,7 +6,8 @@
  *
  *     log Beta = log(2 pi)/2 + (b - 1/2) log b - b log(a + b) - (a - 1/2) log(1 + b/a) + R(a) + R(b) - R(a + b),
  *
- * where nothing of the size of a cancels. */
+ * where nothing of the size of a cancels. Factors a + b of the first steps are taken over the last one, so that
+ * they do not overflow; its powers join the logarithm. */
 #include "bsdf/beta.h"
 
 #include "math/elementary.h"
@@ -18,12 +19,14 @@ static double remainder_at(double x)
     return per * (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260)));
 }
 
-static double raised(double *a, double b)
+/* Product of (a + b)/a over the steps, each over `sum`. */
+static double raised(double *a, double b, double sum, double *steps)
 {
     double over = 1.0, under = 1.0;
     for (; *a < 10.0; *a += 1.0) {
-        over *= *a + b;
+        over *= (*a + b) / sum;
         under *= *a;
+        *steps += 1.0;
     }
     return over / under;
 }
@@ -34,10 +37,10 @@ double vndf_beta(double a, double b)
         return vndf_beta(b, a);
     if (!(a < 1e300))
         return 0.0;
-    double factor = raised(&a, b);
-    factor *= raised(&b, a);
+    double sum = a + b + 20.0, steps = 0.0, factor = raised(&a, b, sum, &steps);
+    factor *= raised(&b, a, sum, &steps);
     double large = a > b ? a : b, small = a > b ? b : a;
-    double most = (small - 0.5) * vndf_log(small) - small * vndf_log(large + small);
+    double most = (small - 0.5) * vndf_log(small) - small * vndf_log(large + small) + steps * vndf_log(sum);
     double logarithm = 0.91893853320467274 + most - (large - 0.5) * vndf_log1p(small / large) +
                        (remainder_at(large) + remainder_at(small) - remainder_at(large + small));
     return factor * vndf_exp(logarithm);

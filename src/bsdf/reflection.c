@@ -7,17 +7,20 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, n, choice, 1, &out)) {
+    int settled = choice.bare || vndf_keeps_reflectance(b, n->facing);
+    if (choice.normals == VNDF_NORMALS_BOUNDED) /* on short chords of the disc the density changes within a rounding */
+        settled &= n->quotient > 0.1f * b->area;
+    if (!vndf_reflect(b, n, choice, settled, &out)) {
         vndf_scatter_nothing(s);
         return;
     }
     s->wo = choice.bare ? out.wo : vndf_mirrored(out.wo, b->side);
-    s->density = vndf_finite(out.density);
+    s->density = vndf_positive(out.density);
     s->lobe = VNDF_LOBE_REFLECTION;
     if (!choice.bare)
         vndf_reflectance(b, out.facing, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = choice.bare ? out.weight : out.weight * (float)f[i];
+        s->weight[i] = choice.bare ? out.weight : vndf_finite(out.weight * (float)f[i]);
 }
 
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)

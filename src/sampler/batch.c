@@ -1,9 +1,10 @@
-/* The calls of many: in lanes where there are any, else one after the other. */
+/* Sampling many: in lanes where there are any, else one after the other. */
 #include <stdint.h>
 #include <string.h>
 
 #include "core/inline.h"
 #include "math/vector.h"
+#include "sampler/batch.h"
 #include "sampler/batch_lanes.h"
 #include "sampler/surface.h"
 #include "vndf.h"
@@ -44,63 +45,9 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-/* Element i of a batch. */
-VNDF_INLINE vndf_surface surface_at(const vndf_batch *b, size_t i)
-{
-    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
-    vndf_surface surface = {b->distribution, b->alpha_x[at], b->alpha_y[at]};
-    return surface;
-}
-
-VNDF_INLINE vndf_vec3 wi_at(const vndf_batch *b, size_t i)
-{
-    size_t at = b->shared & VNDF_SHARED_WI ? 0 : i;
-    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
-}
-
-VNDF_INLINE vndf_vec3 normal_at(vndf_normals wm, size_t i)
-{
-    return vndf_vec3_of(wm.x[i], wm.y[i], wm.z[i]);
-}
-
-/* Whether all elements have one view. */
-VNDF_INLINE int is_one_view(const vndf_batch *b)
-{
-    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI) && b->count > 0;
-}
-
-VNDF_INLINE vndf_view view_at(const vndf_batch *b, size_t i)
-{
-    vndf_surface surface = surface_at(b, i);
-    return vndf_view_from(&surface, wi_at(b, i));
-}
-
-/* Arrays of a call: normals and two of numbers, read or written as the call has it. */
-typedef struct call {
-    vndf_normals wm;
-    const float *from1, *from2;
-    float *to1, *to2;
-} call;
-
-/* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
-VNDF_INLINE void for_each_view(const vndf_batch *b, const call *c,
-                               void (*one)(const vndf_view *view, const call *c, size_t i))
-{
-    if (is_one_view(b)) {
-        vndf_view view = view_at(b, 0);
-        for (size_t i = 0; i < b->count; i++)
-            one(&view, c, i);
-        return;
-    }
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_view view = view_at(b, i);
-        one(&view, c, i);
-    }
-}
-
 /* ---- sample ---- */
 
-VNDF_INLINE void sample_one(const vndf_view *view, const call *c, size_t i)
+VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
 {
     float density;
     vndf_vec3 n = vndf_sample(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL);
@@ -113,8 +60,8 @@ VNDF_INLINE void sample_one(const vndf_view *view, const call *c, size_t i)
 
 static void sample_one_by_one(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    call c = {wm, u1, u2, pdf, NULL};
-    for_each_view(b, &c, sample_one);
+    vndf_batch_call c = {wm, u1, u2, pdf, NULL};
+    vndf_batch_for_each_view(b, &c, sample_one);
 }
 
 #if VNDF_HAS_LANES
@@ -191,7 +138,7 @@ static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t fi
 {
     for (uint32_t n = 0; n < block->left_count; n++) {
         uint32_t i = block->left[n] % VNDF_DELICATE;
-        vndf_view own = block->view ? *block->view : view_at(b, first + i);
+        vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
         vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
                            ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
                            : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
@@ -230,8 +177,8 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
     vndf_sample_block block;
     copies own;
     block.view = NULL;
-    if (is_one_view(b)) {
-        view = view_at(b, 0);
+    if (vndf_batch_is_one_view(b)) {
+        view = vndf_batch_view(b, 0);
         block.view = &view;
     }
     if (block.view && !view.plain) { /* lanes would leave all of it */
@@ -272,73 +219,3 @@ void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_n
 }
 
 #endif
-
-/* ---- the others ---- */
-
-VNDF_INLINE void pdf_one(const vndf_view *view, const call *c, size_t i)
-{
-    c->to1[i] = vndf_pdf(view, normal_at(c->wm, i));
-}
-
-void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
-{
-    call c = {wm, NULL, NULL, pdf, NULL};
-    for_each_view(b, &c, pdf_one);
-}
-
-VNDF_INLINE void visible_one(const vndf_view *view, const call *c, size_t i)
-{
-    c->to1[i] = vndf_visible(view, normal_at(c->wm, i));
-}
-
-void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
-{
-    call c = {wm, NULL, NULL, visible, NULL};
-    for_each_view(b, &c, visible_one);
-}
-
-VNDF_INLINE void invert_one(const vndf_view *view, const call *c, size_t i)
-{
-    float u1, u2;
-    vndf_invert(view, normal_at(c->wm, i), &u1, &u2);
-    c->to1[i] = u1;
-    c->to2[i] = u2;
-}
-
-void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
-{
-    call c = {wm, NULL, NULL, u1, u2};
-    for_each_view(b, &c, invert_one);
-}
-
-void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        ndf[i] = vndf_ndf(&surface, normal_at(wm, i));
-    }
-}
-
-void vndf_projected_area_n(const vndf_batch *b, float *area)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        area[i] = vndf_projected_area(&surface, wi_at(b, i));
-    }
-}
-
-void vndf_lambda_n(const vndf_batch *b, float *lambda)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        lambda[i] = vndf_lambda(&surface, wi_at(b, i));
-    }
-}
-
-void vndf_g1_n(const vndf_batch *b, float *g1)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        g1[i] = vndf_g1(&surface, wi_at(b, i));
-    }
-}

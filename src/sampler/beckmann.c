@@ -35,18 +35,11 @@ typedef struct slope {
     double x, d;
 } slope;
 
-/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K. For
- * K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that they are
- * not, so that nothing overflows. */
-typedef struct law {
-    double bound, whole, line;
-} law;
-
-static law law_at(float s, float c)
+vndf_beckmann_law vndf_beckmann_law_at(float s, float c)
 {
     double bound = vndf_beckmann_bound(s, c);
     double z = fabs(bound), n = vndf_erfc_remainder(z), part = n / (n + z);
-    law g = {bound, part, 0.0};
+    vndf_beckmann_law g = {bound, part, 0.0};
     if (bound >= 1.25) {
         g.line = 2.0 * vndf_root_pi * bound;
         g.whole = g.line + vndf_exp(-bound * bound) * part;
@@ -57,12 +50,6 @@ static law law_at(float s, float c)
     return g;
 }
 
-float vndf_beckmann_area(float s, float c)
-{
-    double k = vndf_beckmann_bound(s, c), z = fabs(k), n = vndf_erfc_remainder(z);
-    return (float)((c > 0.0f ? c : 0.0f) + s * vndf_exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
-}
-
 /* m rho = d exp(2 K d/3) solved for d by an approximation of Lambert's function, good to 2%. */
 static double end_distance(double bound, double mrho)
 {
@@ -70,7 +57,7 @@ static double end_distance(double bound, double mrho)
     return 1.5 / bound * l * (1.0 - vndf_log1p(l) / (2.0 + l));
 }
 
-static slope start_above(const law *g, double u)
+static slope start_above(const vndf_beckmann_law *g, double u)
 {
     double h = 0.5 / g->bound, v = u * g->whole / g->line;
     double y = vndf_erf_quantile(v < 1.0 - 0x1p-40 ? v : 1.0 - 0x1p-40);
@@ -84,7 +71,7 @@ static slope start_above(const law *g, double u)
     return p;
 }
 
-static slope start_around(const law *g, double u)
+static slope start_around(const vndf_beckmann_law *g, double u)
 {
     double rho2 = -vndf_log(u), rho = sqrt(rho2), m = sqrt(g->whole), mrho = m * rho;
     slope p;
@@ -100,13 +87,13 @@ static slope start_around(const law *g, double u)
 }
 
 /* x^2, less the K^2 that the members are divided by: for K < 5/4 without their cancellation. */
-static double exponent(const law *g, slope p)
+static double exponent(const vndf_beckmann_law *g, slope p)
 {
     return g->bound < 1.25 ? p.d * (p.d - 2.0 * g->bound) : p.x * p.x;
 }
 
 /* Newton's step (F(x) - u F(K))/F'(x); the sign of x selects by arithmetic, since no branch would be foreseen. */
-static double newton_step(const law *g, slope p, double u)
+static double newton_step(const vndf_beckmann_law *g, slope p, double u)
 {
     double z = fabs(p.x), n = vndf_erfc_remainder(z), right = (double)(p.x > 0.0);
     double part = (n + p.d * (1.0 - 2.0 * right)) / (n + z);
@@ -119,7 +106,7 @@ static const double step_done = 0.03;
 
 /* F''/F' = -1/d - 2x and F'''/F' = 4x/d + 4x^2 - 2. Steps are held inside x < K and to length 1, so that no
  * start could escape. */
-static slope solve(const law *g, double u)
+static slope solve(const vndf_beckmann_law *g, double u)
 {
     slope p = g->bound < 1.25 ? start_around(g, u) : start_above(g, u);
     for (int i = 0; i < 3; i++) {
@@ -143,13 +130,27 @@ static double clamp_inside(float u)
 
 double vndf_beckmann_slope_distance(float s, float c, float u1)
 {
-    law g = law_at(s, c);
+    vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
     return solve(&g, clamp_inside(u1)).d;
+}
+
+double vndf_beckmann_part(const vndf_beckmann_law *law, double x, double d)
+{
+    slope p = {x, d};
+    double z = fabs(x), rest = vndf_erfc_remainder(z), gauss = vndf_exp(-exponent(law, p));
+    double mass = (x > 0.0 ? rest - d : rest + d) / (rest + z) * gauss + (x > 0.0 ? law->line : 0.0);
+    return mass / law->whole;
+}
+
+double vndf_beckmann_slope(const vndf_beckmann_law *law, double u)
+{
+    const double most = 1.0 - 0x1p-40;
+    return solve(law, u > 0x1p-64 ? (u < most ? u : most) : 0x1p-64).x;
 }
 
 vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
 {
-    law g = law_at(s, c);
+    vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
     double x = solve(&g, clamp_inside(u1)).x, y = vndf_erf_quantile(clamp_inside(u2));
     double z = 1.0 / sqrt(1.0 + x * x + y * y);
     vndf_vec3 n = {(float)(-x * z), (float)(-y * z), (float)z};
@@ -159,11 +160,8 @@ vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
 /* d = (w . n)/(s n.z) keeps digits that K - x would lose. */
 void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
-    law g = law_at(s, c);
+    vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
     double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
-    slope p = {-n.x / z, front > 0.0 ? front : 0.0};
-    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = vndf_exp(-exponent(&g, p));
-    double mass = (p.x > 0.0 ? rest - p.d : rest + p.d) / (rest + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
-    *u1 = vndf_clamp_unit((float)(mass / g.whole));
+    *u1 = vndf_clamp_unit((float)vndf_beckmann_part(&g, -n.x / z, front > 0.0 ? front : 0.0));
     *u2 = (float)vndf_half_erfc(n.y / z);
 }

@@ -11,6 +11,19 @@ VNDF_INLINE double vndf_beckmann_bound(float s, float c)
     return c / (s > 1e-30f ? (double)s : 1e-30);
 }
 
+/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K. For
+ * K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that they are
+ * not, so that nothing overflows. */
+typedef struct vndf_beckmann_law {
+    double bound, whole, line;
+} vndf_beckmann_law;
+
+vndf_beckmann_law vndf_beckmann_law_at(float s, float c);
+
+/* The part F(x)/F(K) of the law at x = K - d, to 1e-8 of itself, and the slope x at a part u of it, as drawn. */
+double vndf_beckmann_part(const vndf_beckmann_law *law, double x, double d);
+double vndf_beckmann_slope(const vndf_beckmann_law *law, double u);
+
 /* A visible normal: unit, z >= 0, s x + c z >= 0. Slopes are (-x/z, -y/z): u1 moves the first from -infinity
  * (normals leaning towards the incident direction) up to c/s, u2 moves the second, on its own, from -infinity
  * to infinity. Both are monotone, continuous inversions. The error in u1 is below 1e-7, absolute and

@@ -36,32 +36,24 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
-/* A view with its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
-static vndf_view turned(const vndf_view *view)
+void vndf_closed_turn(vndf_view *view)
 {
     vndf_stretched w = vndf_stretched_of(view);
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
+    view->s = (float)w.s;
+    view->c = (float)w.c;
+    view->cos_phi = across > 0.0 ? (float)(w.x * per) : 1.0f;
+    view->sin_phi = (float)(w.y * per);
+}
+
+static vndf_view turned(const vndf_view *view)
+{
     vndf_view unit = *view;
-    unit.s = (float)w.s;
-    unit.c = (float)w.c;
-    unit.cos_phi = across > 0.0 ? (float)(w.x * per) : 1.0f;
-    unit.sin_phi = (float)(w.y * per);
+    vndf_closed_turn(&unit);
     return unit;
 }
 
-/* ---- densities ---- */
-
-float vndf_closed_visible(const vndf_view *view, vndf_vec3 wm)
-{
-    vndf_normal n = vndf_normal_of(wm);
-    double facing = vndf_facing(view, n);
-    if (!(wm.z >= 0.0f) || !(facing > 0.0))
-        return 0.0f;
-    vndf_stretched w = vndf_stretched_of(view);
-    return vndf_positive(vndf_density_from(view->distribution->kind == VNDF_KIND_GGX
-                                               ? vndf_ggx_visible(view, &w, n, facing)
-                                               : vndf_beckmann_visible(view, &w, n, facing)));
-}
+/* ---- the inverse ---- */
 
 void vndf_closed_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
@@ -82,7 +74,7 @@ static vndf_vec3 turn_closed(const vndf_view *unit, vndf_vec3 wm)
     double level = (double)unit->wi.x * wm.x + (double)unit->wi.y * wm.y, highest = level / -(double)unit->wi.z;
     if (unit->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))
         wm.z = fminf(wm.z, (float)(highest * (1.0 - 0x1p-23)));
-    return vndf_facing(unit, vndf_normal_of(wm)) > 0.0 ? wm : vndf_turn_to_face(unit, wm);
+    return vndf_exact_dot(unit->wi, wm) > 0.0 ? wm : vndf_turn_to_face(unit, wm);
 }
 
 vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
@@ -91,10 +83,10 @@ vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(unit.s, unit.c, u1, u2)
                                                             : vndf_beckmann_sample(unit.s, unit.c, u1, u2);
     vndf_vec3 wm = vndf_normalize(vndf_from_unit(&unit, n));
-    if (!(vndf_facing(view, vndf_normal_of(wm)) > 0.0))
+    if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = turn_closed(&unit, wm);
     if (pdf)
-        *pdf = vndf_closed_visible(view, wm);
+        *pdf = vndf_pdf(view, wm);
     return wm;
 }
 

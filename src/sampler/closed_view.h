@@ -39,13 +39,13 @@ VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface,
     view->closed[4] = w->spread;
 }
 
+/* Gives a view its direction as that of a table has it, but s^2 + c^2 = 1: what unit problems are given. */
+void vndf_closed_turn(vndf_view *view);
+
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
-
-/* vndf_pdf and vndf_visible of a valid view. */
-float vndf_closed_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* vndf_invert of a valid view, wm.z >= 0, but for clamping. */
 void vndf_closed_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);

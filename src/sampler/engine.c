@@ -1,21 +1,16 @@
 #include "sampler/engine.h"
 
 #include "math/vector.h"
-#include "sampler/beckmann.h"
+#include "sampler/area.h"
 #include "sampler/draw.h"
 #include "sampler/frame.h"
-#include "sampler/ggx.h"
 #include "sampler/radial_draw.h"
 #include "sampler/stretch.h"
 
 double vndf_unit_area(const vndf_distribution *d, double s, double c)
 {
-    if (d->kind == VNDF_KIND_GGX)
-        return vndf_ggx_area((float)s, (float)c);
-    if (d->kind == VNDF_KIND_BECKMANN)
-        return vndf_beckmann_area((float)s, (float)c);
-    double sum = s + fabs(c), below = 2.0 * sum * vndf_wedge_mass(&d->below, s / sum);
-    return below + (c > 0.0 ? c : 0.0); /* A(w) = cos + A(-w) */
+    vndf_direction w = {1.0, 1.0, s, 0.0, c};
+    return vndf_area_below(d, &w, 1) + doubles_positive(c); /* A(w) = cos + A(-w) */
 }
 
 /* ---- sampling ---- */

@@ -55,10 +55,10 @@ VNDF_INLINE vndf_view vndf_invalid_view(void)
 /* The view of a table, of a usable direction for roughness times the table's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
+/* No more of a view than densities of given normals read, and as valid. */
+vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi);
+
 /* vndf_sample of a valid view, where densities in float are known not to do. */
 vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
-
-/* D(wm) for roughness times the table's scale (ax, ay). */
-double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wm);
 
 #endif

@@ -4,6 +4,7 @@
 #include "sampler/closed_view.h"
 #include "sampler/engine.h"
 #include "sampler/frame.h"
+#include "sampler/given_closed.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
@@ -57,6 +58,14 @@ VNDF_RARE vndf_view view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     return view_scaled(surface->distribution, ax, ay, x, y, wi);
 }
 
+vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_view view = {.wi = wi};
+    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && vndf_is_usable_direction(wi))
+        view.distribution = surface->distribution;
+    return view;
+}
+
 /* What is plain and ready is valid: nothing else has to be looked at. */
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
@@ -76,6 +85,19 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
         return view_carefully(surface, wi);
     double exact = vndf_unit_scale(d);
     return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);
+}
+
+/* Dv of a valid view; facing = wi . wm > 0. */
+VNDF_INLINE float visible_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_density_from(vndf_visible_of(view->distribution, &g, vndf_exact_dot(view->wi, wm)));
+}
+
+/* Whether wm is a normal that wi sees. */
+VNDF_INLINE int is_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
 }
 
 /* GGX is so fast that the copy would show. */
@@ -119,11 +141,11 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return vndf_closed_visible(view, wm);
-    if (!view->distribution || !(wm.z >= 0.0f) || !(vndf_exact_dot(view->wi, wm) > 0.0))
+    if (!is_facing(view, wm))
         return 0.0f;
-    return vndf_engine_pdf(view, wm);
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return vndf_engine_pdf(view, wm);
+    return vndf_positive(visible_facing(view, wm));
 }
 
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
@@ -141,11 +163,8 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 
 float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
-    if (view->distribution && view->distribution->kind != VNDF_KIND_TABLE)
-        return vndf_closed_visible(view, wm);
-    double facing = view->distribution ? vndf_exact_dot(view->wi, wm) : 0.0;
-    if (!(wm.z >= 0.0f) || !(facing > 0.0) || !(view->area > 0.0f))
+    if (!is_facing(view, wm))
         return 0.0f;
-    double ndf = vndf_ndf_scaled(view->distribution, view->alpha_x, view->alpha_y, wm);
-    return vndf_density_from(ndf * (facing * vndf_stretched_of(view).per_length) / view->area);
+    float visible = visible_facing(view, wm);
+    return view->distribution->kind == VNDF_KIND_TABLE ? visible : vndf_positive(visible);
 }

@@ -11,13 +11,46 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
     return c >= 0.0 ? &d->above : &d->below;
 }
 
+#if VNDF_DOUBLES == 8
+
+/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
+VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
+{
+    const double(*few)[VNDF_FEW] = wedge->few_exact;
+    doubles_u i = doubles_set_u(0);
+    doubles b[VNDF_AREA_ORDER];
+    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
+        i = doubles_pick_u(doubles_at_most(doubles_few(few[VNDF_AREA_ORDER], i + step), y), i + step, i);
+    for (int n = 0; n < VNDF_AREA_ORDER; n++)
+        b[n] = doubles_few(few[n], i);
+    doubles begin = doubles_few(few[VNDF_AREA_ORDER], i), per_width = doubles_few(few[VNDF_AREA_ORDER + 1], i);
+    return vndf_area_piece_at(b, (y - begin) * per_width);
+}
+
+#endif
+
 /* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
  * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
-VNDF_INLINE double vndf_wedge_mass(const vndf_wedge *wedge, double y)
+VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
 {
-    const vndf_area_span *span = wedge->piece + vndf_guide_find(&wedge->knot_guide, (float)y);
-    span -= y < span->begin;
-    return vndf_area_piece_at(span->coefficient, (y - span->begin) * span->per_width);
+#if VNDF_DOUBLES == 8
+    if (wedge->knot_count <= VNDF_FEW + 1)
+        return vndf_wedge_mass_few(wedge, y);
+#endif
+    doubles_u i = vndf_guide_doubles(&wedge->knot_guide, doubles_narrow(y)), one = doubles_set_u(1);
+    for (;;) {
+        doubles_long_lines lines = doubles_long_lines_at(wedge->piece->coefficient, VNDF_AREA_SPAN, i);
+        doubles_two place = doubles_load_two(&lines, VNDF_AREA_ORDER); /* begin, per_width */
+        doubles_m early = doubles_both(doubles_less(y, place.a), doubles_at_most_u(one, i));
+        if (doubles_any(early)) {
+            i -= doubles_pick_u(early, one, doubles_set_u(0));
+            continue;
+        }
+        doubles_two b0 = doubles_load_two(&lines, 0), b2 = doubles_load_two(&lines, 2);
+        doubles_two b4 = doubles_load_two(&lines, 4);
+        const doubles b[VNDF_AREA_ORDER] = {b0.a, b0.b, b2.a, b2.b, b4.a, b4.b};
+        return vndf_area_piece_at(b, (y - place.a) * place.b);
+    }
 }
 
 /* The same in float, where that is good enough: for drawing, and for densities where it is no small part and

@@ -5,6 +5,7 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
+#include "math/doubles.h"
 #include "math/lanes_lines.h"
 #include "table/table.h"
 
@@ -33,10 +34,10 @@ VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot 
 }
 
 /* The piece at t in [0, 1]. */
-VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER], double t)
+VNDF_INLINE doubles vndf_area_piece_at(const doubles coefficient[VNDF_AREA_ORDER], doubles t)
 {
-    const double *b = coefficient;
-    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
+    const doubles *b = coefficient;
+    doubles u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 

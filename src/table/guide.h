@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "math/lanes.h"
+#include "math/doubles.h"
 #include "table/table.h"
 
 /* The bits of a float >= 0 grow with it. */
@@ -48,6 +48,36 @@ VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
             return i;
         i += lanes_pick_u(more, one, none);
     }
+}
+
+/* The same beside doubles, or an index somewhat too large: entries are rounded, and what is below all knots counts
+ * as the second; it may be too small unless the guide is `single`. Callers look themselves. */
+VNDF_INLINE doubles_u vndf_guide_about(const vndf_guide *guide, doubles_f value)
+{
+#if VNDF_DOUBLES == 1
+    return vndf_guide_find(guide, value);
+#else
+    const uint32_t places = (1u << VNDF_GUIDE_SHIFT) - 1, most = (1u << guide->shift) - 1;
+    doubles_u low = doubles_set_u(guide->low), above = doubles_most_u(doubles_bits(value), low) - low;
+    doubles_u bucket = doubles_least_u(above >> guide->shift, doubles_set_u(guide->last));
+    doubles_u entry = doubles_gather_u(guide->entry, bucket);
+    doubles_u off = doubles_least_u(above - (bucket << guide->shift), doubles_set_u(most)) >> guide->drop;
+    return (entry >> VNDF_GUIDE_SHIFT) +
+           doubles_pick_u(doubles_at_most_u(entry & places, off), doubles_set_u(1), doubles_set_u(0));
+#endif
+}
+
+/* ... but never too small. */
+VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f value)
+{
+    doubles_u i = vndf_guide_about(guide, value), bits = doubles_bits(value);
+    while (!guide->single) {
+        doubles_m more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
+        if (!doubles_any(more))
+            return i;
+        i += doubles_pick_u(more, doubles_set_u(1), doubles_set_u(0));
+    }
+    return i;
 }
 
 #endif

@@ -250,7 +250,7 @@ static void derive_rows(vndf_wedge *wedge)
 static void derive_area(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < VNDF_FEW; i++)
-        wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
+        wedge->few_exact[VNDF_AREA_ORDER][i] = wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
         vndf_area_span *span = &wedge->piece[i];
         double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
@@ -269,13 +269,31 @@ static void derive_area(vndf_wedge *wedge)
         if (i < VNDF_FEW) {
             wedge->few[VNDF_AREA_ORDER][i] = quick->begin;
             wedge->few[VNDF_AREA_ORDER + 1][i] = quick->per_width;
+            for (int n = 0; n < VNDF_AREA_ORDER; n++)
+                wedge->few_exact[n][i] = span->coefficient[n];
+            wedge->few_exact[VNDF_AREA_ORDER][i] = span->begin;
+            wedge->few_exact[VNDF_AREA_ORDER + 1][i] = span->per_width;
         }
+    }
+}
+
+/* What is looked up in registers; beyond the last row all y are less. */
+static void derive_few_rows(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i <= VNDF_FEW; i++)
+        wedge->few_y[i] = 2.0f;
+    for (uint32_t i = 0; i < wedge->row_count && i / 2 <= VNDF_FEW; i++) {
+        wedge->few_aspects[i % 2][i / 2] = wedge->aspect_p[i];
+        wedge->few_aspects[2 + i % 2][i / 2] = wedge->aspect_r[i];
+        if (i % 2 == 0)
+            wedge->few_y[i / 2] = wedge->row_y[i / 2];
     }
 }
 
 static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
+    derive_few_rows(wedge);
     derive_area(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, vndf_row_knots(wedge->row_count)) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);

@@ -35,7 +35,9 @@ enum {
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_FEW = 16,           /* so many numbers are looked up in registers */
-    VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
+    VNDF_AREA_ORDER = 6,     /* coefficients of a piece of an area's spline */
+    VNDF_AREA_SPAN = 8,      /* doubles from piece to piece */
+    VNDF_GUIDE_SHIFT = 19    /* bits of a guide's entry below the index of a knot */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -64,8 +66,10 @@ typedef struct vndf_radial_cell {
  * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
+    uint32_t drop, single;     /* of entries; whether one step is always enough */
     uint16_t *first;
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
+    uint32_t *entry;           /* first, and where in its bucket the next is: for lanes of doubles */
 } vndf_guide;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
@@ -100,6 +104,9 @@ typedef struct vndf_wedge {
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
     float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
+    float few_y[VNDF_FEW + 1];           /* row_y, if there are so few */
+    float few_aspects[4][VNDF_FEW + 1];  /* p and then r of rows 0, 2, 4, ..., then of those between */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
