@@ -1,5 +1,5 @@
-/* Images survive the PFM that they are written to, no PFM is taken that is not whole, look-ups find the pixels they
- * should, and patterns are light or roughness. */
+/* Images survive the PFM that they are written to, no PFM is taken that is not whole, look-ups find the pixels
+ * they should, and patterns are light or roughness. */
 #include "test.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* A PNG is what its standard says, and holds the picture: it is read back here by an inflater of the test's own. What
- * was compressed comes out again, for bytes of any kind. */
+/* A PNG is what its standard says, and holds the picture: it is read back here by an inflater of the test's own.
+ * What was compressed comes out again, for bytes of any kind. */
 #include "test.h"
 
 #include <stdint.h>
@@ -105,7 +105,8 @@ static size_t take_block(reader *r, unsigned char *out, size_t size)
 /* The bytes of a zlib stream; 0 if it is wrong. */
 static size_t inflate(const unsigned char *data, size_t size, unsigned char *out)
 {
-    reader r = {data + 2, data + size, 0, size < 6 || (data[0] * 256 + data[1]) % 31 != 0 || data[0] != 0x78};
+    int bad = size < 6 || (data[0] * 256 + data[1]) % 31 != 0 || data[0] != 0x78;
+    reader r = {data + 2, data + size, 0, bad};
     size_t count = 0;
     for (unsigned last = 0; !last && !r.bad;) {
         last = take(&r, 1);
@@ -197,7 +198,8 @@ static void unfilter(unsigned char *rows, size_t row, size_t height)
         unsigned char *line = rows + y * (row + 1);
         TEST(line[0] <= 4);
         for (size_t i = 1; i <= row; i++) {
-            int a = i > 3 ? line[i - 3] : 0, b = y ? line[i - (row + 1)] : 0, c = i > 3 && y ? line[i - row - 4] : 0;
+            int a = i > 3 ? line[i - 3] : 0, b = y ? line[i - (row + 1)] : 0;
+            int c = i > 3 && y ? line[i - row - 4] : 0;
             int p = a + b - c, pa = abs(p - a), pb = abs(p - b), pc = abs(p - c);
             int nearest = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
             const int add[5] = {0, a, b, (a + b) / 2, nearest};
@@ -241,7 +243,8 @@ static void test_png(const char *pattern, int width, int height, float exposure,
     size_t size = take_back(file, bytes);
     TEST(memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0);
     const unsigned char *head = chunk(bytes, size, "IHDR", &length);
-    TEST(head && length == 13 && big_endian(head) == (uint32_t)width && big_endian(head + 4) == (uint32_t)height);
+    TEST(head && length == 13 && big_endian(head) == (uint32_t)width &&
+         big_endian(head + 4) == (uint32_t)height);
     TEST(head && memcmp(head + 8, "\x08\x02\0\0\0", 5) == 0);
     const unsigned char *data = chunk(bytes, size, "IDAT", &length);
     size_t row = 3 * (size_t)width, whole = (row + 1) * (size_t)height;

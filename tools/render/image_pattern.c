@@ -211,7 +211,7 @@ const char *const image_pattern_help =
 /* The mean of shade over a pixel, from SIDE x SIDE points. */
 static void shade_pixel(const pattern *p, float x, float y, const image *of, float rgb[3])
 {
-    enum { SIDE = 4 };
+    enum { SIDE = 3 };
     float sum[3] = {0.0f, 0.0f, 0.0f}, one[3];
     for (int i = 0; i < SIDE * SIDE; i++) {
         float u = (x + ((float)(i % SIDE) + 0.5f) / SIDE) / (float)of->width;

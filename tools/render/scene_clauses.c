@@ -132,7 +132,7 @@ int reader_choice(scene_reader *r, const clause *c, const char *const *names, si
     for (*choice = 0; *choice < count; ++*choice)
         if (strcmp(c->values[0].text, names[*choice]) == 0)
             return 1;
-    snprintf(what, sizeof what, "kind of %s", c->keyword);
+    snprintf(what, sizeof what, "choice for '%s'", c->keyword);
     return reader_unknown(r, &c->values[0], what, names, count);
 }
 
