@@ -11,12 +11,6 @@
 static const float bsdf_etas[] = {1 / 1.5f, 1.001f, 1.33f, 2.4f, 1.5f, 1 / 1.001f, 1 / 1.33f, 1 / 2.4f};
 enum { BSDF_ETA_COUNT = 8 };
 
-/* Sets that this stage of the library has. */
-static inline int bsdf_has(const vndf_effects *e)
-{
-    return oracle_effects_sensible(e) && e->normals != VNDF_NORMALS_BOUNDED;
-}
-
 static inline float bsdf_pick(const float *from, size_t count, unsigned long long *state)
 {
     return from[(size_t)(test_uniform_double(state) * (double)count)];

@@ -113,7 +113,9 @@ static inline double sphere_rule(const sphere_map *map, const double z[2], const
     return sum * hz * hp / 81;
 }
 
-/* In quarters until they agree with the whole within `allowed`. */
+/* In quarters until they agree with the whole within `allowed`; once in any case, a bin may hold a narrow peak. */
+enum { SPHERE_DEPTH = 8 };
+
 static inline double sphere_adaptive(const sphere_map *map, const double z[2], const double phi[2], double whole,
                                      double allowed, int depth)
 {
@@ -121,11 +123,11 @@ static inline double sphere_adaptive(const sphere_map *map, const double z[2], c
     const double zs[2][2] = {{z[0], mz}, {mz, z[1]}}, phis[2][2] = {{phi[0], mp}, {mp, phi[1]}};
     for (int i = 0; i < 4; i++)
         sum += part[i] = sphere_rule(map, zs[i / 2], phis[i % 2]);
-    if (depth == 0 || fabs(sum - whole) <= allowed)
+    if (depth == 0 || (depth < SPHERE_DEPTH && fabs(sum - whole) <= allowed))
         return sum;
-    for (sum = 0; depth > 0; depth = -depth)
-        for (int i = 0; i < 4; i++)
-            sum += sphere_adaptive(map, zs[i / 2], phis[i % 2], part[i], allowed / 2, depth - 1);
+    sum = 0;
+    for (int i = 0; i < 4; i++)
+        sum += sphere_adaptive(map, zs[i / 2], phis[i % 2], part[i], allowed / 2, depth - 1);
     return sum;
 }
 
@@ -136,7 +138,7 @@ static inline void sphere_integrate(const sphere_map *map, double allowed, doubl
             probability[i * SPHERE_TURNS + j] =
                 map->z[i] < map->z[i + 1] && map->phi[j] < map->phi[j + 1]
                     ? sphere_adaptive(map, &map->z[i], &map->phi[j], sphere_rule(map, &map->z[i], &map->phi[j]),
-                                      allowed, 7)
+                                      allowed, SPHERE_DEPTH)
                     : 0;
 }
 

@@ -1,8 +1,8 @@
 /* A batch of densities, visible densities, D, areas, Lambda, G1 or inverses gives to the bit what the calls of one
- * give, for every instruction set there is, distribution and count, shared or not, in place or not: directions of the
- * whole sphere, grazing, straight up and down, below the horizon; roughness from 1e-8 to 10, 1e4 apart in x and y;
- * normals that were drawn, any normals, at the horizon and beside the cut; and invalid numbers. With the argument
- * avx2 or avx512 that instruction set alone. */
+ * give, for every instruction set there is, distribution and count, shared or not, in place or not: directions of
+ * the whole sphere, grazing, straight up and down, below the horizon; roughness from 1e-8 to 10, 1e4 apart in x and
+ * y; normals that were drawn, any normals, at the horizon and beside the cut; and invalid numbers. With the
+ * argument avx2 or avx512 that instruction set alone. */
 #include <float.h>
 #include <stdint.h>
 #include <stdlib.h>

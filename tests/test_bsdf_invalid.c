@@ -165,7 +165,7 @@ int main(int arguments, char **argument)
             continue;
         for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
             vndf_effects effects = oracle_effects(i);
-            if (bsdf_has(&effects))
+            if (oracle_effects_sensible(&effects))
                 test_set(&ndf, &effects, 1000 * n + i + 5);
         }
         oracle_ndf_close(&ndf);

@@ -27,16 +27,16 @@ static void check(const grid *g)
 
 static void test_within(void)
 {
-    static grid doubles, floats;
+    static grid numbers, floats;
     vndf_walk_random random = vndf_walk_random_from(1), other = vndf_walk_random_from(2);
     for (int i = 0; i < PAIRS; i++) {
         float u[2];
         double x = vndf_walk_uniform(&random);
-        put(&doubles, x, vndf_walk_uniform(&random));
+        put(&numbers, x, vndf_walk_uniform(&random));
         vndf_walk_pair(&other, u);
         put(&floats, u[0], u[1]);
     }
-    check(&doubles);
+    check(&numbers);
     check(&floats);
 }
 

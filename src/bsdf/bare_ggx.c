@@ -32,18 +32,18 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_scatter_nothing(s);
         return;
     }
-    if (!vndf_is_settled(b, facing)) {
+    int as_drawn = vndf_is_ggx_drawn(b, facing);
+    if (!(facing > VNDF_GGX_LEAST_FACING)) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
     }
     float x = w.ax * wo.x, y = w.ay * wo.y, below = 0.5f * (wo.z + sqrtf((x * x + y * y) + wo.z * wo.z)) - wo.z;
-    float over = wo.z * b->area + wi.z * lanes_positive(below), both = 1.0f / (over * facing);
-    float weight = wo.z * b->area * (facing * both);
+    float weight = wo.z * b->area / (wo.z * b->area + wi.z * lanes_positive(below));
     s->wo.x = wo.x;
     s->wo.y = wo.y;
     s->wo.z = wo.z;
     s->weight[0] = s->weight[1] = s->weight[2] = weight;
-    s->density = vndf_positive(0.25f * drawn.density * (over * both));
+    s->density = vndf_positive(as_drawn ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
     s->lobe = VNDF_LOBE_REFLECTION;
 }
 

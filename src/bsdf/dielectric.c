@@ -45,9 +45,10 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
 
 /* The lobe is chosen by the normal that was drawn; what the choice has to do with the weight is settled afterwards.
  * Beside total reflection F changes without bound. */
-VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s)
+VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s,
+                              vndf_normals_drawn normals)
 {
-    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0}; /* or others: here only bounded ones would differ */
+    const vndf_choice choice = {normals, 0};
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
     vndf_reflectance(b, n->facing, f);
@@ -80,7 +81,7 @@ VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scatt
 VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
-    scatter_both(b, &n, u[2], s);
+    scatter_both(b, &n, u[2], s, normals);
 }
 
 /* ---- values ---- */
@@ -206,7 +207,7 @@ static void both_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
 static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
 {
     vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
-    scatter_both(b, &n, u3, s);
+    scatter_both(b, &n, u3, s, VNDF_NORMALS_VISIBLE);
 }
 
 static void both_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)

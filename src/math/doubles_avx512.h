@@ -158,7 +158,8 @@ VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
 /* One of sixteen numbers, in registers. */
 VNDF_INLINE doubles doubles_few_f(const float *table, doubles_u index)
 {
-    return doubles_widen(_mm256_permutex2var_ps(_mm256_loadu_ps(table), (__m256i)index, _mm256_loadu_ps(table + 8)));
+    __m256 low = _mm256_loadu_ps(table), high = _mm256_loadu_ps(table + 8);
+    return doubles_widen(_mm256_permutex2var_ps(low, (__m256i)index, high));
 }
 
 VNDF_INLINE doubles doubles_few(const double *table, doubles_u index)

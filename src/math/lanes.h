@@ -44,9 +44,4 @@ VNDF_INLINE lanes_f lanes_limit(lanes_f x, float most)
     return lanes_least(x, lanes_set(most));
 }
 
-VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
-{
-    return lanes_pick_u(lanes_at_most_u(x, most), x, most);
-}
-
 #endif

@@ -124,6 +124,21 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return (lanes_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
 }
 
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return (lanes_u)_mm512_min_epu32((__m512i)x, (__m512i)most);
+}
+
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return _mm512_maskz_mov_ps(m, x);
+}
+
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return (lanes_u)_mm512_mask_add_epi32((__m512i)x, m, (__m512i)x, _mm512_set1_epi32(1));
+}
+
 /* Bit i is lane i. */
 VNDF_INLINE uint32_t lanes_mask_bits(lanes_m m)
 {
@@ -165,8 +180,9 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
 
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
+    (void)count;
     return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
 }
 

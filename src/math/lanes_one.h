@@ -111,6 +111,23 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return m ? yes : no;
 }
 
+/* One more in the lanes of m. */
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return x + (uint32_t)m;
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return x < most ? x : most;
+}
+
+/* x in the lanes of m, else 0. */
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return m ? x : 0.0f;
+}
+
 VNDF_INLINE lanes_u lanes_bits(lanes_f x)
 {
     uint32_t bits;
@@ -155,9 +172,10 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return base[index];
 }
 
-/* One of sixteen numbers, in registers. */
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+/* One of `count` numbers, at most sixteen, in registers. Sixteen are read. */
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
+    (void)count;
     return table[index];
 }
 

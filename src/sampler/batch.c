@@ -124,7 +124,8 @@ static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_
 }
 
 /* Where the results of a block go first. */
-static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm, float *pdf)
+static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm,
+                          float *pdf)
 {
     int at_once = apart && block->count == VNDF_BLOCK_SAMPLES;
     block->x = at_once ? wm.x + first : c->result[0];

@@ -1,6 +1,6 @@
 /* Batches in lanes: one source, batch_lanes.c, compiled for each instruction set. A block of a batch is drawn
- * where that is plain (draw.h), in front of wi all lanes as they come, in the wedge those that are in it,
- * gathered; the rest is left to the calls of one. */
+ * where that is plain (draw.h), sorted into samples in front of wi and in the wedge (batch_sort.h); the rest is
+ * left to the calls of one. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_H
 #define VNDF_SAMPLER_BATCH_LANES_H
 

@@ -1,5 +1,6 @@
 /* Beckmann in the unit problem: roughness 1, incident direction (s, 0, c), s >= 0; see sampler/ggx.h for what
- * that is and what s and c must carry. Uniform numbers lie in [0, 1]. Densities: closed.h. */
+ * that is and what s and c must carry. Uniform numbers lie in [0, 1]. In double, for what beckmann_draw.h does not
+ * do in float. Densities: closed.h. */
 #ifndef VNDF_SAMPLER_BECKMANN_H
 #define VNDF_SAMPLER_BECKMANN_H
 

@@ -119,31 +119,35 @@ VNDF_INLINE vndf_drawn drawn_inside(const vndf_bearing *b, vndf_place at, const 
     return vndf_drawn_at(&b->level, &at, plain);
 }
 
-VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
-                                     border *edge, lanes_m *plain)
+VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
+                                     const vndf_sector *sector, float u2, border *edge, lanes_m *plain)
 {
-    vndf_bearing b = vndf_bear_front(d, w, half, u2);
+    vndf_bearing b = vndf_bear_front(d, w, sector, u2);
     vndf_radial_law law = vndf_radial_law_whole(d, b.c, b.k);
     *edge = border_at(w, &b, &law, 1, plain);
     float u = edge->kept * u2;
-    b.code = vndf_window_of(d, b.c, b.k, u);
-    vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u), half, u, plain);
+    uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 1);
+    j = j < d->radial_count - 1 ? j : d->radial_count - 1;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, plain);
     return drawn_inside(&b, at, edge, plain);
 }
 
-VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
-                                     border *edge, lanes_m *plain)
+VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                     const vndf_sector *sector, float u2, border *edge, lanes_m *plain)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
-    float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
+    float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
     *plain &= vndf_wedge_is_plain(&row);
-    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
-    vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
-    vndf_radial_law law = vndf_law_wedge(d, &b);
+    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
+    vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
+    vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
     *edge = border_at(w, &b, &law, 0, plain);
     float u = edge->kept * u2;
-    b.code = vndf_window_of(d, b.c, b.k, u);
-    vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u, law.cut), half, u, plain);
+    uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
+    j = j < law.cut ? j : law.cut;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, plain);
     return drawn_inside(&b, at, edge, plain);
 }
 
@@ -152,12 +156,13 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    lanes_m plain = view->plain;
+    vndf_sector sector = vndf_sector_at(view->front, view->wedge, half);
+    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
     border edge;
     if (!plain)
         return bounded_carefully(view, u1, u2);
-    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? draw_in_front(d, &w, half, u2, &edge, &plain)
-                                                        : draw_in_wedge(d, &w, half, u2, &edge, &plain);
+    vndf_drawn n = sector.in_front ? draw_in_front(d, &w, &sector, u2, &edge, &plain)
+                                   : draw_in_wedge(d, &w, &sector, u2, &edge, &plain);
     if (!plain)
         return bounded_carefully(view, u1, u2);
     vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.kept};

@@ -4,6 +4,7 @@
 #include "sampler/closed_view.h"
 
 #include "math/vector.h"
+#include "sampler/all_normals.h"
 #include "sampler/beckmann.h"
 #include "sampler/beckmann_draw.h"
 #include "sampler/frame.h"
@@ -29,10 +30,10 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
         return vndf_closed_view_carefully(surface, wi);
-    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay, .ax = w.ax,
-                      .ay = w.ay, .plain = 1,
-                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1, w.p2,
-                                 w.p3, w.p4}};
+    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay,
+                      .ax = w.ax, .ay = w.ay, .plain = 1,
+                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1,
+                                 w.p2, w.p3, w.p4}};
     return view;
 }
 
@@ -79,6 +80,8 @@ static vndf_vec3 turn_closed(const vndf_view *unit, vndf_vec3 wm)
 
 vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    if (view->wi.x == 0.0f && view->wi.y == 0.0f && view->wi.z > 0.0f && view->distribution->kind == VNDF_KIND_GGX)
+        return vndf_sample_all(view->distribution, view->alpha_x, view->alpha_y, u1, u2, pdf); /* the same there */
     vndf_view unit = turned(view);
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(unit.s, unit.c, u1, u2)
                                                             : vndf_beckmann_sample(unit.s, unit.c, u1, u2);
@@ -106,9 +109,8 @@ vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, f
 {
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m plain;
-    lanes_f y = vndf_beckmann_second(u2), product = lanes_least(vndf_beckmann_product(u1), vndf_beckmann_product(u2));
     vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
-    vndf_drawn n = vndf_beckmann_normal(&w, &at, y, product, &plain);
+    vndf_drawn n = vndf_beckmann_normal(&w, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &plain);
     if (!plain)
         return vndf_closed_sample_carefully(view, u1, u2, pdf);
     if (pdf)

@@ -7,8 +7,10 @@
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
  * stretched direction before per_length brings it to s + |c| = 1. Cells are those of math/rational_cell.h,
- * math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5 of the density
- * that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+ * math/weighted_cell.h and sampler/radial.h, which draws from them. This is for every normal, and for those who
+ * build tables; what most normals take, lanes too, stands in given.h and given_wedge.h. Relative
+ * error below 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test
+ * float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"

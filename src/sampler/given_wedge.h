@@ -39,10 +39,9 @@ VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
         i = doubles_pick_u(doubles_at_most(doubles_few_f(w->few_y, i + step), y), i + step, i);
     i = doubles_least_u(i, doubles_set_u(w->row_count / 2 - 1)); /* at the last knot, too, there are three */
     vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->few_y, i), doubles_few_f(w->few_y + 1, i));
-    const float *p = w->few_aspects[0], *p_between = w->few_aspects[1];
-    const float *r = w->few_aspects[2], *r_between = w->few_aspects[3];
-    s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(p_between, i) + s.last * doubles_few_f(p + 1, i);
-    s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(r_between, i) + s.last * doubles_few_f(r + 1, i);
+    const float *p = w->few_aspects[0], *pm = w->few_aspects[1], *r = w->few_aspects[2], *rm = w->few_aspects[3];
+    s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(pm, i) + s.last * doubles_few_f(p + 1, i);
+    s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(rm, i) + s.last * doubles_few_f(r + 1, i);
     return s;
 }
 

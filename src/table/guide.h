@@ -37,16 +37,15 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 /* The same for lanes. */
 VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
 {
-    const lanes_u one = lanes_set_u(1), none = lanes_set_u(0), low = lanes_set_u(guide->low);
-    lanes_u bits = lanes_bits(value), above = lanes_pick_u(lanes_at_most_u(low, bits), bits - low, none);
+    lanes_u bits = lanes_bits(value), above = bits - lanes_limit_u(lanes_set_u(guide->low), bits);
     lanes_u i = lanes_gather_u16(guide->first, lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last)));
     lanes_m more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
-    i += lanes_pick_u(more, one, none);
+    i = lanes_count(i, more);
     for (;;) {
         more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
         if (!lanes_any(more))
             return i;
-        i += lanes_pick_u(more, one, none);
+        i = lanes_count(i, more);
     }
 }
 
@@ -77,6 +76,15 @@ VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f valu
             return i;
         i += doubles_pick_u(more, doubles_set_u(1), doubles_set_u(0));
     }
+    return i;
+}
+
+/* The same for lanes where knots are few: all are looked at, no step of which waits for another. */
+VNDF_INLINE lanes_u vndf_guide_count(const float *knots, uint32_t count, lanes_f value)
+{
+    lanes_u i = lanes_set_u(0);
+    for (uint32_t n = 1; n + 1 < count; n++)
+        i = lanes_count(i, lanes_at_most(lanes_set(knots[n]), value));
     return i;
 }
 

@@ -58,7 +58,8 @@ typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
     float x0, x1, z0, z1;        /* the knots */
     float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
-    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h) */
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h), 2 if
+                                  * those beside it are calm too and D does not jump at its ends */
     float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
 
@@ -81,6 +82,12 @@ typedef struct vndf_area_span {
 typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
+
+/* What the sampler wants of the three rows between two knots: where they begin, one over their width, and their
+ * aspects. 32 bytes, all floats. */
+typedef struct vndf_row_span {
+    float begin, per_width, p[3], r[3];
+} vndf_row_span;
 
 /* A cell of a row as the sampler wants it: 16 bytes. */
 typedef struct vndf_row_cell {
@@ -107,6 +114,7 @@ typedef struct vndf_wedge {
     double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
     float few_y[VNDF_FEW + 1];           /* row_y, if there are so few */
     float few_aspects[4][VNDF_FEW + 1];  /* p and then r of rows 0, 2, 4, ..., then of those between */
+    vndf_row_span *row_span;             /* row_y and aspects once more, (row_count - 1)/2 */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
