@@ -1,0 +1,35 @@
+/* All pixels, by threads: sums of samples, whose mean is the image. The same sums for any number of threads. */
+#ifndef RENDER_FILM_H
+#define RENDER_FILM_H
+
+#include "render/path.h"
+
+typedef struct film {
+    int width, height;
+    double *sum;        /* width * height * 3 */
+    double *square;     /* of the luminance: its variance; width * height */
+    uint64_t samples;   /* a pixel, so far */
+    double seconds;     /* spent rendering, all threads at once */
+    path_counts counts;
+} film;
+
+/* 0 if there is no memory. */
+int film_make(film *f, int width, int height);
+void film_free(film *f);
+
+typedef struct film_run {
+    uint64_t samples;   /* a pixel, to add */
+    double seconds;     /* stop after so many, between passes; 0: no limit */
+    unsigned threads;
+    uint64_t seed;
+    int (*progress)(double done, void *user); /* other than 0 stops, between rows; may be NULL */
+    void *user;
+} film_run;
+
+/* Adds samples; returns 0 if it was stopped before all were there (what is there stays: whole passes only). */
+int film_render(film *f, const path_plan *plan, const film_run *run);
+
+/* The mean. 0 if there is no memory. */
+int film_image(const film *f, image *made);
+
+#endif

@@ -1,0 +1,80 @@
+/* A scene: what a scene file says, resolved and ready to be rendered. grammar.h has the language. */
+#ifndef RENDER_SCENE_H
+#define RENDER_SCENE_H
+
+#include "render/geometry.h"
+#include "render/image.h"
+#include "vndf_bsdf.h"
+
+typedef struct camera {
+    vndf_vec3 from, to, up;
+    float field;            /* of view, degrees, across the height of the film */
+} camera;
+
+typedef struct integrator {
+    unsigned depth;         /* surfaces on a path at most */
+    unsigned roulette;      /* from this surface on paths are ended at random */
+    unsigned samples;       /* a pixel */
+    float exposure;         /* of the PNG */
+} integrator;
+
+/* A number that may be a map: value, times the map where there is one. */
+typedef struct textured {
+    float value;
+    const image *map;       /* of the scene's images; NULL: constant */
+} textured;
+
+typedef enum material_kind {
+    MATERIAL_MICROFACET,    /* conductor, dielectric, ...: vndf_bsdf.h */
+    MATERIAL_MATTE,         /* Lambert */
+    MATERIAL_MIRROR,        /* smooth, colour */
+    MATERIAL_GLASS,         /* smooth dielectric, eta */
+    MATERIAL_LIGHT          /* emits, reflects nothing */
+} material_kind;
+
+typedef struct material {
+    char *name;             /* owned */
+    material_kind kind;
+    vndf_description is;    /* MICROFACET; GLASS: eta */
+    vndf_material bsdf;     /* MICROFACET, resolved */
+    textured alpha_x, alpha_y;
+    int is_textured;        /* either has a map: vndf_bsdf_rough at each hit */
+    float colour[3];        /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
+    const image *colour_map;
+    float absorb[3];        /* inside, per unit of length; all 0: none */
+} material;
+
+typedef struct environment {
+    float constant[3];
+    const image *map;       /* longitude over latitude, y up; NULL: constant alone */
+    float scale, turn;      /* of the map; degrees about y */
+} environment;
+
+typedef struct scene {
+    char *title;            /* owned; may be NULL */
+    camera camera;
+    int width, height;
+    integrator integrator;
+    geometry geometry;
+    material *materials;
+    size_t material_count;
+    image *images;
+    char **image_names;
+    size_t image_count;
+    vndf_distribution **tables; /* owned */
+    char **table_names;
+    size_t table_count;
+    environment environment;
+} scene;
+
+/* Reads a scene file; paths in it are relative to its folder. 1, or 0 with a message "FILE:LINE:COLUMN: what is
+ * wrong, and what would be right". Untrusted files are safe. */
+int scene_read(scene *made, const char *path, char *message, size_t size);
+/* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
+int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
+void scene_free(scene *s);
+
+/* The language, for --help. */
+extern const char *const scene_grammar;
+
+#endif
