@@ -103,8 +103,8 @@ VNDF_API void vndf_free(vndf_distribution *distribution);
  * not to be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and a continuous inversion of the slope CDF whose error in u
- * is below 1e-7 before the normal is rounded to float. Not to be freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and an inversion of the slope CDF, continuous but for
+ * rounding, whose error in u is below 2e-7 before the normal is rounded to float. Not to be freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured on a table, after rounding to float, against quadrature of the D it was
@@ -151,11 +151,12 @@ typedef struct vndf_view {
     vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
     double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
     float ax, ay;                  /* the same */
+    int plain;                     /* densities may be formed in float */
+    float closed[12];              /* closed forms: what drawing in float takes, 0 where it is not plain */
+    /* The others are of tables, and 0 for closed forms. */
     float s, c, cos_phi, sin_phi;  /* stretched direction: across (>= 0), along z; its azimuth */
     float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
     float area, spread;            /* projected area of the unit problem; times ax ay */
-    int plain;                     /* densities may be formed in float */
-    double whole, line;            /* Beckmann: what its inversion wants of the direction */
 } vndf_view;
 
 /* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
@@ -168,8 +169,8 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
  * 2^-23, wm.z >= 0, wi.wm > 0 for wi as it was given. *pdf, if not NULL, receives the density per steradian
  * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN,
  * FLT_MAX]: what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each
- * number but for roundings: 1e-6 of the slope; 2e-4 of it where 1e-6 of the mass is beyond, or at u2 = 0 below the
- * horizon.
+ * number but for roundings: 1e-6 of the slope (Beckmann: of the slope plus alpha); 2e-4 of it where 1e-6 of the
+ * mass is beyond, or at u2 = 0 below the horizon.
  * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the
  * side of wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi
  * mirrored at the normal. Beckmann: u1 moves the slope along wi, u2 the slope across. */

@@ -156,15 +156,15 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 typedef struct vndf_bsdf {
     const vndf_material *material;
     vndf_view view;                  /* of wi in the frame of the roughness, turned up */
-    float eta;                       /* index on the other side over that on the side of wi */
-    float carried;                   /* what transmission has more than for importance: 1/eta^2 for radiance */
+    double eta;                      /* index on the other side over that on the side of wi */
+    double carried;                  /* what transmission has more than for importance: 1/eta^2 for radiance */
     float side;                      /* -1 where wi is on the side of -z, 1 else */
     float area;                      /* projected area along wi */
     float cos_rotation, sin_rotation;
-    double bounds[6];                /* bounded normals: what their law takes of the direction */
+    double bounds[8];                /* bounded normals: what their law takes of the direction */
 } vndf_bsdf;
 
-/* With the roughness of the material. wi is unit within 1e-6. Materials that do not transmit and have no Fresnel
+/* With the roughness of the material. wi is unit within 2e-6. Materials that do not transmit and have no Fresnel
  * term for a dielectric are seen from z > 0 only; others from both sides. 0 if nothing is scattered from there. (By
  * a pointer: what is returned would be copied, and waited for.) */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
@@ -182,7 +182,7 @@ typedef enum vndf_lobe {
 } vndf_lobe;
 
 typedef struct vndf_scattered {
-    vndf_vec3 wo;                    /* unit within 4 ulps of 2^-23 */
+    vndf_vec3 wo;                    /* unit within 10 ulps of 2^-23 */
     float weight[VNDF_WAVELENGTHS];  /* f |cos_o| / density, to 1e-5 */
     float density;                   /* per steradian; what vndf_bsdf_pdf gives for wo, to 1e-5 */
     vndf_lobe lobe;

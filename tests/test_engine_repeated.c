@@ -72,8 +72,9 @@ static void try_sample(const vndf_surface *surface, const vndf_view *view, float
     float density;
     vndf_vec3 wm = vndf_sample(view, u1, u2, &density), wi = view->wi;
     double error = fabs(vndf_pdf(view, wm) / (double)density - 1);
-    if (density < 1e-30f)
+    if (density >= 0.0f && density < 1e-30f)
         return;
+    error = error < HUGE_VAL ? error : HUGE_VAL; /* a NaN would be forgotten */
     found->count++;
     if (error <= found->worst)
         return;

@@ -15,6 +15,7 @@ static const char name[] = "vndf bench";
 
 static const char help[] =
     "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv-data FILE | --family NAME[:PARAM,...]] [options]\n"
+    "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
     "\n"
     "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
     "and efficiency: closed forms for GGX and Beckmann, published and ours; for the distribution that is named,\n"
@@ -136,28 +137,10 @@ static int is_free_for_csv(const char *path)
     return 0;
 }
 
-/* Whether results can be written, before they are measured. */
-static int is_usable(const char *path)
-{
-    output_file output;
-    if (!path || strcmp(path, "-") == 0)
-        return 1;
-    if (!output_open(&output, name, path))
-        return 0;
-    output_discard(&output);
-    return 1;
-}
-
 static int outputs_usable(const bench_words *given)
 {
-    const char *paths[] = {only_word(&given->csv), only_word(&given->markdown)};
-    if (!is_usable(paths[0]) || !is_usable(paths[1]) || (paths[0] && !is_free_for_csv(paths[0])))
-        return 0;
-    if (paths[0] && paths[1] && strcmp(paths[0], paths[1]) == 0) {
-        complain(name, "--csv and --markdown both name '%s'", paths[0]);
-        return 0;
-    }
-    return 1;
+    const char *csv = only_word(&given->csv);
+    return outputs_distinct(name, csv, only_word(&given->markdown)) && (!csv || is_free_for_csv(csv));
 }
 
 static int run_words(const bench_words *given)
@@ -184,6 +167,8 @@ static int run_words(const bench_words *given)
 
 int command_bench(int argc, char **argv)
 {
+    if (argc > 0 && strcmp(argv[0], "effects") == 0)
+        return command_bench_effects(argc - 1, argv + 1);
     bench_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {

@@ -4,8 +4,9 @@
 #include <string.h>
 
 #include "bench_parts.h"
+#include "cells.h"
 
-enum { CELL = 24, COLUMNS = 12 };
+enum { COLUMNS = 12 };
 
 typedef struct cells {
     char of[COLUMNS][CELL];
@@ -22,25 +23,10 @@ static const char legend[] =
     "1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and under a small\n"
     "light; bias: of that albedo, where it is beyond its noise.\n";
 
-/* A dash for what does not apply. */
-static void number(char cell[CELL], const char *format, double x)
-{
-    if (isnan(x))
-        snprintf(cell, CELL, "-");
-    else
-        snprintf(cell, CELL, format, x);
-}
-
 static void size(char cell[CELL], size_t bytes)
 {
     int large = bytes >= 10240;
-    number(cell, large ? "%.0f KiB" : "%.0f", (double)bytes / (large ? 1024 : 1));
-}
-
-/* Times below 10 ns with two digits after the point, above with one. */
-static void time_of(char cell[CELL], double ns)
-{
-    number(cell, ns < 10 ? "%.2f" : "%.1f", ns);
+    cell_number(cell, large ? "%.0f KiB" : "%.0f", (double)bytes / (large ? 1024 : 1));
 }
 
 /* The two albedos in one cell. */
@@ -48,32 +34,26 @@ static void biases(char cell[CELL], const double bias[2])
 {
     char part[2][CELL];
     for (int k = 0; k < 2; k++)
-        number(part[k], bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
+        cell_number(part[k], bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
     snprintf(cell, CELL, isnan(bias[0]) ? "-" : "%.10s, %.10s", part[0], part[1]);
 }
 
 static void fill(cells *c, const bench_row *row)
 {
     size(c->of[0], row->bytes);
-    time_of(c->of[1], row->ns);
-    number(c->of[2], "%.1f%%", 50 * (row->ns_high - row->ns_low) / row->ns);
-    time_of(c->of[3], row->shared_ns);
-    time_of(c->of[4], row->latency_ns);
-    number(c->of[5], "%.3g", row->ratio);
-    number(c->of[6], row->tv < 1e-9 ? "%.0f" : "%.1e", row->tv);
-    number(c->of[7], "%.4g", row->max_weight);
-    number(c->of[8], "%.3g", row->efficiency[0]);
-    number(c->of[9], "%.3g", row->efficiency[1]);
-    number(c->of[10], "%.3g", row->efficiency_light);
+    cell_time(c->of[1], row->ns);
+    cell_number(c->of[2], "%.1f%%", 50 * (row->ns_high - row->ns_low) / row->ns);
+    cell_time(c->of[3], row->shared_ns);
+    cell_time(c->of[4], row->latency_ns);
+    cell_number(c->of[5], "%.3g", row->ratio);
+    cell_number(c->of[6], row->tv < 1e-9 ? "%.0f" : "%.1e", row->tv);
+    cell_number(c->of[7], "%.4g", row->max_weight);
+    cell_number(c->of[8], "%.3g", row->efficiency[0]);
+    cell_number(c->of[9], "%.3g", row->efficiency[1]);
+    cell_number(c->of[10], "%.3g", row->efficiency_light);
     biases(c->of[11], row->bias);
     if (row->wrong)
         snprintf(c->of[1], CELL, "wrong");
-}
-
-static int wider(int width, const char *text)
-{
-    int length = (int)strlen(text);
-    return length > width ? length : width;
 }
 
 /* ---- text -------------------------------------------------------------------------------------- */
@@ -86,14 +66,14 @@ static widths widths_of(const bench_rows *rows)
 {
     widths w = {6, 5, {0}};
     for (int k = 0; k < COLUMNS; k++)
-        w.of[k] = wider(0, headings[k]);
+        w.of[k] = cell_wider(0, headings[k]);
     for (size_t i = 0; i < rows->count; i++) {
         cells c;
         fill(&c, &rows->row[i]);
-        w.method = wider(w.method, rows->row[i].method);
-        w.set = wider(w.set, rows->row[i].instructions);
+        w.method = cell_wider(w.method, rows->row[i].method);
+        w.set = cell_wider(w.set, rows->row[i].instructions);
         for (int k = 0; k < COLUMNS; k++)
-            w.of[k] = wider(w.of[k], c.of[k]);
+            w.of[k] = cell_wider(w.of[k], c.of[k]);
     }
     return w;
 }
@@ -127,23 +107,6 @@ void bench_print_text(FILE *file, const bench_rows *rows)
 
 /* ---- CSV --------------------------------------------------------------------------------------- */
 
-static void csv_text(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; *text; text++)
-        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, file);
-    fputc('"', file);
-}
-
-/* Empty for what does not apply. */
-static void csv_number(FILE *file, double x)
-{
-    if (isnan(x))
-        fputs(",", file);
-    else
-        fprintf(file, ",%.6g", x);
-}
-
 static const char *kind_name(bench_kind kind)
 {
     switch (kind) {
@@ -175,13 +138,6 @@ void bench_print_csv(FILE *file, const bench_rows *rows)
 }
 
 /* ---- Markdown ---------------------------------------------------------------------------------- */
-
-/* A bar would end the cell. */
-static void markdown_text(FILE *file, const char *text)
-{
-    for (; *text; text++)
-        fputs(*text == '|' ? "\\|" : (char[]){*text, '\0'}, file);
-}
 
 void bench_print_markdown(FILE *file, const bench_rows *rows)
 {

@@ -17,6 +17,7 @@ int command_eval(int argc, char **argv);
 int command_plot(int argc, char **argv);
 int command_report(int argc, char **argv);
 int command_bench(int argc, char **argv);
+int command_bench_effects(int argc, char **argv); /* the words after `bench effects` */
 int command_masking(int argc, char **argv);
 
 #endif

@@ -223,6 +223,28 @@ void output_discard(output_file *output)
         close_file(output);
 }
 
+static int is_usable(const char *command, const char *path)
+{
+    output_file output;
+    if (!path || strcmp(path, "-") == 0)
+        return 1;
+    if (!output_open(&output, command, path))
+        return 0;
+    output_discard(&output);
+    return 1;
+}
+
+int outputs_distinct(const char *command, const char *csv, const char *markdown)
+{
+    if (!is_usable(command, csv) || !is_usable(command, markdown))
+        return 0;
+    if (csv && markdown && strcmp(csv, markdown) == 0) {
+        complain(command, "--csv and --markdown both name '%s'", csv);
+        return 0;
+    }
+    return 1;
+}
+
 const char *output_extension(const char *path)
 {
     const char *dot = strrchr(path, '.');

@@ -2,7 +2,7 @@
 #ifndef VNDF_BSDF_BETA_H
 #define VNDF_BSDF_BETA_H
 
-/* Beta(a, b), a and b from 1 to infinity; relative error below 1e-9 where it exceeds 1e-300. */
+/* Beta(a, b), a and b from 1 to infinity; relative error below 2e-8 where it exceeds 1e-300. */
 double vndf_beta(double a, double b);
 
 #endif

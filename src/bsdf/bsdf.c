@@ -5,14 +5,15 @@
 int vndf_bsdf_hit(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *r, vndf_vec3 wi)
 {
     b->material = material;
-    b->side = b->eta = b->carried = 1.0f;
+    b->side = 1.0f;
+    b->eta = b->carried = 1.0;
     if (material->two_sided) {
         b->side = wi.z < 0.0f ? -1.0f : 1.0f;
-        b->eta = wi.z < 0.0f ? 1.0f / material->is.eta : material->is.eta;
-        b->carried = material->is.effects.transport == VNDF_TRANSPORT_RADIANCE ? 1.0f / (b->eta * b->eta) : 1.0f;
+        b->eta = wi.z < 0.0f ? 1.0 / material->is.eta : material->is.eta;
+        b->carried = material->is.effects.transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (b->eta * b->eta) : 1.0;
         wi.z = fabsf(wi.z);
     }
-    if (wi.z > 0.0f && material->routines->prepare(b, r, wi))
+    if (vndf_is_near_unit(wi) && wi.z > 0.0f && material->routines->prepare(b, r, wi))
         return 1;
     b->material = &vndf_material_of_nothing;
     return 0;

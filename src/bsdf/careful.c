@@ -5,7 +5,7 @@
 static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, double value, vndf_outcome *out)
 {
     double facing = half->event.facing_i;
-    double density = vndf_bsdf_density(b, half->wm, facing, b->material->is.effects.normals);
+    double density = vndf_bsdf_density(b, half->wm, b->material->is.effects.normals);
     if (!(density > 0.0))
         return 0;
     out->wo = wo;

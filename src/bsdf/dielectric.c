@@ -14,21 +14,21 @@ VNDF_INLINE void set_reflected(const vndf_bsdf *b, const vndf_outcome *out, cons
                                vndf_scattered *s)
 {
     s->wo = vndf_mirrored(out->wo, b->side);
-    s->density = out->density * (float)part;
+    s->density = vndf_positive(out->density * (float)part);
     s->lobe = VNDF_LOBE_REFLECTION;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = out->weight * (float)(f[i] / part);
+        s->weight[i] = vndf_finite(out->weight * (float)(f[i] / part));
 }
 
 VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_outcome *out, const double *f, double part,
                                vndf_scattered *s)
 {
-    int straight = b->eta == 1.0f;
+    int straight = b->eta == 1.0;
     s->wo = vndf_mirrored(out->wo, b->side);
-    s->density = straight ? 1.0f : out->density * (float)part;
+    s->density = straight ? 1.0f : vndf_positive(out->density * (float)part);
     s->lobe = straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = out->weight * b->carried * (float)((1.0 - f[i]) / part);
+        s->weight[i] = vndf_finite(out->weight * (float)(b->carried * ((1.0 - f[i]) / part)));
 }
 
 VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)
@@ -45,24 +45,31 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
 
 /* The lobe is chosen by the normal that was drawn; what the choice has to do with the weight is settled afterwards.
  * Beside total reflection F changes without bound. */
-VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s)
+VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s,
+                              vndf_normals_drawn normals)
 {
-    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0}; /* or others: here only bounded ones would differ */
+    const vndf_choice choice = {normals, 0};
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
     vndf_reflectance(b, n->facing, f);
     double square = vndf_refracted_square(n->facing, b->eta);
-    int reflects = u3 < part_of(f) || !(square > 0.0);
-    if (!(reflects ? vndf_reflect(b, n, choice, fabs(square) > 0.01, &out) : vndf_refract(b, n, sqrt(square), &out))) {
+    double part = part_of(f); /* numbers outside [0, 1] do not choose what never happens */
+    int reflects = (part > 0.0 && u3 < part) || !(part < 1.0 && square > 0.0);
+    int settled = vndf_keeps_reflectance(b, n->facing);
+    if (!(reflects ? vndf_reflect(b, n, choice, settled, &out) : vndf_refract(b, n, sqrt(square), &out))) {
         vndf_scatter_nothing(s);
         return;
     }
-    if (!out.settled)
+    if (!out.settled) {
         vndf_reflectance(b, out.facing, f);
+        part = part_of(f);
+    }
     if (reflects)
-        set_reflected(b, &out, f, part_of(f), s);
+        set_reflected(b, &out, f, part, s);
+    else if (part < 1.0)
+        set_refracted(b, &out, f, 1.0 - part, s);
     else
-        set_refracted(b, &out, f, 1.0 - part_of(f), s);
+        vndf_scatter_nothing(s);
 }
 
 VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
@@ -74,7 +81,7 @@ VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scatt
 VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
-    scatter_both(b, &n, u[2], s);
+    scatter_both(b, &n, u[2], s, normals);
 }
 
 /* ---- values ---- */
@@ -200,7 +207,7 @@ static void both_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
 static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)
 {
     vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
-    scatter_both(b, &n, u3, s);
+    scatter_both(b, &n, u3, s, VNDF_NORMALS_VISIBLE);
 }
 
 static void both_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)

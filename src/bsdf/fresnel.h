@@ -5,10 +5,11 @@
 
 #include "bsdf/routines.h"
 
-/* Squared cosine of the refracted direction, eta the index beyond over the one before; <= 0 in total reflection. */
+/* Squared cosine of the refracted direction, eta the index beyond over the one before; <= 0 in total reflection. What
+ * is left of 1 - sin^2/eta^2 near grazing incidence keeps its digits where eta is 1 or near it. */
 VNDF_INLINE double vndf_refracted_square(double cosine, double eta)
 {
-    return 1.0 - (1.0 - cosine * cosine) / (eta * eta);
+    return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
 }
 
 /* With c, t the cosines before and beyond, r_s = (c - eta t)/(c + eta t) and r_p = (eta c - t)/(eta c + t), and

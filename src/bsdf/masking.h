@@ -9,7 +9,7 @@
 #define VNDF_BSDF_MASKING_H
 
 #include "bsdf/routines.h"
-#include "sampler/area.h"
+#include "sampler/area_above.h"
 
 /* A(w), w.z > 0, with the roughness of the hit. */
 VNDF_INLINE float vndf_bsdf_area(const vndf_bsdf *b, vndf_vec3 w)

@@ -6,6 +6,7 @@
 #include "bsdf/masking.h"
 #include "bsdf/multiple.h"
 #include "bsdf/rotated.h"
+#include "math/elementary.h"
 #include "math/half_turn.h"
 
 /* ---- nothing ---- */
@@ -86,18 +87,25 @@ static const vndf_routines *routines_of(const vndf_description *is)
         return &vndf_routines_transmission[e->normals];
     if (e->lobes == VNDF_LOBES_BOTH)
         return &vndf_routines_both[e->normals];
-    if (e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED)
+    int bare = e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
+    if (bare && e->normals == VNDF_NORMALS_VISIBLE && is->distribution == vndf_ggx())
+        return &vndf_routines_bare_ggx;
+    if (bare)
         return &vndf_routines_bare[e->normals];
     return &vndf_routines_reflection[e->normals];
 }
 
-/* Cosine and sine of half a turn u and back, 2 pi u. */
+/* By half a turn and back, within 1e-6, made unit, and turned by the rest. */
 static void set_rotation(vndf_material *m, double angle)
 {
     double turns = angle * 0.15915494309189535, part = turns - floor(turns);
     vndf_turn half = vndf_half_turn((float)part);
-    m->roughness.cos_rotation = (float)(half.cosine * half.cosine - half.sine * half.sine);
-    m->roughness.sin_rotation = (float)(2.0 * half.cosine * half.sine);
+    double c = (double)half.cosine * half.cosine, s = (double)half.sine * half.sine, per = 1.0 / (c + s);
+    double cosine = (c - s) * per, sine = 2.0 * half.cosine * half.sine * per;
+    double off = part - vndf_atan2(sine, cosine) * 0.15915494309189535;
+    double rest = (off - floor(off + 0.5)) * 6.283185307179586;
+    m->roughness.cos_rotation = (float)(cosine - rest * sine);
+    m->roughness.sin_rotation = (float)(sine + rest * cosine);
 }
 
 vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, vndf_error *error)

@@ -21,7 +21,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     s->wo = vndf_mirrored(walked.wo, b->side);
-    s->density = vndf_walk_pdf(&walk, &b->view, walked.wo);
+    s->density = vndf_positive(vndf_walk_pdf(&walk, &b->view, walked.wo));
     s->lobe = walked.lobe;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         s->weight[i] = walked.weight[i];
@@ -32,7 +32,7 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VN
     vndf_walk walk = walk_of(b);
     double f[VNDF_WAVELENGTHS];
     wo.z *= b->side;
-    if (wo.z == 0.0f || (wo.z < 0.0f && !walk.transmits)) {
+    if (!vndf_is_near_unit(wo) || wo.z == 0.0f || (wo.z < 0.0f && !walk.transmits)) {
         vndf_set_value(value, 0.0);
         return;
     }
@@ -45,7 +45,7 @@ static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
     vndf_walk walk = walk_of(b);
     wo.z *= b->side;
-    if (!(walk.transmits ? wo.z != 0.0f : wo.z > 0.0f))
+    if (!vndf_is_near_unit(wo) || !(walk.transmits ? wo.z != 0.0f : wo.z > 0.0f))
         return 0.0f;
     return vndf_walk_pdf(&walk, &b->view, wo);
 }

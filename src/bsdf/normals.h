@@ -5,7 +5,8 @@
 #include "bsdf/masking.h"
 #include "math/vector.h"
 #include "sampler/all_normals.h"
-#include "sampler/given.h"
+#include "sampler/bounded.h"
+#include "sampler/given_normal.h"
 #include "sampler/surface.h"
 
 /* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density. */
@@ -16,7 +17,7 @@ typedef struct vndf_bsdf_normal {
 
 VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
 {
-    return vndf_ndf_of(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
+    return vndf_normal_ndf(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
 }
 
 /* ---- what a direction needs ---- */
@@ -27,16 +28,20 @@ VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf
     vndf_view_set(&b->view, &surface, wi);
     if (!b->view.distribution)
         return 0;
-    float x = b->view.ax * wi.x, y = b->view.ay * wi.y, across2 = x * x + y * y;
-    float length = b->view.distribution->kind == VNDF_KIND_TABLE ? sqrtf(across2) + wi.z
-                                                                 : sqrtf(across2 + wi.z * wi.z);
-    b->area = b->view.area * length;
+    if (surface.distribution->kind == VNDF_KIND_TABLE) {
+        float x = b->view.ax * wi.x, y = b->view.ay * wi.y;
+        b->area = b->view.area * (sqrtf(x * x + y * y) + wi.z);
+    } else
+        b->area = vndf_bsdf_area(b, wi);
     return 1;
 }
 
 VNDF_INLINE int vndf_prepare_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    return vndf_prepare_visible(b, r, wi);
+    if (!vndf_prepare_visible(b, r, wi))
+        return 0;
+    vndf_bounds_of(&b->view, b->bounds);
+    return 1;
 }
 
 /* No view: roughness and direction, and the area for masking. */
@@ -79,6 +84,15 @@ VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float fac
     return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
 }
 
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)
+{
+    vndf_bounded drawn = vndf_sample_bounded(&b->view, b->bounds, u1, u2);
+    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.kept};
+    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+        n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
+    return n;
+}
+
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_all(const vndf_bsdf *b, float u1, float u2)
 {
     const vndf_view *v = &b->view;
@@ -103,6 +117,8 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_v_cavity(const vndf_bsdf *b, float u
 /* `normals` is a constant. */
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw(const vndf_bsdf *b, float u1, float u2, vndf_normals_drawn normals)
 {
+    if (normals == VNDF_NORMALS_BOUNDED)
+        return vndf_bsdf_draw_bounded(b, u1, u2);
     if (normals == VNDF_NORMALS_ALL)
         return vndf_bsdf_draw_all(b, u1, u2);
     if (normals == VNDF_NORMALS_V_CAVITY)
@@ -110,15 +126,17 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw(const vndf_bsdf *b, float u1, float 
     return vndf_bsdf_draw_visible(b, u1, u2);
 }
 
-/* The density with which wm is drawn, unit but for rounding, facing = wi.wm > 0. */
-VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, double facing, vndf_normals_drawn normals)
+/* The density with which wm is drawn, unit but for rounding, wi.wm > 0. */
+VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, vndf_normals_drawn normals)
 {
     const vndf_view *v = &b->view;
+    if (normals == VNDF_NORMALS_BOUNDED)
+        return vndf_pdf_bounded(v, b->bounds, wm);
     if (normals == VNDF_NORMALS_ALL)
         return vndf_pdf_all(v->distribution, v->alpha_x, v->alpha_y, wm);
     if (normals == VNDF_NORMALS_V_CAVITY)
         return vndf_pdf_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, wm);
-    return vndf_pdf_of(v, wm, facing);
+    return vndf_normal_pdf(v, wm);
 }
 
 #endif

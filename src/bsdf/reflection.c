@@ -3,27 +3,33 @@
 
 #include "bsdf/scatter.h"
 
-VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s, vndf_choice choice)
+/* `settled` is 0 where a rounding of wo shows. */
+VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s, int settled,
+                         vndf_choice choice)
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    if (!vndf_reflect(b, n, choice, 1, &out)) {
+    settled &= choice.bare || vndf_keeps_reflectance(b, n->facing);
+    if (!vndf_reflect(b, n, choice, settled, &out)) {
         vndf_scatter_nothing(s);
         return;
     }
     s->wo = choice.bare ? out.wo : vndf_mirrored(out.wo, b->side);
-    s->density = vndf_finite(out.density);
+    s->density = vndf_positive(out.density);
     s->lobe = VNDF_LOBE_REFLECTION;
     if (!choice.bare)
         vndf_reflectance(b, out.facing, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = choice.bare ? out.weight : out.weight * (float)f[i];
+        s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
 }
 
+/* The density of bounded normals changes within a rounding on short chords of the disc, and where all of u1 gives
+ * one normal. */
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);
-    scatter(b, &n, s, choice);
+    int bounded = choice.normals == VNDF_NORMALS_BOUNDED;
+    scatter(b, &n, s, !bounded || (n.quotient > 0.1f * b->area && u[1] > 1e-3f), choice);
 }
 
 /* wo in the frame of the hit. */
@@ -65,7 +71,7 @@ static void scatter_bare(const vndf_bsdf *b, vndf_vec3 wm, float density, float 
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
     vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
     (void)u3;
-    scatter(b, &n, s, choice);
+    scatter(b, &n, s, 1, choice);
 }
 
 static void bare_bounded(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -99,7 +105,7 @@ static void scatter_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, flo
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
     vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density);
     (void)u3;
-    scatter(b, &n, s, choice);
+    scatter(b, &n, s, 1, choice);
 }
 
 static void sample_bounded(const vndf_bsdf *b, const float u[3], vndf_scattered *s)

@@ -9,4 +9,7 @@ enum { VNDF_NORMALS_COUNT = VNDF_NORMALS_V_CAVITY + 1 };
 /* Bare: no Fresnel term and height-correlated masking, from above alone. The others have any. */
 extern const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT], vndf_routines_reflection[VNDF_NORMALS_COUNT];
 
+/* Bare, visible normals of GGX. */
+extern const vndf_routines vndf_routines_bare_ggx;
+
 #endif

@@ -81,7 +81,7 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 {
     vndf_status status = VNDF_OK;
     if (is->effects.lobes != VNDF_LOBES_REFLECTION || is->effects.fresnel == VNDF_FRESNEL_DIELECTRIC)
-        status = check_number("eta", is->eta, 0.01, 100.0, error);
+        status = check_number("eta", is->eta, 0.01f, 100.0, error);
     if (status == VNDF_OK && is->effects.scattering == VNDF_SCATTERING_MULTIPLE &&
         is->effects.lobes == VNDF_LOBES_BOTH && is->effects.fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
         status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "

@@ -22,6 +22,13 @@ typedef struct vndf_routines {
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
 } vndf_routines;
 
+/* Lengths are not divided out, and overflow in what they enter: what is far from 1 is invalid, as NaN is. */
+VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
+{
+    float square = w.x * w.x + w.y * w.y + w.z * w.z;
+    return square > 0.25f && square < 4.0f;
+}
+
 /* What the first three calls of vndf_bsdf.h do; 0 if nothing is scattered from there. */
 int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
 

@@ -72,22 +72,35 @@ typedef struct vndf_half {
     double jacobian; /* dwm/dwo */
 } vndf_half;
 
-VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
-{
-    double x = (double)wi.x + wo.x, y = (double)wi.y + wo.y, z = (double)wi.z + wo.z;
-    double per = 1.0 / sqrt(x * x + y * y + z * z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    double facing = wi.x * wm.x + wi.y * wm.y + wi.z * wm.z;
-    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
-    vndf_half half = {wm, e, 0.25 / facing};
-    return half;
-}
-
 VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
     double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
     vndf_normal n = {w.x * per, w.y * per, w.z * per};
     return n;
+}
+
+VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
+{
+    double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
+    vndf_normal wm = {x * per, y * per, z * per};
+    return wm;
+}
+
+/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both graze
+ * it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. careful.c has all samples
+ * that are there. */
+VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
+{
+    vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
+    double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    if (facing < 0.04) {
+        i = vndf_unit(wi);
+        wm = vndf_halfway(i, vndf_unit(wo));
+        facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    }
+    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
+    vndf_half half = {wm, e, 0.25 / facing};
+    return half;
 }
 
 /* Lengths that are 1 but for rounding count where wi + r wo is small, so they are made 1. */
@@ -112,7 +125,7 @@ VNDF_INLINE int vndf_is_refraction(const vndf_half *half)
 
 VNDF_INLINE double vndf_half_density(const vndf_bsdf *b, const vndf_half *half, vndf_normals_drawn normals)
 {
-    return vndf_bsdf_density(b, half->wm, half->event.facing_i, normals) * half->jacobian;
+    return vndf_bsdf_density(b, half->wm, normals) * half->jacobian;
 }
 
 /* ---- samples ---- */
@@ -136,12 +149,42 @@ typedef struct vndf_outcome {
     int settled;
 } vndf_outcome;
 
+/* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
+VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
+{
+    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > 0.1;
+}
+
 /* Whether the slope that wo stands for is the one that was drawn, to 5e-6 of the roughness: wo is rounded by 3e-8,
  * and `gain` is how far it turns with the normal. If not, careful.c evaluates the sample at wo as it was rounded. */
 VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
 {
     float ax = b->view.ax, ay = b->view.ay, least = ax < ay ? ax : ay;
     return (least < 1.0f ? least : 1.0f) * gain > 0.04f;
+}
+
+/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part is a
+ * sum of two floats and so good to a rounding, a = ax ay,
+ *
+ *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
+ *
+ * So it is that of wo as it was rounded, however smooth the surface is; relative error below 2e-6. */
+VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    float ax = b->view.ax, ay = b->view.ay, a = ax * ay;
+    float x = b->view.wi.x + wo.x, y = b->view.wi.y + wo.y, z = b->view.wi.z + wo.z;
+    float p = ay * x, q = ax * y, r = a * z, t = a * (x * x + y * y + z * z) / (p * p + q * q + r * r);
+    return 0.0795774715f * a / b->area * (t * t);
+}
+
+/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi and wo,
+ * which are 1 but for rounding, count. */
+static const float VNDF_GGX_LEAST_FACING = 0.05f;
+
+VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
+{
+    return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
+           facing > VNDF_GGX_LEAST_FACING;
 }
 
 /* 0 if no microfacet does that. */
@@ -156,33 +199,36 @@ VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
     return wo;
 }
 
-/* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi and wo is wm, whatever length wm has by rounding. */
+/* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi and wo
+ * is wm, whatever length wm has by rounding. */
 VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice, int settled,
                              vndf_outcome *out)
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_lifted(vndf_reflected(wi, n->wm, n->facing), choice);
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
-    if (!(settled & vndf_is_settled(b, n->facing)))
+    int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
+    if (!(settled & (choice.bare | (n->facing > 0.1f)) & (of_wo || vndf_is_settled(b, n->facing))))
         return vndf_reflect_carefully(b, wo, out);
+    float density = of_wo ? vndf_ggx_density_of(b, wo) : 0.25f * n->density / n->facing;
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;
-    if (choice.bare) { /* in one division */
+    if (choice.bare) {
         float below = vndf_bsdf_area(b, wo) - wo.z;
-        float over = wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f), both = 1.0f / (over * n->facing);
-        out->weight = wo.z * n->quotient * (n->facing * both);
-        out->density = 0.25f * n->density * (over * both);
+        out->weight = wo.z * n->quotient / (wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f));
+        out->density = density;
         return 1;
     }
     vndf_event e = {wo, wi.z, wo.z, n->facing, n->facing, n->wm.z};
     out->weight = (float)(b->material->masking->reflection(b, &e) * e.cos_o * n->quotient);
-    out->density = 0.25f * n->density / n->facing;
+    out->density = density;
     return 1;
 }
 
 /* The same for what goes through, `beyond` the cosine to wm there. Unbent, wo does not turn with the normal; near
- * total reflection 1 - F changes as fast as 1/beyond. */
+ * total reflection 1 - F changes as fast as 1/beyond; and the slope of a normal near the horizon, which is no longer
+ * small beside that of the roughness, as fast as 1/wm.z. */
 VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
@@ -190,7 +236,8 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, doub
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
     float gain = 0.4f * (float)(fabs(rise) * beyond);
-    if (rise != 0.0 && !(beyond > 0.1 && n->facing > 0.1f && vndf_is_settled(b, gain)))
+    int sound = beyond > 0.1 && n->facing > 0.1f && gain * n->wm.z > 0.16f;
+    if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
         return vndf_refract_carefully(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
     out->wo = wo;

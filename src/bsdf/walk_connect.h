@@ -10,14 +10,14 @@
 #ifndef VNDF_BSDF_WALK_CONNECT_H
 #define VNDF_BSDF_WALK_CONNECT_H
 
-#include "bsdf/beta.h"
 #include "bsdf/walk_path.h"
 #include "bsdf/walk_visible.h"
 
+/* Where a walk is to come out. */
 typedef struct vndf_walk_target {
     vndf_vec3 wo;  /* turned up */
-    int beyond;    /* it is on the other side than wi */
     double lambda; /* Lambda(wo) */
+    int beyond;    /* on the other side than where the walk began */
 } vndf_walk_target;
 
 /* The microfacet between two directions. */
@@ -64,37 +64,34 @@ VNDF_INLINE int vndf_walk_half_refracted(vndf_vec3 v, vndf_vec3 o, double eta, v
     return found.cosine > 0.0 && beyond > 0.0;
 }
 
-/* Of the wavelengths, lobe included; 0 where there is none. */
-VNDF_INLINE int vndf_walk_scattered(const vndf_walk *walk, const vndf_walk_path *path,
-                                    const vndf_walk_target *target, double scattered[VNDF_WAVELENGTHS])
+/* The same for one event and one direction. */
+typedef struct vndf_walk_scattered {
+    double value[VNDF_WAVELENGTHS]; /* of the wavelengths, per steradian; */
+    double drawn;                   /* and the density with which it is drawn but for what a table does */
+} vndf_walk_scattered;
+
+/* From a view to o, on its side or `across`; 0 where nothing goes there. */
+VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, double eta, vndf_vec3 o,
+                                  int across, vndf_walk_scattered *s)
 {
     vndf_walk_half half;
-    int across = path->turned != target->beyond;
-    if (across ? !vndf_walk_half_refracted(path->view.wi, target->wo, path->eta, &half)
-               : !vndf_walk_half_reflected(path->view.wi, target->wo, &half))
+    if (across ? !vndf_walk_half_refracted(view->wi, o, eta, &half)
+               : !vndf_walk_half_reflected(view->wi, o, &half))
         return 0;
-    double density = vndf_walk_visible(&path->view, half.wm, half.cosine) * half.jacobian;
+    double density = vndf_walk_visible(view, half.wm, half.cosine) * half.jacobian;
     if (!(density > 0.0))
         return 0;
-    vndf_walk_reflectances(walk, half.cosine, path->eta, scattered);
+    double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, half.cosine, eta, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        scattered[i] = density * (across ? 1.0 - scattered[i] : scattered[i]);
-    return 1;
+        s->value[i] = density * (across ? 1.0 - f[i] : f[i]);
+    s->drawn = density * (!walk->transmits ? 1.0 : across ? 1.0 - mean : mean);
+    return s->drawn > 0.0;
 }
 
 /* C1^Lambda, on either side. */
-VNDF_INLINE double vndf_walk_leaving(const vndf_walk_path *path, const vndf_walk_target *target)
+VNDF_INLINE double vndf_walk_leaving(double depth, int across, const vndf_walk_target *target)
 {
-    double depth = path->turned != target->beyond ? vndf_walk_other_depth(path->depth) : path->depth;
-    return vndf_exp(-depth * target->lambda);
-}
-
-/* Its mean at the first event, where C1 = U^(1/a), a = 1 + Lambda(wi): a/(a + Lambda(wo)), and on the other side
- * a Beta(a, 1 + Lambda(wo)). */
-VNDF_INLINE double vndf_walk_leaving_once(const vndf_view *view, const vndf_walk_target *target)
-{
-    double a = vndf_walk_slant(view, view->wi);
-    return target->beyond ? a * vndf_beta(a, 1.0 + target->lambda) : a / (a + target->lambda);
+    return vndf_exp(-(across ? vndf_walk_other_depth(depth) : depth) * target->lambda);
 }
 
 #endif

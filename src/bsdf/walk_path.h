@@ -26,8 +26,8 @@ VNDF_INLINE vndf_vec3 vndf_walk_unit(vndf_normal w)
     return vndf_vec3_of((float)(w.x * per), (float)(w.y * per), (float)(w.z * per));
 }
 
-/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top there is no end to it; 1e-300 keeps
- * it a number that a walk may come back from. */
+/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top there is no end to it; 1e-300
+ * keeps it a number that a walk may come back from. */
 VNDF_INLINE double vndf_walk_other_depth(double depth)
 {
     double below = depth > 1e-5 ? 1.0 - vndf_exp(-depth) : depth - 0.5 * depth * depth;
@@ -40,6 +40,23 @@ VNDF_INLINE double vndf_walk_slant(const vndf_view *view, vndf_vec3 w)
     const vndf_distribution *d = view->distribution;
     vndf_stretched s = vndf_stretch(w, view->alpha_x, view->alpha_y, d->kind == VNDF_KIND_TABLE);
     return vndf_unit_area(d, s.s, s.c) / fabs(s.c);
+}
+
+/* The same of the view's own direction: a table's view has its area. Infinite where c is no more a float. */
+VNDF_INLINE double vndf_walk_view_slant(const vndf_view *view)
+{
+    int table = view->distribution->kind == VNDF_KIND_TABLE;
+    return table ? (double)view->area / fabsf(view->c) : vndf_walk_slant(view, view->wi);
+}
+
+/* The view of another direction. */
+VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
+{
+    const vndf_distribution *d = view->distribution;
+    if (d->kind == VNDF_KIND_TABLE)
+        return vndf_view_scaled(d, view->alpha_x, view->alpha_y, w);
+    vndf_surface surface = {d, view->ax, view->ay};
+    return vndf_view_from(&surface, w);
 }
 
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
@@ -56,9 +73,9 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
     double distance = vndf_walk_exponential(&path->random);
     if (back.z < 0.0f && vndf_walk_leaves(path, back, distance))
         return 0;
-    path->view = vndf_view_scaled(path->view.distribution, path->view.alpha_x, path->view.alpha_y, back);
+    path->view = vndf_walk_look(&path->view, back);
     if (back.z > 0.0f)
-        path->depth += distance * path->view.c / path->view.area;
+        path->depth += distance / vndf_walk_view_slant(&path->view);
     return 1;
 }
 
@@ -67,7 +84,7 @@ VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_vie
 {
     vndf_walk_path path = {*view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0,
                            vndf_walk_random_from(seed)};
-    path.depth = vndf_walk_exponential(&path.random) * view->c / view->area;
+    path.depth = vndf_walk_exponential(&path.random) / vndf_walk_view_slant(view);
     return path;
 }
 
@@ -122,7 +139,8 @@ VNDF_INLINE void vndf_walk_turn(vndf_walk_path *path)
     path->depth = vndf_walk_other_depth(path->depth);
 }
 
-VNDF_INLINE void vndf_walk_weigh(vndf_walk_path *path, const double f[VNDF_WAVELENGTHS], double mean, int reflected)
+VNDF_INLINE void vndf_walk_weigh(vndf_walk_path *path, const double f[VNDF_WAVELENGTHS], double mean,
+                                 int reflected)
 {
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         path->weight[i] *= reflected ? f[i] / mean : (1.0 - f[i]) / (1.0 - mean);
@@ -152,6 +170,21 @@ VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float
     }
     vndf_walk_facet facet = {wm, vndf_exact_dot(path->view.wi, wm)};
     return facet;
+}
+
+/* Two uniform numbers for the normal of an event; one for its lobe is returned. */
+VNDF_INLINE double vndf_walk_numbers(const vndf_walk *walk, vndf_walk_path *path, float u[2])
+{
+    vndf_walk_pair(&path->random, u);
+    return walk->transmits ? vndf_walk_uniform(&path->random) : 0.0;
+}
+
+/* Radiance is not constant along a ray that changes its medium, power is: over the square of the index ratio, of
+ * which only the whole way from side to side is left. */
+VNDF_INLINE double vndf_walk_transport(const vndf_walk *walk, int turned)
+{
+    double eta = walk->eta;
+    return turned && walk->transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (eta * eta) : 1.0;
 }
 
 /* Nothing is carried on. */

@@ -1,6 +1,6 @@
-/* Uniform numbers of a walk by counter: number i is a hash of the seed and i, so that a walk keeps no more than two
- * words and the same seed gives the same walk everywhere. The hash is the finaliser of SplitMix64 (Steele, Lea &
- * Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014). */
+/* Uniform numbers of a walk by counter: number i is a hash of the seed and i, so that a walk keeps no more than
+ * two words and the same seed gives the same walk everywhere. The hash is the finaliser of SplitMix64 (Steele,
+ * Lea & Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014). */
 #ifndef VNDF_BSDF_WALK_RANDOM_H
 #define VNDF_BSDF_WALK_RANDOM_H
 

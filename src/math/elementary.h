@@ -24,27 +24,20 @@
 
 static const double vndf_log2_high = 0x1.62e42fefap-1, vndf_log2_low = 0x1.cf79abc9e3b398p-40;
 
-/* 2^k, k from -1022 to 1023. */
-VNDF_INLINE double vndf_power_of_two(int k)
+/* |x| <= 700. The nearest k appears in the low bits of a sum that is too large for fractions. */
+VNDF_INLINE doubles vndf_exp_near(doubles x)
 {
-    uint64_t bits = (uint64_t)(k + 1023) << 52;
-    double power;
-    memcpy(&power, &bits, sizeof power);
-    return power;
+    doubles shifted = x * 1.4426950408889634 + 0x1.8p52, whole = shifted - 0x1.8p52;
+    doubles r = (x - whole * vndf_log2_high) - whole * vndf_log2_low, r2 = r * r, r4 = r2 * r2;
+    doubles low = (0.500000000000000103 + r * 0.166666666666666675)
+               + r2 * (0.0416666666666238205 + r * 0.0083333333333300382);
+    doubles middle = (0.00138888889173670806 + r * 0.00019841269863171556)
+                  + r2 * (2.48015210578682052e-5 + r * 2.75572682769056962e-6);
+    doubles high = 2.76202015910315488e-7 + r * 2.5100472505694996e-8;
+    return (1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))) * doubles_power_of_two(shifted);
 }
 
-/* |x| <= 700. The nearest k appears in the low bits of a sum that is too large for fractions. */
-VNDF_INLINE double vndf_exp_near(double x)
-{
-    double shifted = x * 1.4426950408889634 + 0x1.8p52, whole = shifted - 0x1.8p52;
-    double r = (x - whole * vndf_log2_high) - whole * vndf_log2_low, r2 = r * r, r4 = r2 * r2;
-    double low = (0.500000000000000103 + r * 0.166666666666666675)
-               + r2 * (0.0416666666666238205 + r * 0.0083333333333300382);
-    double middle = (0.00138888889173670806 + r * 0.00019841269863171556)
-                  + r2 * (2.48015210578682052e-5 + r * 2.75572682769056962e-6);
-    double high = 2.76202015910315488e-7 + r * 2.5100472505694996e-8;
-    return (1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))) * vndf_power_of_two((int)whole);
-}
+#if VNDF_LANES == 1 /* the rest is for one */
 
 /* Any x: infinity above 1400, where the square of exp(x/2) is that, 0 below -1400, NaN for NaN. */
 static inline double vndf_exp_far(double x)
@@ -109,4 +102,5 @@ VNDF_INLINE double vndf_atan2(double y, double x)
     return copysign(x < 0.0 ? 3.1415926535897932 - angle : angle, y);
 }
 
+#endif
 #endif

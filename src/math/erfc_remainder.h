@@ -10,14 +10,28 @@
 #ifndef VNDF_MATH_ERFC_REMAINDER_H
 #define VNDF_MATH_ERFC_REMAINDER_H
 
-static inline double vndf_erfc_remainder(double z)
+#include "math/doubles.h"
+
+/* N = above/below, for those who divide by other things too. */
+typedef struct vndf_erfc_quotient {
+    doubles above, below;
+} vndf_erfc_quotient;
+
+VNDF_INLINE vndf_erfc_quotient vndf_erfc_remainder_parts(doubles z)
 {
-    double z2 = z * z;
-    double above = 0.56418958229060461 + z2 * (0.43442368789452211 + z2 * 0.035588736448437589)
+    doubles z2 = z * z;
+    doubles above = 0.56418958229060461 + z2 * (0.43442368789452211 + z2 * 0.035588736448437589)
                  + z * (0.69970383607076316 + z2 * (0.16104945658031852 + z2 * 0.0039072060817670431));
-    double below = 1.0 + z2 * (1.7103683206539098 + z2 * (0.32991426458870597 + z2 * 0.0078144121811194945))
+    doubles below = 1.0 + z2 * (1.7103683206539098 + z2 * (0.32991426458870597 + z2 * 0.0078144121811194945))
                  + z * (1.8842672339634624 + z2 * (0.93999210664236087 + z2 * 0.071177462680180894));
-    return above / below;
+    vndf_erfc_quotient n = {above, below};
+    return n;
+}
+
+VNDF_INLINE doubles vndf_erfc_remainder(doubles z)
+{
+    vndf_erfc_quotient n = vndf_erfc_remainder_parts(z);
+    return n.above / n.below;
 }
 
 #endif

@@ -25,7 +25,7 @@ VNDF_INLINE lanes_f vndf_sine_quarter(lanes_f f)
 VNDF_INLINE vndf_turn vndf_half_turn(lanes_f u)
 {
     vndf_turn turn;
-    turn.sine = vndf_sine_quarter(lanes_pick(lanes_less(u, lanes_set(0.5f)), u, 1.0f - u));
+    turn.sine = vndf_sine_quarter(lanes_least(u, 1.0f - u));
     turn.cosine = lanes_sign(vndf_sine_quarter(lanes_abs(u - 0.5f)), 0.5f - u);
     return turn;
 }

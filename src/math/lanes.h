@@ -35,24 +35,13 @@ VNDF_INLINE int lanes_any(lanes_m m)
 /* max(x, 0), 0 for NaN. */
 VNDF_INLINE lanes_f lanes_positive(lanes_f x)
 {
-    return lanes_pick(lanes_less(lanes_set(0.0f), x), x, lanes_set(0.0f));
-}
-
-/* min(a, b), b for NaN. */
-VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
-{
-    return lanes_pick(lanes_less(a, b), a, b);
+    return lanes_most(x, lanes_set(0.0f));
 }
 
 /* min(x, most), most for NaN. */
 VNDF_INLINE lanes_f lanes_limit(lanes_f x, float most)
 {
-    return lanes_pick(lanes_less(x, lanes_set(most)), x, lanes_set(most));
-}
-
-VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
-{
-    return lanes_pick_u(lanes_at_most_u(x, most), x, most);
+    return lanes_least(x, lanes_set(most));
 }
 
 #endif

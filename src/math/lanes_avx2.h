@@ -57,6 +57,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
     return _mm256_or_ps(_mm256_and_ps(sign, y), _mm256_andnot_ps(sign, x));
 }
 
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return _mm256_max_ps(a, b);
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return _mm256_set1_epi32(-1);
@@ -102,9 +112,29 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(m));
 }
 
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return lanes_pick(m, lanes_set(pair[1]), lanes_set(pair[0]));
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return (lanes_u)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, m);
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return (lanes_u)_mm256_min_epu32((__m256i)x, (__m256i)most);
+}
+
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return _mm256_and_ps(_mm256_castsi256_ps(m), x);
+}
+
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return x - (lanes_u)m;
 }
 
 VNDF_INLINE uint32_t lanes_mask_bits(lanes_m m)
@@ -122,6 +152,16 @@ VNDF_INLINE lanes_u lanes_whole(lanes_f x)
     return (lanes_u)_mm256_cvttps_epi32(x);
 }
 
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    return _mm256_castsi256_ps((__m256i)x);
+}
+
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    return _mm256_cvtepi32_ps((__m256i)x);
+}
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return _mm256_i32gather_ps(base, (__m256i)index, 4);
@@ -137,9 +177,11 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 2) & 0xffffu;
 }
 
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
     __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+    if (count <= 8)
+        return low;
     __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), (__m256i)index);
     return _mm256_blendv_ps(low, high, _mm256_castsi256_ps((__m256i)(index << 28)));
 }

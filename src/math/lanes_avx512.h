@@ -59,6 +59,16 @@ VNDF_INLINE lanes_f lanes_sign(lanes_f x, lanes_f y)
         _mm512_ternarylogic_epi32(sign, _mm512_castps_si512(y), _mm512_castps_si512(x), 0xca));
 }
 
+VNDF_INLINE lanes_f lanes_least(lanes_f a, lanes_f b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+VNDF_INLINE lanes_f lanes_most(lanes_f a, lanes_f b)
+{
+    return _mm512_max_ps(a, b);
+}
+
 VNDF_INLINE lanes_m lanes_all(void)
 {
     return 0xffff;
@@ -104,9 +114,29 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return _mm512_mask_blend_ps(m, no, yes);
 }
 
+VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
+{
+    return lanes_pick(m, lanes_set(pair[1]), lanes_set(pair[0]));
+}
+
 VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
 {
     return (lanes_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
+}
+
+VNDF_INLINE lanes_u lanes_limit_u(lanes_u x, lanes_u most)
+{
+    return (lanes_u)_mm512_min_epu32((__m512i)x, (__m512i)most);
+}
+
+VNDF_INLINE lanes_f lanes_keep(lanes_m m, lanes_f x)
+{
+    return _mm512_maskz_mov_ps(m, x);
+}
+
+VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
+{
+    return (lanes_u)_mm512_mask_add_epi32((__m512i)x, m, (__m512i)x, _mm512_set1_epi32(1));
 }
 
 /* Bit i is lane i. */
@@ -125,6 +155,16 @@ VNDF_INLINE lanes_u lanes_whole(lanes_f x)
     return (lanes_u)_mm512_cvttps_epi32(x);
 }
 
+VNDF_INLINE lanes_f lanes_of_bits(lanes_u x)
+{
+    return _mm512_castsi512_ps((__m512i)x);
+}
+
+VNDF_INLINE lanes_f lanes_float(lanes_u x)
+{
+    return _mm512_cvtepi32_ps((__m512i)x);
+}
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return _mm512_i32gather_ps((__m512i)index, base, 4);
@@ -140,8 +180,9 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
 
-VNDF_INLINE lanes_f lanes_few(const float *table, lanes_u index)
+VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {
+    (void)count;
     return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
 }
 

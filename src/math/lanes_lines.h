@@ -43,6 +43,16 @@ VNDF_INLINE lanes_lines lanes_lines_at(const float *base, uint32_t stride, lanes
     return lines;
 }
 
+/* The same for indices that have long been in memory: of those just made compilers take the vector apart, or
+ * loads wait for its store. */
+VNDF_INLINE lanes_lines lanes_lines_from(const float *base, uint32_t stride, const uint32_t *index)
+{
+    lanes_lines lines;
+    for (int i = 0; i < VNDF_LANES; i++)
+        lines.at[i] = base + (size_t)stride * index[i];
+    return lines;
+}
+
 #  if VNDF_LANES == 16
 
 /* Lanes i, i + 4, i + 8, i + 12. */

@@ -30,7 +30,7 @@ VNDF_INLINE lanes_f vndf_rational_below(const vndf_rational_cell *cell, lanes_f 
 VNDF_INLINE lanes_f vndf_rational_part(const vndf_rational_cell *cell, lanes_f w)
 {
     lanes_f below = vndf_rational_below(cell, w), nothing = lanes_set(0.0f);
-    return lanes_pick(lanes_less(nothing, below), cell->mass / below, nothing);
+    return lanes_keep(lanes_less(nothing, below), cell->mass / below);
 }
 
 /* Mass before xi. */
@@ -53,23 +53,25 @@ typedef struct vndf_rational_place {
     lanes_f xi, over, under, per_under, root, below;
 } vndf_rational_place;
 
-/* xi with mass t before it: the root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the
- * discriminant b^2 + 4 a t is written as (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the
- * other. Its root is the derivative of a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root
- * stand here times m. */
+/* xi with mass t >= 0 before it, that of the cell where rounding has brought more: the root in [0, 1] of
+ * a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the discriminant b^2 + 4 a t is written as
+ * (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other. Its root is the derivative of
+ * a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root stand here times m. */
 VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, lanes_f t)
 {
-    lanes_f m = cell->mass, nothing = lanes_set(0.0f), twice = 2.0f * t * m;
+    lanes_f m = cell->mass, nothing = lanes_set(0.0f);
+    t = lanes_least(t, m); /* a root beyond the end would not be the density there */
+    lanes_f twice = 2.0f * t * m;
     lanes_f middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
     lanes_f square = middle * middle + twice * (2.0f * m * (m - t));
-    lanes_f root = lanes_root(lanes_positive(square)); /* below 0 only by rounding of t beyond m */
+    lanes_f root = lanes_root(square);
     lanes_m rising = lanes_at_most(nothing, b);
     lanes_f above = lanes_pick(rising, twice, root - b); /* no difference of equals */
     lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
     lanes_m whole = lanes_less(nothing, below);
     lanes_f under = lanes_pick(whole, below, lanes_set(1.0f));
-    lanes_f over = lanes_least(lanes_pick(whole, above, nothing), under), per = 1.0f / under;
-    lanes_f xi = lanes_limit(over * per, 1.0f);
+    lanes_f over = lanes_least(lanes_keep(whole, above), under), per = 1.0f / under;
+    lanes_f xi = lanes_least(over * per, lanes_set(1.0f));
     vndf_rational_place place = {xi, over, under, per, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
     return place; /* 1e-37: of an empty cell the quotient is 0 */
 }

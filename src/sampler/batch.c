@@ -1,8 +1,10 @@
-/* The calls of many: in lanes where there are any, else one after the other. */
+/* Sampling many: in lanes where there are any, else one after the other. */
+#include <stdint.h>
 #include <string.h>
 
 #include "core/inline.h"
 #include "math/vector.h"
+#include "sampler/batch.h"
 #include "sampler/batch_lanes.h"
 #include "sampler/surface.h"
 #include "vndf.h"
@@ -43,63 +45,9 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-/* Element i of a batch. */
-VNDF_INLINE vndf_surface surface_at(const vndf_batch *b, size_t i)
-{
-    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
-    vndf_surface surface = {b->distribution, b->alpha_x[at], b->alpha_y[at]};
-    return surface;
-}
-
-VNDF_INLINE vndf_vec3 wi_at(const vndf_batch *b, size_t i)
-{
-    size_t at = b->shared & VNDF_SHARED_WI ? 0 : i;
-    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
-}
-
-VNDF_INLINE vndf_vec3 normal_at(vndf_normals wm, size_t i)
-{
-    return vndf_vec3_of(wm.x[i], wm.y[i], wm.z[i]);
-}
-
-/* Whether all elements have one view. */
-VNDF_INLINE int is_one_view(const vndf_batch *b)
-{
-    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI) && b->count > 0;
-}
-
-VNDF_INLINE vndf_view view_at(const vndf_batch *b, size_t i)
-{
-    vndf_surface surface = surface_at(b, i);
-    return vndf_view_from(&surface, wi_at(b, i));
-}
-
-/* Arrays of a call: normals and two of numbers, read or written as the call has it. */
-typedef struct call {
-    vndf_normals wm;
-    const float *from1, *from2;
-    float *to1, *to2;
-} call;
-
-/* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
-VNDF_INLINE void for_each_view(const vndf_batch *b, const call *c,
-                               void (*one)(const vndf_view *view, const call *c, size_t i))
-{
-    if (is_one_view(b)) {
-        vndf_view view = view_at(b, 0);
-        for (size_t i = 0; i < b->count; i++)
-            one(&view, c, i);
-        return;
-    }
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_view view = view_at(b, i);
-        one(&view, c, i);
-    }
-}
-
 /* ---- sample ---- */
 
-VNDF_INLINE void sample_one(const vndf_view *view, const call *c, size_t i)
+VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
 {
     float density;
     vndf_vec3 n = vndf_sample(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL);
@@ -112,18 +60,19 @@ VNDF_INLINE void sample_one(const vndf_view *view, const call *c, size_t i)
 
 static void sample_one_by_one(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    call c = {wm, u1, u2, pdf, NULL};
-    for_each_view(b, &c, sample_one);
+    vndf_batch_call c = {wm, u1, u2, pdf, NULL};
+    vndf_batch_for_each_view(b, &c, sample_one);
 }
 
 #if VNDF_HAS_LANES
 
-enum { INPUTS = 7 };
+enum { INPUTS = 7, RESULTS = 4 };
 
 /* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
- * lanes would read beyond. */
+ * lanes would read beyond. Results that do not go where they belong at once: those of the last, and all where what
+ * is read may lie there. */
 typedef struct copies {
-    float of[INPUTS][VNDF_BLOCK_SAMPLES];
+    float of[INPUTS][VNDF_BLOCK_SAMPLES], result[RESULTS][VNDF_BLOCK_SAMPLES];
 } copies;
 
 static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
@@ -156,12 +105,41 @@ static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t firs
     block->wi_z = input_at(b->wi_z, wi, first, n, c->of[6]);
 }
 
+static int overlap(const float *a, const float *b, size_t count)
+{
+    uintptr_t first = (uintptr_t)a, second = (uintptr_t)b, bytes = count * sizeof(float);
+    return first < second + bytes && second < first + bytes;
+}
+
+/* Whether no result lies where a number is read from. */
+static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, const float *pdf)
+{
+    const float *read[INPUTS] = {u1, u2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
+    const float *written[RESULTS] = {wm.x, wm.y, wm.z, pdf};
+    for (int i = 0; i < INPUTS; i++)
+        for (int j = 0; j < RESULTS; j++)
+            if (written[j] && overlap(read[i], written[j], b->count))
+                return 0;
+    return 1;
+}
+
+/* Where the results of a block go first. */
+static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm,
+                          float *pdf)
+{
+    int at_once = apart && block->count == VNDF_BLOCK_SAMPLES;
+    block->x = at_once ? wm.x + first : c->result[0];
+    block->y = at_once ? wm.y + first : c->result[1];
+    block->z = at_once ? wm.z + first : c->result[2];
+    block->density = at_once && pdf ? pdf + first : c->result[3];
+}
+
 /* What lanes have left, before the block's results go where its numbers may have come from. */
 static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
     for (uint32_t n = 0; n < block->left_count; n++) {
         uint32_t i = block->left[n] % VNDF_DELICATE;
-        vndf_view own = block->view ? *block->view : view_at(b, first + i);
+        vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
         vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
                            ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
                            : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
@@ -171,15 +149,37 @@ static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t fi
     }
 }
 
+/* Those that are not there yet. */
+static void move_results(const vndf_sample_block *block, size_t first, vndf_normals wm, float *pdf)
+{
+    size_t bytes = block->count * sizeof(float);
+    if (pdf && block->density != pdf + first)
+        memcpy(pdf + first, block->density, bytes);
+    if (block->x == wm.x + first)
+        return;
+    memcpy(wm.x + first, block->x, bytes);
+    memcpy(wm.y + first, block->y, bytes);
+    memcpy(wm.z + first, block->z, bytes);
+}
+
+static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
+{
+    if (wide)
+        vndf_sample_block_avx512(b->distribution, block);
+    else
+        vndf_sample_block_avx2(b->distribution, block);
+}
+
 static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
+    int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, u1, u2, wm, pdf);
     vndf_view view;
     vndf_sample_block block;
     copies own;
     block.view = NULL;
-    if (is_one_view(b)) {
-        view = view_at(b, 0);
+    if (vndf_batch_is_one_view(b)) {
+        view = vndf_batch_view(b, 0);
         block.view = &view;
     }
     if (block.view && !view.plain) { /* lanes would leave all of it */
@@ -190,25 +190,17 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
         aim_block(&block, b, first, u1, u2, &own);
-        if (wide)
-            vndf_sample_block_avx512(b->distribution, &block);
-        else
-            vndf_sample_block_avx2(b->distribution, &block);
+        place_results(&block, &own, first, apart, wm, pdf);
+        draw_block(b, &block, wide);
         sample_left(&block, b, first);
-        size_t bytes = block.count * sizeof(float);
-        memcpy(wm.x + first, block.x, bytes);
-        memcpy(wm.y + first, block.y, bytes);
-        memcpy(wm.z + first, block.z, bytes);
-        if (pdf)
-            memcpy(pdf + first, block.density, bytes);
+        move_results(&block, first, wm, pdf);
     }
 }
 
 /* Whether lanes draw most samples of a batch. */
 static int has_lanes(const vndf_batch *b)
 {
-    return b->count > 1 && b->distribution && b->distribution->kind != VNDF_KIND_BECKMANN &&
-           vndf_unit_scale_float(b->distribution) > 0.0f &&
+    return b->count > 1 && b->distribution && vndf_unit_scale_float(b->distribution) > 0.0f &&
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 
@@ -228,73 +220,3 @@ void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_n
 }
 
 #endif
-
-/* ---- the others ---- */
-
-VNDF_INLINE void pdf_one(const vndf_view *view, const call *c, size_t i)
-{
-    c->to1[i] = vndf_pdf(view, normal_at(c->wm, i));
-}
-
-void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
-{
-    call c = {wm, NULL, NULL, pdf, NULL};
-    for_each_view(b, &c, pdf_one);
-}
-
-VNDF_INLINE void visible_one(const vndf_view *view, const call *c, size_t i)
-{
-    c->to1[i] = vndf_visible(view, normal_at(c->wm, i));
-}
-
-void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
-{
-    call c = {wm, NULL, NULL, visible, NULL};
-    for_each_view(b, &c, visible_one);
-}
-
-VNDF_INLINE void invert_one(const vndf_view *view, const call *c, size_t i)
-{
-    float u1, u2;
-    vndf_invert(view, normal_at(c->wm, i), &u1, &u2);
-    c->to1[i] = u1;
-    c->to2[i] = u2;
-}
-
-void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
-{
-    call c = {wm, NULL, NULL, u1, u2};
-    for_each_view(b, &c, invert_one);
-}
-
-void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        ndf[i] = vndf_ndf(&surface, normal_at(wm, i));
-    }
-}
-
-void vndf_projected_area_n(const vndf_batch *b, float *area)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        area[i] = vndf_projected_area(&surface, wi_at(b, i));
-    }
-}
-
-void vndf_lambda_n(const vndf_batch *b, float *lambda)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        lambda[i] = vndf_lambda(&surface, wi_at(b, i));
-    }
-}
-
-void vndf_g1_n(const vndf_batch *b, float *g1)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_surface surface = surface_at(b, i);
-        g1[i] = vndf_g1(&surface, wi_at(b, i));
-    }
-}

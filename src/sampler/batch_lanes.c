@@ -1,234 +1,134 @@
-/* See batch_lanes.h. Lanes past the end of a block repeat what the block held before and are not written. */
+/* See batch_lanes.h. Lanes past the end of a block are drawn like the others and not written. */
 #include "sampler/batch_lanes.h"
-
-#include "sampler/ggx_draw.h"
-#include "sampler/surface.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
-enum { GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
+#include "sampler/batch_closed.h"
+#include "sampler/batch_search.h"
 
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
-typedef struct work {
-    vndf_incidence at[GROUPS];
-    lanes_f half[GROUPS], u2[GROUPS];
-    vndf_bearing bearing[GROUPS];
-    lanes_u cell[GROUPS];
-    vndf_place place[GROUPS];
-    lanes_m plain[GROUPS];
-    uint32_t wedge[VNDF_BLOCK_SAMPLES + VNDF_LANES]; /* the samples that are in the wedge */
-    uint32_t wedge_count;
-} work;
+typedef struct fronts {
+    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_place place[VNDF_BLOCK_GROUPS];
+    lanes_m plain[VNDF_BLOCK_GROUPS];
+    vndf_radial_search radii;
+} fronts;
 
-/* The wedge's samples, side by side. */
-typedef struct wedge_work {
-    vndf_incidence at[GROUPS];
-    lanes_f half[GROUPS], u2[GROUPS], part[GROUPS];
-    vndf_azimuth_row row[GROUPS];
-    lanes_u count[GROUPS], cell[GROUPS];
-    lanes_m plain[GROUPS];
-    vndf_azimuth azimuth[GROUPS];
-    vndf_bearing bearing[GROUPS];
-    vndf_radial_law law[GROUPS];
-    vndf_place place[GROUPS];
-} wedge_work;
+typedef struct wedges {
+    vndf_row_search azimuths;
+    uint32_t cut[VNDF_BLOCK_SAMPLES];
+    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_radial_law law[VNDF_BLOCK_GROUPS];
+    vndf_place place[VNDF_BLOCK_GROUPS];
+    lanes_m plain[VNDF_BLOCK_GROUPS];
+    vndf_radial_search radii;
+} wedges;
 
-static lanes_f clamp_unit(lanes_f u)
+/* ---- in front of wi ---- */
+
+VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from, uint32_t end, fronts *w,
+                             vndf_results *to)
 {
-    return lanes_limit(lanes_positive(u), 1.0f);
-}
-
-/* Indices of the lanes in `m`, from `first` on, that are below `end`. */
-VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first, uint32_t end)
-{
-    uint32_t bits = lanes_mask_bits(m);
-    if (end - first < VNDF_LANES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        list[count++] = first + (uint32_t)__builtin_ctz(bits);
-    return count;
-}
-
-/* Those that cannot be drawn here, and those that the call of one would draw and then do carefully. */
-VNDF_INLINE void leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
-{
-    b->left_count = append(b->left, b->left_count, unready, first, b->count);
-    uint32_t from = b->left_count;
-    b->left_count = append(b->left, from, delicate, first, b->count);
-    for (; from < b->left_count; from++)
-        b->left[from] |= VNDF_DELICATE;
-}
-
-/* Of samples from `i` on; plain only where a view in float is good enough. */
-VNDF_INLINE vndf_incidence incidence_at(const vndf_distribution *d, const vndf_sample_block *b, uint32_t i,
-                                        float scale)
-{
-    lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
-    lanes_m ready = lanes_all();
-    lanes_f x = ax * lanes_load(b->wi_x + i), y = ay * lanes_load(b->wi_y + i), z = lanes_load(b->wi_z + i);
-    vndf_aim aim = d->kind == VNDF_KIND_GGX ? vndf_aim_unit(x, y, z, &ready) : vndf_aim_at(d, x, y, z, &ready);
-    vndf_incidence w = vndf_incidence_from(ax, ay, &aim);
-    w.plain = lanes_both(w.plain, ready);
-    return w;
-}
-
-VNDF_INLINE void store(vndf_sample_block *b, uint32_t i, const vndf_drawn *n)
-{
-    lanes_store(b->x + i, n->x);
-    lanes_store(b->y + i, n->y);
-    lanes_store(b->z + i, n->z);
-    lanes_store(b->density + i, n->density);
-}
-
-/* The same member of the groups, of samples `index`: what lies `stride` floats from group to group. */
-VNDF_INLINE lanes_f gathered(const lanes_f *member, size_t stride, lanes_u index)
-{
-    lanes_u group = index / VNDF_LANES, lane = index & (VNDF_LANES - 1u);
-    return lanes_gather((const float *)member, group * (uint32_t)(stride / sizeof(float)) + lane);
-}
-
-VNDF_INLINE vndf_incidence gathered_incidence(const vndf_incidence *all, lanes_u index)
-{
-    const size_t stride = sizeof *all;
-    vndf_incidence w = {gathered(&all->ax, stride, index), gathered(&all->ay, stride, index),
-                        gathered(&all->s, stride, index), gathered(&all->c, stride, index),
-                        gathered(&all->cos_phi, stride, index), gathered(&all->sin_phi, stride, index),
-                        gathered(&all->front, stride, index), gathered(&all->wedge, stride, index),
-                        gathered(&all->spread, stride, index), lanes_all()};
-    return w;
-}
-
-/* ---- in front of wi: all lanes as they come ---- */
-
-VNDF_INLINE void aim(const vndf_distribution *d, const vndf_sample_block *b, work *w)
-{
-    float scale = vndf_unit_scale_float(d);
-    vndf_incidence shared;
-    if (b->view)
-        shared = vndf_incidence_of(b->view);
-    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
-        uint32_t i = g * VNDF_LANES;
-        w->at[g] = b->view ? shared : incidence_at(d, b, i, scale);
-        w->half[g] = 2.0f * clamp_unit(lanes_load(b->u1 + i)) - 1.0f;
-        w->u2[g] = clamp_unit(lanes_load(b->u2 + i));
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, i);
+        vndf_sector sector = vndf_sorted_sector(from, i);
+        w->bearing[g] = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + i));
+        vndf_ask_radii(d, &w->radii, i, &w->bearing[g], lanes_load(from->u2 + i));
     }
-}
-
-VNDF_INLINE void draw_fronts(const vndf_distribution *d, vndf_sample_block *b, work *w)
-{
-    uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
-    for (uint32_t g = 0; g < groups; g++)
-        w->bearing[g] = vndf_bear_front(d, &w->at[g], w->half[g], w->u2[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_front(d, &w->bearing[g], w->u2[g]);
-    for (uint32_t g = 0; g < groups; g++) {
-        w->plain[g] = w->at[g].plain;
-        w->place[g] = vndf_place_front(d, &w->at[g], &w->bearing[g], w->cell[g], w->half[g], w->u2[g],
-                                       &w->plain[g]);
+    vndf_find_radii(d, &w->radii, end, 1);
+    for (uint32_t i = 0; i < end; i += VNDF_LANES)
+        vndf_limit_cells(w->radii.cell + i, lanes_set_u(d->radial_count - 1));
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, i);
+        vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
+        w->plain[g] = lanes_all();
+        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], &cell, lanes_load_u(w->radii.cell + i),
+                                       lanes_load(from->u2 + i), &w->plain[g]);
     }
-    for (uint32_t g = 0; g < groups; g++) {
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        store(b, g * VNDF_LANES, &n);
-    }
-    for (uint32_t g = 0; g < groups; g++) {
-        lanes_m usable = w->at[g].plain, plain = w->plain[g];
-        lanes_m front = lanes_less(vndf_draw_target(&w->at[g], w->half[g]), w->at[g].front);
-        w->wedge_count = append(w->wedge, w->wedge_count, lanes_without(usable, front), g * VNDF_LANES, b->count);
-        leave(b, lanes_without(lanes_all(), usable), lanes_without(lanes_both(usable, front), plain),
-              g * VNDF_LANES);
+        vndf_results_keep(to, i, &n, w->plain[g]);
     }
 }
 
-/* ---- in the wedge: those that are, gathered ---- */
+/* ---- in the wedge ---- */
 
-VNDF_INLINE void gather_wedges(const vndf_distribution *d, const vndf_sample_block *b, const work *from,
-                               wedge_work *w)
+/* Azimuths, and where their laws of the radius are cut. */
+VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                               wedges *w)
 {
-    for (uint32_t g = 0; g * VNDF_LANES < from->wedge_count; g++) {
-        lanes_u index = lanes_load_u(from->wedge + g * VNDF_LANES);
-        w->at[g] = b->view ? from->at[0] : gathered_incidence(from->at, index);
-        w->half[g] = gathered(from->half, sizeof *from->half, index);
-        w->u2[g] = gathered(from->u2, sizeof *from->u2, index);
-        w->row[g] = vndf_wedge_row(&d->above, w->at[g].c);
-        w->part[g] = vndf_wedge_part(lanes_abs(w->half[g]), w->at[g].front, w->at[g].wedge);
+    const vndf_row_search *s = &w->azimuths;
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_azimuth_cell cell = vndf_azimuth_cell_of(d, from, i, s);
+        w->plain[g] = vndf_wedge_is_plain(&s->rows[g]);
+        vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->plain[g]);
+        vndf_incidence at = vndf_sorted_incidence(from, first + i);
+        vndf_sector sector = vndf_sorted_sector(from, first + i);
+        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &a, lanes_load(from->u2 + first + i));
+    }
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++)
+        lanes_store_u(w->cut + i, vndf_radial_cut(d, w->bearing[g].c, w->bearing[g].k));
+}
+
+VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                            wedges *w)
+{
+    const float *u2 = from->u2 + first;
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_bearing *b = &w->bearing[g];
+        vndf_radial_lanes cell = vndf_load_cells(d, w->cut + i);
+        w->law[g] = vndf_radial_law_cut(d, b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
+        vndf_ask_radii(d, &w->radii, i, b, lanes_load(u2 + i));
+    }
+    vndf_find_radii(d, &w->radii, count, 0);
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        vndf_limit_cells(w->radii.cell + i, lanes_load_u(w->cut + i));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, first + i);
+        vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
+        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
+                                       lanes_load(u2 + i), &w->plain[g]);
     }
 }
 
-/* A group's results to where its samples were; what is not good is left. */
-VNDF_INLINE void scatter(vndf_sample_block *b, const uint32_t *index, uint32_t count, const vndf_drawn *n,
-                         lanes_m good)
+/* Samples from `first` on, `count` of them. */
+VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                             wedges *w, vndf_results *to)
 {
-    float out[4][VNDF_LANES];
-    uint32_t bits = lanes_mask_bits(good);
-    lanes_store(out[0], n->x);
-    lanes_store(out[1], n->y);
-    lanes_store(out[2], n->z);
-    lanes_store(out[3], n->density);
-    for (uint32_t lane = 0; lane < count; lane++) {
-        uint32_t to = index[lane];
-        b->x[to] = out[0][lane];
-        b->y[to] = out[1][lane];
-        b->z[to] = out[2][lane];
-        b->density[to] = out[3][lane];
-        b->left[b->left_count] = to | VNDF_DELICATE;
-        b->left_count += !(bits >> lane & 1);
-    }
-}
-
-VNDF_INLINE void draw_wedges(const vndf_distribution *d, vndf_sample_block *b, const work *from, wedge_work *w)
-{
-    uint32_t groups = (from->wedge_count + VNDF_LANES - 1) / VNDF_LANES;
-    for (uint32_t g = 0; g < groups; g++)
-        w->count[g] = vndf_azimuth_find(&w->row[g], w->part[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->azimuth[g] = vndf_azimuth_draw(&w->row[g], w->count[g], w->part[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->bearing[g] = vndf_bear_wedge(d, &w->at[g], &w->azimuth[g], w->half[g], w->u2[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->law[g] = vndf_law_wedge(d, &w->bearing[g]);
-    for (uint32_t g = 0; g < groups; g++)
-        w->cell[g] = vndf_find_wedge(d, &w->bearing[g], w->u2[g], w->law[g].cut);
-    for (uint32_t g = 0; g < groups; g++) {
-        w->plain[g] = vndf_wedge_is_plain(&w->row[g]);
-        w->place[g] = vndf_place_wedge(d, &w->at[g], &w->bearing[g], &w->law[g], w->cell[g], w->half[g], w->u2[g],
-                                       &w->plain[g]);
-    }
-    for (uint32_t g = 0; g < groups; g++) {
+    if (vndf_has_one_row(d, from))
+        vndf_find_in_one_row(d, from, first, count, &w->azimuths);
+    else
+        vndf_find_azimuths(d, from, first, count, &w->azimuths);
+    draw_azimuths(d, from, first, count, w);
+    draw_radii(d, from, first, count, w);
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        uint32_t first = g * VNDF_LANES, left = from->wedge_count - first;
-        scatter(b, from->wedge + first, left < VNDF_LANES ? left : VNDF_LANES, &n, w->plain[g]);
+        vndf_results_keep(to, first + i, &n, w->plain[g]);
     }
 }
 
-/* ---- GGX ---- */
+/* ---- tables ---- */
 
-VNDF_INLINE void draw_ggx(const vndf_distribution *d, vndf_sample_block *b)
+VNDF_INLINE uint32_t whole_groups(uint32_t count)
 {
-    vndf_incidence shared;
-    if (b->view)
-        shared = vndf_incidence_of(b->view);
-    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_incidence w = b->view ? shared : incidence_at(d, b, i, 1.0f);
-        lanes_m plain = lanes_all();
-        vndf_drawn n = vndf_ggx_draw(&w, clamp_unit(lanes_load(b->u1 + i)), clamp_unit(lanes_load(b->u2 + i)),
-                                     &plain);
-        store(b, i, &n);
-        leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
-    }
+    return (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
 }
 
+/* The last group in front may end among the wedges, and the first of those begin among the fronts: each kind has
+ * results of its own. */
 static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
-    work all;
-    wedge_work wedges;
-    all.wedge_count = 0;
-    aim(d, b, &all);
-    draw_fronts(d, b, &all);
-    for (uint32_t i = 0; i < VNDF_LANES; i++) /* lanes that are not needed repeat a sample */
-        all.wedge[all.wedge_count + i] = 0;
-    gather_wedges(d, b, &all, &wedges);
-    draw_wedges(d, b, &all, &wedges);
+    vndf_sorted sorted;
+    vndf_origin from[VNDF_BLOCK_GROUPS];
+    vndf_results front, wedge;
+    fronts in_front;
+    wedges in_wedge;
+    uint32_t end = whole_groups(b->count), border = vndf_sort_block(d, b, &sorted, from);
+    uint32_t count = whole_groups(end - border);
+    draw_fronts(d, &sorted, whole_groups(border), &in_front, &front);
+    draw_wedges(d, &sorted, end - count, count, &in_wedge, &wedge);
+    vndf_unsort_block(b, from, &front, &wedge);
 }
 
 #if VNDF_LANES == 16
@@ -239,7 +139,9 @@ void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
 {
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)
-        draw_ggx(d, b);
+        vndf_draw_ggx(b);
+    else if (d->kind == VNDF_KIND_BECKMANN)
+        vndf_draw_beckmann(b);
     else
         draw_table(d, b);
 }

@@ -1,6 +1,6 @@
 /* Batches in lanes: one source, batch_lanes.c, compiled for each instruction set. A block of a batch is drawn
- * where that is plain (draw.h), in front of wi all lanes as they come, in the wedge those that are in it,
- * gathered; the rest is left to the calls of one. */
+ * where that is plain (draw.h), sorted into samples in front of wi and in the wedge (batch_sort.h); the rest is
+ * left to the calls of one. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_H
 #define VNDF_SAMPLER_BATCH_LANES_H
 
@@ -15,15 +15,15 @@
 
 enum { VNDF_BLOCK_SAMPLES = 256, VNDF_DELICATE = 1 << 16 };
 
-/* Samples of a block: what they are given, arrays that lanes may read to the end of the last group, and what is
- * drawn. */
+/* Samples of a block: what they are given, arrays that lanes may read to the end of the last group, and where
+ * what is drawn goes. */
 typedef struct vndf_sample_block {
     const float *alpha_x, *alpha_y, *wi_x, *wi_y, *wi_z, *u1, *u2;
     const vndf_view *view;             /* of all, then alpha and wi are not read; or NULL */
     uint32_t count, left_count;
     /* indices of those that are not drawn, VNDF_DELICATE added if that was tried */
     uint32_t left[VNDF_BLOCK_SAMPLES];
-    float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
+    float *x, *y, *z, *density; /* to be written, to the end of the last group */
 } vndf_sample_block;
 
 #if VNDF_HAS_LANES

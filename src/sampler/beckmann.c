@@ -35,10 +35,9 @@ typedef struct slope {
     double x, d;
 } slope;
 
-/* For K < 5/4 the members are divided by exp(-K^2), so that nothing underflows below the horizon; above that they
- * are not, so that nothing overflows. whole is (2 sqrt(pi)/s) F(K), line 2 sqrt(pi) K for K > 0. */
-static vndf_beckmann_law law_of(double bound)
+vndf_beckmann_law vndf_beckmann_law_at(float s, float c)
 {
+    double bound = vndf_beckmann_bound(s, c);
     double z = fabs(bound), n = vndf_erfc_remainder(z), part = n / (n + z);
     vndf_beckmann_law g = {bound, part, 0.0};
     if (bound >= 1.25) {
@@ -49,24 +48,6 @@ static vndf_beckmann_law law_of(double bound)
         g.whole = g.line + part;
     }
     return g;
-}
-
-vndf_beckmann_law vndf_beckmann_law_at(float s, float c)
-{
-    return law_of(vndf_beckmann_bound(s, c));
-}
-
-float vndf_beckmann_area(float s, float c)
-{
-    double k = vndf_beckmann_bound(s, c), z = fabs(k), n = vndf_erfc_remainder(z);
-    return (float)((c > 0.0f ? c : 0.0f) + s * vndf_exp(-k * k) * (n / (n + z)) / (2.0 * vndf_root_pi));
-}
-
-float vndf_beckmann_area_of(const vndf_beckmann_law *law, float s, float c)
-{
-    if (law->bound >= 1.25 && s > 1e-20f)
-        return (float)(s * law->whole / (2.0 * vndf_root_pi));
-    return vndf_beckmann_area(s, c);
 }
 
 /* m rho = d exp(2 K d/3) solved for d by an approximation of Lambert's function, good to 2%. */
@@ -153,19 +134,26 @@ double vndf_beckmann_slope_distance(float s, float c, float u1)
     return solve(&g, clamp_inside(u1)).d;
 }
 
-vndf_beckmann_slopes vndf_beckmann_draw(const vndf_beckmann_law *law, float u1, float u2)
+double vndf_beckmann_part(const vndf_beckmann_law *law, double x, double d)
 {
-    slope first = solve(law, clamp_inside(u1));
-    vndf_beckmann_slopes drawn = {first.x, vndf_erf_quantile(clamp_inside(u2)), first.d};
-    return drawn;
+    slope p = {x, d};
+    double z = fabs(x), rest = vndf_erfc_remainder(z), gauss = vndf_exp(-exponent(law, p));
+    double mass = (x > 0.0 ? rest - d : rest + d) / (rest + z) * gauss + (x > 0.0 ? law->line : 0.0);
+    return mass / law->whole;
+}
+
+double vndf_beckmann_slope(const vndf_beckmann_law *law, double u)
+{
+    const double most = 1.0 - 0x1p-40;
+    return solve(law, u > 0x1p-64 ? (u < most ? u : most) : 0x1p-64).x;
 }
 
 vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
 {
     vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
-    vndf_beckmann_slopes at = vndf_beckmann_draw(&g, u1, u2);
-    double z = 1.0 / sqrt(1.0 + at.x * at.x + at.y * at.y);
-    vndf_vec3 n = {(float)(-at.x * z), (float)(-at.y * z), (float)z};
+    double x = solve(&g, clamp_inside(u1)).x, y = vndf_erf_quantile(clamp_inside(u2));
+    double z = 1.0 / sqrt(1.0 + x * x + y * y);
+    vndf_vec3 n = {(float)(-x * z), (float)(-y * z), (float)z};
     return vndf_face(s, c, n);
 }
 
@@ -174,9 +162,6 @@ void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
     vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
     double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
-    slope p = {-n.x / z, front > 0.0 ? front : 0.0};
-    double rest = vndf_erfc_remainder(fabs(p.x)), gauss = vndf_exp(-exponent(&g, p));
-    double mass = (p.x > 0.0 ? rest - p.d : rest + p.d) / (rest + fabs(p.x)) * gauss + (p.x > 0.0 ? g.line : 0.0);
-    *u1 = vndf_clamp_unit((float)(mass / g.whole));
+    *u1 = vndf_clamp_unit((float)vndf_beckmann_part(&g, -n.x / z, front > 0.0 ? front : 0.0));
     *u2 = (float)vndf_half_erfc(n.y / z);
 }

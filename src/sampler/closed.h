@@ -1,35 +1,25 @@
-/* Densities of the closed forms: P22, D and Dv of the real problem, any roughness within [1e-18, 1e18], in double:
+/* Densities of the closed forms: P22 and D of the real problem, any roughness within [1e-18, 1e18], in double:
  * nothing overflows or underflows on the way, and products of two floats are exact. Results may lie beyond float.
  *
  * With a = alpha_x alpha_y, Q = (alpha_y wm.x)^2 + (alpha_x wm.y)^2 + (a wm.z)^2 and r = 1/(a wm.z)^2
  *
- *     GGX: D = a^3/(pi Q^2),    Beckmann: D = a^3 r^2 exp(-R^2)/pi,  R^2 = r Q - 1 the squared slope length.
- *
- * Beckmann below the horizon: D and the area both hold exp(-K^2), K = c/s, and both underflow. What is left of
- * R^2 is y^2 + d (d - 2 K) (beckmann.c), of one sign; with (p, q) = (alpha_x wi.x, alpha_y wi.y) and f = wi . wm
- *
- *     R^2 - K^2 = r/(p^2 + q^2) ((alpha_x p wm.y - alpha_y q wm.x)^2 + a^2 f (f - 2 wi.z wm.z)),
- *     A1 exp(K^2) = s N/(N + |K|)/(2 sqrt(pi))          (N: math/erfc_remainder.h)
- *
- * from wi itself, since the left side is a difference of numbers of the size of K^2. Dv falls by exp(-1) where the
- * slope moves by 1/(2 K^2) of itself: it is the density of wm as it was rounded, and where that is a hundred such
- * steps (|K| above some 3e4) it may be 0. */
+ *     GGX: D = a^3/(pi Q^2),    Beckmann: D = a^3 r^2 exp(-R^2)/pi,  R^2 = r Q - 1 the squared slope length. */
 #ifndef VNDF_SAMPLER_CLOSED_H
 #define VNDF_SAMPLER_CLOSED_H
 
 #include <math.h>
 
-#include "core/inline.h"
 #include "math/elementary.h"
-#include "sampler/stretch.h"
 #include "vndf.h"
 
 static const double vndf_inverse_pi = 0.31830988618379067, vndf_root_pi = 1.7724538509055160;
 
-/* A normal in double. */
+/* A normal, lane by lane. */
 typedef struct vndf_normal {
-    double x, y, z;
+    doubles x, y, z;
 } vndf_normal;
+
+#if VNDF_LANES == 1
 
 VNDF_INLINE vndf_normal vndf_normal_of(vndf_vec3 wm)
 {
@@ -46,79 +36,52 @@ VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_view *view, vndf_vec3 wm)
     return n;
 }
 
-/* wi . wm: here the terminator is. */
-VNDF_INLINE double vndf_facing(const vndf_view *view, vndf_normal wm)
-{
-    return view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z;
-}
+#endif
 
 /* ---- GGX ---- */
 
 /* At the squared slope length r2. */
-VNDF_INLINE double vndf_ggx_p22(double r2)
+VNDF_INLINE doubles vndf_ggx_p22(doubles r2)
 {
-    double q = 1.0 + r2;
+    doubles q = 1.0 + r2;
     return vndf_inverse_pi / (q * q);
 }
 
 /* At a unit wm, wm.z >= 0; relative error below 1e-14. */
-VNDF_INLINE double vndf_ggx_ndf(double alpha_x, double alpha_y, vndf_normal wm)
+VNDF_INLINE doubles vndf_ggx_ndf(doubles alpha_x, doubles alpha_y, vndf_normal wm)
 {
-    double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z;
-    double q = x * x + y * y + z * z;
+    doubles a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z;
+    doubles q = x * x + y * y + z * z;
     return vndf_inverse_pi * (a * a * a) / (q * q);
-}
-
-/* Where facing = wi . wm > 0; relative error below 1e-6 at every angle. 0 where s is 0. */
-VNDF_INLINE double vndf_ggx_visible(const vndf_view *view, const vndf_stretched *w, vndf_normal wm, double facing)
-{
-    double s = w->s, c = w->c;
-    if (c < 0.0 && !(s > 0.0))
-        return 0.0;
-    double per_area = c < 0.0 ? 2.0 * (1.0 - c) / (s * s) : 2.0 / (1.0 + c);
-    return vndf_ggx_ndf(view->alpha_x, view->alpha_y, wm) * (facing * w->per_length * per_area);
 }
 
 /* ---- Beckmann ---- */
 
-VNDF_INLINE double vndf_beckmann_p22(double r2)
+/* exp(-r2), 0 beyond 700: what is multiplied by it there, up to 1e90, does not bring it back to a float. */
+VNDF_INLINE doubles vndf_exp_falling(doubles r2)
 {
-    return vndf_inverse_pi * vndf_exp(-r2);
+    const doubles most = doubles_set(700.0), nothing = doubles_set(0.0);
+    doubles_m counts = doubles_less(r2, most);
+    return doubles_pick(counts, vndf_exp_near(nothing - doubles_pick(counts, r2, most)), nothing);
 }
 
-/* a^3 r^2 exp(-exponent)/pi; beyond 745 exp is 0, and r may be infinite. */
-VNDF_INLINE double vndf_beckmann_scaled(double a, double r, double exponent)
+VNDF_INLINE doubles vndf_beckmann_p22(doubles r2)
 {
-    return exponent < 745.0 ? vndf_inverse_pi * vndf_exp(-exponent) * (a * a * a) * (r * r) : 0.0;
+    return vndf_inverse_pi * vndf_exp_falling(r2);
+}
+
+/* a^3 r^2 exp(-exponent)/pi; r may be infinite where that is 0. */
+VNDF_INLINE doubles vndf_beckmann_scaled(doubles a, doubles r, doubles exponent)
+{
+    doubles scaled = vndf_beckmann_p22(exponent) * (a * a * a) * (r * r);
+    return doubles_pick(doubles_less(exponent, doubles_set(700.0)), scaled, doubles_set(0.0));
 }
 
 /* At a unit wm, wm.z >= 0; relative error below 1e-15 (1 + R^2). */
-VNDF_INLINE double vndf_beckmann_ndf(double alpha_x, double alpha_y, vndf_normal wm)
+VNDF_INLINE doubles vndf_beckmann_ndf(doubles alpha_x, doubles alpha_y, vndf_normal wm)
 {
-    double a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z, r = 1.0 / (z * z);
+    doubles a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z, r = 1.0 / (z * z);
     return vndf_beckmann_scaled(a, r, r * (x * x + y * y));
-}
-
-/* D exp(K^2) below the horizon. */
-VNDF_INLINE double vndf_beckmann_ndf_below(const vndf_view *view, vndf_normal wm, double facing)
-{
-    double ax = view->alpha_x, ay = view->alpha_y, a = ax * ay, z = a * wm.z, r = 1.0 / (z * z);
-    double p = ax * view->wi.x, q = ay * view->wi.y, across = ax * p * wm.y - ay * q * wm.x;
-    double along = a * a * facing * (facing - 2.0 * view->wi.z * wm.z);
-    return vndf_beckmann_scaled(a, r, (across * across + along) / (p * p + q * q) * r);
-}
-
-/* Where facing = wi . wm > 0; relative error below 1e-6, that of the area, at every angle. 0 where s is 0. */
-VNDF_INLINE double vndf_beckmann_visible(const vndf_view *view, const vndf_stretched *w, vndf_normal wm,
-                                         double facing)
-{
-    double weight = facing * w->per_length, s = w->s;
-    if (w->c >= 0.0)
-        return vndf_beckmann_ndf(view->alpha_x, view->alpha_y, wm) * (weight / view->area);
-    if (!(s > 0.0))
-        return 0.0;
-    double z = -w->c / s, n = vndf_erfc_remainder(z);
-    return vndf_beckmann_ndf_below(view, wm, facing) * (weight * 2.0 * vndf_root_pi * (n + z) / (s * n));
 }
 
 #endif

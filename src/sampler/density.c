@@ -7,12 +7,15 @@
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
  * stretched direction before per_length brings it to s + |c| = 1. Cells are those of math/rational_cell.h,
- * math/weighted_cell.h and sampler/radial.h, which draws from them. Relative error below 1e-5 of the density
- * that the numbers of the file define wherever that exceeds 1e-30 (test float_accuracy). */
+ * math/weighted_cell.h and sampler/radial.h, which draws from them. This is for every normal, and for those who
+ * build tables; what most normals take, lanes too, stands in given.h and given_wedge.h. Relative
+ * error below 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test
+ * float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"
 #include "sampler/engine.h"
+#include "sampler/given_wedge.h"
 #include "sampler/stretch.h"
 #include "sampler/wedge.h"
 #include "table/moment_cubic.h"
@@ -217,33 +220,46 @@ static double over(double w, double v)
     return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
 }
 
+/* A place in the rational cell of a piece: zeta and 1 - zeta, the ends of the cell per zeta, and (dzeta/dxi)
+ * over the weight. */
+typedef struct inner {
+    double zeta, rest, e0, e1, ratio, per;
+} inner;
+
+/* Where the normal has the weight w. */
+static inner inner_of(const piece *p, place at, double w)
+{
+    double xi = at.xi / p->length, eta = at.eta / p->length;
+    if (p->length < 1.0) {
+        xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
+        eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
+    }
+    inner in = {xi, eta, p->f0 * p->w0, p->f1 * p->w1, 1.0, 1.0};
+    if (p->weighted) {
+        double sum = p->v0 + p->v1, v = p->v0 * eta + p->v1 * xi, half = 0.5 * sum;
+        in.ratio = (p->v0 + v) / sum;
+        in.zeta = xi * in.ratio;
+        in.rest = eta * ((v + p->v1) / sum);
+        in.e0 = p->f0 * over(p->w0, p->v0) * half;
+        in.e1 = p->f1 * over(p->w1, p->v1) * half;
+        in.per = (p->length < 1.0 ? w : v) / half;
+    }
+    in.e0 *= p->length;
+    in.e1 *= p->length;
+    return in;
+}
+
 /* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
  * X does. */
 static double density_over_x(const vndf_engine_ray *ray, const piece *p, place at, double w)
 {
     const vndf_knots *k = &ray->table->knots;
-    double xi = at.xi / p->length, eta = at.eta / p->length, ratio = 1.0, per = 1.0;
-    double zeta, rest, e0 = p->f0 * p->w0, e1 = p->f1 * p->w1;
-    if (p->length < 1.0) {
-        xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
-        eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
-    }
-    zeta = xi;
-    rest = eta;
-    if (p->weighted) {
-        double sum = p->v0 + p->v1, v = p->v0 * eta + p->v1 * xi, half = 0.5 * sum;
-        ratio = (p->v0 + v) / sum;
-        zeta = xi * ratio;
-        rest = eta * ((v + p->v1) / sum);
-        e0 = p->f0 * over(p->w0, p->v0) * half;
-        e1 = p->f1 * over(p->w1, p->v1) * half;
-        per = (p->length < 1.0 ? w : v) / half;
-    }
-    per /= p->length;
+    inner in = inner_of(p, at, w);
+    double per = in.per / p->length;
     if (at.cell == 0 && p->f0 == 0.0)
-        return per * ratio * rational_density_over(e1 * p->length, p->mass, zeta, rest) / (p->length * k->x[1]);
+        return per * in.ratio * rational_density_over(in.e1, p->mass, in.zeta, in.rest) / (p->length * k->x[1]);
     double x = at.eta * k->x[at.cell] + at.xi * k->x[at.cell + 1];
-    return per * rational_density(e0 * p->length, e1 * p->length, p->mass, zeta, rest) / x;
+    return per * rational_density(in.e0, in.e1, p->mass, in.zeta, in.rest) / x;
 }
 
 /* The law of the radius for one azimuth: its cut, and all of its mass. */
@@ -302,33 +318,81 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
     return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
 }
 
-float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+/* Mass of the law before knot j, c >= 0. */
+static double mass_before(const vndf_engine_ray *ray, uint32_t j)
 {
-    double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
-    double level = (double)view->wi.x * wm.x + (double)view->wi.y * wm.y, facing = vndf_exact_dot(view->wi, wm);
-    double cosine = 1.0, sine = 0.0, scale = 1.0 / (x + wm.z);
+    const vndf_knots *knots = &ray->table->knots;
+    return ray->k < 0.0 ? ray->c * knots->e[j] + knot_weight(ray, j) * knots->g[j]
+                        : ray->c * knots->f0[j] + ray->k * knots->f1[j];
+}
+
+double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z)
+{
+    place at = place_of(ray->table, x, z);
+    if (!(ray->mass > 0.0) || at.cell > ray->cut)
+        return 1.0;
+    piece p = piece_of(ray, at.cell);
+    if (!(p.length > 0.0) || !(p.mass > 0.0))
+        return mass_before(ray, at.cell) / ray->mass;
+    inner in = inner_of(&p, at, 0.0);
+    double w = in.zeta * in.rest;
+    double inside = (p.mass * in.zeta * in.zeta + in.e0 * w) / (1.0 + ((in.e0 + in.e1) / p.mass - 2.0) * w);
+    double part = (mass_before(ray, at.cell) + inside) / ray->mass;
+    return part < 1.0 ? part : 1.0;
+}
+
+vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm)
+{
+    double mx = wm.x / view->alpha_x, my = wm.y / view->alpha_y, x = sqrt(mx * mx + my * my);
+    double level = view->wi.x * wm.x + view->wi.y * wm.y, cosine = 1.0, sine = 0.0;
     vndf_stretched w = vndf_stretched_of(view);
     if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
         double per = w.s > 0.0 ? w.per_length / (w.s * x) : 1.0 / x;
         cosine = per * (w.s > 0.0 ? level : mx);
         sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
     }
-    vndf_engine_ray ray = ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
-    double density = vndf_engine_ray_density(&ray, x * scale, wm.z * scale, facing * w.per_length * scale);
-    return vndf_positive(vndf_density_from(density * scale * scale * scale / (ax * ay)));
+    return ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
+}
+
+double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing)
+{
+    double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
+    double scale = 1.0 / (x + wm.z), per_length = vndf_stretched_of(view).per_length;
+    double density = vndf_engine_ray_density(ray, x * scale, wm.z * scale, facing * per_length * scale);
+    return density * scale * scale * scale / (ax * ay);
+}
+
+/* Any normal that faces wi. */
+VNDF_RARE double density_carefully(const vndf_view *view, const vndf_given *g)
+{
+    vndf_normal wm = {g->x, g->y, g->z};
+    vndf_engine_ray ray = vndf_engine_ray_of(view, wm);
+    return vndf_engine_density_on(view, &ray, wm, vndf_given_facing(g));
+}
+
+/* The cases of given.h and given_wedge.h first. */
+double vndf_engine_density(const vndf_view *view, const vndf_given *g)
+{
+    const vndf_distribution *d = view->distribution;
+    int toward = vndf_given_along(g) >= 0.0;
+    doubles_m plain = 1;
+    double density = vndf_is_below(view) ? vndf_given_of_wedge(d, g, 1, &plain)
+                     : toward            ? vndf_given_in_front(d, g, &plain)
+                                         : vndf_given_of_wedge(d, g, 0, &plain);
+    return plain ? density : density_carefully(view, g);
+}
+
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_positive(vndf_density_from(vndf_engine_density(view, &g)));
 }
 
 /* ---- D ---- */
 
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 {
-    place at = place_of(d, x, z);
-    const vndf_radial_cell *cell = &d->cells[at.cell];
-    const float *kx = d->knots.x + at.cell;
-    vndf_moment_cubic bend = bump_of(cell);
-    double rise = cell->f1 + at.eta * (bend.a + bend.b * at.xi);
-    double f_over_x = at.cell == 0 ? rise / kx[1]
-                                   : (cell->f0 * at.eta + at.xi * rise) / (kx[0] * at.eta + kx[1] * at.xi);
-    double sum = sum_at(d, at), square = sum * sum;
-    return f_over_x > 0.0 ? f_over_x / cell->width * (square * square) : 0.0;
+    vndf_spot at = vndf_spot_at(d, x, z);
+    vndf_quotient p22 = vndf_spot_p22(&at);
+    return p22.above > 0.0 ? p22.above / p22.below : 0.0;
 }

@@ -25,9 +25,8 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
 /* ---- where the density of the place is that of the normal, as it was rounded ---- */
 
 /* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
- * azimuth, a part of `across`, does to it; in a wedge that is no small part, where not all normals have a small W.
- * Rounding must not take the azimuth from the front to the wedge or back either, as the wedge's density is the
- * table's. */
+ * azimuth, a part of `across`, does to it. Rounding must not take the azimuth from the front to the wedge or back
+ * either, as the wedge's density is the table's. */
 static const float VNDF_PLAIN_SIDE = 1e-6f;
 
 VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
@@ -38,25 +37,30 @@ VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, la
                       lanes_less(0.05f * across, along + up));
 }
 
-VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f front, lanes_f wedge, lanes_f cosine,
-                                        lanes_f x, lanes_f z)
+VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    lanes_m large = lanes_both(lanes_less(0.1f * front, wedge), lanes_at_most(lanes_set(0.25f), c));
-    return lanes_both(large, lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
-                                        lanes_less(0.1f * (across + up), along + up)));
+    return lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
+                      lanes_less(0.05f * (across + up), along + up));
 }
 
-/* Away from the border of the unit square and from knots, where the density changes little from a normal to its
- * rounded self. */
-VNDF_INLINE lanes_m vndf_plain_place(lanes_f half, lanes_f u2, const vndf_radial_lanes *at,
-                                     const vndf_rational_cell *cell, lanes_f xi, lanes_m whole)
+/* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
+ * wi most cells are known to be so. */
+VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
 {
-    lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
-                                lanes_less(lanes_abs(half), lanes_set(0.9999f)));
-    lanes_m calm = lanes_both(whole, lanes_less(lanes_set(0.0f), at->calm));
-    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), calm);
-    return lanes_without(inside, lanes_either(rough, vndf_radial_is_beside_knot(xi)));
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(vndf_radial_is_steep(at, cell, xi), beside));
+}
+
+VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
+    if (!lanes_any(lanes_without(lanes_all(), smooth)))
+        return lanes_all();
+    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), lanes_less(lanes_set(0.0f), at->calm));
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(rough, beside));
 }
 
 /* ---- the normal ---- */
@@ -89,14 +93,14 @@ VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *
 
 /* Surface and direction of a sample. */
 typedef struct vndf_incidence {
-    lanes_f ax, ay, s, c, cos_phi, sin_phi, front, wedge, spread;
+    lanes_f ax, ay, s, c, cos_phi, sin_phi, spread;
     lanes_m plain;
 } vndf_incidence;
 
 VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
 {
-    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->front, aim->wedge,
-                        aim->area * (ax * ay), vndf_aim_is_plain(ax, ay, aim->c)};
+    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->area * (ax * ay),
+                        vndf_aim_is_plain(ax, ay, aim->c)};
     return w;
 }
 
@@ -104,15 +108,34 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
 VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 {
     vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
-                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->front), lanes_set(v->wedge),
-                        lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
+                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->spread),
+                        v->plain ? lanes_all() : lanes_none()};
     return w;
 }
 
-/* Mass between the side of wi and the azimuth, of half a turn; `half` = 2 u1 - 1. */
-VNDF_INLINE lanes_f vndf_draw_target(const vndf_incidence *w, lanes_f half)
+/* Where an azimuth is drawn: in front of wi or in the wedge, the mass of that, and the part of it from the side of
+ * wi, where both begin, to the azimuth, with the sign of the azimuth. */
+typedef struct vndf_sector {
+    lanes_m in_front;
+    lanes_f mass, apart;
+} vndf_sector;
+
+/* |half| is the part of a half turn's mass between straight ahead and the azimuth; `half` = 2 u1 - 1. */
+VNDF_INLINE vndf_sector vndf_sector_at(lanes_f front, lanes_f wedge, lanes_f half)
 {
-    return lanes_abs(half) * (w->front + w->wedge);
+    lanes_f target = lanes_abs(half) * (front + wedge);
+    lanes_m in_front = lanes_less(target, front);
+    vndf_sector sector = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(target - front, half)};
+    return sector;
+}
+
+/* Away from the border of the unit square, and not in a wedge whose mass is so small that the rounding of the
+ * direction would show. */
+VNDF_INLINE lanes_m vndf_sector_is_plain(const vndf_sector *sector, lanes_f front, lanes_f half, lanes_f u2)
+{
+    lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
+                                lanes_less(lanes_abs(half), lanes_set(0.9999f)));
+    return lanes_both(inside, lanes_less(0.01f * front, sector->mass));
 }
 
 /* A sample whose azimuth is drawn: what its radius and its normal take. */
@@ -125,23 +148,16 @@ typedef struct vndf_bearing {
 
 /* ---- in front of wi ---- */
 
-VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w, lanes_f half,
-                                         lanes_f u2)
+VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_sector *sector, lanes_f u2)
 {
-    lanes_f rest = lanes_positive(w->front - vndf_draw_target(w, half));
     lanes_f near, k;
-    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), rest, w->front, &near);
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(sector->apart), sector->mass, &near);
     lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
     k = w->s * a.c;
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, half), a.c, w->c, k,
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, sector->apart), a.c, w->c, k,
                       vndf_radial_total(d, w->c, k), a.c, code};
     return b;
-}
-
-VNDF_INLINE lanes_u vndf_find_front(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2)
-{
-    lanes_u j = vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 1);
-    return lanes_limit_u(j, lanes_set_u(d->radial_count - 1));
 }
 
 /* X and Z at a place in a cell. */
@@ -153,23 +169,21 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
-/* Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
+/* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
  * (radial_cut.h). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                        lanes_u j, lanes_f half, lanes_f u2, lanes_m *plain)
+                                        const vndf_radial_lanes *cell, lanes_u j, lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
-    lanes_f before = vndf_radial_before_whole(&law, &cell);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before_whole(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
-    vndf_place at = vndf_place_in(&cell, &in);
-    *plain = lanes_both(lanes_both(*plain, w->plain),
-                        vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_all()));
+    vndf_place at = vndf_place_in(cell, &in);
+    *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
+    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, in.xi));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     at.above = in.root;
-    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
 }
 
@@ -177,41 +191,28 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
 
 /* The weights (c, k) of the law of the radius, times n, at an azimuth of the wedge counted from the far side. */
 VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                         const vndf_azimuth *a, lanes_f half, lanes_f u2)
+                                         const vndf_sector *sector, const vndf_azimuth *a, lanes_f u2)
 {
     lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, half), cosine, c, k,
-                      c, a->density * w->wedge, vndf_window_of(d, c, k, u2)};
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, sector->apart),
+                      cosine, c, k, c, a->density * sector->mass, vndf_window_of(d, c, k, u2)};
     return b;
 }
 
-/* The law, not scaled yet; its mass becomes the bearing's total. */
-VNDF_INLINE vndf_radial_law vndf_law_wedge(const vndf_distribution *d, vndf_bearing *b)
-{
-    return vndf_radial_law_above(d, b->c, b->k, &b->total);
-}
-
-VNDF_INLINE lanes_u vndf_find_wedge(const vndf_distribution *d, const vndf_bearing *b, lanes_f u2, lanes_u cut)
-{
-    return lanes_limit_u(vndf_radial_find(d, b->code, b->c, b->k, u2 * b->total, 0), cut);
-}
-
-VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                         const vndf_radial_law *unscaled, lanes_u j, lanes_f half, lanes_f u2,
-                                        lanes_m *plain)
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bearing *b,
+                                        const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
+                                        lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, &cell);
-    lanes_f before = vndf_radial_before(&law, &cell);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
-    vndf_place at = vndf_place_in(&cell, &in);
-    *plain = lanes_both(lanes_both(*plain, w->plain),
-                        vndf_plain_in_wedge(w->s, w->c, w->front, w->wedge, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(half, u2, &cell, &in_cell, in.xi, lanes_none()));
-    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, law.cut));
+    vndf_place at = vndf_place_in(cell, &in);
+    *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
+    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_radial_is_away(&law, j));
     at.above = b->density * in.root;
-    at.below = in.below * (cell.width * (w->spread * (at.x * at.per)));
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
 }
 

@@ -1,21 +1,16 @@
 #include "sampler/engine.h"
 
 #include "math/vector.h"
-#include "sampler/beckmann.h"
+#include "sampler/area.h"
 #include "sampler/draw.h"
 #include "sampler/frame.h"
-#include "sampler/ggx.h"
 #include "sampler/radial_draw.h"
 #include "sampler/stretch.h"
 
 double vndf_unit_area(const vndf_distribution *d, double s, double c)
 {
-    if (d->kind == VNDF_KIND_GGX)
-        return vndf_ggx_area((float)s, (float)c);
-    if (d->kind == VNDF_KIND_BECKMANN)
-        return vndf_beckmann_area((float)s, (float)c);
-    double sum = s + fabs(c), below = 2.0 * sum * vndf_wedge_mass(&d->below, s / sum);
-    return below + (c > 0.0 ? c : 0.0); /* A(w) = cos + A(-w) */
+    vndf_direction w = {1.0, 1.0, s, 0.0, c};
+    return vndf_area_below(d, &w, 1) + doubles_positive(c); /* A(w) = cos + A(-w) */
 }
 
 /* ---- sampling ---- */
@@ -36,8 +31,9 @@ static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 {
     int below = vndf_is_below(view);
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c);
-    float target = below ? half : vndf_wedge_part(half, view->front, view->wedge);
-    vndf_azimuth at = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, target), target);
+    float apart = half * (view->front + view->wedge) - view->front;
+    lanes_m plain = 0;
+    vndf_azimuth at = vndf_azimuth_draw_one(&row, below ? half : vndf_wedge_part(apart, view->wedge), &plain);
     if (!below)
         at.c = -at.c;
     else
@@ -94,24 +90,30 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
     return wm;
 }
 
-VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
-                                     lanes_m *plain)
+VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
+                                     const vndf_sector *sector, float u2, lanes_m *plain)
 {
-    vndf_bearing b = vndf_bear_front(d, w, half, u2);
-    vndf_place at = vndf_place_front(d, w, &b, vndf_find_front(d, &b, u2), half, u2, plain);
+    vndf_bearing b = vndf_bear_front(d, w, sector, u2);
+    uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 1);
+    j = j < d->radial_count - 1 ? j : d->radial_count - 1;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 
-VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w, float half, float u2,
-                                     lanes_m *plain)
+VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                     const vndf_sector *sector, float u2, lanes_m *plain)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
-    float part = vndf_wedge_part(fabsf(half), w->front, w->wedge);
+    float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
     *plain &= vndf_wedge_is_plain(&row);
-    vndf_azimuth a = vndf_azimuth_draw(&row, vndf_azimuth_find(&row, part), part);
-    vndf_bearing b = vndf_bear_wedge(d, w, &a, half, u2);
-    vndf_radial_law law = vndf_law_wedge(d, &b);
-    vndf_place at = vndf_place_wedge(d, w, &b, &law, vndf_find_wedge(d, &b, u2, law.cut), half, u2, plain);
+    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
+    vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
+    vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
+    uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
+    j = j < law.cut ? j : law.cut;
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u2, plain);
     return vndf_drawn_at(&b.level, &at, plain);
 }
 
@@ -120,11 +122,12 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    lanes_m plain = view->plain;
+    vndf_sector sector = vndf_sector_at(view->front, view->wedge, half);
+    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
     if (!plain)
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
-    vndf_drawn n = vndf_draw_target(&w, half) < w.front ? draw_in_front(d, &w, half, u2, &plain)
-                                                        : draw_in_wedge(d, &w, half, u2, &plain);
+    vndf_drawn n = sector.in_front ? draw_in_front(d, &w, &sector, u2, &plain)
+                                   : draw_in_wedge(d, &w, &sector, u2, &plain);
     if (!plain)
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
     if (pdf)
@@ -192,7 +195,8 @@ static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi
                                           !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
+    lanes_lines lines = lanes_lines_at(&row.wedge->row_cell->before, 4, row.row * row.wedge->stride + j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_from(&row, j, &lines);
     return cell.before + vndf_rational_cdf(&cell.cell, xi);
 }
 

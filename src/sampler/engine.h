@@ -49,6 +49,7 @@
 
 #include <stdint.h>
 
+#include "sampler/closed.h"
 #include "vndf.h"
 
 /* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
@@ -62,6 +63,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 /* The same where densities in float are known not to do. */
 vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
 
+struct vndf_given; /* sampler/given.h */
+double vndf_engine_density(const vndf_view *view, const struct vndf_given *given);
 float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
@@ -73,6 +76,15 @@ typedef struct vndf_engine_ray {
     uint32_t cut;       /* that cell; radial_count if there is none */
 } vndf_engine_ray;
 vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
+
+/* That of a normal, of any length. */
+vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm);
+
+/* The density of that normal per steradian, its length 1 but for rounding and facing = wi.wm > 0. */
+double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing);
+
+/* The part of the law with slopes up to X/Z; c >= 0. */
+double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
 
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
 double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);

@@ -1,13 +1,8 @@
-/* GGX: the projected area, and the inverse of ggx.h's sampler. */
+/* GGX: the inverse of ggx.h's sampler. */
 #include "sampler/ggx.h"
 
 #include "math/elementary.h"
 #include "math/vector.h"
-
-float vndf_ggx_area(float s, float c)
-{
-    return c < 0.0f ? 0.5f * s * (s / (1.0f - c)) : 0.5f * (1.0f + c);
-}
 
 /* The sum, with the factor of S and C, is mu wm with mu = 2 (w . wm)/C; then T and phi are polar coordinates of
  * its first two components about (S, 0), and the third is v C. u2 = T^2/(S^2 + v C^2) keeps the digits of a small

@@ -28,9 +28,6 @@
 #include "sampler/closed.h"
 #include "sampler/facing.h"
 
-/* A1 = c (1 + Lambda) = (1 + c)/2, relative error below 3e-7 wherever s*s does not underflow. */
-float vndf_ggx_area(float s, float c);
-
 /* The uniform numbers that vndf_ggx_sample turns into n, of any length. */
 void vndf_ggx_invert(float s, float c, vndf_normal n, float *u1, float *u2);
 

@@ -46,14 +46,19 @@ typedef struct vndf_radial_lanes {
 } vndf_radial_lanes;
 
 /* What is not used of it is not loaded. */
-VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *lines)
 {
-    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
-    lanes_four f = lanes_load_four(&lines, 0), knots = lanes_load_four(&lines, 4);
-    lanes_four whole = lanes_load_four(&lines, 8), cut = lanes_load_four(&lines, 12);
+    lanes_four f = lanes_load_four(lines, 0), knots = lanes_load_four(lines, 4);
+    lanes_four whole = lanes_load_four(lines, 8), cut = lanes_load_four(lines, 12);
     vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
                               whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
     return cell;
+}
+
+VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+{
+    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
+    return vndf_radial_load_lines(&lines);
 }
 
 /* f at xi from the cubic. */
@@ -89,7 +94,7 @@ VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const v
 /* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
 VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
 {
-    lanes_f scale = lanes_pick(lanes_less(lanes_set(1e-36f), total), 1.0f / total, lanes_set(0.0f));
+    lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
     law.c *= scale;
     law.k *= scale;
     law.scale = scale;
@@ -117,12 +122,18 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, la
     return law;
 }
 
-/* c > 0 > k; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
+/* c > 0 > k: the cell of the cut. */
+VNDF_INLINE lanes_u vndf_radial_cut(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
+    return vndf_guide_lanes(&d->slope_guide, c / -k);
+}
+
+/* The law with its cut in that cell; not scaled yet, *total is its mass. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_u j,
+                                                const vndf_radial_lanes *at, lanes_f *total)
+{
+    const vndf_radial_lanes cell = *at;
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    lanes_u j = vndf_guide_lanes(&d->slope_guide, c / -k);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
     lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
     law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
@@ -134,6 +145,13 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, la
     return law;
 }
 
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
+{
+    lanes_u j = vndf_radial_cut(d, c, k);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_law_cut(d, c, k, j, &cell, total);
+}
+
 /* A cell away from the cut, where W > 0 without a guard. */
 VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
 {
@@ -141,6 +159,13 @@ VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, con
     lanes_f g1 = law->gain * (law->c * cell->z1 + law->k * cell->x1);
     vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
     return plain;
+}
+
+/* Whether a cell inside the cut is drawn like that: the second beside the cell at the cut where h is above 1/16,
+ * any further away (c > 0 > k). */
+VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
+{
+    return lanes_at_most_u(lanes_count(j + 2u, lanes_less(law->part, lanes_set(0.0626f))), law->cut);
 }
 
 /* ---- search, one lane at a time ---- */
@@ -187,41 +212,6 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
                             : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-#if VNDF_LANES == 1
-
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
-                                     lanes_f target, int whole)
-{
-    return vndf_radial_find_one(d, code, c, k, target, whole);
-}
-
-#else
-
-/* All lanes, one after the other: the wide windows first, which are few. */
-VNDF_INLINE lanes_u vndf_radial_find(const vndf_distribution *d, lanes_u code, lanes_f c, lanes_f k,
-                                     lanes_f target, int whole)
-{
-    const vndf_knots knots = d->knots;
-    uint32_t first[VNDF_LANES], found[VNDF_LANES];
-    float cs[VNDF_LANES], ks[VNDF_LANES], targets[VNDF_LANES];
-    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
-    lanes_store_u(first, code);
-    lanes_store(cs, c);
-    lanes_store(ks, k);
-    lanes_store(targets, target);
-    for (; wide != 0; wide &= wide - 1) {
-        int i = __builtin_ctz(wide);
-        first[i] = vndf_radial_narrow(&knots, vndf_window_from(first[i]), cs[i], ks[i], targets[i]);
-    }
-    for (int i = 0; i < VNDF_LANES; i++)
-        found[i] = first[i] + (whole ? vndf_radial_count_whole(&knots, first[i] + 1, cs[i], ks[i], targets[i])
-                                     : vndf_radial_count_above(&knots, first[i] + 1, cs[i], ks[i], targets[i]));
-    return lanes_load_u(found);
-}
-
-#endif
-
 /* ---- where the density of a place is that of its rounded normal ---- */
 
 /* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
@@ -233,7 +223,7 @@ VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf
 {
     lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
     lanes_f reach = at->x1 * at->z0, here = cell->e0 + rise * xi;
-    lanes_f least = lanes_pick(lanes_less(here, cell->mass), here, cell->mass);
+    lanes_f least = lanes_least(here, cell->mass);
     return lanes_either(lanes_less((float)VNDF_NARROW * at->width, reach),
                         lanes_less(10.0f * least * at->width, (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * reach));
 }

@@ -2,6 +2,8 @@
 #ifndef VNDF_SAMPLER_SURFACE_H
 #define VNDF_SAMPLER_SURFACE_H
 
+#include <math.h>
+
 #include "core/inline.h"
 #include "table/table.h"
 #include "vndf.h"
@@ -37,13 +39,26 @@ float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_ve
 /* vndf_view_from where the view is part of something: assigned, it would be copied, and waited for. */
 void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
-/* The view of a usable direction for roughness times the table's scale (ax, ay). */
+/* Not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
+VNDF_INLINE int vndf_is_usable_direction(vndf_vec3 w)
+{
+    double square = (double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z;
+    return square > 0.0 && square < HUGE_VAL;
+}
+
+VNDF_INLINE vndf_view vndf_invalid_view(void)
+{
+    vndf_view view = {0};
+    return view;
+}
+
+/* The view of a table, of a usable direction for roughness times the table's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
+
+/* No more of a view than densities of given normals read, and as valid. */
+vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi);
 
 /* vndf_sample of a valid view, where densities in float are known not to do. */
 vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
-
-/* D(wm) for roughness times the table's scale (ax, ay). */
-double vndf_ndf_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wm);
 
 #endif

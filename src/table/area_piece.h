@@ -5,7 +5,9 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
+#include "math/doubles.h"
 #include "math/lanes_lines.h"
+#include "table/guide.h"
 #include "table/table.h"
 
 typedef struct vndf_area_knot {
@@ -33,10 +35,10 @@ VNDF_INLINE void vndf_area_piece(double width, vndf_area_knot a, vndf_area_knot 
 }
 
 /* The piece at t in [0, 1]. */
-VNDF_INLINE double vndf_area_piece_at(const double coefficient[VNDF_AREA_ORDER], double t)
+VNDF_INLINE doubles vndf_area_piece_at(const doubles coefficient[VNDF_AREA_ORDER], doubles t)
 {
-    const double *b = coefficient;
-    double u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
+    const doubles *b = coefficient;
+    doubles u = 1.0 - t, uu = u * u, ut = u * t, tt = t * t;
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
@@ -58,19 +60,17 @@ VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, 
     return vndf_area_quick_sum(b, (y - to.c) * to.d);
 }
 
-/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
-VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], lanes_f y,
+/* Where there are `count` knots and no more than VNDF_FEW pieces: read in registers. */
+VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], uint32_t count, lanes_f y,
                                      lanes_f *per_width)
 {
     const float *begin = few[VNDF_AREA_ORDER];
-    lanes_u i = lanes_set_u(0);
+    lanes_u i = vndf_guide_count(begin, count, y);
     lanes_f b[VNDF_AREA_ORDER];
-    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
-        i = lanes_pick_u(lanes_at_most(lanes_few(begin, i + step), y), i + step, i);
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
-        b[n] = lanes_few(few[n], i);
-    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], i);
-    return vndf_area_quick_sum(b, (y - lanes_few(begin, i)) * *per_width);
+        b[n] = lanes_few(few[n], count - 1, i);
+    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], count - 1, i);
+    return vndf_area_quick_sum(b, (y - lanes_few(begin, count - 1, i)) * *per_width);
 }
 
 #endif

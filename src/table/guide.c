@@ -13,6 +13,28 @@ static uint32_t shift_for(uint32_t span, uint32_t count)
     return shift;
 }
 
+/* Where in bucket b the knot after its first stands, in steps of 2^drop, rounded down: so no value is taken for
+ * less than it is. Beyond every value if it is in none. */
+static uint32_t place_in_bucket(const vndf_guide *guide, uint32_t b)
+{
+    uint32_t start = guide->low + (b << guide->shift), next = guide->next[guide->first[b]];
+    uint32_t off = next > start ? next - start : 0;
+    return off >> guide->shift > 0 ? 1u << (VNDF_GUIDE_SHIFT - 1) : off >> guide->drop;
+}
+
+static void make_entries(vndf_guide *guide, uint32_t count)
+{
+    const uint32_t places = VNDF_GUIDE_SHIFT - 1;
+    guide->drop = guide->shift > places ? guide->shift - places : 0;
+    guide->single = 1;
+    for (uint32_t b = 0; b <= guide->last; b++) {
+        uint32_t i = guide->first[b], after = i + 2 < count ? guide->next[i + 1] : UINT32_MAX;
+        uint32_t end = b < guide->last ? guide->low + ((b + 1) << guide->shift) : UINT32_MAX;
+        guide->entry[b] = i << VNDF_GUIDE_SHIFT | place_in_bucket(guide, b);
+        guide->single &= after >= end;
+    }
+}
+
 int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
 {
     float least = knots[0] > 0.0f ? knots[0] : knots[1]; /* below the first positive knot all is cell 0 */
@@ -22,10 +44,12 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
         high = guide->low;
     guide->shift = shift_for(high - guide->low, count);
     guide->last = (high - guide->low) >> guide->shift;
-    guide->next = malloc(count * sizeof *guide->next + (guide->last + 2) * sizeof *guide->first);
+    size_t words = (size_t)count + guide->last + 1;
+    guide->next = malloc(words * sizeof *guide->next + (guide->last + 2) * sizeof *guide->first);
     if (!guide->next)
         return 0;
-    guide->first = (uint16_t *)(guide->next + count);
+    guide->entry = guide->next + count;
+    guide->first = (uint16_t *)(guide->entry + guide->last + 1);
     for (uint32_t j = 0; j < count; j++)
         guide->next[j] = j + 2 < count ? vndf_float_bits(knots[j + 1]) : UINT32_MAX;
     for (uint32_t b = 0; b <= guide->last; b++) {
@@ -34,6 +58,7 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
             i++;
         guide->first[b] = (uint16_t)(b == 0 ? 0 : i);
     }
+    make_entries(guide, count);
     return 1;
 }
 

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "math/lanes.h"
+#include "math/doubles.h"
 #include "table/table.h"
 
 /* The bits of a float >= 0 grow with it. */
@@ -37,17 +37,55 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 /* The same for lanes. */
 VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
 {
-    const lanes_u one = lanes_set_u(1), none = lanes_set_u(0), low = lanes_set_u(guide->low);
-    lanes_u bits = lanes_bits(value), above = lanes_pick_u(lanes_at_most_u(low, bits), bits - low, none);
+    lanes_u bits = lanes_bits(value), above = bits - lanes_limit_u(lanes_set_u(guide->low), bits);
     lanes_u i = lanes_gather_u16(guide->first, lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last)));
     lanes_m more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
-    i += lanes_pick_u(more, one, none);
+    i = lanes_count(i, more);
     for (;;) {
         more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
         if (!lanes_any(more))
             return i;
-        i += lanes_pick_u(more, one, none);
+        i = lanes_count(i, more);
     }
+}
+
+/* The same beside doubles, or an index somewhat too large: entries are rounded, and what is below all knots counts
+ * as the second; it may be too small unless the guide is `single`. Callers look themselves. */
+VNDF_INLINE doubles_u vndf_guide_about(const vndf_guide *guide, doubles_f value)
+{
+#if VNDF_DOUBLES == 1
+    return vndf_guide_find(guide, value);
+#else
+    const uint32_t places = (1u << VNDF_GUIDE_SHIFT) - 1, most = (1u << guide->shift) - 1;
+    doubles_u low = doubles_set_u(guide->low), above = doubles_most_u(doubles_bits(value), low) - low;
+    doubles_u bucket = doubles_least_u(above >> guide->shift, doubles_set_u(guide->last));
+    doubles_u entry = doubles_gather_u(guide->entry, bucket);
+    doubles_u off = doubles_least_u(above - (bucket << guide->shift), doubles_set_u(most)) >> guide->drop;
+    return (entry >> VNDF_GUIDE_SHIFT) +
+           doubles_pick_u(doubles_at_most_u(entry & places, off), doubles_set_u(1), doubles_set_u(0));
+#endif
+}
+
+/* ... but never too small. */
+VNDF_INLINE doubles_u vndf_guide_doubles(const vndf_guide *guide, doubles_f value)
+{
+    doubles_u i = vndf_guide_about(guide, value), bits = doubles_bits(value);
+    while (!guide->single) {
+        doubles_m more = doubles_at_most_u(doubles_gather_u(guide->next, i), bits);
+        if (!doubles_any(more))
+            return i;
+        i += doubles_pick_u(more, doubles_set_u(1), doubles_set_u(0));
+    }
+    return i;
+}
+
+/* The same for lanes where knots are few: all are looked at, no step of which waits for another. */
+VNDF_INLINE lanes_u vndf_guide_count(const float *knots, uint32_t count, lanes_f value)
+{
+    lanes_u i = lanes_set_u(0);
+    for (uint32_t n = 1; n + 1 < count; n++)
+        i = lanes_count(i, lanes_at_most(lanes_set(knots[n]), value));
+    return i;
 }
 
 #endif

@@ -39,11 +39,13 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->stride = stride;
     wedge->cdf = block;
     size_t per_piece = sizeof *wedge->piece + sizeof *wedge->quick;
-    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell);
+    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell +
+                                  row_knots * sizeof *wedge->row_span);
     if (!block || !wedge->piece)
         return 0;
     wedge->quick = (vndf_area_quick *)(wedge->piece + knots);
     wedge->row_cell = (vndf_row_cell *)(wedge->quick + knots);
+    wedge->row_span = (vndf_row_span *)(wedge->row_cell + row_floats);
     wedge->cell_mass = block + row_floats;
     wedge->density = block + 2 * row_floats;
     wedge->row_y = wedge->density + ends;
@@ -139,6 +141,24 @@ static void derive_cells(vndf_distribution *table)
         double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
         cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
                      is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
+    }
+}
+
+/* Whether a cell and the next are calm, and D the same on both sides of the knot between them. */
+static int is_smooth_after(const vndf_radial_cell *cell)
+{
+    double left = cell[0].f1 / (double)cell[0].width, right = cell[1].f0 / (double)cell[1].width;
+    return cell[0].calm > 0.0f && cell[1].calm > 0.0f && fabs(left - right) <= 1e-6 * right;
+}
+
+static void derive_smooth(vndf_distribution *table)
+{
+    int before = 0;
+    for (uint32_t j = 0; j + 1 < table->radial_count; j++) {
+        int after = is_smooth_after(&table->cells[j]);
+        if (before && after)
+            table->cells[j].calm = 2.0f;
+        before = after;
     }
 }
 
@@ -250,7 +270,7 @@ static void derive_rows(vndf_wedge *wedge)
 static void derive_area(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < VNDF_FEW; i++)
-        wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
+        wedge->few_exact[VNDF_AREA_ORDER][i] = wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
         vndf_area_span *span = &wedge->piece[i];
         double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
@@ -269,6 +289,36 @@ static void derive_area(vndf_wedge *wedge)
         if (i < VNDF_FEW) {
             wedge->few[VNDF_AREA_ORDER][i] = quick->begin;
             wedge->few[VNDF_AREA_ORDER + 1][i] = quick->per_width;
+            for (int n = 0; n < VNDF_AREA_ORDER; n++)
+                wedge->few_exact[n][i] = span->coefficient[n];
+            wedge->few_exact[VNDF_AREA_ORDER][i] = span->begin;
+            wedge->few_exact[VNDF_AREA_ORDER + 1][i] = span->per_width;
+        }
+    }
+}
+
+/* What is looked up in registers; beyond the last row all y are less. */
+static void derive_few_rows(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i <= VNDF_FEW; i++)
+        wedge->few_y[i] = 2.0f;
+    for (uint32_t i = 0; i < wedge->row_count && i / 2 <= VNDF_FEW; i++) {
+        wedge->few_aspects[i % 2][i / 2] = wedge->aspect_p[i];
+        wedge->few_aspects[2 + i % 2][i / 2] = wedge->aspect_r[i];
+        if (i % 2 == 0)
+            wedge->few_y[i / 2] = wedge->row_y[i / 2];
+    }
+}
+
+static void derive_row_spans(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i + 1 < vndf_row_knots(wedge->row_count); i++) {
+        vndf_row_span *span = &wedge->row_span[i];
+        span->begin = wedge->row_y[i];
+        span->per_width = (float)(1.0 / ((double)wedge->row_y[i + 1] - wedge->row_y[i]));
+        for (uint32_t n = 0; n < 3; n++) {
+            span->p[n] = wedge->aspect_p[2 * i + n];
+            span->r[n] = wedge->aspect_r[2 * i + n];
         }
     }
 }
@@ -276,6 +326,8 @@ static void derive_area(vndf_wedge *wedge)
 static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
+    derive_few_rows(wedge);
+    derive_row_spans(wedge);
     derive_area(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, vndf_row_knots(wedge->row_count)) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);
@@ -284,6 +336,7 @@ static int derive_wedge(vndf_wedge *wedge)
 int vndf_table_derive(vndf_distribution *table)
 {
     derive_cells(table);
+    derive_smooth(table);
     derive_pole(table);
     derive_tail(table);
     derive_copies(table);

@@ -35,7 +35,9 @@ enum {
     VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
     VNDF_FEW = 16,           /* so many numbers are looked up in registers */
-    VNDF_AREA_ORDER = 6      /* coefficients of a piece of an area's spline */
+    VNDF_AREA_ORDER = 6,     /* coefficients of a piece of an area's spline */
+    VNDF_AREA_SPAN = 8,      /* doubles from piece to piece */
+    VNDF_GUIDE_SHIFT = 19    /* bits of a guide's entry below the index of a knot */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -56,7 +58,8 @@ typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
     float x0, x1, z0, z1;        /* the knots */
     float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
-    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h) */
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h), 2 if
+                                  * those beside it are calm too and D does not jump at its ends */
     float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
 
@@ -64,8 +67,10 @@ typedef struct vndf_radial_cell {
  * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
+    uint32_t drop, single;     /* of entries; whether one step is always enough */
     uint16_t *first;
     uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
+    uint32_t *entry;           /* first, and where in its bucket the next is: for lanes of doubles */
 } vndf_guide;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
@@ -77,6 +82,12 @@ typedef struct vndf_area_span {
 typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
+
+/* What the sampler wants of the three rows between two knots: where they begin, one over their width, and their
+ * aspects. 32 bytes, all floats. */
+typedef struct vndf_row_span {
+    float begin, per_width, p[3], r[3];
+} vndf_row_span;
 
 /* A cell of a row as the sampler wants it: 16 bytes. */
 typedef struct vndf_row_cell {
@@ -100,6 +111,10 @@ typedef struct vndf_wedge {
     vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
     vndf_area_quick *quick;              /* and once more */
     float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
+    float few_y[VNDF_FEW + 1];           /* row_y, if there are so few */
+    float few_aspects[4][VNDF_FEW + 1];  /* p and then r of rows 0, 2, 4, ..., then of those between */
+    vndf_row_span *row_span;             /* row_y and aspects once more, (row_count - 1)/2 */
     vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;

@@ -24,8 +24,7 @@ VNDF_INLINE lanes_u vndf_window_ratio(lanes_f c, lanes_f k)
 {
     const uint32_t half_octave = 1u << 22;
     lanes_u bits = lanes_bits(lanes_abs(k)) + VNDF_RATIOS / 2 * half_octave, least = lanes_bits(c);
-    lanes_u above = lanes_pick_u(lanes_at_most_u(least, bits), bits - least, lanes_set_u(0));
-    return lanes_limit_u(above >> 22, lanes_set_u(VNDF_RATIOS - 1));
+    return lanes_limit_u((bits - lanes_limit_u(least, bits)) >> 22, lanes_set_u(VNDF_RATIOS - 1));
 }
 
 /* The range of u in [0, 1], ascending. */
@@ -35,7 +34,7 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
     lanes_f rest = 1.0f - u;
     lanes_f near = lanes_least(u, rest); /* to an end */
     lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), near);
-    lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_limit(near, end));
+    lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_least(near, lanes_set(end)));
     lanes_u half_octave = lanes_limit_u(apart >> 22, lanes_set_u(VNDF_RANGES_END - 1));
     const uint32_t first = VNDF_RANGES_END - 1, last = VNDF_RANGES - VNDF_RANGES_END;
     lanes_u outer = lanes_pick_u(low, first - half_octave, last + half_octave);

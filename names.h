@@ -1,0 +1,1 @@
+static const char*names[]={"outside","aim:0","draw_fronts:1","draw_fronts:2","draw_fronts:3","draw_fronts:4","draw_fronts:5","gather_wedges:6","draw_wedges:7","draw_wedges:8","draw_wedges:9","draw_wedges:10","draw_wedges:11","draw_wedges:12","draw_wedges:13"};enum{NN=15};

@@ -1,0 +1,17 @@
+/* What the two files of bounded GGX share: bounded_ggx.c has the mathematics and any direction,
+ * bounded_ggx_plain.c those of plain size, in float. */
+#ifndef VNDF_SAMPLER_BOUNDED_GGX_H
+#define VNDF_SAMPLER_BOUNDED_GGX_H
+
+#include "sampler/bounded.h"
+
+/* What of a direction is in `bounds`: the part of psi in front; kept over those of the roots, in front and in the
+ * wedge; where u1 begins and the part of it that tangents leave, 1 for all; half of one over the part in the
+ * wedge. */
+enum { VNDF_GGX_FRONT, VNDF_GGX_IN_FRONT, VNDF_GGX_IN_WEDGE, VNDF_GGX_BEGIN, VNDF_GGX_SPAN, VNDF_GGX_RATE };
+
+void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS]);
+vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1,
+                                        float u2);
+
+#endif
