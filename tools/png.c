@@ -1,10 +1,13 @@
-/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream
- * (RFC 1950) of stored deflate blocks (RFC 1951, 3.2.4): not compressed, but nothing else is needed. */
+/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream (deflate.h) of
+ * rows, each with a byte for its filter before it: none for a palette, and for colours the one of the five whose
+ * differences are the smallest in sum (12.8), which a smooth picture is a third smaller by. */
 #include "png.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "deflate.h"
 
 typedef struct bytes {
     unsigned char *data; /* owned by the caller of put_*; large enough for all */
@@ -35,16 +38,6 @@ static uint32_t crc_of(const unsigned char *data, size_t size)
     return ~crc;
 }
 
-static uint32_t adler_of(const unsigned char *data, size_t size)
-{
-    uint32_t a = 1, b = 0;
-    for (size_t i = 0; i < size; i++) {
-        a = (a + data[i]) % 65521;
-        b = (b + a) % 65521;
-    }
-    return b << 16 | a;
-}
-
 static void put_chunk(bytes *out, const char name[4], const unsigned char *data, size_t size)
 {
     put_big_endian(out, (uint32_t)size);
@@ -53,20 +46,6 @@ static void put_chunk(bytes *out, const char name[4], const unsigned char *data,
     if (size)
         put(out, data, size);
     put_big_endian(out, crc_of(out->data + start, size + 4));
-}
-
-static void put_stored(bytes *out, const unsigned char *data, size_t size)
-{
-    const size_t most = 65535;
-    put(out, "\x78\x01", 2);
-    for (size_t at = 0; at < size; at += most) {
-        size_t part = size - at < most ? size - at : most;
-        const unsigned char head[5] = {at + part == size, (unsigned char)(part & 255u), (unsigned char)(part >> 8),
-                                       (unsigned char)(~part & 255u), (unsigned char)(~part >> 8 & 255u)};
-        put(out, head, 5);
-        put(out, data + at, part);
-    }
-    put_big_endian(out, adler_of(data, size));
 }
 
 static void write_base64(FILE *file, const unsigned char *data, size_t size)
@@ -83,35 +62,124 @@ static void write_base64(FILE *file, const unsigned char *data, size_t size)
     }
 }
 
-static void put_head(bytes *image, size_t width, size_t height, const colour palette[256])
+/* ---- rows ---- */
+
+/* Left, up, or upper left: the one that is nearest to left + up - upper left. */
+static int paeth(int left, int up, int corner)
 {
+    int a = abs(up - corner), b = abs(left - corner), c = abs(left + up - 2 * corner);
+    return a <= b && a <= c ? left : b <= c ? up : corner;
+}
+
+/* What filter `kind` expects of byte i; the row above is NULL for the first one. */
+static int expected(int kind, const unsigned char *row, const unsigned char *above, size_t i)
+{
+    int left = i >= 3 ? row[i - 3] : 0, up = above ? above[i] : 0, corner = i >= 3 && above ? above[i - 3] : 0;
+    switch (kind) {
+    case 1: return left;
+    case 2: return up;
+    case 3: return (left + up) / 2;
+    case 4: return paeth(left, up, corner);
+    default: return 0;
+    }
+}
+
+static unsigned long filter_row(int kind, const unsigned char *row, const unsigned char *above, size_t size,
+                                unsigned char *filtered)
+{
+    unsigned long sum = 0;
+    *filtered++ = (unsigned char)kind;
+    for (size_t i = 0; i < size; i++) {
+        filtered[i] = (unsigned char)((row[i] - expected(kind, row, above, i)) & 255);
+        sum += filtered[i] < 128 ? filtered[i] : 256u - filtered[i];
+    }
+    return sum;
+}
+
+/* All rows of three bytes a pixel; each takes one more of `best`. */
+static void filter_rows(const unsigned char *rgb, size_t width, size_t height, unsigned char *best)
+{
+    size_t size = 3 * width;
+    for (size_t y = 0; y < height; y++, best += size + 1) {
+        const unsigned char *row = rgb + y * size, *above = y ? row - size : NULL;
+        int chosen = 0;
+        unsigned long least = filter_row(0, row, above, size, best);
+        for (int kind = 1; kind < 5; kind++) {
+            unsigned long sum = filter_row(kind, row, above, size, best);
+            if (sum < least) {
+                least = sum;
+                chosen = kind;
+            }
+        }
+        filter_row(chosen, row, above, size, best);
+    }
+}
+
+/* ---- files ---- */
+
+/* Colour type 3 has a palette, 2 red, green and blue. */
+static void put_header(bytes *image, size_t width, size_t height, unsigned char colour_type)
+{
+    const unsigned char rest[5] = {8, colour_type, 0, 0, 0}; /* 8 bits, the one method of each kind, no interlace */
     bytes head = {(unsigned char[13]){0}, 0};
     put_big_endian(&head, (uint32_t)width);
     put_big_endian(&head, (uint32_t)height);
-    put(&head, "\x08\x03\x00\x00\x00", 5); /* 8 bits, palette, the one method of each kind, no interlace */
+    put(&head, rest, 5);
     put(image, "\x89PNG\r\n\x1a\n", 8);
     put_chunk(image, "IHDR", head.data, head.size);
+}
+
+static void put_palette(bytes *image, const colour palette[256])
+{
     put_chunk(image, "PLTE", &palette[0].red, 256 * sizeof palette[0]);
     put_chunk(image, "tRNS", (const unsigned char[1]){0}, 1); /* opacity of the first colour; the rest is opaque */
+}
+
+/* The file of rows with their filters; the caller frees image->data. 0 if there is no memory. */
+static int make_file(bytes *image, const unsigned char *rows, size_t row_size, size_t width, size_t height,
+                     const colour *palette)
+{
+    size_t packed = 0;
+    unsigned char *stream = deflate_bytes(rows, row_size * height, &packed);
+    *image = (bytes){stream ? malloc(packed + 2048) : NULL, 0};
+    if (image->data) {
+        put_header(image, width, height, palette ? 3 : 2);
+        if (palette)
+            put_palette(image, palette);
+        put_chunk(image, "IDAT", stream, packed);
+        put_chunk(image, "IEND", NULL, 0);
+    }
+    free(stream);
+    return image->data != NULL;
 }
 
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
                      const colour palette[256])
 {
-    size_t raw = (width + 1) * height, room = raw + raw / 1000 + 2048;
-    unsigned char *memory = calloc(3, room);
-    if (!memory)
+    bytes image;
+    unsigned char *rows = calloc(height, width + 1); /* the first byte of each: no filter */
+    if (!rows)
         return 0;
-    bytes rows = {memory, 0}, stream = {memory + room, 0}, image = {memory + 2 * room, 0};
-    for (size_t y = 0; y < height; y++) {
-        put(&rows, "\0", 1); /* no filter */
-        put(&rows, index + y * width, width);
-    }
-    put_stored(&stream, rows.data, rows.size);
-    put_head(&image, width, height, palette);
-    put_chunk(&image, "IDAT", stream.data, stream.size);
-    put_chunk(&image, "IEND", NULL, 0);
-    write_base64(file, image.data, image.size);
-    free(memory);
-    return 1;
+    for (size_t y = 0; y < height; y++)
+        memcpy(rows + y * (width + 1) + 1, index + y * width, width);
+    int good = make_file(&image, rows, width + 1, width, height, palette);
+    if (good)
+        write_base64(file, image.data, image.size);
+    free(image.data);
+    free(rows);
+    return good;
+}
+
+int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height)
+{
+    bytes image;
+    unsigned char *rows = malloc((3 * width + 1) * height);
+    if (!rows)
+        return 0;
+    filter_rows(rgb, width, height, rows);
+    int good = make_file(&image, rows, 3 * width + 1, width, height, NULL);
+    good = good && fwrite(image.data, 1, image.size, file) == image.size;
+    free(image.data);
+    free(rows);
+    return good;
 }

@@ -1,4 +1,4 @@
-/* A palette image as a PNG in base64, for a data: URI. */
+/* Images as PNG: with a palette, in base64, for a data: URI; and of red, green and blue, to a file. */
 #ifndef TOOLS_PNG_H
 #define TOOLS_PNG_H
 
@@ -13,5 +13,8 @@ typedef struct colour {
  * memory. */
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
                      const colour palette[256]);
+
+/* Writes width x height pixels of three bytes, rows from the top. 0 if there is no memory or the file takes no more. */
+int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height);
 
 #endif

@@ -1,5 +1,5 @@
-/* Images of three floats a pixel, rows from the top, linear light: read from PFM, made by a named pattern, written as
- * PFM and as PNG (8 bits, sRGB). */
+/* Images of three floats a pixel, rows from the top, linear light: read from PFM, made by a named pattern,
+ * written as PFM and as PNG (8 bits, sRGB). */
 #ifndef RENDER_IMAGE_H
 #define RENDER_IMAGE_H
 
@@ -11,16 +11,19 @@ typedef struct image {
     float *rgb; /* width * height * 3 */
 } image;
 
-enum { IMAGE_SIDE_MAX = 16384 };
+enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
 
 /* What is wrong with a file or a pattern, for people: "what and where". */
 typedef struct image_error {
     char message[512];
 } image_error;
 
-/* PFM, colour ("PF") or grey ("Pf"), either byte order. Numbers must be finite. 1, or 0 and an error; untrusted bytes
- * are safe. */
+/* PFM, colour ("PF") or grey ("Pf"), either byte order. Numbers must be finite. 1, or 0 and an error; untrusted
+ * bytes are safe. */
 int image_read_pfm(image *made, const char *path, image_error *error);
+
+/* The same from memory; `name` stands for the file in errors. */
+int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
 
 /* Black. 0 if there is no memory. */
 int image_make(image *made, int width, int height);

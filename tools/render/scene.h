@@ -67,9 +67,11 @@ typedef struct scene {
     environment environment;
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. 1, or 0 with a message "FILE:LINE:COLUMN: what is wrong, and
- * what would be right". Untrusted files are safe. */
+/* Reads a scene file; paths in it are relative to its folder. 1, or 0 with a message "FILE:LINE:COLUMN: what is
+ * wrong, and what would be right". Untrusted files are safe. */
 int scene_read(scene *made, const char *path, char *message, size_t size);
+/* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
+int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
 void scene_free(scene *s);
 
 /* The language, for --help. */

@@ -1,0 +1,11 @@
+/* All bytes of a file that is not trusted. */
+#ifndef RENDER_WHOLE_FILE_H
+#define RENDER_WHOLE_FILE_H
+
+#include <stddef.h>
+
+/* The bytes, with a 0 behind them; the caller frees them. NULL with what is wrong in `reason`: it cannot be
+ * read, there is no memory, or it has more than `most` bytes. */
+char *whole_file(const char *path, size_t most, size_t *size, char *reason, size_t reason_size);
+
+#endif
