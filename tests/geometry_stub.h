@@ -1,5 +1,5 @@
-/* Shapes that are kept and never met by a ray: in the place of render/geometry.c for tests of what a scene file says.
- * An OBJ file gives one triangle, if it is there. */
+/* Shapes that are kept and never met by a ray: in the place of the renderer's own, for tests of what a scene file
+ * says. An OBJ file gives one triangle, if it is there. */
 #ifndef VNDF_GEOMETRY_STUB_H
 #define VNDF_GEOMETRY_STUB_H
 

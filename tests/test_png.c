@@ -127,7 +127,7 @@ static size_t inflate(const unsigned char *data, size_t size, unsigned char *out
 
 /* ---- deflate ---- */
 
-/* Bytes of several kinds: even, skew with a tail of rare ones, runs, repeats from far, and of more than one block. */
+/* Bytes of several kinds: even, skew with a tail of rare ones, runs, repeats from far, one alone. */
 static void make_bytes(int kind, unsigned char *bytes, size_t size)
 {
     unsigned long long seed = 11 + (unsigned)kind;

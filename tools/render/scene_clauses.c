@@ -74,7 +74,7 @@ static int parse(const char *text, double *number)
     char *end;
     size_t length = strspn(text, "+-.0123456789eE");
     *number = strtod(text, &end);
-    return length && end == text + length && !*end && isfinite(*number);
+    return length && end == text + length && !*end;
 }
 
 static int in_range(scene_reader *r, const clause *c, size_t i, double low, double high, double *number)
