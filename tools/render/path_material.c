@@ -90,7 +90,7 @@ static float at_hit(const textured *t, const hit *h)
     float rgb[3];
     if (!t->map)
         return t->value;
-    image_bilinear(t->map, h->u, 1.0f - h->v, rgb);
+    image_bilinear(t->map, h->u, h->v, rgb);
     return t->value * rgb[0];
 }
 
@@ -139,7 +139,7 @@ static float rough_pdf(const path_point *p, vndf_vec3 wo)
 static int mapped_begin(path_point *p)
 {
     const path_material *m = p->material;
-    image_bilinear(m->is->colour_map, p->hit->u, 1.0f - p->hit->v, p->mapped);
+    image_bilinear(m->is->colour_map, p->hit->u, p->hit->v, p->mapped);
     for (int i = 0; i < 3; i++)
         p->mapped[i] *= m->colour[i];
     p->colour = p->mapped;
