@@ -2,7 +2,9 @@
 #ifndef RENDER_GEOMETRY_H
 #define RENDER_GEOMETRY_H
 
+#include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "render/vector.h"
 
@@ -17,13 +19,15 @@ typedef struct hit {
     float distance;
     vndf_vec3 place, normal;
     frame shading;
-    float u, v;          /* for textures */
+    float u, v;          /* for textures, from the left and the top where the shape has an upright */
+    float error;         /* of `place`, beyond its rounding to float: for ray_from */
     uint32_t shape;      /* index of the shape */
     int material;
 } hit;
 
 typedef enum shape_kind { SHAPE_SPHERE, SHAPE_RECTANGLE, SHAPE_TRIANGLE } shape_kind;
 
+/* u is the longitude over 2 pi, from +z by way of +x; v the angle from +y over pi. */
 typedef struct sphere {
     vndf_vec3 centre;
     float radius;
@@ -34,7 +38,8 @@ typedef struct rectangle {
     vndf_vec3 corner, edge_u, edge_v;
 } rectangle;
 
-/* Corners, and of a mesh with them: normals and texture coordinates at the corners. */
+/* Corners, and of a mesh with them: normals and texture coordinates at the corners. The normal outwards is that of
+ * corners counter-clockwise. */
 typedef struct triangle {
     vndf_vec3 corner[3], normal[3]; /* normals all 0: the triangle's own */
     float u[3], v[3];
@@ -62,14 +67,18 @@ typedef struct geometry {
     uint32_t *order; /* shapes as the leaves have them */
 } geometry;
 
-/* Each 0 if there is no memory. A box is six rectangles with outward normals. */
+/* Each 0 if there is no memory. A box is six rectangles with outward normals. Shapes that are not finite, or reach
+ * beyond GEOMETRY_REACH, are never met. */
+#define GEOMETRY_REACH 1e30f
+
 int geometry_add_sphere(geometry *g, sphere s, int material);
 int geometry_add_rectangle(geometry *g, rectangle r, int material);
 int geometry_add_box(geometry *g, vndf_vec3 low, vndf_vec3 high, int material);
 int geometry_add_triangle(geometry *g, const triangle *t, int material);
 
-/* Triangles of an OBJ file (v, vt, vn, f with polygons and negative indices; others are passed over), scaled, then turned
- * about y by `turn` degrees, then moved. 1, or 0 and a message with file, line and what is wrong; untrusted files are
+/* Triangles of an OBJ file (v, vt, vn, f with convex polygons and negative indices; others are passed over),
+ * scaled, then turned about y by `turn` degrees (z towards x), then moved. Its vt count v from the bottom, hits of
+ * it from the top. 1, or 0 and a message with file, line and what is wrong, and nothing added; untrusted files are
  * safe. */
 typedef struct placement {
     float scale, turn;
@@ -77,6 +86,9 @@ typedef struct placement {
 } placement;
 
 int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message, size_t size);
+/* The same of an open file, `name` for messages. */
+int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement *where, int material,
+                      char *message, size_t size);
 
 /* 0 if there is no memory. */
 int geometry_build(geometry *g);
