@@ -25,6 +25,14 @@ static void value_of(const vndf_material *material, const vndf_description *is, 
         f[i] = (double)value[i] * factor;
 }
 
+/* Beside total reflection F hangs on the last digits of wi and wo, whose lengths are not quite 1. */
+static int is_beside_total(const vndf_description *is, vndf_vec3 wi, vndf_vec3 wo)
+{
+    double square = 0.5 * (1 + (double)wi.x * wo.x + (double)wi.y * wo.y + (double)wi.z * wo.z);
+    double index = wi.z > 0 ? (double)is->eta : 1 / (double)is->eta;
+    return (wi.z > 0) == (wo.z > 0) && fabs(1 - (1 - square) / (index * index)) < 0.01;
+}
+
 static size_t check_pair(const vndf_description *is, const char *name, vndf_vec3 wi, vndf_vec3 wo, double *worst)
 {
     vndf_material material;
@@ -36,7 +44,7 @@ static size_t check_pair(const vndf_description *is, const char *name, vndf_vec3
         if (there[i] > 1e-25 || back[i] > 1e-25)
             error = fmax(error, fabs(there[i] - back[i]) / fmax(there[i], back[i]));
     *worst = fmax(*worst, error);
-    if (!TEST(error <= (fabsf(is->eta - 1) < 0.01f ? 5e-4 : 4e-5))) {
+    if (!TEST(error <= (fabsf(is->eta - 1) < 0.01f || is_beside_total(is, wi, wo) ? 5e-4 : 4e-5))) {
         bsdf_describe(is, name, wi, wo);
         fprintf(stderr, "    %.9g there, %.9g back\n", there[0], back[0]);
     }

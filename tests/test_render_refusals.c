@@ -1,5 +1,6 @@
-/* What is wrong with a scene file is refused with the line and the column where it stands and what would be right,
- * and nothing is left behind: every statement and clause, bytes that are no text, and more than the limits. */
+/* What is wrong with a scene file is refused with the line and the column where it stands and what would be
+ * right, and nothing is left behind: every statement and clause, bytes that are no text, and more than the
+ * limits. */
 #include "test.h"
 
 #include "scene_text.h"

@@ -1,4 +1,5 @@
-/* A scene file becomes what it says, every statement and clause of it, and the scenes that are shipped are good. */
+/* A scene file becomes what it says, every statement and clause of it; the scenes that are shipped are good,
+ * and so is the example of the help. */
 #include "test.h"
 
 #include "scene_text.h"
@@ -188,6 +189,29 @@ static void test_grammar(void)
         TEST_HAS(scene_grammar, known[i]);
 }
 
+/* Its lines stand two columns to the right there, in one piece. */
+static void test_example(void)
+{
+    char text[1024], message[MESSAGE];
+    size_t length = 0;
+    scene s;
+    const char *at = strstr(scene_grammar, "\n\n  "), *end = at ? strstr(at + 2, "\n\n") : NULL;
+    if (!TEST(end != NULL && end - at < 1000))
+        return;
+    for (at++; at < end; at++) {
+        text[length++] = *at;
+        if (*at == '\n')
+            at += 2;
+    }
+    text[length] = '\0';
+    if (!TEST(read_text(&s, text, message))) {
+        fprintf(stderr, "%s\n%s\n", message, text);
+        return;
+    }
+    TEST(s.geometry.sphere_count == 1 && s.materials[0].is.effects.masking == VNDF_MASKING_SEPARABLE);
+    scene_free(&s);
+}
+
 int main(void)
 {
     test_settings();
@@ -197,5 +221,6 @@ int main(void)
     test_shapes();
     test_shipped();
     test_grammar();
+    test_example();
     return test_done();
 }

@@ -1,8 +1,9 @@
-/* Matches are found by chains of equal hashes, greedily; symbols are gathered in blocks, and each block gets Huffman
- * codes for what it counts. Lengths above the limit are avoided by flattening the counts, which costs little. The
- * lengths of codes go into a block's head one by one, without runs: some 200 bytes of a block of 32768 symbols.
+/* Matches are found by chains of equal hashes, greedily; symbols are gathered in blocks, and each block gets
+ * Huffman codes for what it counts. Lengths above the limit are avoided by flattening the counts, which costs
+ * little. The lengths of codes go into a block's head one by one, without runs: some 200 bytes of a block of
+ * 32768 symbols.
  *
- * Map: bits, codes, symbols of a match, blocks, matches, checksum. */
+ * * Map: bits, codes, symbols of a match, blocks, matches, checksum. */
 #include "deflate.h"
 
 #include <stdint.h>

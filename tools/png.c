@@ -1,6 +1,6 @@
-/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream (deflate.h) of
- * rows, each with a byte for its filter before it: none for a palette, and for colours the one of the five whose
- * differences are the smallest in sum (12.8), which a smooth picture is a third smaller by. */
+/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream
+ * (deflate.h) of rows, each with a byte for its filter before it: none for a palette, and for colours the one
+ * of the five whose differences are the smallest in sum (12.8), which a smooth picture is a third smaller by. */
 #include "png.h"
 
 #include <stdint.h>
@@ -120,7 +120,8 @@ static void filter_rows(const unsigned char *rgb, size_t width, size_t height, u
 /* Colour type 3 has a palette, 2 red, green and blue. */
 static void put_header(bytes *image, size_t width, size_t height, unsigned char colour_type)
 {
-    const unsigned char rest[5] = {8, colour_type, 0, 0, 0}; /* 8 bits, the one method of each kind, no interlace */
+    /* 8 bits, the one method of each kind, no interlace. */
+    const unsigned char rest[5] = {8, colour_type, 0, 0, 0};
     bytes head = {(unsigned char[13]){0}, 0};
     put_big_endian(&head, (uint32_t)width);
     put_big_endian(&head, (uint32_t)height);

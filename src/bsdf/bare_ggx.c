@@ -32,6 +32,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_scatter_nothing(s);
         return;
     }
+    int as_drawn = vndf_is_ggx_drawn(b, facing);
     if (!(facing > VNDF_GGX_LEAST_FACING)) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
@@ -42,7 +43,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     s->wo.y = wo.y;
     s->wo.z = wo.z;
     s->weight[0] = s->weight[1] = s->weight[2] = weight;
-    s->density = vndf_positive(vndf_ggx_density_of(b, wo));
+    s->density = vndf_positive(as_drawn ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
     s->lobe = VNDF_LOBE_REFLECTION;
 }
 

@@ -29,7 +29,7 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
     vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
     /* near places where the density of bounded normals jumps nothing is settled: they are not looked for */
     return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
-           vndf_keeps_reflectance(b, half.event.facing_i) && vndf_is_settled(b, 0.25f * (float)half.event.facing_i);
+           vndf_keeps_reflectance(b, half.event.facing_i) && vndf_is_settled(b, 0.3f * (float)half.event.facing_i);
 }
 
 /* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of a walk

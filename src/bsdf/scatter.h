@@ -187,6 +187,13 @@ VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_norm
            facing > VNDF_GGX_LEAST_FACING;
 }
 
+/* Whether the density that was drawn with is taken rather than that: sooner by a tenth, and decided by the roughness
+ * all but always, lest the branch be guessed wrong. */
+VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
+{
+    return (b->view.ax > 0.4f) & (b->view.ay > 0.4f) & vndf_is_settled(b, facing);
+}
+
 /* 0 if no microfacet does that. */
 int vndf_reflect_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
 int vndf_refract_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
@@ -208,9 +215,10 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
-    if (!(settled & (choice.bare | (n->facing > 0.1f)) & (of_wo || vndf_is_settled(b, n->facing))))
+    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
+    if (!(settled & (choice.bare | (n->facing > 0.1f)) & (as_drawn | of_wo)))
         return vndf_reflect_carefully(b, wo, out);
-    float density = of_wo ? vndf_ggx_density_of(b, wo) : 0.25f * n->density / n->facing;
+    float density = as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;

@@ -4,6 +4,7 @@
 #include "sampler/closed_view.h"
 
 #include "math/vector.h"
+#include "sampler/all_normals.h"
 #include "sampler/beckmann.h"
 #include "sampler/beckmann_draw.h"
 #include "sampler/frame.h"
@@ -79,6 +80,8 @@ static vndf_vec3 turn_closed(const vndf_view *unit, vndf_vec3 wm)
 
 vndf_vec3 vndf_closed_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    if (view->wi.x == 0.0f && view->wi.y == 0.0f && view->wi.z > 0.0f && view->distribution->kind == VNDF_KIND_GGX)
+        return vndf_sample_all(view->distribution, view->alpha_x, view->alpha_y, u1, u2, pdf); /* the same there */
     vndf_view unit = turned(view);
     vndf_vec3 n = view->distribution->kind == VNDF_KIND_GGX ? vndf_ggx_sample(unit.s, unit.c, u1, u2)
                                                             : vndf_beckmann_sample(unit.s, unit.c, u1, u2);

@@ -143,7 +143,7 @@ static float inside(const soft_box *box, float longitude, float latitude)
            (1.0f - smooth(0.96f, 1.02f, fabsf(latitude - box->latitude) / box->height));
 }
 
-/* A grey room, brighter towards the zenith, over a floor that is dark at the horizon; soft boxes with thin rims. */
+/* A grey room, brighter towards the zenith, over a floor that is dark at the horizon; soft boxes. */
 static void shade_studio(float u, float v, float rgb[3])
 {
     static const float wall[3] = {0.16f, 0.18f, 0.22f}, zenith[3] = {0.5f, 0.52f, 0.55f};
@@ -205,8 +205,8 @@ const char *const image_pattern_help =
     "  tiles    16 x 16 checks, two greys             grid     80 x 40 fine black lines on white, some red\n"
     "  studio   an environment: soft boxes in a grey room over a floor\n"
     "  stars    an environment: 1500 points in the night\n"
-    "  noise, blots, brushed, ramp   for roughness, 0.1 to 1: clouds; polished with rough blots; streaks along u;\n"
-    "                                up along u and down again\n";
+    "  noise, blots, brushed, ramp   for roughness, 0.1 to 1: clouds; polished with rough blots; streaks\n"
+    "                                along u; up along u and down again\n";
 
 /* The mean of shade over a pixel, from SIDE x SIDE points. */
 static void shade_pixel(const pattern *p, float x, float y, const image *of, float rgb[3])

@@ -71,7 +71,8 @@ static int read_head(const char *bytes, size_t size, pfm_head *head, const char 
         return refuse(error, name, "%s x %s pixels are more than %d", width, height, IMAGE_PIXELS_MAX);
     double scale = strtod(order, &end);
     if (*end || !(fabs(scale) > 0.0))
-        return refuse(error, name, "'%s' must be a number other than 0; negative: the least byte comes first", order);
+        return refuse(error, name, "'%s' must be a number other than 0; negative: the least byte comes first",
+                      order);
     head->little = scale < 0.0;
     head->size = at;
     return 1;

@@ -35,8 +35,8 @@ static const rule rules[CLAUSES] = {
     [F0] = {"f0", "R G B", 3, 3, 1 << REFLECTOR, 1 << REFLECTOR},
     [INDEX] = {"index", "N", 1, 1, THROUGH | 1 << GLASS, 1 << DIELECTRIC | 1 << GLASS},
     [LOBES] = {"lobes", "reflection|transmission|both", 1, 1, THROUGH, 0},
-    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2, ROUGH,
-                      ROUGH},
+    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2,
+                      ROUGH, ROUGH},
     [BYTES] = {"bytes", "COUNT", 1, 1, ROUGH, 0},
     [ALPHA] = {"alpha", "A or AX AY", 1, 2, ROUGH, 0},
     [ALPHA_MAP] = {"alpha-map", "IMAGE", 1, 1, ROUGH, 0},
@@ -111,7 +111,7 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
     if (lobes != VNDF_LOBES_REFLECTION && !c[INDEX].at)
         return reader_refuse(r, c[LOBES].at, "'lobes %s' needs 'index N'", c[LOBES].values->text);
     if (lobes == VNDF_LOBES_REFLECTION && c[ABSORB].at)
-        return reader_refuse(r, c[ABSORB].at, "'absorb' is of what light passes, and this material only reflects");
+        return reader_refuse(r, c[ABSORB].at, "'absorb' is of what light passes, this material only reflects");
     if (scattering == VNDF_SCATTERING_SINGLE && c[ORDER].at)
         return reader_refuse(r, c[ORDER].at, "'order' goes with 'scattering multiple'");
     *e = (vndf_effects){.lobes = (vndf_lobes)lobes, .fresnel = fresnel[kind], .masking = (vndf_masking)masking,
@@ -129,8 +129,8 @@ static int check_map(scene_reader *r, const word *at, const image *map)
             float rgb[3];
             image_at(map, x, y, rgb);
             if (!(rgb[0] > 0.0f))
-                return reader_refuse(r, at, "a map of roughness must be above 0; red is %g in column %d of row %d "
-                                            "(from the top, from 0)", (double)rgb[0], x, y);
+                return reader_refuse(r, at, "a map of roughness must be above 0; red is %g in column %d of row "
+                                            "%d (from the top, from 0)", (double)rgb[0], x, y);
         }
     return 1;
 }
@@ -235,8 +235,8 @@ static int read_colours(scene_reader *r, const clause c[CLAUSES], material *m)
 static int read_kind(scene_reader *r, const statement *s, material *m)
 {
     static const material_kind made[KINDS] = {MATERIAL_MICROFACET, MATERIAL_MICROFACET, MATERIAL_MICROFACET,
-                                              MATERIAL_MICROFACET, MATERIAL_MATTE, MATERIAL_MIRROR, MATERIAL_GLASS,
-                                              MATERIAL_LIGHT};
+                                              MATERIAL_MICROFACET, MATERIAL_MATTE, MATERIAL_MIRROR,
+                                              MATERIAL_GLASS, MATERIAL_LIGHT};
     const clause all = {.keyword = "material", .at = &s->words[0], .values = &s->words[2], .count = 1};
     clause c[CLAUSES];
     unsigned kind;
@@ -264,7 +264,7 @@ int read_material(scene_reader *r, const statement *s)
     if (!reader_name(r, s, "material", &name) || !check_name(r, name))
         return 0;
     if (s->count < 3)
-        return reader_refuse(r, name, "what '%s' is must stand here, as in 'material %s matte colour 0.5 0.5 0.5'",
+        return reader_refuse(r, name, "what '%s' is must stand here, as in 'material %s matte colour 1 1 1'",
                              name->text, name->text);
     if (!to->materials)
         to->materials = calloc(SCENE_MATERIALS_MAX, sizeof *to->materials);

@@ -24,7 +24,8 @@ int read_metal(scene_reader *r, const word *kind, const clause *of, const clause
     const char *names[METALS];
     unsigned chosen;
     if (of->at && (eta->at || k->at))
-        return reader_refuse(r, of->at, "'of' names a metal, 'eta' and 'k' say what another one is; leave one out");
+        return reader_refuse(r, of->at,
+                             "'of' names a metal, 'eta' and 'k' say what another one is; leave one out");
     if (!of->at && !(eta->at && k->at))
         return reader_refuse(r, kind, "'conductor' needs 'of METAL', or 'eta R G B' and 'k R G B'");
     if (!of->at)

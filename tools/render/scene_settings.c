@@ -69,8 +69,8 @@ static int check_map(scene_reader *r, const word *at, const image *map)
             float rgb[3];
             image_at(map, x, y, rgb);
             if (fminf(rgb[0], fminf(rgb[1], rgb[2])) < 0.0f)
-                return reader_refuse(r, at, "the image is negative in column %d of row %d (from the top, from 0): "
-                                            "that is no light", x, y);
+                return reader_refuse(r, at, "the image is negative in column %d of row %d (from the top, from "
+                                            "0): that is no light", x, y);
         }
     return 1;
 }

@@ -55,7 +55,8 @@ static int square_edges(scene_reader *r, const clause c[2], rectangle *made)
     float uu = dot(made->edge_u, made->edge_u), vv = dot(made->edge_v, made->edge_v);
     float uv = dot(made->edge_u, made->edge_v), cosine = uv / (sqrtf(uu) * sqrtf(vv));
     if (!(fabsf(cosine) < 2e-3f))
-        return reader_refuse(r, c[1].at, "the edges of a rectangle must be at right angles; these are at %.4g degrees",
+        return reader_refuse(r, c[1].at,
+                             "the edges of a rectangle must be at right angles; these are at %.4g degrees",
                              acos((double)fminf(fmaxf(cosine, -1.0f), 1.0f)) * 57.29577951308232);
     made->edge_v = subtract(made->edge_v, scale(made->edge_u, uv / uu));
     return 1;

@@ -100,7 +100,8 @@ int read_distribution(scene_reader *r, const clause *c, unsigned bytes, const vn
         return 0;
     if (form == FORM_GGX || form == FORM_BECKMANN) {
         *found = form == FORM_GGX ? vndf_ggx() : vndf_beckmann();
-        return c->count == 1 || reader_refuse(r, &c->values[1], "'distribution %s' takes nothing more", forms[form]);
+        return c->count == 1 ||
+               reader_refuse(r, &c->values[1], "'distribution %s' takes nothing more", forms[form]);
     }
     if (c->count < 2)
         return reader_refuse(r, &c->values[0], "'distribution %s' needs %s", forms[form],

@@ -168,7 +168,7 @@ int reader_split(scene_reader *r, char *text, size_t size)
             return 0;
         end_word(&p);
         if (!r->words[0].begins)
-            return reader_refuse(r, &r->words[0], "a statement begins in the first column; lines that begin with a "
-                                                  "blank go on with the one before");
+            return reader_refuse(r, &r->words[0], "a statement begins in the first column; lines that begin with "
+                                                  "a blank go on with the one before");
     }
 }
