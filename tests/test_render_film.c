@@ -202,11 +202,13 @@ static void test_drawing(void)
         brighten(&map, i % 16, i / 16, (float)(i % 7 + 1) * (float)(i % 3));
     TEST(path_environment_make(&e, &is, 1));
     for (int i = 0; i < 2000; i++) {
-        float u[3] = {0.0f, test_uniform(&state), test_uniform(&state)}, rgb[3];
+        float rgb[3], density;
+        float u[3] = {0.0f, 0.01f + 0.98f * test_uniform(&state), test_uniform(&state)};
         light_sample s;
         TEST(path_environment_draw(&e, u, &s));
         TEST_NEAR((double)dot(s.direction, s.direction), 1, 1e-6);
-        e.radiance(&e, s.direction, rgb);
+        e.radiance(&e, s.direction, rgb, &density);
+        TEST_RELATIVE((double)density, (double)s.density, 1e-3);
         TEST_NEAR((double)rgb[0], (double)s.radiance[0], 1e-3);
     }
     enum { ROWS = 400 };
@@ -214,7 +216,9 @@ static void test_drawing(void)
         for (int j = 0; j < 2 * ROWS; j++) {
             double theta = pi * (i + 0.5) / ROWS, phi = pi * (j + 0.5) / ROWS;
             vndf_vec3 w = vec((float)(sin(theta) * cos(phi)), (float)cos(theta), (float)(sin(theta) * sin(phi)));
-            sum += (double)path_environment_density(&e, w) * sin(theta) * pi * pi / ROWS / ROWS;
+            float rgb[3], density;
+            e.radiance(&e, w, rgb, &density);
+            sum += (double)density * sin(theta) * pi * pi / ROWS / ROWS;
         }
     TEST_NEAR(sum, 1, 2e-3);
     path_environment_free(&e);
@@ -231,16 +235,16 @@ static void test_directions(void)
     for (int i = 0; i < 16 * 8; i++)
         brighten(&map, i % 16, i / 16, (float)(i % 16 + 100 * (i / 16)));
     TEST(path_environment_make(&e, &is, 1));
-    e.radiance(&e, vec(0, 0, -1), rgb);
+    e.radiance(&e, vec(0, 0, -1), rgb, NULL);
     TEST_NEAR((double)rgb[0], 7.5 + 350, 1e-2);
-    e.radiance(&e, vec(1, 0, 0), rgb);
+    e.radiance(&e, vec(1, 0, 0), rgb, NULL);
     TEST_NEAR((double)rgb[0], 11.5 + 350, 1e-2);
-    e.radiance(&e, unit(vec(1e-3f, 1, 0)), rgb);
+    e.radiance(&e, unit(vec(1e-3f, 1, 0)), rgb, NULL);
     TEST_NEAR((double)rgb[0], 11.5, 1e-2);
     path_environment_free(&e);
     is.turn = 90.0f; /* z towards x, hence what was along -z to -x */
     TEST(path_environment_make(&e, &is, 0));
-    e.radiance(&e, vec(-1, 0, 0), rgb);
+    e.radiance(&e, vec(-1, 0, 0), rgb, NULL);
     TEST_NEAR((double)rgb[0], 7.5 + 350, 1e-2);
     path_environment_free(&e);
     image_free(&map);

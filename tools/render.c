@@ -109,13 +109,15 @@ static image_writer *writer_of(const char *path)
 typedef struct watch {
     const output_file *output;
     int shows;          /* stderr is a terminal */
-    double start, shown;
+    double start, shown, seconds; /* seconds: the limit; 0: none */
 } watch;
 
 static int show_progress(double done, void *user)
 {
     watch *w = user;
     double at = render_now();
+    if (w->seconds > 0)
+        done = fmax(done, fmin((at - w->start) / w->seconds, 1));
     if (w->shows && at - w->shown > 0.2 && done > 0) {
         double left = (at - w->start) * (1 - done) / done;
         fprintf(stderr, "\r\033[Krendering: %3.0f%%, %.0f s left", 100 * fmin(done, 1), fmax(left, 0));
@@ -154,7 +156,7 @@ static int render_film(output_file *output, image_writer *write, const path_plan
                        const render_choice *c)
 {
     film f;
-    watch w = {output, isatty(STDERR_FILENO), render_now(), 0};
+    watch w = {output, isatty(STDERR_FILENO), render_now(), 0, c->seconds};
     film_run run = {.samples = c->spp ? c->spp : s->integrator.samples, .seconds = c->seconds, .seed = c->seed,
                     .threads = (unsigned)c->threads, .progress = show_progress, .user = &w};
     if (!c->spp && c->seconds > 0)

@@ -40,14 +40,12 @@ static float share(float mine, float other)
 static inline void meet_environment(path_walk *w, int lit)
 {
     const path_plan *plan = w->plan;
-    float rgb[3], weight = 1.0f;
+    int weighs = lit && w->density > 0.0f && plan->environment.row;
+    float rgb[3], density = 0.0f;
     if (!(plan->effects & EFFECT_ENVIRONMENT))
         return;
-    plan->environment.radiance(&plan->environment, w->ray.direction, rgb);
-    if (lit && w->density > 0.0f && plan->environment.row)
-        weight = share(w->density,
-                       plan->environment_share * path_environment_density(&plan->environment, w->ray.direction));
-    gain(w, rgb, weight);
+    plan->environment.radiance(&plan->environment, w->ray.direction, rgb, weighs ? &density : NULL);
+    gain(w, rgb, weighs ? share(w->density, plan->environment_share * density) : 1.0f);
 }
 
 static inline void meet_light(path_walk *w, const path_material *m, const hit *h, int lit)
@@ -86,7 +84,7 @@ static inline int begin(path_point *p, const path_material *m, const hit *h, vnd
         p->frame = geometric_frame(h);
         p->wi = unit(to_frame(&p->frame, wi));
     }
-    return m->begin(p);
+    return m->run.begin(p);
 }
 
 /* ---- light that is drawn ---- */
@@ -133,10 +131,10 @@ static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
     vndf_vec3 wo = unit(to_frame(&p->frame, s.direction));
     if (!(wo.z > 0.0f))
         return;
-    p->material->eval(p, wo, seed, value);
+    p->material->run.eval(p, wo, seed, value);
     if (!(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
         return;
-    float weight = wo.z / s.density * share(s.density, p->material->pdf(p, wo));
+    float weight = wo.z / s.density * share(s.density, p->material->run.pdf(p, wo));
     for (int i = 0; i < 3; i++)
         value[i] *= s.radiance[i];
     if (absorbing && w->absorb && p->wi.z > 0.0f)
@@ -158,7 +156,7 @@ static inline int go_on(path_walk *w, const path_point *p, int absorbing)
     float u[3];
     bounce b;
     draw(w, u);
-    if (!p->material->sample(p, u, &b))
+    if (!p->material->run.sample(p, u, &b))
         return 0;
     vndf_vec3 direction = unit(from_frame(&p->frame, b.wo));
     float side = dot(direction, p->hit->normal);
@@ -207,7 +205,7 @@ static inline void trace(path_walk *w, int lit, int absorbing)
         }
         if (surface > s->integrator.depth || !begin(&p, m, &h, w->ray.direction))
             return;
-        if (lit && m->eval)
+        if (lit && m->run.eval)
             reach_light(w, &p, absorbing);
         if (!go_on(w, &p, absorbing) || (surface >= s->integrator.roulette && !survives(w)))
             return;

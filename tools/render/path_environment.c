@@ -32,18 +32,46 @@ static void image_radiance(const path_environment *e, float u, float v, float rg
         rgb[i] = e->is->constant[i] + e->is->scale * rgb[i];
 }
 
-static void mapped(const path_environment *e, vndf_vec3 direction, float rgb[3])
+/* Of pixel (x, y): its probability times the number of pixels. */
+static float pixel_density(const path_environment *e, int x, int y)
 {
-    float u, v;
-    to_image(e, direction, &u, &v);
-    image_radiance(e, u, v, rgb);
+    const image *map = e->is->map;
+    const float *sums = e->column + (size_t)y * (size_t)map->width;
+    float row = e->row[y] - (y ? e->row[y - 1] : 0.0f), column = sums[x] - (x ? sums[x - 1] : 0.0f);
+    return row * column * (float)map->width * (float)map->height;
 }
 
-static void constant(const path_environment *e, vndf_vec3 direction, float rgb[3])
+/* The unit square of (u, v) has 2 pi^2 sin(theta) steradians a part. */
+static float per_steradian(float density, float sine)
+{
+    return sine > 0.0f ? density / (2.0f * pi * pi * sine) : 0.0f;
+}
+
+static float image_density(const path_environment *e, float u, float v, float sine)
+{
+    const image *map = e->is->map;
+    int x = (int)(u * (float)map->width), y = (int)(v * (float)map->height);
+    x = x < map->width ? x : map->width - 1;
+    y = y < map->height ? y : map->height - 1;
+    return per_steradian(pixel_density(e, x, y), sine);
+}
+
+static void mapped(const path_environment *e, vndf_vec3 w, float rgb[3], float *density)
+{
+    float u, v;
+    to_image(e, w, &u, &v);
+    image_radiance(e, u, v, rgb);
+    if (density)
+        *density = image_density(e, u, v, sqrtf(w.x * w.x + w.z * w.z));
+}
+
+static void constant(const path_environment *e, vndf_vec3 direction, float rgb[3], float *density)
 {
     (void)direction;
     for (int i = 0; i < 3; i++)
         rgb[i] = e->is->constant[i];
+    if (density)
+        *density = 0.0f;
 }
 
 /* ---- making ---- */
@@ -132,21 +160,6 @@ static int find(const float *sums, int count, float *u)
     return low;
 }
 
-/* Of pixel (x, y): its probability times the number of pixels. */
-static float pixel_density(const path_environment *e, int x, int y)
-{
-    const image *map = e->is->map;
-    const float *sums = e->column + (size_t)y * (size_t)map->width;
-    float row = e->row[y] - (y ? e->row[y - 1] : 0.0f), column = sums[x] - (x ? sums[x - 1] : 0.0f);
-    return row * column * (float)map->width * (float)map->height;
-}
-
-/* The unit square of (u, v) has 2 pi^2 sin(theta) steradians a part. */
-static float per_steradian(float density, float sine)
-{
-    return sine > 0.0f ? density / (2.0f * pi * pi * sine) : 0.0f;
-}
-
 int path_environment_draw(const path_environment *e, const float u[3], light_sample *s)
 {
     const image *map = e->is->map;
@@ -160,17 +173,4 @@ int path_environment_draw(const path_environment *e, const float u[3], light_sam
     s->density = per_steradian(pixel_density(e, x, y), sinf(pi * along));
     image_radiance(e, across, along, s->radiance);
     return s->density > 0.0f;
-}
-
-float path_environment_density(const path_environment *e, vndf_vec3 direction)
-{
-    const image *map = e->is->map;
-    float u, v;
-    if (!e->row)
-        return 0.0f;
-    to_image(e, direction, &u, &v);
-    int x = (int)(u * (float)map->width), y = (int)(v * (float)map->height);
-    x = x < map->width ? x : map->width - 1;
-    y = y < map->height ? y : map->height - 1;
-    return per_steradian(pixel_density(e, x, y), sqrtf(direction.x * direction.x + direction.z * direction.z));
 }

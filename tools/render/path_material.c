@@ -143,7 +143,7 @@ static int mapped_begin(path_point *p)
     for (int i = 0; i < 3; i++)
         p->mapped[i] *= m->colour[i];
     p->colour = p->mapped;
-    return m->begin_plain(p);
+    return m->run.begin_plain(p);
 }
 
 /* ---- what a material calls for ---- */
@@ -178,22 +178,22 @@ unsigned path_material_effects(const material *is)
 
 static void make_matte(path_material *m)
 {
-    m->begin = matte_begin;
-    m->sample = matte_sample;
-    m->eval = matte_eval;
-    m->pdf = matte_pdf;
+    m->run.begin = matte_begin;
+    m->run.sample = matte_sample;
+    m->run.eval = matte_eval;
+    m->run.pdf = matte_pdf;
 }
 
 static void make_mirror(path_material *m)
 {
-    m->begin = matte_begin;
-    m->sample = mirror_sample;
+    m->run.begin = matte_begin;
+    m->run.sample = mirror_sample;
 }
 
 static void make_glass(path_material *m)
 {
-    m->begin = glass_begin;
-    m->sample = glass_sample;
+    m->run.begin = glass_begin;
+    m->run.sample = glass_sample;
     m->eta = m->is->is.eta;
 }
 
@@ -248,10 +248,10 @@ static int make_rough(path_material *m, path_sampler sampler, unsigned without, 
         return 0;
     }
     m->roughness = (vndf_roughness){is.alpha_x, is.alpha_y, cosf(is.rotation), sinf(is.rotation)};
-    m->begin = m->is->is_textured && !(without & EFFECT_TEXTURED_ALPHA) ? textured_begin : rough_begin;
-    m->sample = rough_sample;
-    m->eval = rough_eval;
-    m->pdf = rough_pdf;
+    m->run.begin = m->is->is_textured && !(without & EFFECT_TEXTURED_ALPHA) ? textured_begin : rough_begin;
+    m->run.sample = rough_sample;
+    m->run.eval = rough_eval;
+    m->run.pdf = rough_pdf;
     return 1;
 }
 
@@ -288,8 +288,8 @@ int path_material_prepare(path_material *made, const material *is, path_sampler 
         made->colour[i] = is->kind == MATERIAL_GLASS ? 1.0f : is->colour[i];
     if (!make_kind(made, sampler, without, message, size))
         return 0;
-    made->begin_plain = made->begin;
-    if (is->colour_map && made->begin && is->kind != MATERIAL_GLASS && !(without & EFFECT_COLOUR_MAPS))
-        made->begin = mapped_begin;
+    made->run.begin_plain = made->run.begin;
+    if (is->colour_map && made->run.begin && is->kind != MATERIAL_GLASS && !(without & EFFECT_COLOUR_MAPS))
+        made->run.begin = mapped_begin;
     return 1;
 }

@@ -5,6 +5,7 @@
  *   path_lights.c       emitting rectangles and spheres: drawing a point, and the density of a point met
  *   path_environment.c  light from far away: its radiance, drawing a direction of its image
  *   path.c              the path itself
+ *   path_repeat.c       how much of its time the library takes
  *
  * A direction may be drawn by the material or from a light; both estimates are weighed by the squares of the two
  * densities (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Lights
@@ -37,18 +38,22 @@ typedef struct bounce {
     float carried;       /* what refraction makes of radiance, a part of the weight: 1 or 1/eta^2 */
 } bounce;
 
+typedef struct path_routines {
+    int (*begin)(path_point *p);       /* fills the rest of a point; 0: nothing is scattered */
+    int (*begin_plain)(path_point *p); /* the same where the colour is there already */
+    int (*sample)(const path_point *p, const float u[3], bounce *b);
+    void (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]); /* f; NULL: a Dirac */
+    float (*pdf)(const path_point *p, vndf_vec3 wo);
+} path_routines;
+
 struct path_material {
     const material *is;
     vndf_material bsdf;
     float colour[3];
-    float eta;           /* of smooth dielectrics */
+    float eta;                /* of smooth dielectrics */
     vndf_roughness roughness; /* its rotation, and alpha where no map changes it */
     int emits, absorbs;
-    int (*begin)(path_point *p);       /* fills what is in a point but its first four; 0: nothing is scattered */
-    int (*begin_plain)(path_point *p); /* the same with a colour that is there */
-    int (*sample)(const path_point *p, const float u[3], bounce *b);
-    void (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]); /* f; NULL: a Dirac */
-    float (*pdf)(const path_point *p, vndf_vec3 wo);
+    path_routines run, once;  /* once: see path_repeat.c */
 };
 
 /* 0 and a message if the library refuses. */
@@ -99,14 +104,14 @@ typedef struct path_environment {
     const environment *is;
     float turn;          /* a part of a full turn */
     float *row, *column; /* sums of weights up to and with: `height` of rows, `width` in each row; NULL: not drawn */
-    void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3]);
+    /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
+    void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
 } path_environment;
 
 /* Without drawing if `drawn` is 0. 0 if there is no memory. */
 int path_environment_make(path_environment *made, const environment *is, int drawn);
 void path_environment_free(path_environment *e);
 int path_environment_draw(const path_environment *e, const float u[3], light_sample *s);
-float path_environment_density(const path_environment *e, vndf_vec3 direction);
 
 /* ---- the plan ---- */
 
@@ -122,6 +127,9 @@ struct path_plan {
     float environment_share;       /* probability that a direction is drawn from the environment, not from a light */
     void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */
 };
+
+/* For measurements: every call of the library is made twice from now on, with the same result. */
+void path_repeat(path_plan *plan);
 
 /* Of path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
 void (*path_loop(int lit, int absorbing))(path_walk *w);

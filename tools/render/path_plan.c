@@ -62,7 +62,7 @@ static int uses_lights(const path_plan *plan)
 {
     const geometry *g = &plan->scene->geometry;
     for (size_t i = 0; i < g->shape_count; i++)
-        if (plan->materials[g->shapes[i].material].eval)
+        if (plan->materials[g->shapes[i].material].run.eval)
             return 1;
     return 0;
 }
