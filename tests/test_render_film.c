@@ -189,12 +189,34 @@ static void test_image(void)
     image_free(&map);
 }
 
+/* An image and a lamp take turns. */
+static void test_image_and_lamp(void)
+{
+    render_case c;
+    image map;
+    TEST(image_make(&map, 16, 8));
+    fill(&map, 1.0f);
+    surround(&c, &map);
+    brighten(&map, 5, 2, 20.0f);
+    case_material(&c, MATERIAL_LIGHT, 4.0f, 4.0f, 4.0f);
+    geometry_free(&c.scene.geometry);
+    TEST(geometry_add_rectangle(&c.scene.geometry, (rectangle){vec(-1, 0, 1), vec(2, 0, 0), vec(0, 0, -2)}, 0));
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){vec(0, 2, 0), 1.0f}, 1));
+    TEST(geometry_build(&c.scene.geometry));
+    case_mean met = case_render(&c, SAMPLER_MATERIAL, EFFECT_ENVIRONMENT_MAP | EFFECT_LIGHTS, 1024, 61);
+    case_agree("both drawn", case_render(&c, SAMPLER_MATERIAL, 0, 256, 62), met);
+    case_agree("lamp drawn", case_render(&c, SAMPLER_MATERIAL, EFFECT_ENVIRONMENT_MAP, 256, 63), met);
+    case_agree("image drawn", case_render(&c, SAMPLER_MATERIAL, EFFECT_LIGHTS, 256, 64), met);
+    case_free(&c);
+    image_free(&map);
+}
+
 /* Densities integrate to 1 and are those of what is drawn; the centre of the image is along -z, its right along +x. */
 static void test_drawing(void)
 {
     image map;
     path_environment e;
-    environment is = {.map = &map, .scale = 1.0f};
+    environment is = {.map = &map, .scale = 1.0f, .turn = 40.0f};
     unsigned long long state = 9;
     double sum = 0;
     TEST(image_make(&map, 16, 8));
@@ -241,10 +263,12 @@ static void test_directions(void)
     TEST_NEAR((double)rgb[0], 11.5 + 350, 1e-2);
     e.radiance(&e, unit(vec(1e-3f, 1, 0)), rgb, NULL);
     TEST_NEAR((double)rgb[0], 11.5, 1e-2);
+    e.radiance(&e, unit(vec(1e-3f, -1, 0)), rgb, NULL);
+    TEST_NEAR((double)rgb[0], 11.5 + 700, 1e-2);
     path_environment_free(&e);
-    is.turn = 90.0f; /* z towards x, hence what was along -z to -x */
+    is.turn = 60.0f; /* z towards x, hence what was along -z towards -x */
     TEST(path_environment_make(&e, &is, 0));
-    e.radiance(&e, vec(-1, 0, 0), rgb, NULL);
+    e.radiance(&e, vec(-sqrtf(0.75f), 0, -0.5f), rgb, NULL);
     TEST_NEAR((double)rgb[0], 7.5 + 350, 1e-2);
     path_environment_free(&e);
     image_free(&map);
@@ -262,6 +286,7 @@ int main(void)
     test_refusals(&c);
     case_free(&c);
     test_image();
+    test_image_and_lamp();
     test_drawing();
     test_directions();
     return test_done();

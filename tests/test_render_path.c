@@ -117,6 +117,52 @@ static void test_absorption(void)
     case_free(&c);
 }
 
+/* A lamp inside glass, seen straight on: 1 - F of its radiance, and 1/eta^2 of that. */
+static void test_lamp_in_glass(void)
+{
+    render_case c;
+    case_begin(&c, vec(0, 0, 5), origin);
+    case_material(&c, MATERIAL_GLASS, 1.0f, 1.0f, 1.0f)->is.eta = 1.5f;
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){origin, 1.0f}, case_last(&c)));
+    case_material(&c, MATERIAL_LIGHT, 2.0f, 2.0f, 2.0f);
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){origin, 0.5f}, case_last(&c)));
+    TEST(geometry_build(&c.scene.geometry));
+    case_is("lamp in glass", case_render(&c, SAMPLER_MATERIAL, 0, 64, 6), 2 * 0.96 / 2.25);
+    case_free(&c);
+}
+
+/* A matte plate and a lamp in a tinted body that does not refract. */
+static void test_tinted(void)
+{
+    render_case c;
+    plate_begin(&c);
+    material *m = case_material(&c, MATERIAL_GLASS, 1.0f, 1.0f, 1.0f);
+    m->is.eta = 1.0f;
+    for (int i = 0; i < 3; i++)
+        m->absorb[i] = 0.4f;
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){origin, 2.5f}, case_last(&c)));
+    case_material(&c, MATERIAL_LIGHT, 3.0f, 3.0f, 3.0f);
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){vec(0.8f, 0.0f, 1.3f), 0.3f}, case_last(&c)));
+    TEST(geometry_build(&c.scene.geometry));
+    case_mean drawn = case_render(&c, SAMPLER_MATERIAL, 0, 64, 7);
+    case_agree("tinted", drawn, case_render(&c, SAMPLER_MATERIAL, EFFECT_LIGHTS, 1024, 8));
+    case_free(&c);
+}
+
+/* Half of the paths end at the plate, and the others bring twice as much. */
+static void test_roulette(void)
+{
+    render_case c;
+    plate_begin(&c);
+    case_constant(&c, 1.0f);
+    c.scene.integrator.roulette = 1;
+    TEST(geometry_build(&c.scene.geometry));
+    case_mean mean = case_render(&c, SAMPLER_MATERIAL, 0, 64, 9);
+    case_is("roulette", mean, 0.5);
+    TEST(mean.sigma > 0);
+    case_free(&c);
+}
+
 /* ---- lights against materials ---- */
 
 /* A rough metal plate under a sphere, a rectangle and dim light from far away. */
@@ -243,6 +289,9 @@ int main(void)
     test_sphere_light();
     test_rectangle_light();
     test_absorption();
+    test_lamp_in_glass();
+    test_tinted();
+    test_roulette();
     test_mis(0.3f, 0.3f);
     test_mis(0.08f, 0.5f);
     test_samplers();
