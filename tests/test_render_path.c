@@ -1,7 +1,7 @@
 /* Paths bring the light that is there: nothing is seen in a white furnace; spheres and rectangles light a matte plate as
  * closed forms say; materials alone, lights alone and both together agree; so do all samplers; absorption is Beer's law.
  * Means of independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of some 40 to fail by chance. */
-#include "render_case.h"
+#include "path_case.h"
 #include "render/path_parts.h"
 
 static const vndf_vec3 origin = {0.0f, 0.0f, 0.0f};

@@ -97,7 +97,7 @@ int obj_number(obj_text *t, double *value)
     if (is_there != 1)
         return is_there;
     char *end = t->word;
-    const int is_decimal = strspn(t->word, "0123456789+-.eE") == strlen(t->word); /* strtod takes hex and nan too */
+    const int is_decimal = strspn(t->word, "0123456789+-.eE") == strlen(t->word); /* strtod takes nan too */
     *value = is_decimal ? strtod(t->word, &end) : 0.0;
     if (end == t->word || *end != '\0')
         return obj_complain(t, "'%s' should be a number", t->word) - 1;
