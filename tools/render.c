@@ -140,6 +140,7 @@ static void print_summary(const film *f, const render_choice *c, int whole)
            (double)f->counts.shadow_rays / (double)f->counts.paths);
     if (f->counts.samples_lost)
         printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.samples_lost);
+    fflush(stdout); /* a signal that waits ends the program when the image is saved */
 }
 
 static int save(output_file *output, image_writer *write, const film *f, float exposure)
