@@ -1,5 +1,5 @@
-/* Scenes built in C for tests of the renderer, and means over all samples of a film with their standard deviation: for
- * films all of whose pixels see the same. */
+/* Scenes built in C for tests of the renderer, and means over all samples of a film with their standard
+ * deviation: for films all of whose pixels see the same. */
 #ifndef TESTS_PATH_CASE_H
 #define TESTS_PATH_CASE_H
 

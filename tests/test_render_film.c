@@ -1,6 +1,7 @@
-/* A film is the same to the bit for any number of threads, in one run or in two, and another one for another seed; an
- * interrupt leaves whole passes. Plans say what a scene calls for and refuse what a material cannot have. An image of the
- * surroundings brings its energy, seen where it should be, drawn or met: within 4.5 sigma, 7e-6 each to fail by chance. */
+/* A film is the same to the bit for any number of threads, in one run or in two, and another one for another
+ * seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what a material cannot
+ * have. An image of the surroundings brings its energy, seen where it should be, drawn or met: within 4.5 sigma,
+ * 7e-6 each to fail by chance. */
 #include "path_case.h"
 #include "render/path_parts.h"
 
@@ -38,7 +39,8 @@ static int stop_in_second_half(double done, void *user)
     return done > 0.6;
 }
 
-static void render(film *f, const path_plan *plan, const scene *s, unsigned threads, uint64_t samples, uint64_t seed)
+static void render(film *f, const path_plan *plan, const scene *s, unsigned threads, uint64_t samples,
+                   uint64_t seed)
 {
     film_run run = {.samples = samples, .threads = threads, .seed = seed};
     TEST(film_make(f, s->width, s->height));
@@ -125,7 +127,8 @@ static unsigned effects_of(const render_case *c, unsigned without)
 
 static void test_effects(const render_case *c)
 {
-    const unsigned all = EFFECT_MICROFACETS | EFFECT_REFRACTION | EFFECT_LIGHTS | EFFECT_ENVIRONMENT | EFFECT_MATTE;
+    const unsigned all = EFFECT_MICROFACETS | EFFECT_REFRACTION | EFFECT_LIGHTS | EFFECT_ENVIRONMENT |
+                         EFFECT_MATTE;
     TEST(effects_of(c, 0) == all);
     TEST(effects_of(c, EFFECT_LIGHTS) == (all & ~(unsigned)EFFECT_LIGHTS));
 }
@@ -169,8 +172,8 @@ static void brighten(image *map, int x, int y, float grey)
         map->rgb[3 * (y * map->width + x) + k] = grey;
 }
 
-/* One bright pixel in a dim image: 1/pi of the reflectance times the integral of the light that falls in, of pixels as if
- * they were even; between pixels a tent keeps the mass but for sine and cosine, 1 percent here. */
+/* One bright pixel in a dim image: 1/pi of the reflectance times the integral of the light that falls in, of
+ * pixels as if they were even; between pixels a tent keeps the mass but for sine and cosine, 1 percent here. */
 static void test_image(void)
 {
     render_case c;
@@ -213,7 +216,8 @@ static void test_image_and_lamp(void)
     image_free(&map);
 }
 
-/* Densities integrate to 1 and are those of what is drawn; the centre of the image is along -z, its right along +x. */
+/* Densities integrate to 1 and are those of what is drawn; the centre of the image is along -z, its right along
+ * +x. */
 static void test_drawing(void)
 {
     image map;

@@ -1,6 +1,7 @@
-/* Paths bring the light that is there: nothing is seen in a white furnace; spheres and rectangles light a matte plate as
- * closed forms say; materials alone, lights alone and both together agree; so do all samplers; absorption is Beer's law.
- * Means of independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of some 40 to fail by chance. */
+/* Paths bring the light that is there: nothing is seen in a white furnace; spheres and rectangles light a matte
+ * plate as closed forms say; materials alone, lights alone and both together agree; so do all samplers;
+ * absorption is Beer's law. Means of independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of
+ * some 40 to fail by chance. */
 #include "path_case.h"
 #include "render/path_parts.h"
 
@@ -178,7 +179,8 @@ static void metal_begin(render_case *c, float alpha_x, float alpha_y)
     case_material(c, MATERIAL_LIGHT, 5.0f, 4.0f, 3.0f);
     TEST(geometry_add_sphere(&c->scene.geometry, (sphere){vec(-0.3f, 2.0f, 1.2f), 0.4f}, case_last(c)));
     TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(0.2f, 0.9f, 0.7f), vec(0, 0, 0.5f), vec(0.6f, 0, 0)}, case_last(c)));
+                                (rectangle){vec(0.2f, 0.9f, 0.7f), vec(0, 0, 0.5f), vec(0.6f, 0, 0)},
+                                case_last(c)));
     TEST(geometry_build(&c->scene.geometry));
 }
 

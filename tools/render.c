@@ -1,5 +1,5 @@
-/* vndf render: a scene file into a picture. Reads the words, prepares the scene, renders in passes, saves what is there -
- * also when it is interrupted. */
+/* vndf render: a scene file into a picture. Reads the words, prepares the scene, renders in passes, saves what is
+ * there - also when it is interrupted. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
@@ -19,15 +19,16 @@ static const char help[] =
     "       vndf render SCENE --explain\n"
     "       vndf render --grammar\n"
     "\n"
-    "Renders a scene file by path tracing, only with the effects that the scene calls for. The image is the same for\n"
-    "any number of threads. An interrupt (^C) saves the samples that are there.\n"
+    "Renders a scene file by path tracing, only with the effects that the scene calls for. The image is the same\n"
+    "for any number of threads. An interrupt (^C) saves the samples that are there.\n"
     "\n"
     "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light\n"
     "  --spp N         samples a pixel (default: what the scene says)\n"
     "  --seconds S     stop after S seconds; without --spp as many samples as they give\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
-    "  --sampler NAME  how rough materials draw normals: all, visible, bounded, or material: as each says (default)\n"
+    "  --sampler NAME  how rough materials draw normals: all, visible, bounded, or material, as each says (the\n"
+    "                  default)\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, instead of what the scene says\n"
     "  --explain       lists the effects that the scene calls for and what each costs in it, measured in some\n"
@@ -134,8 +135,8 @@ static void print_summary(const film *f, const render_choice *c, int whole)
     double rays = (double)(f->counts.segments + f->counts.shadow_rays), seconds = fmax(f->seconds, 1e-9);
     printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
            whole ? "" : " (interrupted)");
-    printf("%.3g s on %llu thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n", seconds,
-           c->threads, c->threads == 1 ? "" : "s", (double)f->counts.paths / seconds, rays / seconds,
+    printf("%.3g s on %llu thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
+           seconds, c->threads, c->threads == 1 ? "" : "s", (double)f->counts.paths / seconds, rays / seconds,
            (double)f->counts.segments / (double)f->counts.paths,
            (double)f->counts.shadow_rays / (double)f->counts.paths);
     if (f->counts.samples_lost)

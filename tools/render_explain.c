@@ -1,9 +1,9 @@
-/* What each effect costs in a scene: the same pixels and numbers are rendered on one thread with all effects and with one
- * of them left out, in turns, and the medians of the times count. What is left out changes where paths go, so both the
- * time of a path and its rays are told: an effect may also save time, by ending paths.
+/* What each effect costs in a scene: the same pixels and numbers are rendered on one thread with all effects and
+ * with one of them left out, in turns, and the medians of the times count. What is left out changes where paths
+ * go, so both the time of a path and its rays are told: an effect may also save time, by ending paths.
  *
- * Leaving out the microfacets makes their materials smooth, mirror or glass: what is left is the cost of finding rays,
- * and the rest of a segment is shading by this library. */
+ * Leaving out the microfacets makes their materials smooth, mirror or glass: what is left is the cost of finding
+ * rays, and the rest of a segment is shading by this library. */
 #define _POSIX_C_SOURCE 200809L
 #include "render_explain.h"
 
@@ -121,8 +121,8 @@ static void measure(variant *list, size_t count, const scene *s)
 
 /* ---- variants ---- */
 
-/* All effects first; then each that the scene calls for and that can be left out; at last all with the library's calls
- * made twice. The count; 0 after a complaint. */
+/* All effects first; then each that the scene calls for and that can be left out; at last all with the library's
+ * calls made twice. The count; 0 after a complaint. */
 static size_t prepare(const char *command, const scene *s, path_sampler sampler, variant list[VARIANTS_MAX])
 {
     char message[512];
@@ -161,7 +161,8 @@ static void print_line(const char *what, const variant *v)
 {
     printf("  %-26s %10.0f %9.2f %9.2f %9.0f %9.0f\n", what, v->ns[TURNS / 2],
            (double)v->counts.segments / (double)v->counts.paths,
-           (double)v->counts.shadow_rays / (double)v->counts.paths, v->segment_ns[TURNS / 2], v->ray_ns[TURNS / 2]);
+           (double)v->counts.shadow_rays / (double)v->counts.paths, v->segment_ns[TURNS / 2],
+           v->ray_ns[TURNS / 2]);
 }
 
 static void print_effects(const variant *list, size_t count)
@@ -189,7 +190,8 @@ static void print_effects(const variant *list, size_t count)
 static void print_share(const variant *list, size_t count)
 {
     const variant *smooth = without(list, count, &effect_words[0]), *all = &list[0];
-    printf("\n%.3g rays/s and %.3g paths/s on one thread\n", 1e9 / all->ray_ns[TURNS / 2], 1e9 / all->ns[TURNS / 2]);
+    printf("\n%.3g rays/s and %.3g paths/s on one thread\n", 1e9 / all->ray_ns[TURNS / 2],
+           1e9 / all->ns[TURNS / 2]);
     if (!smooth)
         return;
     double ratio = all->segment_ns[TURNS / 2] / smooth->segment_ns[TURNS / 2];

@@ -1,6 +1,7 @@
-/* A film is rendered in passes over all pixels: threads take rows, and a pass is added to the film when it is whole. A
- * sample's numbers depend on its pixel and index alone and are summed in their order, so that the sums are the same to
- * the bit for any number of threads. Small films take several samples in a pass, lest starting threads be what costs. */
+/* A film is rendered in passes over all pixels: threads take rows, and a pass is added to the film when it is
+ * whole. A sample's numbers depend on its pixel and index alone and are summed in their order, so that the sums
+ * are the same to the bit for any number of threads. Small films take several samples in a pass, lest starting
+ * threads be what costs. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 

@@ -1,5 +1,5 @@
-/* A path: from the eye through surfaces to light. At each one a light is drawn and weighed against the material, then the
- * material draws where the path goes on; light that it meets by itself is weighed against the lights
+/* A path: from the eye through surfaces to light. At each one a light is drawn and weighed against the material,
+ * then the material draws where the path goes on; light that it meets by itself is weighed against the lights
  * (path_parts.h). The loop is compiled four times, with and without lights to draw and absorption. */
 #include "render/path_parts.h"
 
@@ -255,7 +255,8 @@ static ray ray_of(const path_plan *plan, float x, float y)
     return r;
 }
 
-void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts, float rgb[3])
+void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
+                float rgb[3])
 {
     uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
     path_walk w = {.plan = plan, .counts = counts, .random = stream_of(seed, pixel, index),

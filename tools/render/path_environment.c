@@ -1,7 +1,7 @@
-/* Light from far away. An image is longitude over latitude: its centre is seen along -z, its right half along +x, its top
- * row at the zenith, +y. Between the centres of pixels it is interpolated, not across the poles. Directions are drawn
- * evenly inside a pixel, that by the mean luminance of what is interpolated there times the sine of its latitude:
- * positive wherever the image is. A constant is not drawn: every direction finds it. */
+/* Light from far away. An image is longitude over latitude: its centre is seen along -z, its right half along +x,
+ * its top row at the zenith, +y. Between the centres of pixels it is interpolated, not across the poles.
+ * Directions are drawn evenly inside a pixel, that by the mean luminance of what is interpolated there times the
+ * sine of its latitude: positive wherever the image is. A constant is not drawn: every direction finds it. */
 #include "render/path_parts.h"
 
 #include <stdlib.h>
@@ -144,7 +144,8 @@ void path_environment_free(path_environment *e)
 
 /* ---- drawing ---- */
 
-/* The first whose sum is above u, the last with a part of its own if rounding left none; *u becomes the place in it. */
+/* The first whose sum is above u, the last with a part of its own if rounding left none; *u becomes the place in
+ * it. */
 static int find(const float *sums, int count, float *u)
 {
     int low = 0, high = count - 1;

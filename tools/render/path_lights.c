@@ -1,5 +1,6 @@
-/* Emitting shapes. One is chosen by its power; on a rectangle a point is drawn evenly by area, on a sphere a direction
- * evenly in the cone that it fills. Shapes emit from their front. Emitting triangles are not drawn: paths meet them. */
+/* Emitting shapes. One is chosen by its power; on a rectangle a point is drawn evenly by area, on a sphere a
+ * direction evenly in the cone that it fills. Shapes emit from their front. Emitting triangles are not drawn:
+ * paths meet them. */
 #include "render/path_parts.h"
 
 #include <stdlib.h>
@@ -97,7 +98,8 @@ static int draw_rectangle(const path_light *l, vndf_vec3 place, float u, float v
     return 1;
 }
 
-/* 1 - cos of the half angle of the cone, without the difference that is lost for far spheres; 0 inside the sphere. */
+/* 1 - cos of the half angle of the cone, without the difference that is lost for far spheres; 0 inside the
+ * sphere. */
 static float cone_height(const sphere *s, float square)
 {
     float sine = s->radius * s->radius / square;

@@ -1,9 +1,10 @@
 /* A material as routines for its kind. Lambert's and smooth ones are here; rough ones are the library's, with the
- * sampler that is asked for. What cannot be left out of a scene can be made smooth: for the time of the same scene
- * without microfacets, rough dielectrics become glass and all others mirrors of their reflectance at right angles.
+ * sampler that is asked for. What cannot be left out of a scene can be made smooth: for the time of the same
+ * scene without microfacets, rough dielectrics become glass and all others mirrors of their reflectance at right
+ * angles.
  *
- * Frames: a normal of shading may see a ray from another side than the geometric one; the latter is taken then, and
- * path.c drops directions about whose side the two disagree, drawn from lights or from materials alike. */
+ * Frames: a normal of shading may see a ray from another side than the geometric one; the latter is taken then,
+ * and path.c drops directions about whose side the two disagree, drawn from lights or from materials alike. */
 #include "render/path_parts.h"
 
 #include <stdio.h>

@@ -8,9 +8,9 @@
  *   path_repeat.c       how much of its time the library takes
  *
  * A direction may be drawn by the material or from a light; both estimates are weighed by the squares of the two
- * densities (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Lights
- * are drawn for directions to the outside of a surface only: inside a closed body the way to them is barred by its own
- * skin, and the material alone finds what there is. */
+ * densities (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995).
+ * Lights are drawn for directions to the outside of a surface only: inside a closed body the way to them is
+ * barred by its own skin, and the material alone finds what there is. */
 #ifndef RENDER_PATH_PARTS_H
 #define RENDER_PATH_PARTS_H
 
@@ -24,7 +24,7 @@ typedef struct path_material path_material;
 typedef struct path_point {
     const path_material *material;
     const hit *hit;
-    frame frame;         /* of shading; the geometric one where they differ about the side that the ray comes from */
+    frame frame;         /* of shading, or geometric where they differ about the side of the ray */
     vndf_vec3 wi;        /* in it */
     const float *colour;
     float mapped[3];     /* the colour of a map */
@@ -103,7 +103,7 @@ float path_lights_density(const path_lights *lights, vndf_vec3 place, vndf_vec3 
 typedef struct path_environment {
     const environment *is;
     float turn;          /* a part of a full turn */
-    float *row, *column; /* sums of weights up to and with: `height` of rows, `width` in each row; NULL: not drawn */
+    float *row, *column; /* sums of weights: `height` of rows, `width` in each; NULL: not drawn */
     /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
     void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
 } path_environment;
@@ -120,11 +120,11 @@ typedef struct path_walk path_walk;
 struct path_plan {
     const scene *scene;
     unsigned effects;
-    vndf_vec3 corner, right, down; /* of the film, at distance 1 from the eye: a pixel's place is corner + x right + y down */
+    vndf_vec3 corner, right, down; /* of the film, 1 from the eye: pixels are at corner + x right + y down */
     path_material *materials;
     path_lights lights;
     path_environment environment;
-    float environment_share;       /* probability that a direction is drawn from the environment, not from a light */
+    float environment_share;       /* probability of drawing from it and not from a light */
     void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */
 };
 

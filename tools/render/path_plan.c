@@ -97,7 +97,8 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, 
     plan->scene = s;
     plan->effects = scene_effects(s);
     place_film(plan);
-    if (!prepare_materials(plan, sampler, without, message, size) || !prepare_lights(plan, without, message, size)) {
+    if (!prepare_materials(plan, sampler, without, message, size) ||
+        !prepare_lights(plan, without, message, size)) {
         path_free(plan);
         return NULL;
     }

@@ -1,6 +1,6 @@
-/* The time that paths spend in the library, without a clock in the loop: each of its calls is made twice, the first time
- * for nothing, and what that costs more is the time of one. Paths stay the same to the bit. (The second call finds what it
- * reads in the cache, so this is a little less than the truth.) */
+/* The time that paths spend in the library, without a clock in the loop: each of its calls is made twice, the
+ * first time for nothing, and what that costs more is the time of one. Paths stay the same to the bit. (The
+ * second call finds what it reads in the cache, so this is a little less than the truth.) */
 #include "render/path_parts.h"
 
 static int begin_twice(path_point *p)
