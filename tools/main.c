@@ -24,6 +24,7 @@ static const subcommand subcommands[] = {
     {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
     {"masking", command_masking, "which masking functions are exact, over incident angles"},
+    {"render", command_render, "a picture of a scene, with only the effects that it calls for"},
 };
 
 static const size_t subcommand_count = sizeof subcommands / sizeof subcommands[0];

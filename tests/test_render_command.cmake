@@ -1,0 +1,55 @@
+# vndf render: a scene becomes the same picture for any number of threads; wrong words are refused with status 2 and leave
+# nothing behind; --explain tells what the scene calls for; the language of scenes is printed.
+cmake_minimum_required(VERSION 3.16)
+
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+set(scene ${OUT}/ball.scene)
+file(WRITE ${scene} "film width 24 height 16\ncamera from 0 0 5 to 0 0 0\nintegrator samples 3\n"
+    "environment constant 1 1 1\nmaterial red matte colour 0.8 0.1 0.1\nmaterial glass glass index 1.5\n"
+    "material gold conductor of gold distribution ggx alpha 0.2\nmaterial lamp light radiance 5 5 5\n"
+    "material ice dielectric index 1.3 distribution ggx alpha 0.1\n"
+    "sphere centre 0 0 0 radius 0.5 material red\nsphere centre 1 0 0 radius 0.4 material glass\n"
+    "sphere centre -1 0 0 radius 0.4 material gold\nsphere centre 0 2 0 radius 0.2 material lamp\n"
+    "sphere centre 0 -1 0 radius 0.4 material ice\n")
+
+# Runs vndf render; `status` is expected, and `text` in what it prints.
+function(expect status text)
+    execute_process(COMMAND ${VNDF} render ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
+        WORKING_DIRECTORY ${OUT})
+    string(FIND "${out}${err}" "${text}" at)
+    if(NOT got EQUAL ${status} OR at EQUAL -1)
+        message(SEND_ERROR "vndf render ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
+    endif()
+endfunction()
+
+expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o one.pfm --threads 1)
+expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o three.pfm --threads 3)
+expect(0 "12 x 8 pixels, 2 samples each" ${scene} -o small.png --width 12 --spp 2 --sampler visible)
+expect(0 "pixels" ${scene} -o other.pfm --seed 5)
+expect(0 "microfacets" ${scene} --explain)
+expect(0 "example:" --help)
+expect(0 "environment" --grammar)
+file(SHA256 ${OUT}/one.pfm one)
+file(SHA256 ${OUT}/three.pfm three)
+file(SHA256 ${OUT}/other.pfm other)
+if(NOT one STREQUAL three)
+    message(SEND_ERROR "one thread and three make different images")
+endif()
+if(one STREQUAL other)
+    message(SEND_ERROR "two seeds make the same image")
+endif()
+
+expect(2 "SCENE is missing")
+expect(2 "-o OUT.png or -o OUT.pfm is missing" ${scene})
+expect(2 "must end in .png or .pfm" ${scene} -o no.gif)
+expect(2 "did you mean 'bounded'?" ${scene} -o no.png --sampler bouned)
+expect(2 "not made yet" ${scene} -o no.png --sampler perfect)
+expect(2 "material 'ice'" ${scene} -o no.png --sampler bounded)
+expect(2 "no.scene" no.scene -o no.png)
+expect(2 "--spp" ${scene} -o no.png --spp 0)
+expect(2 "cannot write" ${scene} -o ${OUT}/nowhere/no.png)
+file(GLOB left ${OUT}/*no* ${OUT}/*.tmp)
+if(left)
+    message(SEND_ERROR "left behind: ${left}")
+endif()

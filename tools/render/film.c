@@ -1,0 +1,234 @@
+/* A film is rendered in passes over all pixels: threads take rows, and a pass is added to the film when it is
+ * whole. A sample's numbers depend on its pixel and index alone and are summed in their order, so that the sums
+ * are the same to the bit for any number of threads. Small films take several samples in a pass, lest starting
+ * threads be what costs. */
+#define _POSIX_C_SOURCE 200809L
+#include "render/film.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#ifdef VNDF_TOOLS_PTHREADS
+#  include <pthread.h>
+#endif
+
+enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- one pass ---- */
+
+typedef struct pass {
+    const path_plan *plan;
+    const film_run *run;
+    int width, height;
+    double *sum, *square;      /* of this pass */
+    uint64_t first, samples;   /* a pixel */
+    double done, part;         /* of the run: before this pass, and this pass */
+    int next_row, stopped;     /* shared by the threads */
+    path_counts counts;
+#ifdef VNDF_TOOLS_PTHREADS
+    pthread_mutex_t lock;
+#endif
+} pass;
+
+static void lock(pass *p)
+{
+#ifdef VNDF_TOOLS_PTHREADS
+    pthread_mutex_lock(&p->lock);
+#else
+    (void)p;
+#endif
+}
+
+static void unlock(pass *p)
+{
+#ifdef VNDF_TOOLS_PTHREADS
+    pthread_mutex_unlock(&p->lock);
+#else
+    (void)p;
+#endif
+}
+
+/* The next row to render, -1 if there is none left or the run was stopped. */
+static int take_row(pass *p)
+{
+    lock(p);
+    int row = p->stopped || p->next_row >= p->height ? -1 : p->next_row++;
+    unlock(p);
+    return row;
+}
+
+static void render_pixel(pass *p, int x, int y, path_counts *counts)
+{
+    size_t at = (size_t)y * (size_t)p->width + (size_t)x;
+    double sum[3] = {0, 0, 0}, square = 0;
+    for (uint64_t i = 0; i < p->samples; i++) {
+        float rgb[3];
+        path_trace(p->plan, x, y, p->first + i, p->run->seed, counts, rgb);
+        double light = 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+        square += light * light;
+        for (int k = 0; k < 3; k++)
+            sum[k] += (double)rgb[k];
+    }
+    memcpy(p->sum + 3 * at, sum, sizeof sum);
+    p->square[at] = square;
+}
+
+static void add_counts(path_counts *to, const path_counts *more)
+{
+    to->paths += more->paths;
+    to->segments += more->segments;
+    to->shadow_rays += more->shadow_rays;
+    to->samples_lost += more->samples_lost;
+}
+
+/* Only the thread that called film_render reports. */
+static void report(pass *p, int row)
+{
+    double done = p->done + p->part * (row + 1) / p->height;
+    if (!p->run->progress || !p->run->progress(done, p->run->user))
+        return;
+    lock(p);
+    p->stopped = 1;
+    unlock(p);
+}
+
+static void render_rows(pass *p, int reports)
+{
+    path_counts counts = {0, 0, 0, 0};
+    for (int row; (row = take_row(p)) >= 0;) {
+        for (int x = 0; x < p->width; x++)
+            render_pixel(p, x, row, &counts);
+        if (reports)
+            report(p, row);
+    }
+    lock(p);
+    add_counts(&p->counts, &counts);
+    unlock(p);
+}
+
+#ifdef VNDF_TOOLS_PTHREADS
+static void *other_thread(void *of)
+{
+    render_rows(of, 0);
+    return NULL;
+}
+#endif
+
+/* With fewer threads where the system gives no more. */
+static void render_pass(pass *p)
+{
+#ifdef VNDF_TOOLS_PTHREADS
+    pthread_t others[THREADS_MAX];
+    unsigned count = 0, wanted = p->run->threads < THREADS_MAX ? p->run->threads : THREADS_MAX;
+    pthread_mutex_init(&p->lock, NULL);
+    while (count + 1 < wanted && pthread_create(&others[count], NULL, other_thread, p) == 0)
+        count++;
+    render_rows(p, 1);
+    while (count)
+        pthread_join(others[--count], NULL);
+    pthread_mutex_destroy(&p->lock);
+#else
+    render_rows(p, 1);
+#endif
+}
+
+/* ---- passes ---- */
+
+static void add_pass(film *f, const pass *p)
+{
+    size_t count = (size_t)f->width * (size_t)f->height;
+    for (size_t i = 0; i < 3 * count; i++)
+        f->sum[i] += p->sum[i];
+    for (size_t i = 0; i < count; i++)
+        f->square[i] += p->square[i];
+    f->samples += p->samples;
+    add_counts(&f->counts, &p->counts);
+}
+
+static uint64_t samples_of_pass(const film *f, uint64_t left)
+{
+    uint64_t pixels = (uint64_t)f->width * (uint64_t)f->height;
+    uint64_t samples = PASS_PATHS / pixels > 1 ? PASS_PATHS / pixels : 1;
+    return samples < left ? samples : left;
+}
+
+/* What is done, of samples or of seconds. */
+static double done_part(const film_run *run, uint64_t samples, double seconds)
+{
+    double part = run->samples ? (double)samples / (double)run->samples : 0;
+    double of_time = run->seconds > 0 ? seconds / run->seconds : 0;
+    return part > of_time ? part : of_time;
+}
+
+static int render_passes(film *f, pass *p)
+{
+    const film_run *run = p->run;
+    uint64_t start = f->samples;
+    double spent = 0, begun = now(), before = f->seconds;
+    while (f->samples - start < run->samples && !(run->seconds > 0 && spent >= run->seconds)) {
+        p->first = f->samples;
+        p->samples = samples_of_pass(f, run->samples - (f->samples - start));
+        p->done = done_part(run, f->samples - start, spent);
+        uint64_t passes = (f->samples - start) / p->samples;
+        p->part = passes ? p->done / (double)passes : done_part(run, p->samples, 0);
+        p->next_row = 0;
+        p->counts = (path_counts){0, 0, 0, 0};
+        render_pass(p);
+        if (p->stopped)
+            return 0;
+        add_pass(f, p);
+        spent = now() - begun;
+        f->seconds = before + spent;
+    }
+    return 1;
+}
+
+int film_render(film *f, const path_plan *plan, const film_run *run)
+{
+    size_t count = (size_t)f->width * (size_t)f->height;
+    pass p = {.plan = plan, .run = run, .width = f->width, .height = f->height};
+    p.sum = malloc(3 * count * sizeof *p.sum);
+    p.square = malloc(count * sizeof *p.square);
+    int good = p.sum && p.square && render_passes(f, &p);
+    free(p.sum);
+    free(p.square);
+    return good;
+}
+
+/* ---- the film ---- */
+
+int film_make(film *f, int width, int height)
+{
+    size_t count = (size_t)width * (size_t)height;
+    *f = (film){.width = width, .height = height};
+    f->sum = calloc(3 * count, sizeof *f->sum);
+    f->square = calloc(count, sizeof *f->square);
+    if (f->sum && f->square)
+        return 1;
+    film_free(f);
+    return 0;
+}
+
+void film_free(film *f)
+{
+    free(f->sum);
+    free(f->square);
+    f->sum = f->square = NULL;
+}
+
+int film_image(const film *f, image *made)
+{
+    size_t count = 3 * (size_t)f->width * (size_t)f->height;
+    if (!image_make(made, f->width, f->height))
+        return 0;
+    for (size_t i = 0; i < count && f->samples; i++)
+        made->rgb[i] = (float)(f->sum[i] / (double)f->samples);
+    return 1;
+}

@@ -1,0 +1,272 @@
+/* A path: from the eye through surfaces to light. At each one a light is drawn and weighed against the material,
+ * then the material draws where the path goes on; light that it meets by itself is weighed against the lights
+ * (path_parts.h). The loop is compiled four times, with and without lights to draw and absorption. */
+#include "render/path_parts.h"
+
+#include "random.h"
+
+struct path_walk {
+    const path_plan *plan;
+    path_counts *counts;
+    random_stream random;
+    ray ray;
+    float throughput[3], radiance[3];
+    float carried;       /* what refraction alone made of the throughput */
+    float density;       /* of the direction, if lights could have drawn it too; else 0 */
+    const float *absorb; /* of what the path is in; NULL: nothing */
+};
+
+static void draw(path_walk *w, float u[3])
+{
+    for (int i = 0; i < 3; i++)
+        u[i] = random_float(&w->random);
+}
+
+static void gain(path_walk *w, const float radiance[3], float weight)
+{
+    for (int i = 0; i < 3; i++)
+        w->radiance[i] += w->throughput[i] * radiance[i] * weight;
+}
+
+/* The part of an estimate of density `mine` where another has `other`. */
+static float share(float mine, float other)
+{
+    float ratio = other / mine;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* ---- light that is met ---- */
+
+static inline void meet_environment(path_walk *w, int lit)
+{
+    const path_plan *plan = w->plan;
+    int weighs = lit && w->density > 0.0f && plan->environment.row;
+    float rgb[3], density = 0.0f;
+    if (!(plan->effects & EFFECT_ENVIRONMENT))
+        return;
+    plan->environment.radiance(&plan->environment, w->ray.direction, rgb, weighs ? &density : NULL);
+    gain(w, rgb, weighs ? share(w->density, plan->environment_share * density) : 1.0f);
+}
+
+static inline void meet_light(path_walk *w, const path_material *m, const hit *h, int lit)
+{
+    float weight = 1.0f;
+    if (!(dot(w->ray.direction, h->normal) < 0.0f))
+        return;
+    if (lit && w->density > 0.0f && w->plan->lights.count)
+        weight = share(w->density, (1.0f - w->plan->environment_share) *
+                                       path_lights_density(&w->plan->lights, w->ray.origin, w->ray.direction, h));
+    gain(w, m->colour, weight);
+}
+
+/* ---- a surface ---- */
+
+static frame geometric_frame(const hit *h)
+{
+    frame f = {h->shading.x, h->shading.y, h->normal};
+    vndf_vec3 x = subtract(f.x, scale(f.z, dot(f.x, f.z)));
+    f.x = dot(x, x) > 1e-6f ? unit(x) : unit(cross(h->shading.y, f.z));
+    f.y = cross(f.z, f.x);
+    return f;
+}
+
+/* 0: nothing is scattered. */
+static inline int begin(path_point *p, const path_material *m, const hit *h, vndf_vec3 direction)
+{
+    vndf_vec3 wi = scale(direction, -1.0f);
+    p->material = m;
+    p->hit = h;
+    p->frame = h->shading;
+    p->colour = m->colour;
+    p->wi = unit(to_frame(&p->frame, wi));
+    float side = dot(wi, h->normal);
+    if (!(p->wi.z * side > 0.0f)) {
+        p->frame = geometric_frame(h);
+        p->wi = unit(to_frame(&p->frame, wi));
+    }
+    return m->run.begin(p);
+}
+
+/* ---- light that is drawn ---- */
+
+/* From one of the two kinds of light; *u is stretched over its part again. */
+static int draw_light(const path_plan *plan, vndf_vec3 place, float u[3], light_sample *s)
+{
+    float part = plan->environment_share;
+    int drawn;
+    if (u[0] < part) {
+        drawn = path_environment_draw(&plan->environment, u, s);
+    } else {
+        part = 1.0f - part;
+        u[0] = fminf((u[0] - plan->environment_share) / part, 0.99999994f);
+        drawn = path_lights_draw(&plan->lights, place, u, s);
+    }
+    s->density *= part;
+    return drawn;
+}
+
+/* A little short of the light, lest its own surface bar the way. */
+static int is_barred(path_walk *w, const path_point *p, const light_sample *s)
+{
+    ray r = ray_from(p->hit, s->direction);
+    r.to = s->distance < INFINITY ? s->distance * 0.9999f : r.to;
+    w->counts->shadow_rays++;
+    return geometry_blocked(&w->plan->scene->geometry, &r);
+}
+
+static void absorb(const float coefficient[3], float distance, float rgb[3])
+{
+    for (int i = 0; i < 3; i++)
+        rgb[i] *= expf(-coefficient[i] * distance);
+}
+
+static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
+{
+    float u[3], value[3];
+    light_sample s = {{0, 0, 0}, 0, 0, {0, 0, 0}};
+    uint64_t seed = random_bits(&w->random);
+    draw(w, u);
+    if (!draw_light(w->plan, p->hit->place, u, &s) || !(dot(s.direction, p->hit->normal) > 0.0f))
+        return;
+    vndf_vec3 wo = unit(to_frame(&p->frame, s.direction));
+    if (!(wo.z > 0.0f))
+        return;
+    p->material->run.eval(p, wo, seed, value);
+    if (!(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
+        return;
+    float weight = wo.z / s.density * share(s.density, p->material->run.pdf(p, wo));
+    for (int i = 0; i < 3; i++)
+        value[i] *= s.radiance[i];
+    if (absorbing && w->absorb && p->wi.z > 0.0f)
+        absorb(w->absorb, s.distance, value);
+    gain(w, value, weight);
+}
+
+/* ---- going on ---- */
+
+/* Light inside is that of the body it was refracted into; bodies inside of others leave both. */
+static inline void cross_surface(path_walk *w, const path_material *m, int enters)
+{
+    w->absorb = enters && m->absorbs ? m->is->absorb : NULL;
+}
+
+/* 0: the path ends. */
+static inline int go_on(path_walk *w, const path_point *p, int absorbing)
+{
+    float u[3];
+    bounce b;
+    draw(w, u);
+    if (!p->material->run.sample(p, u, &b))
+        return 0;
+    vndf_vec3 direction = unit(from_frame(&p->frame, b.wo));
+    float side = dot(direction, p->hit->normal);
+    if (!(side * b.wo.z > 0.0f))
+        return 0;
+    if (absorbing && p->wi.z * b.wo.z < 0.0f)
+        cross_surface(w, p->material, side < 0.0f);
+    for (int i = 0; i < 3; i++)
+        w->throughput[i] *= b.weight[i];
+    w->carried *= b.carried;
+    w->density = side > 0.0f ? b.density : 0.0f;
+    w->ray = ray_from(p->hit, direction);
+    return 1;
+}
+
+/* What refraction makes of radiance is undone on the way out and says nothing about what a path is worth. */
+static int survives(path_walk *w)
+{
+    float worth = fmaxf(fmaxf(w->throughput[0], w->throughput[1]), w->throughput[2]) / w->carried;
+    if (worth >= 1.0f)
+        return 1;
+    if (!(random_float(&w->random) < worth))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        w->throughput[i] /= worth;
+    return 1;
+}
+
+static inline void trace(path_walk *w, int lit, int absorbing)
+{
+    const scene *s = w->plan->scene;
+    path_point p;
+    hit h;
+    for (unsigned surface = 1;; surface++) {
+        w->counts->segments++;
+        if (!geometry_hit(&s->geometry, &w->ray, &h)) {
+            meet_environment(w, lit);
+            return;
+        }
+        const path_material *m = &w->plan->materials[h.material];
+        if (absorbing && w->absorb)
+            absorb(w->absorb, h.distance, w->throughput);
+        if (m->emits) {
+            meet_light(w, m, &h, lit);
+            return;
+        }
+        if (surface > s->integrator.depth || !begin(&p, m, &h, w->ray.direction))
+            return;
+        if (lit && m->run.eval)
+            reach_light(w, &p, absorbing);
+        if (!go_on(w, &p, absorbing) || (surface >= s->integrator.roulette && !survives(w)))
+            return;
+    }
+}
+
+static void trace_plain(path_walk *w)
+{
+    trace(w, 0, 0);
+}
+
+static void trace_lit(path_walk *w)
+{
+    trace(w, 1, 0);
+}
+
+static void trace_absorbing(path_walk *w)
+{
+    trace(w, 0, 1);
+}
+
+static void trace_lit_absorbing(path_walk *w)
+{
+    trace(w, 1, 1);
+}
+
+void (*path_loop(int lit, int absorbing))(path_walk *w)
+{
+    if (absorbing)
+        return lit ? trace_lit_absorbing : trace_absorbing;
+    return lit ? trace_lit : trace_plain;
+}
+
+/* ---- from the eye ---- */
+
+/* The numbers of a path are a stream of their own: the hash of seed, pixel and index. */
+static random_stream stream_of(uint64_t seed, uint64_t pixel, uint64_t index)
+{
+    uint64_t of_pixel = random_from(random_from(seed).start ^ pixel).start;
+    return random_from(of_pixel ^ index);
+}
+
+static ray ray_of(const path_plan *plan, float x, float y)
+{
+    vndf_vec3 way = add(plan->corner, add(scale(plan->right, x), scale(plan->down, y)));
+    ray r = {plan->scene->camera.from, unit(way), 0.0f, INFINITY};
+    return r;
+}
+
+void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
+                float rgb[3])
+{
+    uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
+    path_walk w = {.plan = plan, .counts = counts, .random = stream_of(seed, pixel, index),
+                   .throughput = {1, 1, 1}, .carried = 1};
+    float dx = random_float(&w.random), dy = random_float(&w.random);
+    w.ray = ray_of(plan, (float)x + dx, (float)y + dy);
+    counts->paths++;
+    plan->trace(&w);
+    int good = isfinite(w.radiance[0] + w.radiance[1] + w.radiance[2]);
+    counts->samples_lost += !good;
+    for (int i = 0; i < 3; i++)
+        rgb[i] = good ? w.radiance[i] : 0.0f;
+}

@@ -1,0 +1,142 @@
+/* The parts of a plan: what path_prepare resolves once and what path_trace runs.
+ *
+ *   path_plan.c         which effects a scene calls for; the parts below put together
+ *   path_material.c     a material as routines made for its kind: no test of a kind at a hit
+ *   path_lights.c       emitting rectangles and spheres: drawing a point, and the density of a point met
+ *   path_environment.c  light from far away: its radiance, drawing a direction of its image
+ *   path.c              the path itself
+ *   path_repeat.c       how much of its time the library takes
+ *
+ * A direction may be drawn by the material or from a light; both estimates are weighed by the squares of the two
+ * densities (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995).
+ * Lights are drawn for directions to the outside of a surface only: inside a closed body the way to them is
+ * barred by its own skin, and the material alone finds what there is. */
+#ifndef RENDER_PATH_PARTS_H
+#define RENDER_PATH_PARTS_H
+
+#include "render/path.h"
+
+/* ---- materials ---- */
+
+typedef struct path_material path_material;
+
+/* A hit as its material sees it. */
+typedef struct path_point {
+    const path_material *material;
+    const hit *hit;
+    frame frame;         /* of shading, or geometric where they differ about the side of the ray */
+    vndf_vec3 wi;        /* in it */
+    const float *colour;
+    float mapped[3];     /* the colour of a map */
+    vndf_bsdf bsdf;      /* of rough materials */
+} path_point;
+
+typedef struct bounce {
+    vndf_vec3 wo;        /* in the frame */
+    float weight[3];     /* f |cos| / density */
+    float density;       /* 0: a Dirac, that nothing else finds */
+    float carried;       /* what refraction makes of radiance, a part of the weight: 1 or 1/eta^2 */
+} bounce;
+
+typedef struct path_routines {
+    int (*begin)(path_point *p);       /* fills the rest of a point; 0: nothing is scattered */
+    int (*begin_plain)(path_point *p); /* the same where the colour is there already */
+    int (*sample)(const path_point *p, const float u[3], bounce *b);
+    void (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]); /* f; NULL: a Dirac */
+    float (*pdf)(const path_point *p, vndf_vec3 wo);
+} path_routines;
+
+struct path_material {
+    const material *is;
+    vndf_material bsdf;
+    float colour[3];
+    float eta;                /* of smooth dielectrics */
+    vndf_roughness roughness; /* its rotation, and alpha where no map changes it */
+    int emits, absorbs;
+    path_routines run, once;  /* once: see path_repeat.c */
+};
+
+/* 0 and a message if the library refuses. */
+int path_material_prepare(path_material *made, const material *is, path_sampler sampler, unsigned without,
+                          char *message, size_t size);
+
+/* Bits of what a material calls for. */
+unsigned path_material_effects(const material *is);
+
+/* ---- lights ---- */
+
+typedef struct light_sample {
+    vndf_vec3 direction; /* towards the light, unit */
+    float distance;
+    float density;       /* per steradian */
+    float radiance[3];
+} light_sample;
+
+typedef struct path_light {
+    shape_kind kind;
+    sphere sphere;
+    rectangle rectangle;
+    vndf_vec3 normal;    /* of the rectangle */
+    float area;
+    float radiance[3];
+    float probability, below; /* of being chosen; the sum of those before it */
+} path_light;
+
+typedef struct path_lights {
+    path_light *lights;
+    size_t count;
+    int32_t *of_shape;   /* index of a shape's light, -1 for others; NULL if there are none */
+} path_lights;
+
+/* 0 if there is no memory. */
+int path_lights_make(path_lights *made, const scene *s);
+void path_lights_free(path_lights *lights);
+
+/* From three uniform numbers; 0: this one sees none. */
+int path_lights_draw(const path_lights *lights, vndf_vec3 place, const float u[3], light_sample *s);
+
+/* The density with which path_lights_draw finds what a ray from `place` has met. */
+float path_lights_density(const path_lights *lights, vndf_vec3 place, vndf_vec3 direction, const hit *h);
+
+/* ---- the environment ---- */
+
+typedef struct path_environment {
+    const environment *is;
+    float turn;          /* a part of a full turn */
+    float *row, *column; /* sums of weights: `height` of rows, `width` in each; NULL: not drawn */
+    /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
+    void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
+} path_environment;
+
+/* Without drawing if `drawn` is 0. 0 if there is no memory. */
+int path_environment_make(path_environment *made, const environment *is, int drawn);
+void path_environment_free(path_environment *e);
+int path_environment_draw(const path_environment *e, const float u[3], light_sample *s);
+
+/* ---- the plan ---- */
+
+typedef struct path_walk path_walk;
+
+struct path_plan {
+    const scene *scene;
+    unsigned effects;
+    vndf_vec3 corner, right, down; /* of the film, 1 from the eye: pixels are at corner + x right + y down */
+    path_material *materials;
+    path_lights lights;
+    path_environment environment;
+    float environment_share;       /* probability of drawing from it and not from a light */
+    void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */
+};
+
+/* For measurements: every call of the library is made twice from now on, with the same result. */
+void path_repeat(path_plan *plan);
+
+/* Of path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
+void (*path_loop(int lit, int absorbing))(path_walk *w);
+
+static inline float luminance(const float rgb[3])
+{
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
+#endif

@@ -1,0 +1,118 @@
+/* What a scene calls for, found out once. */
+#include "render/path_parts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- effects ---- */
+
+static unsigned environment_effects(const environment *e)
+{
+    int map = e->map && e->scale > 0.0f;
+    int light = map || e->constant[0] > 0.0f || e->constant[1] > 0.0f || e->constant[2] > 0.0f;
+    return (light ? EFFECT_ENVIRONMENT : 0u) | (map ? EFFECT_ENVIRONMENT_MAP : 0u);
+}
+
+/* Of the materials that shapes have; those that none has cost nothing. */
+static unsigned scene_effects(const scene *s)
+{
+    unsigned effects = environment_effects(&s->environment);
+    for (size_t i = 0; i < s->geometry.shape_count; i++)
+        effects |= path_material_effects(&s->materials[s->geometry.shapes[i].material]);
+    return effects | (s->geometry.triangle_count ? EFFECT_MESHES : 0u);
+}
+
+unsigned path_effects(const path_plan *plan)
+{
+    return plan->effects;
+}
+
+/* ---- the film ---- */
+
+static void place_film(path_plan *plan)
+{
+    const camera *c = &plan->scene->camera;
+    float height = (float)plan->scene->height, width = (float)plan->scene->width;
+    vndf_vec3 forward = unit(subtract(c->to, c->from)), right = unit(cross(forward, c->up));
+    vndf_vec3 down = cross(forward, right);
+    float step = 2.0f * tanf(c->field * 0.00872664626f) / height; /* half the field, in radians */
+    plan->right = scale(right, step);
+    plan->down = scale(down, step);
+    plan->corner = subtract(forward, add(scale(plan->right, 0.5f * width), scale(plan->down, 0.5f * height)));
+}
+
+/* ---- parts ---- */
+
+static int prepare_materials(path_plan *plan, path_sampler sampler, unsigned without, char *message, size_t size)
+{
+    const scene *s = plan->scene;
+    plan->materials = calloc(s->material_count ? s->material_count : 1, sizeof *plan->materials);
+    if (!plan->materials) {
+        snprintf(message, size, "no memory for %zu materials", s->material_count);
+        return 0;
+    }
+    for (size_t i = 0; i < s->material_count; i++)
+        if (!path_material_prepare(&plan->materials[i], &s->materials[i], sampler, without, message, size))
+            return 0;
+    return 1;
+}
+
+/* Lights are drawn if a surface can use them: one that is not smooth. */
+static int uses_lights(const path_plan *plan)
+{
+    const geometry *g = &plan->scene->geometry;
+    for (size_t i = 0; i < g->shape_count; i++)
+        if (plan->materials[g->shapes[i].material].run.eval)
+            return 1;
+    return 0;
+}
+
+static int prepare_lights(path_plan *plan, unsigned without, char *message, size_t size)
+{
+    int use = uses_lights(plan);
+    int far = (plan->effects & ~without & EFFECT_ENVIRONMENT_MAP) != 0;
+    if ((use && !(without & EFFECT_LIGHTS) && !path_lights_make(&plan->lights, plan->scene)) ||
+        !path_environment_make(&plan->environment, &plan->scene->environment, use && far)) {
+        snprintf(message, size, "no memory for lights");
+        return 0;
+    }
+    if (plan->lights.count)
+        plan->effects |= EFFECT_LIGHTS;
+    plan->environment_share = !plan->environment.row ? 0.0f : plan->lights.count ? 0.5f : 1.0f;
+    return 1;
+}
+
+path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, char *message, size_t size)
+{
+    path_plan *plan;
+    if (sampler == SAMPLER_PERFECT) {
+        snprintf(message, size, "sampling of a whole BSDF is not made yet: all, visible and bounded are");
+        return NULL;
+    }
+    plan = calloc(1, sizeof *plan);
+    if (!plan) {
+        snprintf(message, size, "no memory");
+        return NULL;
+    }
+    plan->scene = s;
+    plan->effects = scene_effects(s);
+    place_film(plan);
+    if (!prepare_materials(plan, sampler, without, message, size) ||
+        !prepare_lights(plan, without, message, size)) {
+        path_free(plan);
+        return NULL;
+    }
+    plan->effects &= ~without;
+    plan->trace = path_loop(plan->lights.count || plan->environment.row, (plan->effects & EFFECT_ABSORPTION) != 0);
+    return plan;
+}
+
+void path_free(path_plan *plan)
+{
+    if (!plan)
+        return;
+    path_lights_free(&plan->lights);
+    path_environment_free(&plan->environment);
+    free(plan->materials);
+    free(plan);
+}

@@ -1,0 +1,13 @@
+/* What a scene calls for, and what each effect costs in it. */
+#ifndef TOOLS_RENDER_EXPLAIN_H
+#define TOOLS_RENDER_EXPLAIN_H
+
+#include "render/path.h"
+
+/* Measures and prints; an exit status. */
+int render_explain(const char *command, const scene *s, path_sampler sampler);
+
+/* Seconds of a clock that only goes forward. */
+double render_now(void);
+
+#endif
