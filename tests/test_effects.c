@@ -103,7 +103,8 @@ static void test_sets(const vndf_distribution *d, effects_block *block)
         effects_entry e = entry_of(d, set->name, 0.5f);
         effects_verify(&e, block);
         effects_weigh(&e, block, 4);
-        if (!TEST(!e.row.wrong) | !TEST(e.row.mean > 0 && e.row.mean < 2.25))
+        int right = TEST(!e.row.wrong), plausible = TEST(e.row.mean > 0 && e.row.mean < 2.25);
+        if (!right || !plausible)
             fprintf(stderr, "  %s: mean %g\n", set->name, e.row.mean);
         if (set->effects.normals == VNDF_NORMALS_BOUNDED)
             TEST(e.row.lost == 0);
