@@ -1,8 +1,9 @@
 /* vndf_bsdf.h - reflection and refraction on a rough surface of any distribution of normals.
  *
  * A material is a distribution (table, GGX, Beckmann), its roughness, its optics and a set of effects. The set is
- * resolved once, to routines made for it: an effect that is not chosen is not looked at when a ray arrives. At a hit
- * vndf_bsdf_at forms all that depends on the incident direction alone; from it come samples, values and densities.
+ * resolved once, to routines made for it: an effect that is not chosen is not looked at when a ray arrives. At a
+ * hit vndf_bsdf_at forms all that depends on the incident direction alone; from it come samples, values and
+ * densities.
  *
  *     vndf_material material;
  *     vndf_description glass = {.distribution = vndf_ggx(), .alpha_x = 0.1f, .alpha_y = 0.1f, .eta = 1.5f,

@@ -1,8 +1,8 @@
 /* Sampled directions against vndf_bsdf_pdf over bins of the sphere, 65 of the cosine by 130 of the azimuth, lost
- * samples (and those that go straight on) in one more. A direction is binned by its cosine and its azimuth from that
- * of the mirrored wi, and the borders are quantiles of a pilot run mixed with even ones, as in tools/bins.h: half of
- * the bins are where the samples go, however narrow the lobe. Probabilities are integrals of the pdf by Gauss-Legendre
- * rules, finer where they disagree; what they leave of 1 is the bin of what is lost. */
+ * samples (and those that go straight on) in one more. A direction is binned by its cosine and its azimuth from
+ * that of the mirrored wi, and the borders are quantiles of a pilot run mixed with even ones, as in tools/bins.h:
+ * half of the bins are where the samples go, however narrow the lobe. Probabilities are integrals of the pdf by
+ * Gauss-Legendre rules, finer where they disagree; what they leave of 1 is the bin of what is lost. */
 #ifndef TESTS_BSDF_CHI_SQUARE_H
 #define TESTS_BSDF_CHI_SQUARE_H
 
@@ -37,12 +37,12 @@ static inline double sphere_turn(double phi)
     return remainder(phi, 2 * SPHERE_PI);
 }
 
-/* Every second border is even, the others are quantiles, from the least to the largest: beyond them a quadrature that
- * looks at few places may find nothing. The surface itself is a border of z. */
+/* Every second border is even, the others are quantiles, from the least to the largest: beyond them a quadrature
+ * that looks at few places may find nothing. The surface itself is a border of z. */
 static inline void sphere_place(double *border, size_t parts, double low, double high, const double *sorted, size_t count)
 {
     size_t steps = (parts - 1) / 2 - 1;
-    for (size_t i = 0; i <= parts; i++)
+    for (size_t i = 0; i < parts; i++)
         border[i] = i % 2 || !count || i < 2 ? low + (high - low) * (double)i / (double)parts
                                              : sorted[(count - 1) * (i / 2 - 1) / steps];
     border[0] = low;

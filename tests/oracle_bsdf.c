@@ -1,5 +1,5 @@
-/* The formulas. A hit is brought to the frame of the roughness, wi above: z changes sign on both sides of the surface
- * at once, since its microsurface is the same from both. */
+/* The formulas. A hit is brought to the frame of the roughness, wi above: z changes sign on both sides of the
+ * surface at once, since its microsurface is the same from both. */
 #include "oracle_bsdf.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
-/* Reflection and refraction on a rough surface once more, in double, from the published formulas alone and sharing no
- * code with src/: Walter et al. 2007 (half vectors equations 13 and 16, Jacobians 14 and 17, f 20 and 21), Heitz
- * 2014 (Smith's G1 and G2, equations 43, 98, 99), Heitz et al. 2016 (transmission), Cook & Torrance's V-cavities; D
- * and Lambda of GGX and Beckmann in closed form, those of a table from the bytes of its file (oracle_table.h).
- * Fresnel's equations by complex arithmetic in long double. Lambda is kept as the projected area A = cos (1 + Lambda),
- * which stays finite; the formulas divide as they are printed. */
+/* Reflection and refraction on a rough surface once more, in double, from the published formulas alone and
+ * sharing no code with src/: Walter et al. 2007 (half vectors equations 13 and 16, Jacobians 14 and 17, f 20 and
+ * 21), Heitz 2014 (Smith's G1 and G2, equations 43, 98, 99), Heitz et al. 2016 (transmission), Cook & Torrance's
+ * V-cavities; D and Lambda of GGX and Beckmann in closed form, those of a table from the bytes of its file
+ * (oracle_table.h). Fresnel's equations by complex arithmetic in long double. Lambda is kept as the projected
+ * area A = cos (1 + Lambda), which stays finite; the formulas divide as they are printed. */
 #ifndef TESTS_ORACLE_BSDF_H
 #define TESTS_ORACLE_BSDF_H
 
@@ -32,7 +32,8 @@ void oracle_ndf_close(oracle_ndf *ndf);
 double oracle_ndf_density(const oracle_ndf *ndf, const double alpha[2], const double wm[3]);
 double oracle_ndf_area(const oracle_ndf *ndf, const double alpha[2], const double w[3]);
 
-/* The density with which visible normals are drawn: max(0, wi.wm) D/A, or what the table has for it; unit vectors. */
+/* The density with which visible normals are drawn: max(0, wi.wm) D/A, or what the table has for it; unit
+ * vectors. */
 double oracle_ndf_visible(const oracle_ndf *ndf, const double alpha[2], const double wi[3], const double wm[3]);
 
 /* The density with which all normals are drawn: D cos(theta_m), or what the table has for it. */

@@ -87,8 +87,8 @@ double oracle_ndf_visible(const oracle_ndf *ndf, const double alpha[2], const do
     return fmax(facing, 0) * oracle_ndf_density(ndf, alpha, wm) / oracle_ndf_area(ndf, alpha, wi);
 }
 
-/* A table draws the slopes of visible normals straight from above, with an even azimuth in place of its own, which is
- * even too where it is towards wi: total0 of what the front and the wedge hold. */
+/* A table draws the slopes of visible normals straight from above, with an even azimuth in place of its own,
+ * which is even too where it is towards wi: total0 of what the front and the wedge hold. */
 double oracle_ndf_all(const oracle_ndf *ndf, const double alpha[2], const double wm[3])
 {
     const oracle_table *t = &ndf->table;

@@ -4,9 +4,10 @@
  *
  * A distribution gets COUNT samples, each from a view of its own, over directions of the whole sphere, roughness
  * from 1e-6 to 10 and the corners of the unit square; at every eighth all other functions of vndf.h are asked as
- * well, at every fourth a material, of all sets of effects in turn, is sampled and evaluated. A line has the hash after so many samples, that number and the distribution; one comes after PREFIX and
- * one after COUNT, so that a slow machine that takes fewer can be compared with a fast one. test_same_bits.cmake
- * compares differently compiled copies with each other and with tests/corpus/same_bits.txt. */
+ * well, at every fourth a material, of all sets of effects in turn, is sampled and evaluated. A line has the hash
+ * after so many samples, that number and the distribution; one comes after PREFIX and one after COUNT, so that a
+ * slow machine that takes fewer can be compared with a fast one. test_same_bits.cmake compares differently
+ * compiled copies with each other and with tests/corpus/same_bits.txt. */
 #include <stdlib.h>
 
 #include "hash.h"

@@ -1,7 +1,7 @@
-/* All normals and V-cavity normals are drawn as they say: unit, above the horizon, never NaN, with the density that
- * belongs to the normal within 1e-5; that density integrates to 1 within 1e-5, is D cos(theta_m) (times 2 f/(f + f')
- * for V-cavities, which is D G1 f/cos_i) and passes chi-square at level 0.01 for all tests together; and the azimuth
- * of V-cavities solves its equation within 3e-7, whatever wi sees.
+/* All normals and V-cavity normals are drawn as they say: unit, above the horizon, never NaN, with the density
+ * that belongs to the normal within 1e-5; that density integrates to 1 within 1e-5, is D cos(theta_m) (times 2
+ * f/(f + f') for V-cavities, which is D G1 f/cos_i) and passes chi-square at level 0.01 for all tests together;
+ * and the azimuth of V-cavities solves its equation within 3e-7, whatever wi sees.
  *
  * Arguments: nothing, or the number of one part (main). */
 #include <stdlib.h>

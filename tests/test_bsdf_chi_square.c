@@ -1,7 +1,7 @@
-/* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for every
- * choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned, steep and
- * grazing, from both sides and for all index ratios; level 1e-3 for all together. With the mean weight it makes the
- * estimator: the weight is f cos/pdf (test_bsdf_weight), and that pdf is the one of the samples. */
+/* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for
+ * every choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned,
+ * steep and grazing, from both sides and for all index ratios; level 1e-3 for all together. With the mean weight
+ * it makes the estimator: the weight is f cos/pdf (test_bsdf_weight), and that pdf is the one of the samples. */
 #include "bsdf_chi_square.h"
 
 typedef struct setting {

@@ -1,8 +1,8 @@
-/* The mean weight of samples is the albedo, the integral of f cos over directions, by quadrature, for visible, bounded
- * and all normals and V-cavities, within 4.5 sigma (7e-6 each); it is at most 1 wherever masking conserves energy, for
- * lossless reflection and glass that carries importance; weights of visible normals never exceed Fresnel's term, for
- * tables times the certificate's largest weight, and bounded normals lose nothing. Prints the largest weights side by
- * side, and what single scattering loses. */
+/* The mean weight of samples is the albedo, the integral of f cos over directions, by quadrature, for visible,
+ * bounded and all normals and V-cavities, within 4.5 sigma (7e-6 each); it is at most 1 wherever masking
+ * conserves energy, for lossless reflection and glass that carries importance; weights of visible normals never
+ * exceed Fresnel's term, for tables times the certificate's largest weight, and bounded normals lose nothing.
+ * Prints the largest weights side by side, and what single scattering loses. */
 #include "bsdf_chi_square.h"
 
 typedef struct tally {

@@ -1,6 +1,7 @@
-/* The Fresnel functions have a relative error below 1e-6: against complex arithmetic over a grid of indices and over
- * cosines down to 0, with what is known in closed form - right angles, Brewster's angle, total reflection, equal
- * indices, a conductor that absorbs nothing, Schlick's ends. All are in [0, 1], take |cos|, and make no NaN. */
+/* The Fresnel functions have a relative error below 1e-6: against complex arithmetic over a grid of indices and
+ * over cosines down to 0, with what is known in closed form - right angles, Brewster's angle, total reflection,
+ * equal indices, a conductor that absorbs nothing, Schlick's ends. All are in [0, 1], take |cos|, and make no
+ * NaN. */
 #include "oracle.h"
 #include "oracle_bsdf.h"
 #include "test.h"

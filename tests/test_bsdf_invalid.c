@@ -1,7 +1,7 @@
-/* No NaN and nothing infinite or negative comes out of the BSDF layer, whatever bits go in; directions that are NaN,
- * infinite or zero, at either end, and roughness that is not above 0, scatter nothing. Random bits of all numbers at
- * a hit, for every set of effects that makes sense, walks among them; then one invalid number at a time; uniform
- * numbers outside [0, 1] are as good as any. */
+/* No NaN and nothing infinite or negative comes out of the BSDF layer, whatever bits go in; directions that are
+ * NaN, infinite or zero, at either end, and roughness that is not above 0, scatter nothing. Random bits of all
+ * numbers at a hit, for every set of effects that makes sense, walks among them; then one invalid number at a
+ * time; uniform numbers outside [0, 1] are as good as any. */
 #include <float.h>
 
 #include "bsdf_case.h"

@@ -1,7 +1,8 @@
-/* f(wi, wo) = f(wo, wi) for reflection; for transmission f(wi, wo) over the squared index on the side that light goes to
+/* f(wi, wo) = f(wo, wi) for reflection; for transmission f(wi, wo) over the squared index on the side that light
+ * goes to
  * - that of wi for radiance, that of wo for importance - is the same both ways. Within 4e-5,
- * for every set of effects, at directions from both sides, random and grazing; 5e-4 where the index ratio is 1.001, where
- * the rounding of directions counts. Roughness is at least 0.05 for the same reason. */
+ * for every set of effects, at directions from both sides, random and grazing; 5e-4 where the index ratio is
+ * 1.001, where the rounding of directions counts. Roughness is at least 0.05 for the same reason. */
 #include "bsdf_case.h"
 
 static const float ALPHAS[] = {0.05f, 0.3f, 1, 2};

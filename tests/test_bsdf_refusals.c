@@ -1,6 +1,6 @@
-/* Every set of effects is taken if it makes sense and refused if not, by a message that names what is wrong; so is every
- * number out of its range, and NaN. What is not asked for is not read. A material that was refused is safe: it
- * scatters nothing. The error is the caller's, may be NULL and is left alone where nothing is wrong. */
+/* Every set of effects is taken if it makes sense and refused if not, by a message that names what is wrong; so
+ * is every number out of its range, and NaN. What is not asked for is not read. A material that was refused is
+ * safe: it scatters nothing. The error is the caller's, may be NULL and is left alone where nothing is wrong. */
 #include <stddef.h>
 
 #include "bsdf_case.h"

@@ -1,8 +1,8 @@
-/* A sample's weight is f |cos_o|/density and its density what vndf_bsdf_pdf gives for its direction, both to 1e-5, for
- * every sensible set of effects, GGX, Beckmann and tables, roughness from 1e-3 to 3, from both sides, cosines down to
- * 1e-6, index ratios down to 1.001 and up to 2.4. The direction is unit within 10 ulps and on the side that the lobe
- * says; a lost sample is (0, 0, 1) with weights and density 0. Only samples whose f or density is beyond what a float
- * holds are left out, and counted. */
+/* A sample's weight is f |cos_o|/density and its density what vndf_bsdf_pdf gives for its direction, both to
+ * 1e-5, for every sensible set of effects, GGX, Beckmann and tables, roughness from 1e-3 to 3, from both sides,
+ * cosines down to 1e-6, index ratios down to 1.001 and up to 2.4. The direction is unit within 10 ulps and on the
+ * side that the lobe says; a lost sample is (0, 0, 1) with weights and density 0. Only samples whose f or density
+ * is beyond what a float holds are left out, and counted. */
 #include <float.h>
 
 #include "bsdf_case.h"

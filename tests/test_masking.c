@@ -1,6 +1,6 @@
-/* `vndf masking` measures what it says: its integrals are within 5e-6 of closed forms and 2e-5 of quadrature over the
- * sphere that shares no code with it; Smith and V-cavities are 1 within 1e-5 for every shipped kind of D, implicit,
- * Kelemen and Schlick-Smith are not. */
+/* `vndf masking` measures what it says: its integrals are within 5e-6 of closed forms and 2e-5 of quadrature over
+ * the sphere that shares no code with it; Smith and V-cavities are 1 within 1e-5 for every shipped kind of D,
+ * implicit, Kelemen and Schlick-Smith are not. */
 #include "masking.h"
 #include "oracle_survey.h"
 #include "test.h"

@@ -1,6 +1,6 @@
-/* Masking functions put to the test that says whether they are physical (Heitz, "Understanding the Masking-Shadowing
- * Function in Microfacet-Based BRDFs", JCGT 2014, eq. 15): what is visible of the microsurface from wi has the
- * projected area of the surface itself,
+/* Masking functions put to the test that says whether they are physical (Heitz, "Understanding the
+ * Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 2014, eq. 15): what is visible of the microsurface
+ * from wi has the projected area of the surface itself,
  *
  *     integral G1(wi, wm) max(0, wi.wm) D(wm) dwm = cos_i.
  *
@@ -20,8 +20,8 @@ typedef enum masking_function {
 } masking_function;
 
 /* k of Schlick's approximation: for Beckmann alpha sqrt(2/pi) (Schlick, "An Inexpensive BRDF Model for
- * Physically-based Rendering", CGF 1994), for all others alpha/2 of the GGX with the same median slope (Karis, "Real
- * Shading in Unreal Engine 4", 2013), at most 1; of the roughness along wi. */
+ * Physically-based Rendering", CGF 1994), for all others alpha/2 of the GGX with the same median slope (Karis,
+ * "Real Shading in Unreal Engine 4", 2013), at most 1; of the roughness along wi. */
 double masking_schlick_k(const vndf_surface *surface, vndf_vec3 wi);
 
 /* The integrals for wi, above the horizon, and that of D cos(theta_m), which is 1 for a good quadrature: absolute

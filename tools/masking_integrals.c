@@ -1,5 +1,5 @@
-/* Slopes (x, y) = (alpha_x r cos a, alpha_y r sin a) in polar form, a counted from the azimuth b0 where normals turn
- * away from wi:  D dwm = P22(r)/cos(theta_m) r dr db, and
+/* Slopes (x, y) = (alpha_x r cos a, alpha_y r sin a) in polar form, a counted from the azimuth b0 where normals
+ * turn away from wi:  D dwm = P22(r)/cos(theta_m) r dr db, and
  *
  *     wi.wm/cos(theta_m) = w = cos_i - q cos b,      q = r |(alpha_x wi.x, alpha_y wi.y)|.
  *
@@ -91,7 +91,8 @@ static void integrate_panel(const slopes *s, double from, double to, double *sum
     }
 }
 
-/* Adds the integral over [from, to], `whole` by one rule. P22 comes as a float, so parts of 5e-7 are not asked for. */
+/* Adds the integral over [from, to], `whole` by one rule. P22 comes as a float, so parts of 5e-7 are not asked
+ * for. */
 static void refine(const slopes *s, double from, double to, const double *whole, int depth, double *sum)
 {
     double middle = 0.5 * (from + to), left[PARTS], right[PARTS];

@@ -40,8 +40,8 @@ void output_discard(output_file *output);
 /* Refuses a path that a rename would damage: a device, a pipe, a folder. 1 if it is free or a file. */
 int output_replaceable(const char *command, const char *path);
 
-/* Whether a CSV and a table in Markdown, NULL or "-" or a path each, can be written, before what they hold is measured;
- * and whether they are two files. 1, or 0 after a complaint. */
+/* Whether a CSV and a table in Markdown, NULL or "-" or a path each, can be written, before what they hold is
+ * measured; and whether they are two files. 1, or 0 after a complaint. */
 int outputs_distinct(const char *command, const char *csv, const char *markdown);
 
 /* Makes the stopping signals wait, for a library call that writes a file. The result tells

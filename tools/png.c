@@ -1,6 +1,7 @@
-/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream (deflate.h) of
- * rows, each with a byte for its filter before it: none for a palette, and for colours the one of the five whose
- * differences are the smallest in sum (12.8): 30% fewer bytes for smooth noise, 3% for a noisy rendering. */
+/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream
+ * (deflate.h) of rows, each with a byte for its filter before it: none for a palette, and for colours the one of
+ * the five whose differences are the smallest in sum (12.8): 30% fewer bytes for smooth noise, 3% for a noisy
+ * rendering. */
 #include "png.h"
 
 #include <stdint.h>

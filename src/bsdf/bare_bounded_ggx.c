@@ -1,7 +1,7 @@
-/* Bare reflection of GGX by bounded normals, all of it in one function: what is gained in variance is not to be lost
- * in time. As bare_ggx.c, but no sample is lost: the weight is kept G2/G1, and the density that of visible normals
- * over kept. The former is taken of wo as it was rounded, and kept where that rounding does not move it. Where it
- * does, and where directions are not plain, it is reflection.c. */
+/* Bare reflection of GGX by bounded normals, all of it in one function: what is gained in variance is not to be
+ * lost in time. As bare_ggx.c, but no sample is lost: the weight is kept G2/G1, and the density that of visible
+ * normals over kept. The former is taken of wo as it was rounded, and kept where that rounding does not move it.
+ * Where it does, and where directions are not plain, it is reflection.c. */
 #include "bsdf/reflection.h"
 #include "bsdf/scatter.h"
 #include "sampler/bounded_ggx_draw.h"

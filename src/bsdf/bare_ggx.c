@@ -1,5 +1,5 @@
-/* Bare reflection of GGX, the least that a material can be: visible normals, height-correlated masking. All of it in
- * one function, since a call is a tenth of what it costs. The same bits as reflection.c gives. */
+/* Bare reflection of GGX, the least that a material can be: visible normals, height-correlated masking. All of it
+ * in one function, since a call is a tenth of what it costs. The same bits as reflection.c gives. */
 #include "bsdf/reflection.h"
 #include "bsdf/scatter.h"
 #include "sampler/closed_view.h"

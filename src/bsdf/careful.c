@@ -1,5 +1,6 @@
-/* Samples of smooth surfaces, or of ones that hardly bend light: the rounding of wo moves the slope that it stands for
- * by a part of the roughness that shows in its density. Density and weight are those of wo as it was rounded. */
+/* Samples of smooth surfaces, or of ones that hardly bend light: the rounding of wo moves the slope that it
+ * stands for by a part of the roughness that shows in its density. Density and weight are those of wo as it was
+ * rounded. */
 #include "bsdf/scatter.h"
 
 static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, double value, vndf_outcome *out)

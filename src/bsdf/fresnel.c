@@ -1,7 +1,8 @@
 #include "bsdf/fresnel.h"
 
-/* (n + ik)^2 - sin^2 = (a + ib)^2, hence a^2 - b^2 = t = n^2 - k^2 - sin^2 and a b = n k (Born & Wolf, "Principles of
- * Optics", 14.2). The smaller of a^2 and b^2 comes from the larger, and a - c from a^2 - c^2 = n^2 - k^2 - 1 + b^2. */
+/* (n + ik)^2 - sin^2 = (a + ib)^2, hence a^2 - b^2 = t = n^2 - k^2 - sin^2 and a b = n k (Born & Wolf,
+ * "Principles of Optics", 14.2). The smaller of a^2 and b^2 comes from the larger, and a - c from a^2 - c^2 = n^2
+ * - k^2 - 1 + b^2. */
 double vndf_conductor(double cosine, double n, double k)
 {
     double c = cosine < 1.0 ? cosine : 1.0, c2 = c * c, s2 = 1.0 - c2, nk = n * k;

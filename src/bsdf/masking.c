@@ -7,8 +7,8 @@ static double reflect_correlated(const vndf_bsdf *b, const vndf_event *e)
     return vndf_height_correlated(b, e);
 }
 
-/* Heights are u^(1/Lambda_i) distributed from above and (1 - u)^(1/Lambda_o) from below: the part of the microfacets
- * that both see is Beta(1 + Lambda_i, 1 + Lambda_o). */
+/* Heights are u^(1/Lambda_i) distributed from above and (1 - u)^(1/Lambda_o) from below: the part of the
+ * microfacets that both see is Beta(1 + Lambda_i, 1 + Lambda_o). */
 static double transmit_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
     double area = vndf_bsdf_area(b, e->wo), i = b->area / e->cos_i, o = area / e->cos_o;

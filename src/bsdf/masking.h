@@ -1,5 +1,5 @@
-/* Masking and shadowing over both cosines, G2/(cos_i cos_o), in terms of projected areas A = cos (1 + Lambda) along a
- * direction and B = cos Lambda along its opposite (Heitz 2014, equations 98 and 99):
+/* Masking and shadowing over both cosines, G2/(cos_i cos_o), in terms of projected areas A = cos (1 + Lambda)
+ * along a direction and B = cos Lambda along its opposite (Heitz 2014, equations 98 and 99):
  *
  *     height-correlated    1/(cos_i cos_o (1 + Lambda_i + Lambda_o)) = 1/(cos_o A_i + cos_i B_o)
  *     separable            1/(A_i A_o)

@@ -23,8 +23,8 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
         s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
 }
 
-/* The density of bounded normals changes within a rounding on short chords of the disc, at the ends of its extent and
- * where all of u1 gives one normal. */
+/* The density of bounded normals changes within a rounding on short chords of the disc, at the ends of its extent
+ * and where all of u1 gives one normal. */
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);

@@ -22,8 +22,8 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     return b->material->unrotated->prepare(b, r, to_axes(b, wi));
 }
 
-/* Whether the slope that wo stands for is the one that was drawn (vndf_is_settled), though wo was rounded thrice more,
- * on the way back and forth. */
+/* Whether the slope that wo stands for is the one that was drawn (vndf_is_settled), though wo was rounded thrice
+ * more, on the way back and forth. */
 static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
 {
     vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
@@ -32,8 +32,8 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
            vndf_keeps_reflectance(b, half.event.facing_i) && vndf_is_settled(b, 0.3f * (float)half.event.facing_i);
 }
 
-/* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of a walk
- * does not depend on wo. */
+/* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of
+ * a walk does not depend on wo. */
 static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 {
     const vndf_material *m = b->material;

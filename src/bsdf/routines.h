@@ -1,9 +1,9 @@
 /* What a material is resolved to: functions made for its set of effects, called through pointers that the set
  * chose. Nothing below asks at a hit whether an effect was wanted.
  *
- * All of it works in the frame of the hit: turned by the rotation of the axes, and mirrored at the surface if wi came
- * from below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is reflection,
- * wo.z < 0 transmission. */
+ * All of it works in the frame of the hit: turned by the rotation of the axes, and mirrored at the surface if wi
+ * came from below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is
+ * reflection, wo.z < 0 transmission. */
 #ifndef VNDF_BSDF_ROUTINES_H
 #define VNDF_BSDF_ROUTINES_H
 

@@ -1,10 +1,10 @@
-/* One scattering event, put together from a choice of lobes, of normals and of what the microfacets do to light. The
- * choices are constants wherever these functions are called (reflection.c, transmission.c, both.c), and what is not
- * chosen is not compiled.
+/* One scattering event, put together from a choice of lobes, of normals and of what the microfacets do to light.
+ * The choices are constants wherever these functions are called (reflection.c, dielectric.c), and what
+ * is not chosen is not compiled.
  *
- * With q = D(wm) (wi.wm)/p, p the density of wm, and V = G2/(cos_i cos_o), the weight of a reflection is F V cos_o q
- * and that of a transmission (1 - F) V cos_o q, over r^2 for radiance: the Jacobians cancel (Walter et al. 2007,
- * equations 20 and 21),
+ * With q = D(wm) (wi.wm)/p, p the density of wm, and V = G2/(cos_i cos_o), the weight of a reflection is F V
+ * cos_o q and that of a transmission (1 - F) V cos_o q, over r^2 for radiance: the Jacobians cancel (Walter et
+ * al. 2007, equations 20 and 21),
  *
  *     reflection    dwm/dwo = 1/(4 wi.wm),        transmission    dwm/dwo = r^2 |wo.wm|/|wi + r wo|^2.
  *
@@ -86,9 +86,9 @@ VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
     return wm;
 }
 
-/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both graze
- * it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. careful.c has all samples
- * that are there. */
+/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both
+ * graze it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. careful.c has all
+ * samples that are there. */
 VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
@@ -163,8 +163,8 @@ VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
     return (least < 1.0f ? least : 1.0f) * gain > 0.04f;
 }
 
-/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part is a
- * sum of two floats and so good to a rounding, a = ax ay,
+/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
+ * is a sum of two floats and so good to a rounding, a = ax ay,
  *
  *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
  *
@@ -177,8 +177,8 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0795774715f * a / b->area * (t * t);
 }
 
-/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi and wo,
- * which are 1 but for rounding, count. */
+/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi
+ * and wo, which are 1 but for rounding, count. */
 static const float VNDF_GGX_LEAST_FACING = 0.05f;
 
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
@@ -187,8 +187,8 @@ VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_norm
            facing > VNDF_GGX_LEAST_FACING;
 }
 
-/* Whether the density that was drawn with is taken rather than that: sooner by a tenth, and decided by the roughness
- * all but always, lest the branch be guessed wrong. */
+/* Whether the density that was drawn with is taken rather than that: sooner by a tenth, and decided by the
+ * roughness all but always, lest the branch be guessed wrong. */
 VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
 {
     return (b->view.ax > 0.4f) & (b->view.ay > 0.4f) & vndf_is_settled(b, facing);
@@ -212,8 +212,8 @@ VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
     return wo;
 }
 
-/* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi and wo
- * is wm, whatever length wm has by rounding. */
+/* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi
+ * and wo is wm, whatever length wm has by rounding. */
 VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice, int settled,
                              vndf_outcome *out)
 {
@@ -245,8 +245,8 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
 }
 
 /* The same for what goes through, `beyond` the cosine to wm there. Unbent, wo does not turn with the normal; near
- * total reflection 1 - F changes as fast as 1/beyond; and the slope of a normal near the horizon, which is no longer
- * small beside that of the roughness, as fast as 1/wm.z. */
+ * total reflection 1 - F changes as fast as 1/beyond; and the slope of a normal near the horizon, which is no
+ * longer small beside that of the roughness, as fast as 1/wm.z. */
 VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);

@@ -10,9 +10,10 @@
  *                normal incidence: the cell by a window of knots, a rational cell m(xi) inverted, and
  *                P22/Z^3 = m/(width X). The azimuth is uniform here, and there a table: TV is that of R alone.
  *
- * V-cavities: the same R, and an azimuth as in twin.h. A normal is taken if it is drawn, or if its twin (-x, -y, z) is,
- * which is as probable: with f = max(0, wi.wm) and f' of the twin the density is D cos(theta_m) 2 f/(f + f'). Where
- * both see wi f + f' = 2 cos(theta_m) cos_i, and it is D f/cos_i; elsewhere 2 D cos(theta_m). Both are D G1 f/cos_i.
+ * V-cavities: the same R, and an azimuth as in twin.h. A normal is taken if it is drawn, or if its twin (-x, -y,
+ * z) is, which is as probable: with f = max(0, wi.wm) and f' of the twin the density is D cos(theta_m) 2 f/(f +
+ * f'). Where both see wi f + f' = 2 cos(theta_m) cos_i, and it is D f/cos_i; elsewhere 2 D cos(theta_m). Both are
+ * D G1 f/cos_i.
  *
  * Densities are formed in float by (1) where that of the place is the one of the normal as it was rounded, else in
  * double from the normal: far in a Beckmann's tail, beside knots and in steep cells of a table, at extreme

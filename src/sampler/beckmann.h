@@ -12,9 +12,9 @@ VNDF_INLINE double vndf_beckmann_bound(float s, float c)
     return c / (s > 1e-30f ? (double)s : 1e-30);
 }
 
-/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K. For
- * K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that they are
- * not, so that nothing overflows. */
+/* One incident direction: K; (2 sqrt(pi)/s) F(K); and what that has for x > 0 more than for x < 0, 2 sqrt(pi) K.
+ * For K < 5/4 the last two are divided by exp(-K^2), so that nothing underflows below the horizon; above that
+ * they are not, so that nothing overflows. */
 typedef struct vndf_beckmann_law {
     double bound, whole, line;
 } vndf_beckmann_law;

@@ -24,7 +24,8 @@
 
 #include "sampler/closed.h"
 
-/* What the laws take of the direction, of tables nothing; the view of a closed form is given its direction, turned. */
+/* What the laws take of the direction, of tables nothing; the view of a closed form is given its direction,
+ * turned. */
 enum { VNDF_BOUNDS = 8 };
 void vndf_bounds_of(vndf_view *view, double bounds[VNDF_BOUNDS]);
 

@@ -21,8 +21,8 @@
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
 
-/* What of a direction is in `bounds`: the extent, the part of F before it and on it, the azimuth of wi, in double - of
- * a float the last bits would put normals beside the extent -, and the law of x. */
+/* What of a direction is in `bounds`: the extent, the part of F before it and on it, the azimuth of wi, in double
+ * - of a float the last bits would put normals beside the extent -, and the law of x. */
 enum { X0, X1, BEGIN, SPAN, COS_PHI, SIN_PHI, WHOLE, LINE };
 
 /* The ellipse in the frame turned to the stretched wi. */

@@ -7,9 +7,9 @@
  *     s^2 |M1|^2 N^2 = X^2 (c^2 E1 + s^4) - 2 c X Y E12 + Y^2 E2,      |M0|^2 = E1 + c^2,
  *     s (c M0.M1 - s cos psi) N = -(s^4 + c^2 E1) X + c E12 Y,
  *
- * so the root of the chord, t/(s N) = above/below, takes no vectors. N = 1 in front; in the wedge (X, Y) = (-c cos v,
- * sin v) and N^2 is the largest sin(g)^2. Either way kept is (t/N)^2/(1 + t^2), times the factor of the side, and
- * sin(g)^2/N^2 is u2 times that. */
+ * so the root of the chord, t/(s N) = above/below, takes no vectors. N = 1 in front; in the wedge (X, Y) = (-c
+ * cos v, sin v) and N^2 is the largest sin(g)^2. Either way kept is (t/N)^2/(1 + t^2), times the factor of the
+ * side, and sin(g)^2/N^2 is u2 times that. */
 #ifndef VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 #define VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 
@@ -93,8 +93,9 @@ VNDF_INLINE void vndf_ggx_law_set(vndf_view *v, const vndf_outlook *o)
 
 /* ---- drawing ---- */
 
-/* (X, Y) of a sample but for a factor, which N has too; (s N)^2; and the factor of its side. The angle of (X, Y), but for c, goes from 0 to pi/2 in
- * front and on to pi in the wedge, slower and then faster: the larger of two lines. */
+/* (X, Y) of a sample but for a factor, which N has too; (s N)^2; and the factor of its side. The angle of (X, Y),
+ * but for c, goes from 0 to pi/2 in front and on to pi in the wedge, slower and then faster: the larger of two
+ * lines. */
 typedef struct vndf_ggx_azimuth {
     float x, y, n2, factor;
 } vndf_ggx_azimuth;
@@ -153,10 +154,11 @@ VNDF_INLINE int vndf_ggx_is_inside(const vndf_outlook *o, const vndf_ggx_bounded
     return 1.00001f * (c * n->length2) < 2.0f * cosine * n->z && 0.02f * c * cosine < n->z && 0.03f < cosine;
 }
 
-/* Whether kept is that of the normal as it is rounded. That turns psi by some 1e-7/(reach sin(g)) - reach is 1 for
- * the normal itself -, and d log(t)/d psi is below (2 root E/|M1| + c E |M0| + s)/root, E^2 the sum of both squares of
- * the roughness, which bears on kept by twice cos(g)^2 at the end; the matrix may hide what is small in E. That
- * bound is far above what is measured: at 150 the density is within 4e-6. In front and in the wedge kept differs. */
+/* Whether kept is that of the normal as it is rounded. That turns psi by some 1e-7/(reach sin(g)) - reach is 1
+ * for the normal itself -, and d log(t)/d psi is below (2 root E/|M1| + c E |M0| + s)/root, E^2 the sum of both
+ * squares of the roughness, which bears on kept by twice cos(g)^2 at the end; the matrix may hide what is small
+ * in E. That bound is far above what is measured: at 150 the density is within 4e-6. In front and in the wedge
+ * kept differs. */
 VNDF_INLINE int vndf_ggx_is_settled(const vndf_view *v, const vndf_outlook *o, const vndf_ggx_bounded *drawn,
                                     float reach)
 {

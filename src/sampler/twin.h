@@ -1,6 +1,6 @@
 /* The azimuth of V-cavities (Cook & Torrance, "A Reflectance Model for Computer Graphics", SIGGRAPH 1981; Heitz &
- * d'Eon 2014): at a given slope length a normal sees wi by p + q cos a, a from the azimuth of wi, p, q >= 0, and its
- * mirror twin by p - q cos a. Of the two one is taken by what it sees, so a has the density
+ * d'Eon 2014): at a given slope length a normal sees wi by p + q cos a, a from the azimuth of wi, p, q >= 0, and
+ * its mirror twin by p - q cos a. Of the two one is taken by what it sees, so a has the density
  *
  *     (p + q cos a)+ / ((p + q cos a)+ + (p - q cos a)+) / pi
  *         = 1/pi                     where only the normal sees wi,

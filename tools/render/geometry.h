@@ -13,8 +13,8 @@ typedef struct ray {
     float from, to;              /* distances */
 } ray;
 
-/* What a ray meets. `normal` is the geometric normal, outwards; `shading` has it, or the interpolated one of a mesh, for
- * z and the direction of u for x. */
+/* What a ray meets. `normal` is the geometric normal, outwards; `shading` has it, or the interpolated one of a
+ * mesh, for z and the direction of u for x. */
 typedef struct hit {
     float distance;
     vndf_vec3 place, normal;

@@ -1,5 +1,5 @@
-/* Light along paths from the eye: next-event estimation and multiple importance sampling where the scene calls for them.
- * What it calls for is found out once (plan), and nothing else runs. */
+/* Light along paths from the eye: next-event estimation and multiple importance sampling where the scene calls
+ * for them. What it calls for is found out once (plan), and nothing else runs. */
 #ifndef RENDER_PATH_H
 #define RENDER_PATH_H
 
@@ -22,8 +22,9 @@ enum {
 
 typedef struct path_plan path_plan;
 
-/* Lights, distributions over them, materials with the sampler asked for; NULL and a message if something refuses (a
- * sampler that a material cannot have). Effects in `without` are left out, for measurements. The scene must outlive it. */
+/* Lights, distributions over them, materials with the sampler asked for; NULL and a message if something refuses
+ * (a sampler that a material cannot have). Effects in `without` are left out, for measurements. The scene must
+ * outlive it. */
 path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, char *message, size_t size);
 void path_free(path_plan *plan);
 unsigned path_effects(const path_plan *plan);
@@ -33,8 +34,8 @@ typedef struct path_counts {
     uint64_t paths, segments, shadow_rays, samples_lost;
 } path_counts;
 
-/* One path through pixel (x, y): the radiance it brings. Number `index` of the pixel under `seed`: the same for any number
- * of threads. */
+/* One path through pixel (x, y): the radiance it brings. Number `index` of the pixel under `seed`: the same for
+ * any number of threads. */
 void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts, float rgb[3]);
 
 #endif
