@@ -1,13 +1,11 @@
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* P_tmpdir */
 #include "effects_open.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "vndf_build.h"
-
 
 int effects_open_one(effects_opened *o, effects_plan *plan, const char *command, const char *name)
 {
@@ -21,14 +19,15 @@ int effects_open_one(effects_opened *o, effects_plan *plan, const char *command,
 static int save_built(effects_opened *o, const char *command)
 {
     vndf_error error = {VNDF_OK, ""};
-    strcpy(o->path, "/tmp/vndf-effects-XXXXXX");
-    int file = mkstemp(o->path);
+    const char *folder = getenv("TMPDIR");
+    int length = snprintf(o->path, sizeof o->path, "%s/vndf-effects-XXXXXX", folder && *folder ? folder : P_tmpdir);
+    int file = length > 0 && (size_t)length < sizeof o->path ? mkstemp(o->path) : -1;
     if (file >= 0 && close(file) == 0 && vndf_save(o->built, o->path, &error) == VNDF_OK)
         return 1;
     if (file >= 0)
         remove(o->path);
     o->path[0] = '\0';
-    complain(command, "no temporary table for valgrind: %s", file < 0 ? "cannot write /tmp" : error.message);
+    complain(command, "no temporary table for valgrind: %s", file < 0 ? "no file can be made in the folder of TMPDIR" : error.message);
     return 0;
 }
 

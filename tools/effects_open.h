@@ -10,7 +10,7 @@ typedef struct effects_opened {
     chosen_distribution of[EFFECTS_DISTRIBUTIONS_MAX];
     size_t count;
     vndf_distribution *built;
-    char path[64]; /* of a file of what was built, for other processes; "" if there is none */
+    char path[1024]; /* of a file of what was built, for other processes; "" if there is none */
 } effects_opened;
 
 /* Into the plan; `for_others`: what is built gets a file that other processes can open. 0 after a complaint; to be

@@ -2,21 +2,15 @@
  * lost in time. As bare_ggx.c, but no sample is lost: the weight is kept G2/G1, and the density that of visible
  * normals over kept. The former is taken of wo as it was rounded, and kept where that rounding does not move it.
  * Where it does, and where directions are not plain, it is reflection.c. */
+#include "bsdf/plain_ggx.h"
 #include "bsdf/reflection.h"
-#include "bsdf/scatter.h"
 #include "sampler/bounded_ggx_draw.h"
-#include "sampler/closed_view.h"
 
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
-    vndf_ggx_incidence w = vndf_ggx_aim(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
-    float x = r->alpha_x * wi.x, y = r->alpha_y * wi.y;
-    if (!w.plain)
+    if (!vndf_prepare_plain_ggx(b, r, wi))
         return vndf_prepare_bounded(b, r, wi);
-    vndf_ggx_view_set(&b->view, &surface, wi, &w);
     vndf_outlook o = vndf_outlook_set(&b->view);
-    b->area = 0.5f * (wi.z + sqrtf(x * x + y * y + wi.z * wi.z));
     if (vndf_outlook_is_plain(&b->view, &o))
         vndf_ggx_law_set(&b->view, &o);
     else
@@ -54,15 +48,8 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         sample_carefully(b, u, s);
         return;
     }
-    float x = b->view.ax * wo.x, y = b->view.ay * wo.y;
-    float below = 0.5f * (wo.z + sqrtf((x * x + y * y) + wo.z * wo.z)) - wo.z;
-    float weight = wo.z * (b->area * n.kept) / (wo.z * b->area + wi.z * lanes_positive(below));
-    s->wo.x = wo.x;
-    s->wo.y = wo.y;
-    s->wo.z = wo.z;
-    s->weight[0] = s->weight[1] = s->weight[2] = weight;
-    s->density = vndf_positive(vndf_ggx_density_of(b, wo) / n.kept);
-    s->lobe = VNDF_LOBE_REFLECTION;
+    float weight = wo.z * (b->area * n.kept) / vndf_plain_ggx_unmasked(b, wo);
+    vndf_set_bare(s, wo, weight, vndf_ggx_density_of(b, wo) / n.kept);
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])

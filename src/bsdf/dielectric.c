@@ -101,20 +101,6 @@ VNDF_INLINE void eval_transmission(const vndf_bsdf *b, vndf_vec3 wo, float value
         value[i] = vndf_density_from(shape * (1.0 - f[i]));
 }
 
-VNDF_INLINE void eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS])
-{
-    double f[VNDF_WAVELENGTHS];
-    vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    if (!(half.event.facing_i > 0.0)) {
-        vndf_set_value(value, 0.0);
-        return;
-    }
-    double shape = 0.25 * vndf_bsdf_ndf(b, half.wm) * b->material->masking->reflection(b, &half.event);
-    vndf_reflectance(b, half.event.facing_i, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value[i] = vndf_density_from(shape * f[i]);
-}
-
 static void eval_through(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
 {
     (void)seed;
@@ -130,7 +116,7 @@ static void eval_both(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float val
     (void)seed;
     wo.z *= b->side;
     if (wo.z > 0.0f)
-        eval_reflection(b, wo, value);
+        vndf_eval_reflection(b, wo, value, 0);
     else if (wo.z < 0.0f)
         eval_transmission(b, wo, value);
     else

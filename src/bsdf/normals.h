@@ -63,11 +63,17 @@ VNDF_INLINE int vndf_prepare_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec
 
 /* ---- drawing ---- */
 
+/* D is not quite what a table draws with. */
+VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float facing, float density)
+{
+    return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
+}
+
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density)
 {
     vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area};
     if (b->view.distribution->kind == VNDF_KIND_TABLE)
-        n.quotient = (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (n.facing / density));
+        n.quotient = vndf_bsdf_quotient(b, wm, n.facing, density);
     return n;
 }
 
@@ -76,12 +82,6 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1
     float density;
     vndf_vec3 wm = vndf_sample(&b->view, u1, u2, &density);
     return vndf_bsdf_visible(b, wm, density);
-}
-
-/* D is not quite what a table draws with. */
-VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float facing, float density)
-{
-    return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
 }
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)

@@ -32,25 +32,6 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
     scatter(b, &n, s, !bounded || (n.quotient > 0.1f * b->area && vndf_is_inside(u[0]) && vndf_is_inside(u[1])), choice);
 }
 
-/* wo in the frame of the hit. */
-VNDF_INLINE void eval(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS], int bare)
-{
-    double f[VNDF_WAVELENGTHS];
-    vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    if (!(wo.z > 0.0f) || !(half.event.facing_i > 0.0)) {
-        vndf_set_value(value, 0.0);
-        return;
-    }
-    double shape = 0.25 * vndf_bsdf_ndf(b, half.wm) * b->material->masking->reflection(b, &half.event);
-    if (bare) {
-        vndf_set_value(value, shape);
-        return;
-    }
-    vndf_reflectance(b, half.event.facing_i, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value[i] = vndf_density_from(shape * f[i]);
-}
-
 VNDF_INLINE float pdf(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn normals)
 {
     wo.z *= b->side;
@@ -89,7 +70,7 @@ static void bare_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
 {
     (void)seed;
-    eval(b, wo, value, 1);
+    vndf_eval_reflection(b, wo, value, 1);
 }
 
 /* ---- with Fresnel and masking ---- */
@@ -130,7 +111,7 @@ static void eval_any(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float valu
 {
     (void)seed;
     wo.z *= b->side;
-    eval(b, wo, value, 0);
+    vndf_eval_reflection(b, wo, value, 0);
 }
 
 /* ---- densities ---- */

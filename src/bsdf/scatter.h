@@ -31,12 +31,6 @@ VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
     *s = none;
 }
 
-VNDF_INLINE void vndf_set_weight(vndf_scattered *s, double weight)
-{
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = (float)weight;
-}
-
 VNDF_INLINE void vndf_set_value(float value[VNDF_WAVELENGTHS], double f)
 {
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
@@ -264,6 +258,28 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, doub
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
     out->settled = 1;
     return 1;
+}
+
+/* ---- values ---- */
+
+/* f of a reflection, wo in the frame of the hit; `bare` as above. */
+VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS],
+                                      int bare)
+{
+    double f[VNDF_WAVELENGTHS];
+    vndf_half half = vndf_half_reflected(b->view.wi, wo);
+    if (!(wo.z > 0.0f) || !(half.event.facing_i > 0.0)) {
+        vndf_set_value(value, 0.0);
+        return;
+    }
+    double shape = 0.25 * vndf_bsdf_ndf(b, half.wm) * b->material->masking->reflection(b, &half.event);
+    if (bare) {
+        vndf_set_value(value, shape);
+        return;
+    }
+    vndf_reflectance(b, half.event.facing_i, f);
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        value[i] = vndf_density_from(shape * f[i]);
 }
 
 #endif

@@ -38,10 +38,4 @@ VNDF_INLINE lanes_f lanes_positive(lanes_f x)
     return lanes_most(x, lanes_set(0.0f));
 }
 
-/* min(x, most), most for NaN. */
-VNDF_INLINE lanes_f lanes_limit(lanes_f x, float most)
-{
-    return lanes_least(x, lanes_set(most));
-}
-
 #endif

@@ -13,14 +13,21 @@ VNDF_INLINE float vndf_beckmann_area_over(float bound)
     return 0.282094792f * (1.0f + (line + vndf_beckmann_tail(bound, bound < 2.0f)));
 }
 
+/* A(w) of GGX: 2 A = w.z + |(ax w.x, ay w.y, w.z)|. */
+VNDF_INLINE float vndf_ggx_area_above(float ax, float ay, vndf_vec3 w)
+{
+    float x = ax * w.x, y = ay * w.y;
+    return 0.5f * (w.z + sqrtf((x * x + y * y) + w.z * w.z));
+}
+
 /* A(w) for a unit w, w.z > 0, and ax, ay the roughness times the distribution's scale; relative error below 2e-6.
- * Where *ready is 0 it has to be had otherwise. For GGX 2 A = w.z + |(ax w.x, ay w.y, w.z)|. */
+ * Where *ready is 0 it has to be had otherwise. */
 VNDF_INLINE float vndf_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y;
     if (d->kind == VNDF_KIND_GGX) {
         *ready = across2 < 1e24f;
-        return 0.5f * (w.z + sqrtf(across2 + w.z * w.z));
+        return vndf_ggx_area_above(ax, ay, w);
     }
     float across = sqrtf(across2), sum = across + w.z;
     *ready = across2 > 1e-24f && sum < 1e12f && w.z > 1e-6f * sum;

@@ -65,7 +65,8 @@ VNDF_INLINE float vndf_is_positive(float x)
 
 /* ---- the law of psi ---- */
 
-/* Half of one over the part in front, and over that in the wedge; kept over those of the roots there. */
+/* Half of one over the part in front, and over that in the wedge; kept over those of the roots there. It stands in
+ * members that views of tables have and closed forms do not read (bounded.h: the view is given it). */
 typedef struct vndf_ggx_law {
     float slow, fast, in_front, in_wedge;
 } vndf_ggx_law;
