@@ -7,8 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "batch_case.h"
 #include "oracle.h"
-#include "test.h"
 
 enum { COUNT_MOST = 6000, ARRAYS = 10 };
 enum { ALPHA_X, ALPHA_Y, WI_X, WI_Y, WI_Z, X, Y, Z, OUT, OUT_2 };
@@ -212,36 +212,14 @@ static void test_unread(const vndf_distribution *d)
     TEST(memcmp(with, without, sizeof with) == 0);
 }
 
-/* BEST without an argument: all of them. */
-static vndf_instructions wanted(int arguments, char **argument)
+static void test_all(const vndf_distribution *d, const char *name, vndf_instructions only)
 {
-    if (arguments < 2)
-        return VNDF_INSTRUCTIONS_BEST;
-    return strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512 : VNDF_INSTRUCTIONS_AVX2;
+    test_distribution(d, name, only);
+    if (d && d != vndf_ggx() && d != vndf_beckmann())
+        test_unread(d);
 }
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "example",
-                                        "sgd-nickel-g"};
-    vndf_instructions only = wanted(arguments, argument);
-    if (only != VNDF_INSTRUCTIONS_BEST && vndf_instructions_used(only) != only) {
-        printf("SKIPPED: no %s here\n", argument[1]);
-        return 0;
-    }
-    test_distribution(vndf_ggx(), "ggx", only);
-    test_distribution(vndf_beckmann(), "beckmann", only);
-    test_distribution(NULL, "none", only);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[4096];
-        vndf_error error = {VNDF_OK, ""};
-        snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", names[i]);
-        vndf_distribution *table = vndf_load(path, &error);
-        if (TEST(table != NULL)) {
-            test_distribution(table, names[i], only);
-            test_unread(table);
-        }
-        vndf_free(table);
-    }
-    return test_done();
+    return batch_main(arguments, argument, test_all);
 }

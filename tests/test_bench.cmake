@@ -2,9 +2,7 @@
 # themselves are not judged; --seconds 0.1 makes as few turns as there may be.
 cmake_minimum_required(VERSION 3.16)
 
-file(REMOVE_RECURSE ${OUT})
-file(MAKE_DIRECTORY ${OUT})
-set(failures 0)
+include(${CMAKE_CURRENT_LIST_DIR}/program.cmake)
 
 macro(run expected)
     execute_process(COMMAND ${VNDF} bench ${ARGN} WORKING_DIRECTORY ${OUT}
@@ -13,28 +11,6 @@ macro(run expected)
         math(EXPR failures "${failures} + 1")
         message("FAILED: vndf bench ${ARGN}\nexit status ${status}, expected ${expected}\n${output}${errors}")
     endif()
-endmacro()
-
-macro(has variable text)
-    string(FIND "${${variable}}" "${text}" place)
-    if(place EQUAL -1)
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${variable} has no '${text}':\n${${variable}}")
-    endif()
-endmacro()
-
-macro(expect what)
-    if(NOT (${ARGN}))
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${what}")
-    endif()
-endmacro()
-
-# Lines of a text, with what would change how CMake splits it replaced.
-macro(split text lines)
-    string(REGEX REPLACE "[][;\\]" " " clean "${text}")
-    string(REGEX REPLACE "\n$" "" clean "${clean}")
-    string(REPLACE "\n" ";" ${lines} "${clean}")
 endmacro()
 
 # ---- refusals -----------------------------------------------------------------------------------

@@ -2,9 +2,7 @@
 # behind by a command that failed.
 cmake_minimum_required(VERSION 3.16)
 
-file(REMOVE_RECURSE ${OUT})
-file(MAKE_DIRECTORY ${OUT})
-set(failures 0)
+include(${CMAKE_CURRENT_LIST_DIR}/program.cmake)
 
 # run(STATUS words...): runs `vndf words...` in OUT, with ${input} as stdin, expects the exit status, and
 # leaves what was printed in `output` and `errors`.
@@ -16,22 +14,6 @@ macro(run expected)
     if(NOT status STREQUAL "${expected}")
         math(EXPR failures "${failures} + 1")
         message("FAILED: vndf ${ARGN}\nexit status ${status}, expected ${expected}\n${output}${errors}")
-    endif()
-endmacro()
-
-# has(VARIABLE text): the text that a run printed contains this.
-macro(has variable text)
-    string(FIND "${${variable}}" "${text}" place)
-    if(place EQUAL -1)
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${variable} has no '${text}':\n${${variable}}")
-    endif()
-endmacro()
-
-macro(expect what)
-    if(NOT (${ARGN}))
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${what}")
     endif()
 endmacro()
 
