@@ -134,6 +134,8 @@ static void check_way(const contest *c, const way *w)
     TEST(w->by_time.seconds >= c->way[0].by_time.seconds);
     TEST(w->points > 4 && w->point[0].samples == 1 && w->point[3].samples == 8);
     TEST(w->by_samples.error.relative < 0.6 * w->point[0].error.relative);
+    agreement a = agreement_between(&w->at_samples, c->reference);
+    TEST(a.blocks == 5 && a.mean_square < 1 + 5 * sqrt(2.0 / 5) && fabs(a.whole) < 5); /* one has no noise */
     film_free(&alone);
 }
 

@@ -159,10 +159,24 @@ int contest_run(contest *c)
     return 1;
 }
 
-int contest_repeat(contest *c, uint64_t seed, film more[WAYS_MAX])
+typedef struct repeated {
+    const contest *contest;
+    size_t way;
+} repeated;
+
+static int watch_repeated(double done, void *user)
+{
+    const repeated *r = user;
+    const contest *c = r->contest;
+    return c->progress ? c->progress(((double)r->way + done) / (double)c->count, c->user) : 0;
+}
+
+int contest_repeat(const contest *c, uint64_t seed, film more[WAYS_MAX])
 {
     for (size_t i = 0; i < c->count; i++) {
-        film_run run = {.samples = c->samples, .threads = c->threads, .seed = seed, .progress = watch, .user = c};
+        repeated r = {c, i};
+        film_run run = {.samples = c->samples, .threads = c->threads, .seed = seed, .progress = watch_repeated,
+                        .user = &r};
         if (!film_make(&more[i], c->way[i].scene->width, c->way[i].scene->height) ||
             !film_render(&more[i], c->way[i].plan, &run))
             return 0;

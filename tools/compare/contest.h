@@ -58,7 +58,7 @@ void contest_free(contest *c);
 
 /* As many samples more, one way after the other, into films of the same size; for a second opinion with other
  * numbers. */
-int contest_repeat(contest *c, uint64_t seed, film more[WAYS_MAX]);
+int contest_repeat(const contest *c, uint64_t seed, film more[WAYS_MAX]);
 
 /* ---- errors ---- */
 

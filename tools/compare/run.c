@@ -20,7 +20,7 @@ static int show_progress(double done, void *user)
 {
     under_way *run = user;
     double at = render_now(), all = run->from + done * (run->to - run->from);
-    if (run->shows && at - run->shown > 0.2 && all > 0) {
+    if (run->shows && at - run->shown > 0.2 && at - run->start > 1 && all > 0) {
         fprintf(stderr, "\r\033[Kcomparing: %3.0f%%, %.0f s left", 100 * all, (at - run->start) * (1 - all) / all);
         fflush(stderr);
         run->shown = at;
@@ -195,10 +195,12 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state,
     run->choice = c;
     run->held = held;
     run->shows = isatty(STDERR_FILENO);
-    run->start = render_now();
     run->contest = (contest){.threads = (unsigned)c->threads, .seed = c->seed, .progress = show_progress,
                              .user = run};
+    if (run->shows)
+        fputs("\r\033[Kreading the scene, making its tables", stderr);
     int status = ways_prepare(run);
+    run->start = render_now();
     if (status == STATUS_GOOD)
         status = render(run);
     if (run->shows)
