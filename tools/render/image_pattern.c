@@ -108,7 +108,7 @@ static void shade_stripes(float u, float v, float rgb[3])
 static float from_line(float u, float count)
 {
     float place = u * count;
-    return fabsf(place - roundf(place));
+    return fabsf(place - (float)(int)(place + 0.5f));
 }
 
 static void shade_grid(float u, float v, float rgb[3])
