@@ -68,15 +68,9 @@ static int read_sampler(const words *given, path_sampler *sampler)
     return 0;
 }
 
-static unsigned long long processors(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > 256 ? 256 : (unsigned long long)count;
-}
-
 static int read_choice(const render_words *given, render_choice *c)
 {
-    *c = (render_choice){.threads = processors(), .sampler = SAMPLER_MATERIAL};
+    *c = (render_choice){.threads = film_processors(), .sampler = SAMPLER_MATERIAL};
     return option_count(name, "--spp", &given->spp, 1, 1e9, &c->spp) &&
            option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &c->seconds) &&
            option_count(name, "--threads", &given->threads, 1, 256, &c->threads) &&
@@ -212,14 +206,6 @@ static int render_scene(const render_words *given, const scene *s, const render_
     return status;
 }
 
-/* The height follows the width. */
-static void resize(scene *s, int width)
-{
-    double height = floor((double)s->height * width / s->width + 0.5);
-    s->height = (int)fmin(fmax(height, 1), IMAGE_SIDE_MAX);
-    s->width = width;
-}
-
 static int read_and_render(const render_words *given, const char *path)
 {
     render_choice c;
@@ -230,7 +216,7 @@ static int read_and_render(const render_words *given, const char *path)
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
     if (c.width)
-        resize(&s, (int)c.width);
+        scene_resize(&s, (int)c.width);
     int status = render_scene(given, &s, &c);
     scene_free(&s);
     return status;

@@ -30,9 +30,9 @@ void image_at(const image *of, int x, int y, float rgb[3])
 }
 
 /* Place u of a repeated row, in pixels: [0, count). The product may round up to count, and u may be anything. */
-static float repeated(float u, int count)
+static inline float repeated(float u, int count)
 {
-    float place = (u - floorf(u)) * (float)count;
+    float inside = u >= 0.0f && u < 1.0f ? u : u - floorf(u), place = inside * (float)count;
     return place >= 0.0f && place < (float)count ? place : 0.0f;
 }
 
@@ -45,9 +45,10 @@ void image_nearest(const image *of, float u, float v, float rgb[3])
 void image_bilinear(const image *of, float u, float v, float rgb[3])
 {
     float x = repeated(u, of->width) - 0.5f, y = repeated(v, of->height) - 0.5f;
-    float left = floorf(x), top = floorf(y), a = x - left, b = y - top;
-    int x0 = (int)left < 0 ? of->width - 1 : (int)left, y0 = (int)top < 0 ? of->height - 1 : (int)top;
+    int left = (int)x - (x < 0.0f), top = (int)y - (y < 0.0f); /* both are above -1 */
+    int x0 = left < 0 ? of->width - 1 : left, y0 = top < 0 ? of->height - 1 : top;
     int x1 = x0 + 1 < of->width ? x0 + 1 : 0, y1 = y0 + 1 < of->height ? y0 + 1 : 0;
+    float a = x - (float)left, b = y - (float)top;
     float corner[4][3];
     image_at(of, x0, y0, corner[0]);
     image_at(of, x1, y0, corner[1]);

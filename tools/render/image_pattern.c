@@ -108,15 +108,15 @@ static void shade_stripes(float u, float v, float rgb[3])
 static float from_line(float u, float count)
 {
     float place = u * count;
-    return fabsf(place - roundf(place));
+    return fabsf(place - (float)(int)(place + 0.5f));
 }
 
 static void shade_grid(float u, float v, float rgb[3])
 {
     static const float red[3] = {0.75f, 0.08f, 0.05f};
-    float fine = fminf(from_line(u, 80.0f), from_line(v, 40.0f));
+    float fine = fminf(from_line(u, 48.0f), from_line(v, 24.0f));
     float wide = fminf(from_line(u, 16.0f), from_line(v, 8.0f));
-    grey(fine < 0.06f ? 0.05f : 0.85f, rgb);
+    grey(fine < 0.1f ? 0.05f : 0.85f, rgb);
     if (wide < 0.03f)
         memcpy(rgb, red, sizeof red);
 }
@@ -202,7 +202,7 @@ enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
 
 const char *const image_pattern_help =
     "  checks   64 x 32 black and white checks        stripes  64 upright stripes, amber on blue black\n"
-    "  tiles    16 x 16 checks, two greys             grid     80 x 40 fine black lines on white, some red\n"
+    "  tiles    16 x 16 checks, two greys             grid     48 x 24 black lines on white, some red\n"
     "  studio   an environment: soft boxes in a grey room over a floor\n"
     "  stars    an environment: 1500 points in the night\n"
     "  noise, blots, brushed, ramp   for roughness, 0.1 to 1: clouds; polished with rough blots; streaks\n"

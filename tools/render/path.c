@@ -13,6 +13,7 @@ struct path_walk {
     float throughput[3], radiance[3];
     float carried;       /* what refraction alone made of the throughput */
     float density;       /* of the direction, if lights could have drawn it too; else 0 */
+    light_view view;     /* the lights from where it was drawn, if they could */
     const float *absorb; /* of what the path is in; NULL: nothing */
 };
 
@@ -40,12 +41,12 @@ static float share(float mine, float other)
 static inline void meet_environment(path_walk *w, int lit)
 {
     const path_plan *plan = w->plan;
-    int weighs = lit && w->density > 0.0f && plan->environment.row;
+    int weighs = lit && w->density > 0.0f && plan->environment.cells;
     float rgb[3], density = 0.0f;
     if (!(plan->effects & EFFECT_ENVIRONMENT))
         return;
     plan->environment.radiance(&plan->environment, w->ray.direction, rgb, weighs ? &density : NULL);
-    gain(w, rgb, weighs ? share(w->density, plan->environment_share * density) : 1.0f);
+    gain(w, rgb, weighs ? share(w->density, w->view.environment * density) : 1.0f);
 }
 
 static inline void meet_light(path_walk *w, const path_material *m, const hit *h, int lit)
@@ -54,8 +55,7 @@ static inline void meet_light(path_walk *w, const path_material *m, const hit *h
     if (!(dot(w->ray.direction, h->normal) < 0.0f))
         return;
     if (lit && w->density > 0.0f && w->plan->lights.count)
-        weight = share(w->density, (1.0f - w->plan->environment_share) *
-                                       path_lights_density(&w->plan->lights, w->ray.origin, w->ray.direction, h));
+        weight = share(w->density, path_lights_density(&w->plan->lights, &w->view, w->ray.direction, h));
     gain(w, m->colour, weight);
 }
 
@@ -89,20 +89,20 @@ static inline int begin(path_point *p, const path_material *m, const hit *h, vnd
 
 /* ---- light that is drawn ---- */
 
-/* From one of the two kinds of light; *u is stretched over its part again. */
-static int draw_light(const path_plan *plan, vndf_vec3 place, float u[3], light_sample *s)
+/* From one of the two kinds of light. */
+static int draw_light(path_walk *w, light_sample *s)
 {
-    float part = plan->environment_share;
-    int drawn;
-    if (u[0] < part) {
-        drawn = path_environment_draw(&plan->environment, u, s);
-    } else {
-        part = 1.0f - part;
-        u[0] = fminf((u[0] - plan->environment_share) / part, 0.99999994f);
-        drawn = path_lights_draw(&plan->lights, place, u, s);
-    }
-    s->density *= part;
-    return drawn;
+    const path_plan *plan = w->plan;
+    uint64_t choice = random_bits(&w->random);
+    float u[3];
+    draw(w, u);
+    if (u[0] < w->view.lights)
+        return path_lights_draw(&plan->lights, &w->view, choice, u, s);
+    if (!(w->view.environment > 0.0f))
+        return 0;
+    path_environment_draw(&plan->environment, choice, u + 1, s);
+    s->density *= w->view.environment;
+    return 1;
 }
 
 /* A little short of the light, lest its own surface bar the way. */
@@ -120,26 +120,35 @@ static void absorb(const float coefficient[3], float distance, float rgb[3])
         rgb[i] *= expf(-coefficient[i] * distance);
 }
 
+static void add_light(path_walk *w, const light_sample *s, float value[3], float weight)
+{
+    const path_environment *e = &w->plan->environment;
+    float far[3];
+    const float *radiance = s->radiance ? s->radiance : far;
+    if (!s->radiance)
+        e->radiance(e, s->direction, far, NULL);
+    for (int i = 0; i < 3; i++)
+        value[i] *= radiance[i];
+    gain(w, value, weight);
+}
+
+/* What costs more comes later. */
 static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
 {
-    float u[3], value[3];
-    light_sample s = {{0, 0, 0}, 0, 0, {0, 0, 0}};
-    uint64_t seed = random_bits(&w->random);
-    draw(w, u);
-    if (!draw_light(w->plan, p->hit->place, u, &s) || !(dot(s.direction, p->hit->normal) > 0.0f))
+    float value[3];
+    light_sample s;
+    path_lights_look(&w->plan->lights, w->plan->environment.power, p->hit->place, p->hit->normal, &w->view);
+    if (!draw_light(w, &s) || !(dot(s.direction, p->hit->normal) > 0.0f))
         return;
     vndf_vec3 wo = unit(to_frame(&p->frame, s.direction));
     if (!(wo.z > 0.0f))
         return;
-    p->material->run.eval(p, wo, seed, value);
+    p->material->run.eval(p, wo, random_bits(&w->random), value);
     if (!(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
         return;
-    float weight = wo.z / s.density * share(s.density, p->material->run.pdf(p, wo));
-    for (int i = 0; i < 3; i++)
-        value[i] *= s.radiance[i];
     if (absorbing && w->absorb && p->wi.z > 0.0f)
         absorb(w->absorb, s.distance, value);
-    gain(w, value, weight);
+    add_light(w, &s, value, wo.z / s.density * share(s.density, p->material->run.pdf(p, wo)));
 }
 
 /* ---- going on ---- */

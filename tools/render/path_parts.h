@@ -4,8 +4,9 @@
  *   path_material.c     a material as routines made for its kind: no test of a kind at a hit
  *   path_rough.c        rough ones: the library's routines
  *   path_perfect.c      or sampling precomputed for the whole BSDF
- *   path_lights.c       emitting rectangles and spheres: drawing a point, and the density of a point met
+ *   path_lights.c       emitting shapes: drawing a point, and the density of a point met
  *   path_environment.c  light from far away: its radiance, drawing a direction of its image
+ *   path_alias.c        one of many, by its probability
  *   path.c              the path itself
  *   path_repeat.c       how much of its time the library takes
  *
@@ -17,6 +18,7 @@
 #define RENDER_PATH_PARTS_H
 
 #include "render/path.h"
+#include "render/path_alias.h"
 #include "render/path_perfect.h"
 
 /* ---- materials ---- */
@@ -88,44 +90,69 @@ unsigned path_material_effects(const material *is);
 /* ---- lights ---- */
 
 typedef struct light_sample {
-    vndf_vec3 direction; /* towards the light, unit */
+    vndf_vec3 direction;   /* towards the light, unit */
     float distance;
-    float density;       /* per steradian */
-    float radiance[3];
+    float density;         /* per steradian */
+    const float *radiance; /* NULL: what the environment has there */
 } light_sample;
 
 typedef struct path_light {
     shape_kind kind;
     sphere sphere;
-    rectangle rectangle;
-    vndf_vec3 normal;    /* of the rectangle */
+    rectangle rectangle; /* of a triangle: a corner and the edges from it */
+    vndf_vec3 normal;    /* of rectangles and triangles */
     float area;
     float radiance[3];
-    float probability, below; /* of being chosen; the sum of those before it */
+    float power;         /* radiance times what is seen of the area from far away */
 } path_light;
+
+/* More lights than LIGHTS_SEEN are chosen by power alone, wherever they are. */
+enum { LIGHTS_SEEN = 16 };
 
 typedef struct path_lights {
     path_light *lights;
-    size_t count;
+    uint32_t count;
     int32_t *of_shape;   /* index of a shape's light, -1 for others; NULL if there are none */
+    alias_place *by_power; /* of more lights than LIGHTS_SEEN */
 } path_lights;
+
+/* Light from a place: the probabilities with which each of its sources is chosen. */
+typedef struct light_view {
+    vndf_vec3 place;
+    float environment, lights; /* all of them; both 0: none can be seen */
+    float part[LIGHTS_SEEN];   /* of each light, or nothing if there are more */
+} light_view;
 
 /* 0 if there is no memory. */
 int path_lights_make(path_lights *made, const scene *s);
 void path_lights_free(path_lights *lights);
 
-/* From three uniform numbers; 0: this one sees none. */
-int path_lights_draw(const path_lights *lights, vndf_vec3 place, const float u[3], light_sample *s);
+/* From the outside of a surface, with an environment of the power `far`. */
+void path_lights_look(const path_lights *lights, float far, vndf_vec3 place, vndf_vec3 normal, light_view *v);
 
-/* The density with which path_lights_draw finds what a ray from `place` has met. */
-float path_lights_density(const path_lights *lights, vndf_vec3 place, vndf_vec3 direction, const hit *h);
+/* From 64 random bits and three uniform numbers, of which the first is below v->lights and chooses among them; 0:
+ * this one sees none. */
+int path_lights_draw(const path_lights *lights, const light_view *v, uint64_t choice, const float u[3],
+                     light_sample *s);
+
+/* The density with which path_lights_draw finds what a ray from the place has met. */
+float path_lights_density(const path_lights *lights, const light_view *v, vndf_vec3 direction, const hit *h);
 
 /* ---- the environment ---- */
 
+/* Heights y of a row of cells, less that of the nearer pole: 1, -1, or 0 for one across the equator. */
+typedef struct environment_row {
+    float top, bottom, pole;
+} environment_row;
+
 typedef struct path_environment {
     const environment *is;
-    float turn;          /* a part of a full turn */
-    float *row, *column; /* sums of weights: `height` of rows, `width` in each; NULL: not drawn */
+    float turn;             /* a part of a full turn, [0, 1] */
+    float power;            /* the image's luminance over all directions */
+    unsigned shift;         /* cells have 2^shift pixels a side */
+    uint32_t columns, rows; /* of cells */
+    environment_row *limits;
+    alias_place *cells;     /* with densities per steradian; NULL: not drawn */
     /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
     void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
 } path_environment;
@@ -133,7 +160,9 @@ typedef struct path_environment {
 /* Without drawing if `drawn` is 0. 0 if there is no memory. */
 int path_environment_make(path_environment *made, const environment *is, int drawn);
 void path_environment_free(path_environment *e);
-int path_environment_draw(const path_environment *e, const float u[3], light_sample *s);
+
+/* From 64 random bits and two uniform numbers. */
+void path_environment_draw(const path_environment *e, uint64_t choice, const float u[2], light_sample *s);
 
 /* ---- the plan ---- */
 
@@ -147,7 +176,6 @@ struct path_plan {
     path_perfects perfects;
     path_lights lights;
     path_environment environment;
-    float environment_share;       /* probability of drawing from it and not from a light */
     void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */
 };
 

@@ -87,7 +87,8 @@ static int prepare_lights(path_plan *plan, unsigned without, char *message, size
     }
     if (plan->lights.count)
         plan->effects |= EFFECT_LIGHTS;
-    plan->environment_share = !plan->environment.row ? 0.0f : plan->lights.count ? 0.5f : 1.0f;
+    if (!plan->environment.cells)
+        plan->effects &= ~(unsigned)EFFECT_ENVIRONMENT_MAP;
     return 1;
 }
 
@@ -107,7 +108,8 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, 
         return NULL;
     }
     plan->effects &= ~without;
-    plan->trace = path_loop(plan->lights.count || plan->environment.row, (plan->effects & EFFECT_ABSORPTION) != 0);
+    plan->trace = path_loop(plan->lights.count || plan->environment.cells,
+                            (plan->effects & EFFECT_ABSORPTION) != 0);
     return plan;
 }
 
