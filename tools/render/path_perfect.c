@@ -26,10 +26,10 @@
  * For the density of a given wo u is found again: the microfacet between wi and wo (Walter et al., "Microfacet
  * Models for Refraction through Rough Surfaces", EGSR 2007, equations 13 and 16), and vndf_invert of it. wi is
  * turned and mirrored into the first quadrant of x and y, with x along it where the roughness is the same all
- * round: that leaves the BSDF as it is, and the table need not know how the library's map turns with wi. u is found
- * as well as the floats of wo tell: on a border between cells a rounding may give the density of the next one, for
- * some 1 in 1e4 at alpha 0.05 and up, for a good part at alpha 0.001 and grazing incidence. Next cells differ by
- * little; it is for the weights beside lights alone, and the weight of the sample itself is not touched.
+ * round: that leaves the BSDF as it is, and the table need not know how the library's map turns with wi. u is
+ * found as well as the floats of wo tell: on a border between cells a rounding may give the density of the next
+ * one, for some 1 in 1e4 at alpha 0.05 and up, for a good part at alpha 0.001 and grazing incidence. Next cells
+ * differ by little; it is for the weights beside lights alone, and the weight of the sample itself is not touched.
  *
  * Making it is in path_perfect_make.c. */
 #include "render/path_perfect.h"
