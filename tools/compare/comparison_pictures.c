@@ -20,10 +20,9 @@ static const map_range of_noise = {0.01, 1}, of_tables = {1e-5, 0.1};
 /* WAY-WHAT.png, in small letters, digits and hyphens. */
 static void name_picture(char made[PAGE_NAME_MAX], const char *of, const char *what)
 {
-    size_t at = 0;
-    for (; *of && at < WAY_NAME_MAX; of++)
-        made[at++] = (char)(isalnum((unsigned char)*of) ? tolower((unsigned char)*of) : '-');
-    snprintf(made + at, PAGE_NAME_MAX - at, "-%s.png", what);
+    snprintf(made, PAGE_NAME_MAX, "%.*s-%s.png", WAY_NAME_MAX, of, what);
+    for (char *at = made; *at && *at != '.'; at++)
+        *at = (char)(isalnum((unsigned char)*at) ? tolower((unsigned char)*at) : '-');
 }
 
 static int add_film(html_page *page, const comparison *r, const char *name, const film *f)
