@@ -3,7 +3,6 @@
 #include <ctype.h>
 
 #include "fuzz.h"
-#include "geometry_stub.h"
 #include "render/scene.h"
 
 /* Images of more than three digits a side, or forms of distribution that are built. */

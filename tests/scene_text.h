@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "geometry_stub.h"
 #include "render/scene.h"
 
 enum { MESSAGE = 1024 };
