@@ -12,6 +12,11 @@ file(WRITE ${scene} "film width 24 height 16\ncamera from 0 0 5 to 0 0 0\nintegr
     "sphere centre 0 0 0 radius 0.5 material red\nsphere centre 1 0 0 radius 0.4 material glass\n"
     "sphere centre -1 0 0 radius 0.4 material gold\nsphere centre 0 2 0 radius 0.2 material lamp\n"
     "sphere centre 0 -1 0 radius 0.4 material ice\n")
+set(mapped ${OUT}/mapped.scene)
+file(WRITE ${mapped} "camera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "image blots pattern blots width 8 height 8\n"
+    "material rough conductor of gold distribution ggx alpha 0.2 alpha-map blots\n"
+    "sphere centre 0 0 0 radius 0.5 material rough\n")
 
 # Runs vndf render; `status` is expected, and `text` in what it prints.
 function(expect status text)
@@ -27,6 +32,7 @@ expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o one.pfm --threads 1)
 expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o three.pfm --threads 3)
 expect(0 "12 x 8 pixels, 2 samples each" ${scene} -o small.png --width 12 --spp 2 --sampler visible)
 expect(0 "pixels" ${scene} -o other.pfm --seed 5)
+expect(0 "perfect sampling: 2 BSDFs precomputed" ${scene} -o perfect.pfm --sampler perfect --spp 1)
 expect(0 "microfacets" ${scene} --explain)
 expect(0 "example:" --help)
 expect(0 "environment" --grammar)
@@ -44,8 +50,9 @@ expect(2 "SCENE is missing")
 expect(2 "-o OUT.png or -o OUT.pfm is missing" ${scene})
 expect(2 "must end in .png or .pfm" ${scene} -o no.gif)
 expect(2 "did you mean 'bounded'?" ${scene} -o no.png --sampler bouned)
-expect(2 "not made yet" ${scene} -o no.png --sampler perfect)
 expect(2 "material 'ice'" ${scene} -o no.png --sampler bounded)
+expect(2 "material 'rough': perfect sampling is precomputed for one roughness, this one has a map"
+    ${mapped} -o no.png --sampler perfect)
 expect(2 "no.scene" no.scene -o no.png)
 expect(2 "--spp" ${scene} -o no.png --spp 0)
 expect(2 "cannot write" ${scene} -o ${OUT}/nowhere/no.png)

@@ -351,7 +351,7 @@ static void test_refused(const char *folder)
     const char *bad[] = {"--slope", "exp(-r", "no-such-folder", NULL}, *deep[] = {"no-such-folder/x", NULL};
     const char *set[] = {"--family", "ggx", "--set", "k=1", "x", NULL};
     const char *const *all[] = {foreign, file, two, nothing, bad, set};
-    const char *const reasons[] = {"has files in it, and no report", "is no folder", "more than one of",
+    const char *const reasons[] = {"has files in it, and no page of", "is no folder", "more than one of",
                                    "DIR is missing", "column", "--set is for"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         outcome o = run(all[i], none);

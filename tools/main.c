@@ -25,6 +25,7 @@ static const subcommand subcommands[] = {
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
     {"masking", command_masking, "which masking functions are exact, over incident angles"},
     {"render", command_render, "a picture of a scene, with only the effects that it calls for"},
+    {"compare", command_compare, "a scene by several ways of drawing normals, in equal time: a page"},
 };
 
 static const size_t subcommand_count = sizeof subcommands / sizeof subcommands[0];

@@ -28,7 +28,7 @@ static const char help[] =
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
     "  --sampler NAME  how rough materials draw normals: all, visible, bounded, or material, as each says (the\n"
-    "                  default)\n"
+    "                  default); or perfect: directions, from tables that are made for the whole of each BSDF\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, instead of what the scene says\n"
     "  --explain       lists the effects that the scene calls for and what each costs in it, measured in some\n"
@@ -63,20 +63,14 @@ static int read_sampler(const words *given, path_sampler *sampler)
     if (!word)
         return 1;
     const char *hint = nearest_word(word, names, count);
-    complain(name, "--sampler: '%s' is none of all, visible, bounded and material%s%s%s", word,
+    complain(name, "--sampler: '%s' is none of all, visible, bounded, perfect and material%s%s%s", word,
              hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
     return 0;
 }
 
-static unsigned long long processors(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > 256 ? 256 : (unsigned long long)count;
-}
-
 static int read_choice(const render_words *given, render_choice *c)
 {
-    *c = (render_choice){.threads = processors(), .sampler = SAMPLER_MATERIAL};
+    *c = (render_choice){.threads = film_processors(), .sampler = SAMPLER_MATERIAL};
     return option_count(name, "--spp", &given->spp, 1, 1e9, &c->spp) &&
            option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &c->seconds) &&
            option_count(name, "--threads", &given->threads, 1, 256, &c->threads) &&
@@ -188,6 +182,14 @@ static int render_to_file(const char *path, const path_plan *plan, const scene *
     return render_film(&output, write, plan, s, c);
 }
 
+static void print_precomputed(const path_plan *plan)
+{
+    path_precomputed cost = path_perfect_cost(plan);
+    if (cost.count)
+        printf("perfect sampling: %zu BSDF%s precomputed, %.3g MiB, %.3g s\n", cost.count,
+               cost.count == 1 ? "" : "s", (double)cost.bytes / 1048576, cost.seconds);
+}
+
 static int render_scene(const render_words *given, const scene *s, const render_choice *c)
 {
     char message[512];
@@ -195,20 +197,13 @@ static int render_scene(const render_words *given, const scene *s, const render_
     int status = STATUS_GOOD;
     if (!plan)
         return complain(name, "%s", message);
+    print_precomputed(plan);
     if (given->explain.count)
         status = render_explain(name, s, c->sampler);
     if (status == STATUS_GOOD && given->output.count)
         status = render_to_file(only_word(&given->output), plan, s, c);
     path_free(plan);
     return status;
-}
-
-/* The height follows the width. */
-static void resize(scene *s, int width)
-{
-    double height = floor((double)s->height * width / s->width + 0.5);
-    s->height = (int)fmin(fmax(height, 1), IMAGE_SIDE_MAX);
-    s->width = width;
 }
 
 static int read_and_render(const render_words *given, const char *path)
@@ -221,7 +216,7 @@ static int read_and_render(const render_words *given, const char *path)
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
     if (c.width)
-        resize(&s, (int)c.width);
+        scene_resize(&s, (int)c.width);
     int status = render_scene(given, &s, &c);
     scene_free(&s);
     return status;

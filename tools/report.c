@@ -11,7 +11,7 @@
 #include "chart.h"
 #include "command.h"
 #include "output.h"
-#include "report_folder.h"
+#include "folder.h"
 #include "source_text.h"
 
 static const char name[] = "vndf report";
@@ -205,9 +205,9 @@ static void write_contents(FILE *html, const report *r)
           "<a href=\"#time\">Where the time goes</a></nav>\n", html);
 }
 
-static int write_page(report_page *page, const report *r)
+static int write_page(html_page *page, const report *r)
 {
-    if (!page_begin(page, "What accuracy costs"))
+    if (!page_begin(page, name, "What accuracy costs"))
         return 0;
     write_contents(page->html, r);
     return report_write_advice(page, r) && report_write_frontier(page, r) && report_write_bytes(page, r) &&
@@ -217,7 +217,7 @@ static int write_page(report_page *page, const report *r)
 
 static int write_report(const report *r, const char *path, folder_state state, unsigned held)
 {
-    report_page page;
+    html_page page;
     int status = write_page(&page, r) ? folder_write(name, path, page.file, page.count, held)
                                       : complain(name, "no memory for the page");
     if (status == STATUS_GOOD) {

@@ -9,8 +9,8 @@
  *   report_bytes.c      error against bytes, likewise
  *   report_theta.c      error against the angle of incidence
  *   report_normals.c    density and samples (tools/panels.h)
- *   report_page.c       the page's frame, its sections and the data behind them
- *   report_folder.c     files that appear together or not at all
+ *   page.c              the page's frame, its sections and the data behind them
+ *   folder.c            files that appear together or not at all
  */
 #ifndef TOOLS_REPORT_H
 #define TOOLS_REPORT_H
@@ -18,7 +18,7 @@
 #include <stddef.h>
 
 #include "bench.h"
-#include "report_page.h"
+#include "page.h"
 #include "vndf_build.h"
 
 enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
@@ -113,12 +113,12 @@ void report_variance_measure(const report_subject *subject, report_integral inte
 
 /* ---- writing: one section each; 0 if there is no memory ---- */
 
-int report_write_advice(report_page *page, const report *r);
-int report_write_frontier(report_page *page, const report *r);
-int report_write_bytes(report_page *page, const report *r);
-int report_write_theta(report_page *page, const report *r);
-int report_write_normals(report_page *page, const report *r);
-int report_write_variance(report_page *page, const report *r);
-int report_write_time(report_page *page, const report *r);
+int report_write_advice(html_page *page, const report *r);
+int report_write_frontier(html_page *page, const report *r);
+int report_write_bytes(html_page *page, const report *r);
+int report_write_theta(html_page *page, const report *r);
+int report_write_normals(html_page *page, const report *r);
+int report_write_variance(html_page *page, const report *r);
+int report_write_time(html_page *page, const report *r);
 
 #endif

@@ -169,7 +169,7 @@ static void write_table(FILE *html, const report_subject *s)
     fputs("</tbody></table></div>\n", html);
 }
 
-static int write_data(report_page *page, const report *r)
+static int write_data(html_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "tables.csv");
     if (!data)
@@ -190,7 +190,7 @@ static int write_data(report_page *page, const report *r)
     return page_data_end(page, "certificates and times of all tables");
 }
 
-int report_write_advice(report_page *page, const report *r)
+int report_write_advice(html_page *page, const report *r)
 {
     page_section(
         page, "advice", "Which table to ship",

@@ -51,7 +51,7 @@ static void fit_axes(chart *c)
     chart_fit(&c->y, low_y, high_y);
 }
 
-static int write_data(report_page *page, const report *r, const byte_points *others)
+static int write_data(html_page *page, const report *r, const byte_points *others)
 {
     FILE *data = page_file_begin(page, "bytes.csv");
     if (!data)
@@ -83,7 +83,7 @@ static void shorten(const char *text, char label[LABEL_MOST])
         memcpy(label + LABEL_MOST - 4, "...", 4);
 }
 
-int report_write_bytes(report_page *page, const report *r)
+int report_write_bytes(html_page *page, const report *r)
 {
     static const unsigned colours[REPORT_SUBJECTS] = {0, 1, 2, 3};
     static const chart_mark marks[REPORT_SUBJECTS] = {CHART_DOT, CHART_SQUARE, CHART_TRIANGLE, CHART_DIAMOND};

@@ -153,7 +153,7 @@ static void write_number(FILE *data, double value)
         fprintf(data, ",%.5g", value);
 }
 
-static int write_data(report_page *page, const bench_rows *rows)
+static int write_data(html_page *page, const bench_rows *rows)
 {
     FILE *data = page_file_begin(page, "frontier.csv");
     if (!data)
@@ -176,7 +176,7 @@ static int write_data(report_page *page, const bench_rows *rows)
     return page_data_end(page, "all methods, as vndf bench measures them");
 }
 
-static int write_alone(report_page *page, const chart *c)
+static int write_alone(html_page *page, const chart *c)
 {
     FILE *file = page_file_begin(page, "frontier.svg");
     if (!file)
@@ -185,7 +185,7 @@ static int write_alone(report_page *page, const chart *c)
     return page_file_end(page);
 }
 
-int report_write_frontier(report_page *page, const report *r)
+int report_write_frontier(html_page *page, const report *r)
 {
     frontier *f = malloc(sizeof *f);
     if (!f)

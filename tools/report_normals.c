@@ -57,7 +57,7 @@ static int draw_subject(FILE *file, const report_subject *s)
 
 /* ---- data ---------------------------------------------------------------------------------------- */
 
-static int write_ndf(report_page *page, const report *r)
+static int write_ndf(html_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "ndf.csv");
     if (!data)
@@ -75,7 +75,7 @@ static int write_ndf(report_page *page, const report *r)
 }
 
 /* The dots of panel_disc: the same numbers. */
-static int write_samples(report_page *page, const report *r)
+static int write_samples(html_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "samples.csv");
     if (!data)
@@ -110,7 +110,7 @@ static void write_grid(FILE *data, const report_subject *s, double theta)
         }
 }
 
-static int write_density(report_page *page, const report *r)
+static int write_density(html_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "density.csv");
     if (!data)
@@ -122,7 +122,7 @@ static int write_density(report_page *page, const report *r)
     return page_data_end(page, "density of visible normals on a grid");
 }
 
-int report_write_normals(report_page *page, const report *r)
+int report_write_normals(html_page *page, const report *r)
 {
     page_section(
         page, "normals", "Density and samples",

@@ -63,7 +63,7 @@ static void draw_subject(FILE *file, const report_subject *s)
     fputs("</figure>\n", file);
 }
 
-static int write_data(report_page *page, const report *r)
+static int write_data(html_page *page, const report *r)
 {
     FILE *data = page_file_begin(page, "theta.csv");
     if (!data)
@@ -82,7 +82,7 @@ static int write_data(report_page *page, const report *r)
     return page_data_end(page, "error of every table at every angle");
 }
 
-int report_write_theta(report_page *page, const report *r)
+int report_write_theta(html_page *page, const report *r)
 {
     page_section(
         page, "theta", "Error against the angle of incidence",

@@ -244,7 +244,7 @@ static void draw_times(FILE *file, const time_line *lines, size_t count)
     fputs("</svg>\n", file);
 }
 
-int report_write_time(report_page *page, const report *r)
+int report_write_time(html_page *page, const report *r)
 {
     time_line lines[LINES_MAX];
     size_t count = lines_of(r, lines);

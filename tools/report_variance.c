@@ -237,7 +237,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);
 }
 
-static int write_data(report_page *page, const report *r, const double counts[REPORT_COUNTS])
+static int write_data(html_page *page, const report *r, const double counts[REPORT_COUNTS])
 {
     FILE *data = page_file_begin(page, "variance.csv");
     if (!data)
@@ -251,7 +251,7 @@ static int write_data(report_page *page, const report *r, const double counts[RE
     return page_data_end(page, "error of each method at each number of samples");
 }
 
-int report_write_variance(report_page *page, const report *r)
+int report_write_variance(html_page *page, const report *r)
 {
     double counts[REPORT_COUNTS];
     char lead[512];

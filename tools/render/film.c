@@ -8,16 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 #ifdef VNDF_TOOLS_PTHREADS
 #  include <pthread.h>
 #endif
 
 enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
 
-static double now(void)
+static double clock_seconds(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -171,7 +172,8 @@ static int render_passes(film *f, pass *p)
 {
     const film_run *run = p->run;
     uint64_t start = f->samples;
-    double spent = 0, begun = now(), before = f->seconds;
+    double spent = 0, begun = clock_seconds(CLOCK_MONOTONIC), before = f->seconds;
+    double processor = f->processor - clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     while (f->samples - start < run->samples && !(run->seconds > 0 && spent >= run->seconds)) {
         p->first = f->samples;
         p->samples = samples_of_pass(f, run->samples - (f->samples - start));
@@ -184,10 +186,17 @@ static int render_passes(film *f, pass *p)
         if (p->stopped)
             return 0;
         add_pass(f, p);
-        spent = now() - begun;
+        spent = clock_seconds(CLOCK_MONOTONIC) - begun;
         f->seconds = before + spent;
+        f->processor = processor + clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     }
     return 1;
+}
+
+unsigned film_processors(void)
+{
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > THREADS_MAX ? THREADS_MAX : (unsigned)count;
 }
 
 int film_render(film *f, const path_plan *plan, const film_run *run)

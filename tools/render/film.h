@@ -10,6 +10,7 @@ typedef struct film {
     double *square;     /* of the luminance: its variance; width * height */
     uint64_t samples;   /* a pixel, so far */
     double seconds;     /* spent rendering, all threads at once */
+    double processor;   /* the same as time of processors, of all threads together */
     path_counts counts;
 } film;
 
@@ -28,6 +29,9 @@ typedef struct film_run {
 
 /* Adds samples; returns 0 if it was stopped before all were there (what is there stays: whole passes only). */
 int film_render(film *f, const path_plan *plan, const film_run *run);
+
+/* Threads that the machine runs at once, 1 to 256. */
+unsigned film_processors(void);
 
 /* The mean. 0 if there is no memory. */
 int film_image(const film *f, image *made);

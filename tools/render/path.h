@@ -7,7 +7,8 @@
 
 #include "render/scene.h"
 
-/* How normals are drawn by all microfacet materials of a scene; MATERIAL: as each says. */
+/* How normals are drawn by all microfacet materials of a scene; MATERIAL: as each says. PERFECT: directions are, by
+ * tables made for the whole BSDF of each (path_perfect.h). */
 typedef enum path_sampler { SAMPLER_MATERIAL, SAMPLER_ALL, SAMPLER_VISIBLE, SAMPLER_BOUNDED, SAMPLER_PERFECT } path_sampler;
 
 /* Effects of a scene, a bit each: what has to run. --explain lists them. */
@@ -28,6 +29,14 @@ typedef struct path_plan path_plan;
 path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, char *message, size_t size);
 void path_free(path_plan *plan);
 unsigned path_effects(const path_plan *plan);
+
+/* What perfect sampling took to prepare; all 0 with other samplers. */
+typedef struct path_precomputed {
+    size_t count, bytes;     /* BSDFs: materials that share one count once */
+    double seconds;
+} path_precomputed;
+
+path_precomputed path_perfect_cost(const path_plan *plan);
 
 /* Counters of one thread. */
 typedef struct path_counts {

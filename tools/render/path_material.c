@@ -1,13 +1,10 @@
-/* A material as routines for its kind. Lambert's and smooth ones are here; rough ones are the library's, with the
- * sampler that is asked for. What cannot be left out of a scene can be made smooth: for the time of the same
- * scene without microfacets, rough dielectrics become glass and all others mirrors of their reflectance at right
- * angles.
+/* A material as routines for its kind. Lambert's and smooth ones are here, rough ones in path_rough.c. What cannot
+ * be left out of a scene can be made smooth: for the time of the same scene without microfacets, rough dielectrics
+ * become glass and all others mirrors of their reflectance at right angles.
  *
  * Frames: a normal of shading may see a ray from another side than the geometric one; the latter is taken then,
  * and path.c drops directions about whose side the two disagree, drawn from lights or from materials alike. */
 #include "render/path_parts.h"
-
-#include <stdio.h>
 
 static const float pi = 3.14159265f;
 
@@ -77,62 +74,6 @@ static int glass_sample(const path_point *p, const float u[3], bounce *b)
     for (int i = 0; i < 3; i++)
         b->weight[i] = b->carried * p->colour[i];
     return 1;
-}
-
-/* ---- rough ---- */
-
-static int rough_begin(path_point *p)
-{
-    return vndf_bsdf_at(&p->bsdf, &p->material->bsdf, p->wi);
-}
-
-static float at_hit(const textured *t, const hit *h)
-{
-    float rgb[3];
-    if (!t->map)
-        return t->value;
-    image_bilinear(t->map, h->u, h->v, rgb);
-    return t->value * rgb[0];
-}
-
-static int textured_begin(path_point *p)
-{
-    vndf_roughness roughness = p->material->roughness;
-    roughness.alpha_x = at_hit(&p->material->is->alpha_x, p->hit);
-    roughness.alpha_y = at_hit(&p->material->is->alpha_y, p->hit);
-    return vndf_bsdf_rough(&p->bsdf, &p->material->bsdf, &roughness, p->wi);
-}
-
-static float carried(const path_point *p)
-{
-    float eta = p->wi.z > 0.0f ? p->material->is->is.eta : 1.0f / p->material->is->is.eta;
-    return 1.0f / (eta * eta);
-}
-
-static int rough_sample(const path_point *p, const float u[3], bounce *b)
-{
-    vndf_scattered s;
-    vndf_bsdf_sample(&p->bsdf, u, &s);
-    if (s.lobe == VNDF_LOBE_NONE)
-        return 0;
-    b->wo = s.wo;
-    b->density = s.lobe == VNDF_LOBE_STRAIGHT ? 0.0f : s.density;
-    b->carried = s.lobe == VNDF_LOBE_TRANSMISSION ? carried(p) : 1.0f;
-    for (int i = 0; i < 3; i++)
-        b->weight[i] = s.weight[i] * p->colour[i];
-    return 1;
-}
-
-static void rough_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
-{
-    vndf_bsdf_eval(&p->bsdf, wo, seed, value);
-    for (int i = 0; i < 3; i++)
-        value[i] *= p->colour[i];
-}
-
-static float rough_pdf(const path_point *p, vndf_vec3 wo)
-{
-    return vndf_bsdf_pdf(&p->bsdf, wo);
 }
 
 /* ---- colours of maps ---- */
@@ -225,44 +166,13 @@ static void make_smooth(path_material *m)
         m->colour[i] *= reflectance(&m->is->is, i);
 }
 
-static void choose_normals(vndf_effects *e, path_sampler sampler)
+static int make_kind(path_material *m, const path_choice *choice, char *message, size_t size)
 {
-    if (sampler == SAMPLER_ALL)
-        e->normals = VNDF_NORMALS_ALL;
-    if (sampler == SAMPLER_VISIBLE)
-        e->normals = VNDF_NORMALS_VISIBLE;
-    if (sampler == SAMPLER_BOUNDED)
-        e->normals = VNDF_NORMALS_BOUNDED;
-}
-
-static int make_rough(path_material *m, path_sampler sampler, unsigned without, char *message, size_t size)
-{
-    vndf_description is = m->is->is;
-    vndf_error error = {VNDF_OK, ""};
-    choose_normals(&is.effects, sampler);
-    if (without & EFFECT_MULTIPLE)
-        is.effects.scattering = VNDF_SCATTERING_SINGLE;
-    if (without & EFFECT_ROTATED_AXES)
-        is.effects.axes = VNDF_AXES_FIXED;
-    if (vndf_material_resolve(&is, &m->bsdf, &error) != VNDF_OK) {
-        snprintf(message, size, "material '%s': %s", m->is->name ? m->is->name : "", error.message);
-        return 0;
-    }
-    m->roughness = (vndf_roughness){is.alpha_x, is.alpha_y, cosf(is.rotation), sinf(is.rotation)};
-    m->run.begin = m->is->is_textured && !(without & EFFECT_TEXTURED_ALPHA) ? textured_begin : rough_begin;
-    m->run.sample = rough_sample;
-    m->run.eval = rough_eval;
-    m->run.pdf = rough_pdf;
-    return 1;
-}
-
-static int make_kind(path_material *m, path_sampler sampler, unsigned without, char *message, size_t size)
-{
-    int smooth = (without & EFFECT_MICROFACETS) != 0;
+    int smooth = (choice->without & EFFECT_MICROFACETS) != 0;
     switch (m->is->kind) {
     case MATERIAL_MICROFACET:
         if (!smooth)
-            return make_rough(m, sampler, without, message, size);
+            return path_rough_make(m, choice, message, size);
         make_smooth(m);
         break;
     case MATERIAL_MATTE:
@@ -281,16 +191,16 @@ static int make_kind(path_material *m, path_sampler sampler, unsigned without, c
     return 1;
 }
 
-int path_material_prepare(path_material *made, const material *is, path_sampler sampler, unsigned without,
-                          char *message, size_t size)
+int path_material_prepare(path_material *made, const material *is, const path_choice *choice, char *message,
+                          size_t size)
 {
     *made = (path_material){.is = is, .absorbs = has_absorption(is)};
     for (int i = 0; i < 3; i++) /* glass has none */
         made->colour[i] = is->kind == MATERIAL_GLASS ? 1.0f : is->colour[i];
-    if (!make_kind(made, sampler, without, message, size))
+    if (!make_kind(made, choice, message, size))
         return 0;
     made->run.begin_plain = made->run.begin;
-    if (is->colour_map && made->run.begin && is->kind != MATERIAL_GLASS && !(without & EFFECT_COLOUR_MAPS))
+    if (is->colour_map && made->run.begin && is->kind != MATERIAL_GLASS && !(choice->without & EFFECT_COLOUR_MAPS))
         made->run.begin = mapped_begin;
     return 1;
 }

@@ -2,6 +2,8 @@
  *
  *   path_plan.c         which effects a scene calls for; the parts below put together
  *   path_material.c     a material as routines made for its kind: no test of a kind at a hit
+ *   path_rough.c        rough ones: the library's routines
+ *   path_perfect.c      or sampling precomputed for the whole BSDF
  *   path_lights.c       emitting shapes: drawing a point, and the density of a point met
  *   path_environment.c  light from far away: its radiance, drawing a direction of its image
  *   path_alias.c        one of many, by its probability
@@ -18,6 +20,7 @@
 
 #include "render/path.h"
 #include "render/path_alias.h"
+#include "render/path_perfect.h"
 
 /* ---- materials ---- */
 
@@ -32,6 +35,7 @@ typedef struct path_point {
     const float *colour;
     float mapped[3];     /* the colour of a map */
     vndf_bsdf bsdf;      /* of rough materials */
+    perfect_hit perfect; /* instead of it, of those that are perfectly sampled */
 } path_point;
 
 typedef struct bounce {
@@ -55,13 +59,31 @@ struct path_material {
     float colour[3];
     float eta;                /* of smooth dielectrics */
     vndf_roughness roughness; /* its rotation, and alpha where no map changes it */
+    const path_perfect *perfect; /* of rough ones that are perfectly sampled; else NULL */
     int emits, absorbs;
     path_routines run, once;  /* once: see path_repeat.c */
 };
 
-/* 0 and a message if the library refuses. */
-int path_material_prepare(path_material *made, const material *is, path_sampler sampler, unsigned without,
-                          char *message, size_t size);
+/* Perfect sampling of all BSDFs of a scene. */
+typedef struct path_perfects {
+    path_perfect **list;
+    size_t count;
+    double seconds;           /* that making them took */
+} path_perfects;
+
+void path_perfects_free(path_perfects *all);
+
+/* What a plan was asked for. */
+typedef struct path_choice {
+    path_sampler sampler;
+    unsigned without;
+    path_perfects *perfects;  /* for the materials to share */
+} path_choice;
+
+/* 0 and a message if the library refuses, or perfect sampling does. */
+int path_material_prepare(path_material *made, const material *is, const path_choice *choice, char *message,
+                          size_t size);
+int path_rough_make(path_material *m, const path_choice *choice, char *message, size_t size);
 
 /* Bits of what a material calls for. */
 unsigned path_material_effects(const material *is);
@@ -152,6 +174,7 @@ struct path_plan {
     unsigned effects;
     vndf_vec3 corner, right, down; /* of the film, 1 from the eye: pixels are at corner + x right + y down */
     path_material *materials;
+    path_perfects perfects;
     path_lights lights;
     path_environment environment;
     void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */

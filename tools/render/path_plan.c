@@ -27,6 +27,14 @@ unsigned path_effects(const path_plan *plan)
     return plan->effects;
 }
 
+path_precomputed path_perfect_cost(const path_plan *plan)
+{
+    path_precomputed cost = {plan->perfects.count, 0, plan->perfects.seconds};
+    for (size_t i = 0; i < cost.count; i++)
+        cost.bytes += path_perfect_bytes(plan->perfects.list[i]);
+    return cost;
+}
+
 /* ---- the film ---- */
 
 static void place_film(path_plan *plan)
@@ -46,13 +54,14 @@ static void place_film(path_plan *plan)
 static int prepare_materials(path_plan *plan, path_sampler sampler, unsigned without, char *message, size_t size)
 {
     const scene *s = plan->scene;
+    const path_choice choice = {sampler, without, &plan->perfects};
     plan->materials = calloc(s->material_count ? s->material_count : 1, sizeof *plan->materials);
     if (!plan->materials) {
         snprintf(message, size, "no memory for %zu materials", s->material_count);
         return 0;
     }
     for (size_t i = 0; i < s->material_count; i++)
-        if (!path_material_prepare(&plan->materials[i], &s->materials[i], sampler, without, message, size))
+        if (!path_material_prepare(&plan->materials[i], &s->materials[i], &choice, message, size))
             return 0;
     return 1;
 }
@@ -85,12 +94,7 @@ static int prepare_lights(path_plan *plan, unsigned without, char *message, size
 
 path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, char *message, size_t size)
 {
-    path_plan *plan;
-    if (sampler == SAMPLER_PERFECT) {
-        snprintf(message, size, "sampling of a whole BSDF is not made yet: all, visible and bounded are");
-        return NULL;
-    }
-    plan = calloc(1, sizeof *plan);
+    path_plan *plan = calloc(1, sizeof *plan);
     if (!plan) {
         snprintf(message, size, "no memory");
         return NULL;
@@ -115,6 +119,7 @@ void path_free(path_plan *plan)
         return;
     path_lights_free(&plan->lights);
     path_environment_free(&plan->environment);
+    path_perfects_free(&plan->perfects);
     free(plan->materials);
     free(plan);
 }

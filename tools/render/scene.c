@@ -1,6 +1,7 @@
 /* Reads a scene: the file's words, statement after statement, and what only the whole can tell. */
 #include "render/scene.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,9 +70,11 @@ static size_t folder_of(const char *name)
     return slash ? (size_t)(slash - name) + 1 : 0;
 }
 
-int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size)
+static int read_text(scene *made, const char *name, const scene_tables *tables, char *text, size_t length,
+                     char *message, size_t size)
 {
-    scene_reader r = {.name = name, .folder = folder_of(name), .message = message, .size = size, .made = made};
+    scene_reader r = {.name = name, .folder = folder_of(name), .message = message, .size = size, .made = made,
+                      .tables = *tables};
     *made = (scene){.camera = {.up = {0.0f, 1.0f, 0.0f}, .field = 40.0f}, .width = 640, .height = 360,
                     .integrator = {.depth = 12, .roulette = 4, .samples = 64, .exposure = 1.0f},
                     .environment = {.scale = 1.0f}};
@@ -82,7 +85,14 @@ int scene_read_text(scene *made, const char *name, char *text, size_t length, ch
     return good;
 }
 
-int scene_read(scene *made, const char *path, char *message, size_t size)
+static const scene_tables as_it_says = {0, 0};
+
+int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size)
+{
+    return read_text(made, name, &as_it_says, text, length, message, size);
+}
+
+int scene_read_with(scene *made, const char *path, const scene_tables *tables, char *message, size_t size)
 {
     char reason[128];
     size_t length;
@@ -92,9 +102,21 @@ int scene_read(scene *made, const char *path, char *message, size_t size)
         snprintf(message, size, "%s:1:1: %s", path, reason);
         return 0;
     }
-    int good = scene_read_text(made, path, text, length, message, size);
+    int good = read_text(made, path, tables, text, length, message, size);
     free(text);
     return good;
+}
+
+int scene_read(scene *made, const char *path, char *message, size_t size)
+{
+    return scene_read_with(made, path, &as_it_says, message, size);
+}
+
+void scene_resize(scene *s, int width)
+{
+    double height = floor((double)s->height * width / s->width + 0.5);
+    s->height = (int)fmin(fmax(height, 1), IMAGE_SIDE_MAX);
+    s->width = width;
 }
 
 void scene_free(scene *s)

@@ -67,11 +67,23 @@ typedef struct scene {
     environment environment;
 } scene;
 
+/* What takes the place of a scene's distributions, to see what tables change: those of formulas and families are
+ * built in so many bytes, whatever their materials say (0: as they say), and ggx and beckmann too where
+ * `closed_forms`. Tables of files stay. */
+typedef struct scene_tables {
+    unsigned bytes;
+    int closed_forms;
+} scene_tables;
+
 /* Reads a scene file; paths in it are relative to its folder. 1, or 0 with a message "FILE:LINE:COLUMN: what is
  * wrong, and what would be right". Untrusted files are safe. */
 int scene_read(scene *made, const char *path, char *message, size_t size);
+int scene_read_with(scene *made, const char *path, const scene_tables *tables, char *message, size_t size);
 /* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
 int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
+/* Pixels across; the height follows. */
+void scene_resize(scene *s, int width);
+
 void scene_free(scene *s);
 
 /* The language, for --help. */

@@ -37,6 +37,7 @@ typedef struct scene_reader {
     unsigned seen;              /* a bit for each statement that may stand once */
     size_t pixels;              /* of all images so far */
     int gives_light;            /* a shape has a light for its material */
+    scene_tables tables;        /* in place of what materials say */
 } scene_reader;
 
 /* words[0] says what it is. */

@@ -98,10 +98,13 @@ int read_distribution(scene_reader *r, const clause *c, unsigned bytes, const vn
     unsigned form;
     if (!reader_choice(r, c, forms, FORMS, &form))
         return 0;
+    if (r->tables.bytes)
+        bytes = r->tables.bytes;
     if (form == FORM_GGX || form == FORM_BECKMANN) {
+        if (c->count > 1)
+            return reader_refuse(r, &c->values[1], "'distribution %s' takes nothing more", forms[form]);
         *found = form == FORM_GGX ? vndf_ggx() : vndf_beckmann();
-        return c->count == 1 ||
-               reader_refuse(r, &c->values[1], "'distribution %s' takes nothing more", forms[form]);
+        return !r->tables.closed_forms || table_of(r, FORM_FAMILY, &c->values[0], bytes, found);
     }
     if (c->count < 2)
         return reader_refuse(r, &c->values[0], "'distribution %s' needs %s", forms[form],

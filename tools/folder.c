@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "report_folder.h"
+#include "folder.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -25,9 +25,9 @@ static char *path_in(const char *folder, const char *name)
 
 /* ---- what is there ------------------------------------------------------------------------------- */
 
-static int has_our_page(const char *folder)
+static int has_our_page(const char *command, const char *folder)
 {
-    char head[HEAD_BYTES + 1];
+    char head[HEAD_BYTES + 1], mark[PAGE_MARK_MAX];
     char *path = path_in(folder, "index.html");
     FILE *file = path ? fopen(path, "rb") : NULL;
     free(path);
@@ -35,7 +35,8 @@ static int has_our_page(const char *folder)
         return 0;
     head[fread(head, 1, HEAD_BYTES, file)] = '\0';
     fclose(file);
-    return strstr(head, page_mark) != NULL;
+    page_mark(mark, command);
+    return strstr(head, mark) != NULL;
 }
 
 /* 1, 0, or -1 if it cannot be read. */
@@ -89,11 +90,11 @@ folder_state folder_examine(const char *command, const char *path)
         complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
     else if (access(path, W_OK | X_OK) != 0)
         complain(command, "cannot write into '%s': %s", path, strerror(errno));
-    else if (!empty && !has_our_page(path))
+    else if (!empty && !has_our_page(command, path))
         complain(command,
-                 "'%s' has files in it, and no report: name a new folder, an empty one, or one with a report, "
-                 "which is replaced",
-                 path);
+                 "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
+                 "page, which is replaced",
+                 path, command);
     else
         return empty ? FOLDER_EMPTY : FOLDER_OURS;
     return FOLDER_REFUSED;
@@ -102,12 +103,12 @@ folder_state folder_examine(const char *command, const char *path)
 /* ---- writing ------------------------------------------------------------------------------------- */
 
 typedef struct opened_files {
-    output_file output[REPORT_FILES_MAX];
-    char *path[REPORT_FILES_MAX];
+    output_file output[PAGE_FILES_MAX];
+    char *path[PAGE_FILES_MAX];
     size_t count;
 } opened_files;
 
-static int write_temporary(opened_files *opened, const char *command, const char *folder, const report_file *file)
+static int write_temporary(opened_files *opened, const char *command, const char *folder, const page_file *file)
 {
     output_file *output = &opened->output[opened->count];
     char *path = path_in(folder, file->name);
@@ -141,7 +142,7 @@ static int commit(opened_files *opened)
 }
 
 /* The page, which is the first file, is renamed last, so that no page of a new report stands beside old data. */
-static int write_files(const char *command, const char *folder, const report_file *files, size_t count,
+static int write_files(const char *command, const char *folder, const page_file *files, size_t count,
                        unsigned held)
 {
     opened_files opened = {.count = 0};
@@ -159,7 +160,7 @@ static int write_files(const char *command, const char *folder, const report_fil
     return status;
 }
 
-int folder_write(const char *command, const char *path, const report_file *files, size_t count, unsigned held)
+int folder_write(const char *command, const char *path, const page_file *files, size_t count, unsigned held)
 {
     int made = mkdir(path, 0777) == 0;
     if (!made && errno != EEXIST)

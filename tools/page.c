@@ -1,21 +1,25 @@
 #define _POSIX_C_SOURCE 200809L
-#include "report_page.h"
+#include "page.h"
 
 #include <stdlib.h>
 
 #include "chart.h"
 #include "vndf.h"
 
-const char page_mark[] = "<meta name=\"generator\" content=\"vndf report\">";
+void page_mark(char mark[PAGE_MARK_MAX], const char *command)
+{
+    snprintf(mark, PAGE_MARK_MAX, "<meta name=\"generator\" content=\"%s\">", command);
+}
 
 /* ---- files --------------------------------------------------------------------------------------- */
 
-static FILE *open_file(report_page *page, const char *name)
+static FILE *open_file(html_page *page, const char *name)
 {
-    report_file *file = &page->file[page->count];
-    if (page->count == REPORT_FILES_MAX)
+    page_file *file = &page->file[page->count];
+    if (page->count == PAGE_FILES_MAX)
         return NULL;
-    *file = (report_file){name, NULL, 0};
+    *file = (page_file){.text = NULL};
+    snprintf(file->name, sizeof file->name, "%s", name);
     FILE *stream = open_memstream(&file->text, &file->size);
     page->count += stream != NULL;
     return stream;
@@ -30,13 +34,13 @@ static int close_file(FILE **stream)
     return good;
 }
 
-FILE *page_file_begin(report_page *page, const char *name)
+FILE *page_file_begin(html_page *page, const char *name)
 {
     page->data = open_file(page, name);
     return page->data;
 }
 
-int page_file_end(report_page *page)
+int page_file_end(html_page *page)
 {
     return close_file(&page->data);
 }
@@ -52,9 +56,9 @@ void page_field(FILE *data, const char *text)
     fputc('"', data);
 }
 
-int page_data_end(report_page *page, const char *what)
+int page_data_end(html_page *page, const char *what)
 {
-    const report_file *file = &page->file[page->count - 1];
+    const page_file *file = &page->file[page->count - 1];
     if (!page_file_end(page))
         return 0;
     size_t lines = 0;
@@ -86,7 +90,7 @@ static const char style[] =
     "h1{font-size:1.7em;margin:0 0 .2em}h2{font-size:1.3em;margin:2.2em 0 .2em;padding-top:.6em;"
     "border-top:1px solid var(--rule)}h3{font-size:1.05em;margin:1.4em 0 .4em}\n"
     "p{margin:.4em 0;max-width:75ch}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
-    "a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
+    "img{max-width:100%;height:auto}a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
@@ -106,16 +110,18 @@ static const char style[] =
     ".pair figure{flex:1 1 30%}a{color:inherit}}\n"
     "code{font-family:ui-monospace,'DejaVu Sans Mono',monospace;font-size:.92em;overflow-wrap:anywhere}\n";
 
-int page_begin(report_page *page, const char *title)
+int page_begin(html_page *page, const char *command, const char *title)
 {
-    *page = (report_page){.html = NULL};
+    char mark[PAGE_MARK_MAX];
+    *page = (html_page){.command = command};
+    page_mark(mark, command);
     page->html = open_file(page, "index.html");
     if (!page->html)
         return 0;
     fprintf(page->html,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n%s\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-            page_mark);
+            mark);
     chart_escape(page->html, title);
     fputs("</title>\n<style>\n", page->html);
     fputs(style, page->html);
@@ -126,14 +132,14 @@ int page_begin(report_page *page, const char *title)
     return 1;
 }
 
-int page_end(report_page *page)
+int page_end(html_page *page)
 {
-    fputs("<p class=\"note\">Made by <code>vndf report</code>, vndf " VNDF_VERSION ".</p>\n</body>\n</html>\n",
-          page->html);
+    fprintf(page->html, "<p class=\"note\">Made by <code>%s</code>, vndf " VNDF_VERSION ".</p>\n", page->command);
+    fputs("</body>\n</html>\n", page->html);
     return close_file(&page->html);
 }
 
-void page_free(report_page *page)
+void page_free(html_page *page)
 {
     close_file(&page->data);
     close_file(&page->html);
@@ -142,7 +148,7 @@ void page_free(report_page *page)
     page->count = 0;
 }
 
-void page_section(report_page *page, const char *id, const char *title, const char *lead)
+void page_section(html_page *page, const char *id, const char *title, const char *lead)
 {
     fprintf(page->html, "<section id=\"%s\">\n<h2>", id);
     chart_escape(page->html, title);
@@ -151,7 +157,7 @@ void page_section(report_page *page, const char *id, const char *title, const ch
     fputs("</p>\n", page->html);
 }
 
-void page_section_end(report_page *page)
+void page_section_end(html_page *page)
 {
     fputs("</section>\n", page->html);
 }

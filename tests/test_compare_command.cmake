@@ -1,0 +1,63 @@
+# vndf compare: a page with its pictures and tables on the terminal, for ways of drawing normals and for tables;
+# wrong words are refused with status 2 and leave nothing behind.
+cmake_minimum_required(VERSION 3.16)
+
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+set(scene ${OUT}/ball.scene)
+file(WRITE ${scene} "film width 40 height 24\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "material gold conductor of gold distribution ggx alpha 0.3\nmaterial lamp light radiance 5 5 5\n"
+    "sphere centre 0 0 0 radius 1 material gold\nsphere centre 0 2 1 radius 0.2 material lamp\n")
+file(WRITE ${OUT}/glass.scene "film width 40 height 24\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "material ice dielectric index 1.3 distribution ggx alpha 0.1\nsphere centre 0 0 0 radius 1 material ice\n")
+file(WRITE ${OUT}/file.scene "film width 40 height 24\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "material m conductor of gold distribution table ${SOURCE}/tables/student-t-2.5.vndf\n"
+    "sphere centre 0 0 0 radius 1 material m\n")
+
+# Runs vndf compare; `status` is expected, and `text` in what it prints.
+function(expect status text)
+    execute_process(COMMAND ${VNDF} compare ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
+        WORKING_DIRECTORY ${OUT})
+    string(FIND "${out}${err}" "${text}" at)
+    if(NOT got EQUAL ${status} OR at EQUAL -1)
+        message(SEND_ERROR "vndf compare ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
+    endif()
+endfunction()
+
+# Files of the page are there, and the page mentions those that are pictures.
+function(expect_files folder)
+    file(READ ${OUT}/${folder}/index.html page)
+    foreach(name IN LISTS ARGN)
+        string(FIND "${page}" "${name}" at)
+        if(NOT EXISTS ${OUT}/${folder}/${name} OR (at EQUAL -1 AND name MATCHES "png$"))
+            message(SEND_ERROR "${folder} has no ${name}")
+        endif()
+    endforeach()
+endfunction()
+
+expect(0 "| bounded | " ${scene} page --spp 8)
+expect_files(page index.html points.csv reference.pfm crops.png reference-film.png visible-time.png all-samples.png
+    bounded-error.png)
+expect(0 "replaced page/index.html" ${scene} page --spp 4 --samplers all,visible --reference page/reference.pfm)
+expect(0 "| 2 KiB | " ${scene} tables --spp 4 --tables 2048,3000 --threads 1)
+expect_files(tables 2-kib-time.png 3000-bytes-changes.png closed-forms-changes.png)
+expect(0 "Without bounded" glass.scene glass --spp 4) # for the page; told on the terminal, too
+expect(0 "example:" --help)
+
+expect(2 "SCENE DIR" ${scene})
+expect(2 "did you mean 'bounded'?" ${scene} no --samplers visible,bouned)
+expect(2 "stands there twice" ${scene} no --samplers visible,visible)
+expect(2 "two comparisons" ${scene} no --samplers visible --tables 2048)
+expect(2 "no whole number" ${scene} no --tables 2048.5)
+expect(2 "--tables" ${scene} no --tables 100)
+expect(2 "cannot build anew" file.scene no --tables 2048)
+expect(2 "material 'ice'" glass.scene no --samplers visible,bounded)
+expect(2 "it is 40 x 24 pixels" ${scene} no --spp 4 --width 20 --reference page/reference.pfm)
+expect(2 "no.pfm" ${scene} no --spp 4 --reference no.pfm)
+expect(2 "no.scene" no.scene no)
+expect(2 "has files in it" ${scene} ${OUT})
+expect(2 "--spp" ${scene} no --spp 1)
+file(GLOB left ${OUT}/no* ${OUT}/*/*.tmp*)
+if(left)
+    message(SEND_ERROR "left behind: ${left}")
+endif()

@@ -1,0 +1,37 @@
+/* What a contest says, and how it is told: as a page with pictures, and as a table on the terminal. */
+#ifndef COMPARE_COMPARISON_H
+#define COMPARE_COMPARISON_H
+
+#include "compare/pictures.h"
+#include "page.h"
+
+typedef struct comparison {
+    contest *contest;
+    const char *title, *arguments; /* of the scene; the words of the command */
+    float exposure;
+    const char *by;              /* what the ways differ in: "normals", "tables" */
+    const char *reference_is;    /* "2048 samples of visible normals" */
+    char remarks[512];           /* of ways that the scene cannot have; "" if there are none */
+    crop crops[CROPS];
+    agreement agrees[WAYS_MAX];
+    int has_common;              /* ways saw the same numbers as the first: what they share is no noise */
+    double common[WAYS_MAX], common_noise[WAYS_MAX];
+} comparison;
+
+/* Of the first way's work: (its error^2 x time) over another's, after equal time; above 1 is better. */
+double efficiency(const contest *c, size_t i, int trimmed);
+
+/* The samples that way i needs for the error that the first has with all its samples. */
+double samples_for_error(const contest *c, size_t i, int trimmed);
+
+/* Rows of a table in Markdown. */
+void comparison_print(FILE *file, const comparison *r);
+
+/* The page and its files; 0 if there is no memory. */
+int comparison_page(html_page *page, const comparison *r);
+
+/* Sections of it; 0 if there is no memory. */
+int comparison_pictures(html_page *page, const comparison *r);
+int comparison_changes(html_page *page, const comparison *r);
+
+#endif

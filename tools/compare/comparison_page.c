@@ -1,0 +1,165 @@
+/* The page of a comparison: what came out, pictures (comparison_pictures.c), curves, agreement. */
+#include "compare/comparison.h"
+
+#include <math.h>
+
+#include "chart.h"
+
+/* ---- sections ---- */
+
+static void write_figures(html_page *page, const comparison *r)
+{
+    const contest *c = r->contest;
+    fprintf(page->html, "<div class=\"scroll\"><table><tr><th>%s<th>samples in<br>equal time<th>error"
+                        "<th>without<br>fireflies<th>efficiency<th>without<br>fireflies"
+                        "<th>error of<br>%llu samples<th>without<br>fireflies<th>time of<br>them"
+                        "<th>samples for the<br>error of %s<th>without<br>fireflies</tr>\n", r->by, (unsigned long long)c->samples, c->way[0].name);
+    for (size_t i = 0; i < c->count; i++) {
+        const way *w = &c->way[i];
+        fprintf(page->html, "<tr><td>%s<td>%llu<td>%.2f%%<td>%.2f%%<td>%.2f<td>%.2f<td>%.2f%%<td>%.2f%%<td>%.1f s"
+                            "<td>%.0f<td>%.0f</tr>\n", w->name, (unsigned long long)w->by_time.samples,
+                100 * w->by_time.error.relative, 100 * w->by_time.error.trimmed, efficiency(c, i, 0),
+                efficiency(c, i, 1), 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
+                w->by_samples.seconds, samples_for_error(c, i, 0), samples_for_error(c, i, 1));
+    }
+    fputs("</table></div>\n", page->html);
+}
+
+static void write_result(html_page *page, const comparison *r)
+{
+    char lead[256];
+    snprintf(lead, sizeof lead, "Equal time is the %.1f s of processors that %s took for %llu samples a pixel.",
+             r->contest->way[0].by_time.seconds, r->contest->way[0].name, (unsigned long long)r->contest->samples);
+    page_section(page, "result", "What came out", lead);
+    write_figures(page, r);
+    fprintf(page->html, "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
+                        "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
+                        "all pixels, less the noise of the reference. Without fireflies: the worst thousandth of the "
+                        "pixels is left out. Efficiency: one over error squared and time, that of %s is 1.</p>\n",
+            100 * ERROR_FLOOR, r->contest->way[0].name);
+    if (r->remarks[0]) {
+        fputs("<p class=\"note\">", page->html);
+        chart_escape(page->html, r->remarks);
+        fputs("</p>\n", page->html);
+    }
+    page_section_end(page);
+}
+
+/* ---- curves ---- */
+
+static const chart_mark marks[WAYS_MAX] = {CHART_DOT, CHART_CROSS, CHART_SQUARE, CHART_DIAMOND, CHART_RING,
+                                           CHART_TRIANGLE, CHART_DOT, CHART_SQUARE};
+
+static void draw_curves(FILE *html, const comparison *r, int by_time)
+{
+    double x[WAYS_MAX][POINTS_MAX], y[WAYS_MAX][POINTS_MAX];
+    chart_series series[WAYS_MAX];
+    const contest *c = r->contest;
+    double range[4] = {HUGE_VAL, 0, HUGE_VAL, 0};
+    for (size_t i = 0; i < c->count; i++) {
+        const way *w = &c->way[i];
+        for (size_t k = 0; k < w->points; k++) {
+            x[i][k] = by_time ? w->point[k].seconds : (double)w->point[k].samples;
+            y[i][k] = w->point[k].error.trimmed;
+            range[0] = fmin(range[0], x[i][k]);
+            range[1] = fmax(range[1], x[i][k]);
+            range[2] = y[i][k] > 0 ? fmin(range[2], y[i][k]) : range[2];
+            range[3] = fmax(range[3], y[i][k]);
+        }
+        series[i] = (chart_series){w->name, x[i], y[i], w->points, (unsigned)i, marks[i], CHART_SOLID, NULL};
+    }
+    chart drawn = {by_time ? "Error against time" : "Error against samples", NULL, CHART_WIDTH, CHART_HEIGHT, 120,
+                   {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
+                   {CHART_LOG, 0, 0, 0, "relative error, without fireflies"}, NULL, 0, series, c->count, NULL, 0};
+    chart_fit(&drawn.x, range[0], range[1]);
+    chart_fit(&drawn.y, range[2], range[3]);
+    fputs("<figure>\n", html);
+    chart_draw(html, &drawn);
+    fputs("</figure>\n", html);
+}
+
+static int write_points(html_page *page, const contest *c)
+{
+    FILE *data = page_file_begin(page, "points.csv");
+    if (!data)
+        return 0;
+    fputs("way,samples,seconds,error,error_without_fireflies\n", data);
+    for (size_t i = 0; i < c->count; i++)
+        for (size_t k = 0; k < c->way[i].points; k++) {
+            const contest_point *p = &c->way[i].point[k];
+            page_field(data, c->way[i].name);
+            fprintf(data, ",%llu,%.4g,%.6g,%.6g\n", (unsigned long long)p->samples, p->seconds, p->error.relative,
+                    p->error.trimmed);
+        }
+    return page_data_end(page, "error against samples and time");
+}
+
+static int write_curves(html_page *page, const comparison *r)
+{
+    page_section(page, "curves", "Error against samples and time",
+                 "Both fall as one over the root where nothing but noise is left; a curve that bends to the right "
+                 "has reached an error that is not noise.");
+    fputs("<div class=\"pair\">\n", page->html);
+    draw_curves(page->html, r, 0);
+    draw_curves(page->html, r, 1);
+    fputs("</div>\n", page->html);
+    int good = write_points(page, r->contest);
+    page_section_end(page);
+    return good;
+}
+
+/* ---- agreement ---- */
+
+static void write_agreement(html_page *page, const comparison *r)
+{
+    page_section(page, "agreement", "Do they show the same?",
+                 "Against the reference, which has numbers of its own: differences of blocks of 16 x 16 pixels, "
+                 "in standard deviations. Noise with fireflies is underestimated, and its blocks stray more.");
+    fprintf(page->html, "<table><tr><th>%s<th>all light, of the<br>reference's<th>in standard<br>deviations"
+                        "<th>blocks beyond 3<br>(by chance 0.27%%)<th>their mean<br>square (1)</tr>\n", r->by);
+    for (size_t i = 0; i < r->contest->count; i++) {
+        const agreement *a = &r->agrees[i];
+        fprintf(page->html, "<tr><td>%s<td>%.5f<td>%+.1f<td>%.2f%%<td>%.2f</tr>\n", r->contest->way[i].name,
+                a->ratio, a->whole, 100 * a->beyond, a->mean_square);
+    }
+    fputs("</table>\n", page->html);
+    page_section_end(page);
+}
+
+/* ---- all ---- */
+
+static int add_reference(html_page *page, const comparison *r)
+{
+    image made;
+    FILE *file = page_file_begin(page, "reference.pfm");
+    int good = file && film_image(r->contest->reference, &made);
+    if (good) {
+        good = image_write_pfm(file, &made);
+        image_free(&made);
+    }
+    return page_file_end(page) && good;
+}
+
+static void write_head(FILE *html, const comparison *r)
+{
+    fputs("<p class=\"lead\"><code>vndf compare ", html);
+    chart_escape(html, r->arguments);
+    fputs("</code></p>\n<nav><a href=\"#result\">What came out</a> <a href=\"#pictures\">Equal time</a> "
+          "<a href=\"#samples\">Equal samples</a> <a href=\"#maps\">Error maps</a> <a href=\"#curves\">Curves</a> "
+          "<a href=\"#agreement\">Agreement</a>", html);
+    fputs(r->has_common ? " <a href=\"#tables\">What tables change</a></nav>\n" : "</nav>\n", html);
+}
+
+int comparison_page(html_page *page, const comparison *r)
+{
+    if (!page_begin(page, "vndf compare", r->title))
+        return 0;
+    write_head(page->html, r);
+    write_result(page, r);
+    if (!comparison_pictures(page, r) || !write_curves(page, r))
+        return 0;
+    write_agreement(page, r);
+    if (r->has_common && !comparison_changes(page, r))
+        return 0;
+    return add_reference(page, r) && page_end(page);
+}

@@ -1,0 +1,153 @@
+/* How far films are from each other, by luminance: its sums of squares are what films keep, and they tell the
+ * noise of every pixel. */
+#include "compare/contest.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { BLOCK = 16 };
+
+static size_t pixels(const film *f)
+{
+    return (size_t)f->width * (size_t)f->height;
+}
+
+double film_light(const film *f, size_t pixel)
+{
+    const double *sum = f->sum + 3 * pixel;
+    return (0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / (double)f->samples;
+}
+
+/* 0 of one sample, and of an image that was read. */
+double film_variance(const film *f, size_t pixel)
+{
+    double n = (double)f->samples, mean = film_light(f, pixel);
+    return f->samples < 2 ? 0 : fmax(f->square[pixel] / n - mean * mean, 0) / (n - 1);
+}
+
+double film_mean(const film *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < pixels(f); i++)
+        sum += film_light(f, i);
+    return sum / (double)pixels(f);
+}
+
+/* ---- an error ---- */
+
+static int descending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+static double root(double sum, size_t count)
+{
+    return sqrt(fmax(sum, 0) / (double)count);
+}
+
+/* `squares` of all pixels, changed; `noise`: the part of their sum that is the reference's. */
+static film_error summarise(double *squares, size_t count, double noise)
+{
+    size_t trimmed = count / 1000;
+    double all = 0, worst = 0;
+    qsort(squares, count, sizeof *squares, descending);
+    for (size_t i = count; i-- > 0;) {
+        all += squares[i];
+        worst += i < trimmed ? squares[i] : 0;
+    }
+    film_error e = {root(all - noise, count),
+                    root(all - worst - noise * (double)(count - trimmed) / (double)count, count - trimmed)};
+    return e;
+}
+
+film_error error_between(const film *of, const film *reference)
+{
+    size_t count = pixels(of);
+    double floor = ERROR_FLOOR * film_mean(reference), noise = 0;
+    double *squares = malloc(count * sizeof *squares);
+    film_error e = {(double)NAN, (double)NAN};
+    if (!squares)
+        return e;
+    for (size_t i = 0; i < count; i++) {
+        double light = film_light(reference, i), off = film_light(of, i) - light;
+        double scale = 1 / (light * light + floor * floor);
+        squares[i] = off * off * scale;
+        noise += film_variance(reference, i) * scale;
+    }
+    e = summarise(squares, count, noise);
+    free(squares);
+    return e;
+}
+
+void error_map(const film *of, const film *reference, float *relative)
+{
+    double floor = ERROR_FLOOR * film_mean(reference);
+    for (size_t i = 0; i < pixels(of); i++) {
+        double light = film_light(reference, i);
+        relative[i] = (float)(fabs(film_light(of, i) - light) / (light + floor));
+    }
+}
+
+/* ---- agreement ---- */
+
+typedef struct block_sum {
+    double off, variance;
+} block_sum;
+
+static block_sum sum_block(const film *of, const film *reference, int left, int top)
+{
+    block_sum sum = {0, 0};
+    for (int y = top; y < top + BLOCK && y < of->height; y++)
+        for (int x = left; x < left + BLOCK && x < of->width; x++) {
+            size_t i = (size_t)y * (size_t)of->width + (size_t)x;
+            sum.off += film_light(of, i) - film_light(reference, i);
+            sum.variance += film_variance(of, i) + film_variance(reference, i);
+        }
+    return sum;
+}
+
+static void add_block(agreement *a, const block_sum *sum, block_sum *whole)
+{
+    whole->off += sum->off;
+    whole->variance += sum->variance;
+    if (!(sum->variance > 0))
+        return;
+    double square = sum->off * sum->off / sum->variance;
+    a->blocks++;
+    a->mean_square += square;
+    a->beyond += square > 9;
+}
+
+agreement agreement_between(const film *of, const film *reference)
+{
+    agreement a = {0, 0, 0, 0, film_mean(of) / film_mean(reference)};
+    block_sum whole = {0, 0};
+    for (int y = 0; y < of->height; y += BLOCK)
+        for (int x = 0; x < of->width; x += BLOCK) {
+            block_sum sum = sum_block(of, reference, x, y);
+            add_block(&a, &sum, &whole);
+        }
+    a.mean_square /= a.blocks ? (double)a.blocks : 1;
+    a.beyond /= a.blocks ? (double)a.blocks : 1;
+    a.whole = whole.variance > 0 ? whole.off / sqrt(whole.variance) : 0;
+    return a;
+}
+
+/* ---- what is wrong and not noise ---- */
+
+double common_error(const film of[2], const film exact[2], double *noise)
+{
+    size_t count = pixels(of);
+    double floor = ERROR_FLOOR * film_mean(exact), sum = 0, squares = 0;
+    for (size_t i = 0; i < count; i++) {
+        double light = film_light(exact, i);
+        double product = (film_light(&of[0], i) - film_light(&exact[0], i)) *
+                         (film_light(&of[1], i) - film_light(&exact[1], i)) / (light * light + floor * floor);
+        sum += product;
+        squares += product * product;
+    }
+    double mean = sum / (double)count, spread = sqrt(fmax(squares / (double)count - mean * mean, 0));
+    *noise = sqrt(spread / sqrt((double)count));
+    return sqrt(fmax(mean, 0));
+}
