@@ -144,7 +144,6 @@ static void check_refusal(const render_case *c, path_sampler sampler, const char
 
 static void test_refusals(const render_case *c)
 {
-    check_refusal(c, SAMPLER_PERFECT, "not made yet");
     check_refusal(c, SAMPLER_BOUNDED, "material 'material'");
 }
 
