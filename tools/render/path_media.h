@@ -1,5 +1,5 @@
-/* What a path is in: the bodies that it was refracted into and not out of, the innermost last. Light is absorbed as
- * the innermost does; out of it, it is in the one around it again. */
+/* What a path is in: the bodies that it was refracted into and not out of, the innermost last. Light is absorbed
+ * as the innermost does; out of it, it is in the one around it again. */
 #ifndef RENDER_PATH_MEDIA_H
 #define RENDER_PATH_MEDIA_H
 
