@@ -1,6 +1,7 @@
 /* A path: from the eye through surfaces to light. At each one a light is drawn and weighed against the material,
  * then the material draws where the path goes on; light that it meets by itself is weighed against the lights
  * (path_parts.h). The loop is compiled four times, with and without lights to draw and absorption. */
+#include "render/path_media.h"
 #include "render/path_parts.h"
 
 #include "random.h"
@@ -14,7 +15,7 @@ struct path_walk {
     float carried;       /* what refraction alone made of the throughput */
     float density;       /* of the direction, if lights could have drawn it too; else 0 */
     light_view view;     /* the lights from where it was drawn, if they could */
-    const float *absorb; /* of what the path is in; NULL: nothing */
+    path_media media;    /* of scenes that absorb */
 };
 
 static void draw(path_walk *w, float u[3])
@@ -114,12 +115,6 @@ static int is_barred(path_walk *w, const path_point *p, const light_sample *s)
     return geometry_blocked(&w->plan->scene->geometry, &r);
 }
 
-static void absorb(const float coefficient[3], float distance, float rgb[3])
-{
-    for (int i = 0; i < 3; i++)
-        rgb[i] *= expf(-coefficient[i] * distance);
-}
-
 static void add_light(path_walk *w, const light_sample *s, float value[3], float weight)
 {
     const path_environment *e = &w->plan->environment;
@@ -146,18 +141,12 @@ static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
     p->material->run.eval(p, wo, random_bits(&w->random), value);
     if (!(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
         return;
-    if (absorbing && w->absorb && p->wi.z > 0.0f)
-        absorb(w->absorb, s.distance, value);
+    if (absorbing) /* the light is outside of the surface, the path may be inside */
+        media_absorb(&w->media, p->wi.z < 0.0f ? p->material : NULL, s.distance, value);
     add_light(w, &s, value, wo.z / s.density * share(s.density, p->material->run.pdf(p, wo)));
 }
 
 /* ---- going on ---- */
-
-/* Light inside is that of the body it was refracted into; bodies inside of others leave both. */
-static inline void cross_surface(path_walk *w, const path_material *m, int enters)
-{
-    w->absorb = enters && m->absorbs ? m->is->absorb : NULL;
-}
 
 /* 0: the path ends. */
 static inline int go_on(path_walk *w, const path_point *p, int absorbing)
@@ -171,8 +160,12 @@ static inline int go_on(path_walk *w, const path_point *p, int absorbing)
     float side = dot(direction, p->hit->normal);
     if (!(side * b.wo.z > 0.0f))
         return 0;
-    if (absorbing && p->wi.z * b.wo.z < 0.0f)
-        cross_surface(w, p->material, side < 0.0f);
+    if (absorbing && p->wi.z * b.wo.z < 0.0f) {
+        if (side < 0.0f)
+            media_enter(&w->media, p->material);
+        else
+            media_leave(&w->media, p->material);
+    }
     for (int i = 0; i < 3; i++)
         w->throughput[i] *= b.weight[i];
     w->carried *= b.carried;
@@ -206,8 +199,8 @@ static inline void trace(path_walk *w, int lit, int absorbing)
             return;
         }
         const path_material *m = &w->plan->materials[h.material];
-        if (absorbing && w->absorb)
-            absorb(w->absorb, h.distance, w->throughput);
+        if (absorbing)
+            media_absorb(&w->media, NULL, h.distance, w->throughput);
         if (m->emits) {
             meet_light(w, m, &h, lit);
             return;

@@ -8,6 +8,7 @@
  *   path_environment.c  light from far away: its radiance, drawing a direction of its image
  *   path_alias.c        one of many, by its probability
  *   path.c              the path itself
+ *   path_media.h        the bodies that it is in
  *   path_repeat.c       how much of its time the library takes
  *
  * A direction may be drawn by the material or from a light; both estimates are weighed by the squares of the two

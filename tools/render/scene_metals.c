@@ -1,6 +1,6 @@
-/* Indices of refraction of metals for red, green and blue: what colours of measured spectra (P. Johnson, R.
- * Christy, "Optical Constants of the Noble Metals", Phys. Rev. B 6, 1972; E. Palik, "Handbook of Optical
- * Constants of Solids", 1985) renderers use, to three digits. */
+/* Indices of refraction of metals for red, green and blue: measured spectra weighed by the sensitivities of the
+ * three colours, to three digits of what the renderers Tungsten and Yocto/GL list for Au, Ag, Cu and Al. (Indices
+ * at single wavelengths would not do: at 550 nm copper is on the slope of its reflectance, and looks tan.) */
 #include "render/scene_reader.h"
 
 #include <string.h>
