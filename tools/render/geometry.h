@@ -100,6 +100,9 @@ int geometry_hit(const geometry *g, const ray *r, hit *h);
 /* Whether anything is in (from, to). */
 int geometry_blocked(const geometry *g, const ray *r);
 
+/* Whether anything else is before shape `at`, or in (from, to) where the ray misses it. */
+int geometry_hides(const geometry *g, const ray *r, uint32_t at);
+
 /* A ray from a hit on, that does not meet the same place again: to the side of `direction`. */
 ray ray_from(const hit *h, vndf_vec3 direction);
 

@@ -95,9 +95,11 @@ typedef struct light_sample {
     float distance;
     float density;         /* per steradian */
     const float *radiance; /* NULL: what the environment has there */
+    uint32_t shape;        /* that has it */
 } light_sample;
 
 typedef struct path_light {
+    uint32_t shape;
     shape_kind kind;
     sphere sphere;
     rectangle rectangle; /* of a triangle: a corner and the edges from it */
