@@ -54,6 +54,7 @@ expect(2 "material 'ice'" ${scene} -o no.png --sampler bounded)
 expect(2 "material 'rough': perfect sampling is precomputed for one roughness, this one has a map"
     ${mapped} -o no.png --sampler perfect)
 expect(2 "no.scene" no.scene -o no.png)
+expect(2 "--width: a film of 24 x 16 pixels becomes 16384 x 10923" ${scene} -o no.png --width 16384)
 expect(2 "--spp" ${scene} -o no.png --spp 0)
 expect(2 "cannot write" ${scene} -o ${OUT}/nowhere/no.png)
 file(GLOB left ${OUT}/*no* ${OUT}/*.tmp)

@@ -159,6 +159,19 @@ static void test_shapes(void)
     scene_free(&s);
 }
 
+/* The film keeps its shape, and its limits. */
+static void test_resize(void)
+{
+    scene s = {.width = 640, .height = 400};
+    char message[MESSAGE] = "";
+    TEST(scene_resize(&s, 80, message, sizeof message) && s.width == 80 && s.height == 50);
+    TEST(!scene_resize(&s, 16384, message, sizeof message) && s.width == 80 && s.height == 50);
+    TEST_HAS(message, "a film of 80 x 50 pixels becomes 16384 x 10240: ");
+    s.height = 1;
+    TEST(!scene_resize(&s, 20, message, sizeof message));
+    TEST_HAS(message, "becomes 20 x 0: it has 1 to 16384 rows");
+}
+
 /* ---- what is shipped ---- */
 
 static void test_shipped(void)
@@ -219,6 +232,7 @@ int main(void)
     test_rough_materials();
     test_plain_materials();
     test_shapes();
+    test_resize();
     test_shipped();
     test_grammar();
     test_example();

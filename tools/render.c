@@ -215,9 +215,8 @@ static int read_and_render(const render_words *given, const char *path)
         return STATUS_USE;
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
-    if (c.width)
-        scene_resize(&s, (int)c.width);
-    int status = render_scene(given, &s, &c);
+    int fits = !c.width || scene_resize(&s, (int)c.width, message, sizeof message);
+    int status = fits ? render_scene(given, &s, &c) : complain(name, "--width: %s", message);
     scene_free(&s);
     return status;
 }

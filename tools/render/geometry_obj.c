@@ -255,10 +255,14 @@ static int read_line(reader *r)
 
 static int read_all(reader *r)
 {
+    int good;
     do
-        if (!read_line(r))
-            return 0;
-    while (obj_next_line(&r->text));
+        good = read_line(r);
+    while (good && obj_next_line(&r->text));
+    if (r->text.bytes > OBJ_BYTES_MAX) /* a device, perhaps, or a pipe: its last line is not its own */
+        return obj_complain(&r->text, "the file has more than %d bytes", OBJ_BYTES_MAX);
+    if (!good)
+        return 0;
     if (ferror(r->text.file))
         return obj_complain(&r->text, "the file cannot be read on from here");
     return r->triangles > 0 || obj_complain(&r->text, "the file ends here without a triangle that has an area");

@@ -81,8 +81,8 @@ int scene_read(scene *made, const char *path, char *message, size_t size);
 int scene_read_with(scene *made, const char *path, const scene_tables *tables, char *message, size_t size);
 /* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
 int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
-/* Pixels across; the height follows. */
-void scene_resize(scene *s, int width);
+/* Pixels across; the height follows. 0 and a message if that leaves no row, or more pixels than a film may have. */
+int scene_resize(scene *s, int width, char *message, size_t size);
 
 void scene_free(scene *s);
 
