@@ -1,8 +1,8 @@
 /* The figures of `vndf compare` are what they are called: films of known light and noise have the errors,
- * agreements and shared errors that arithmetic gives them; ways have equal samples, equal time, and the images that
- * a film of its own has. Fixed seeds; bounds at 5 standard deviations or more, 6e-7 each to fail by chance, 14 of
- * them. */
-#include "compare/contest.h"
+ * agreements and shared errors that arithmetic gives them; ways have equal samples, equal time, and the images
+ * that a film of its own has. Fixed seeds; bounds at 5 standard deviations or more but where it is said, 6e-7 each
+ * to fail by chance, 14 of them. */
+#include "compare/comparison.h"
 #include "scene_text.h"
 #include "test.h"
 
@@ -85,6 +85,68 @@ static void test_agreement(void)
     film_free(&reference);
 }
 
+/* Ten pairs have 240 blocks, whose mean square is 1 within 0.09: both films' noise counts, each as it is. */
+static void test_noise(void)
+{
+    double mean_square = 0, beyond = 0;
+    for (unsigned long long i = 0; i < 10; i++) {
+        film of, reference;
+        make_noisy(&of, 16, 0.8, 1, 100 + i);
+        make_noisy(&reference, 16, 0.4, 1, 200 + i);
+        agreement a = agreement_between(&of, &reference);
+        mean_square += a.mean_square / 10;
+        beyond += a.beyond * (double)a.blocks;
+        film_free(&of);
+        film_free(&reference);
+    }
+    TEST_NEAR(mean_square, 1, 0.19); /* 2 of its standard deviations, with these seeds */
+    TEST(beyond < 6);
+}
+
+/* Half of the error in twice the time, and what follows from it; maps and crops of one bright pixel. */
+static void test_ratios(void)
+{
+    contest c = {.count = 2, .samples = 100};
+    c.way[0].by_time = (contest_point){100, 1, {0.2, 0.1}};
+    c.way[1].by_time = (contest_point){150, 2, {0.1, 0.05}};
+    c.way[0].by_samples = (contest_point){100, 1, {0.2, 0.1}};
+    c.way[1].by_samples = (contest_point){100, 1.3, {0.4, 0.3}};
+    TEST_RELATIVE(efficiency(&c, 0, 0), 1.0, 1e-12);
+    TEST_RELATIVE(efficiency(&c, 1, 0), 2.0, 1e-12);
+    TEST_RELATIVE(efficiency(&c, 1, 1), 2.0, 1e-12);
+    TEST_RELATIVE(samples_for_error(&c, 1, 0), 400.0, 1e-12);
+    TEST_RELATIVE(samples_for_error(&c, 1, 1), 900.0, 1e-12);
+}
+
+static void test_pictures(void)
+{
+    static float relative[PIXELS];
+    contest c = {.count = 2};
+    film reference;
+    crop crops[CROPS];
+    make_noisy(&reference, 1, 0, 1, 1);
+    make_noisy(&c.way[0].at_time, 1, 0, 1, 1);
+    make_noisy(&c.way[1].at_time, 1, 0, 1, 1);
+    c.reference = &reference;
+    for (size_t j = 0; j < 3; j++) {
+        c.way[0].at_time.sum[3 * (10 * WIDTH + 20) + j] += 0.5; /* all err here: both ways */
+        c.way[1].at_time.sum[3 * (10 * WIDTH + 20) + j] += 0.5;
+        c.way[1].at_time.sum[3 * (50 * WIDTH + 70) + j] += 0.3;
+    }
+    error_map(&c.way[1].at_time, &reference, relative);
+    size_t at = 50 * WIDTH + 70;
+    TEST_NEAR((double)relative[at], 0.3 / (light_of(at) + ERROR_FLOOR * film_mean(&reference)), 1e-6);
+    TEST(relative[0] == 0);
+    TEST(choose_crops(&c, crops));
+    TEST(crops[0].x <= 20 && crops[0].x + crops[0].width > 20 && crops[0].y <= 10 &&
+         crops[0].y + crops[0].height > 10);
+    TEST(crops[1].x <= 70 && crops[1].x + crops[1].width > 70 && crops[1].y <= 50 &&
+         crops[1].y + crops[1].height > 50);
+    film_free(&reference);
+    film_free(&c.way[0].at_time);
+    film_free(&c.way[1].at_time);
+}
+
 /* Films that are 0.1% brighter than others of the same numbers, noisier than that by far. */
 static void test_common(void)
 {
@@ -132,6 +194,7 @@ static void check_way(const contest *c, const way *w)
     TEST(is_same(&alone, &w->at_samples));
     TEST(w->by_samples.samples == c->samples && w->by_time.samples == w->at_time.samples);
     TEST(w->by_time.seconds >= c->way[0].by_time.seconds);
+    TEST(w->by_time.seconds < 2 * c->way[0].by_time.seconds + 0.05); /* a pass takes some 0.02 s at most */
     TEST(w->points > 4 && w->point[0].samples == 1 && w->point[3].samples == 8);
     TEST(w->by_samples.error.relative < 0.6 * w->point[0].error.relative);
     agreement a = agreement_between(&w->at_samples, c->reference);
@@ -169,6 +232,9 @@ int main(void)
 {
     test_errors();
     test_agreement();
+    test_noise();
+    test_ratios();
+    test_pictures();
     test_common();
     test_contest();
     return test_done();

@@ -7,7 +7,6 @@
 #include "arguments.h"
 #include "command.h"
 #include "compare/run.h"
-#include "output.h"
 
 static const char name[] = "vndf compare";
 
@@ -21,17 +20,19 @@ static const char help[] =
     "  --samplers LIST     how normals are drawn, from visible, all, bounded, perfect (default: all of these\n"
     "                      that the scene can have); the first is the measure of the others\n"
     "  --tables LIST       instead: the distributions of the scene as tables of so many bytes, as in\n"
-    "                      2048,4096,65536, against one of 128 KiB, and closed forms where it has no other\n"
+    "                      2048,4096,65536, against the largest of them or one of 128 KiB, and closed forms\n"
+    "                      where the scene has no other\n"
     "  --seconds S         to spend in all, roughly (default 120); --spp decides otherwise\n"
     "  --spp N             samples a pixel of each way\n"
-    "  --reference-spp N   of the reference, which draws visible normals (default 4 times as many)\n"
+    "  --reference-spp N   of the reference (default 4 times as many); it draws visible normals, with --tables\n"
+    "                      as the scene says\n"
     "  --reference FILE    a PFM of the same size instead, as DIR/reference.pfm of another run\n"
     "  --width W           pixels across; the height follows\n"
     "  --threads T         threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N            another choice of random numbers (default 0)\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a page of this command, which is\n"
-    "replaced. Interrupted, the command leaves DIR as it was.\n"
+    "replaced; pictures of ways that it no longer has stay. Interrupted, the command leaves DIR as it was.\n"
     "\n"
     "example: vndf compare tools/scenes/metal.scene metal-page --seconds 60 --width 320\n"
     "         vndf compare tools/scenes/rings.scene rings-page --tables 2048,16384\n";
@@ -86,6 +87,10 @@ static int read_tables(const words *given, compare_choice *c)
     for (size_t i = 0; i < c->table_count; i++)
         if (c->table[i] != floor(c->table[i]))
             return complain(name, "--tables: %g is no whole number of bytes", c->table[i]), 0;
+    for (size_t i = 1; i < c->table_count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (c->table[i] == c->table[k])
+                return complain(name, "--tables: %g stands there twice", c->table[i]), 0;
     return c->table_count > 0;
 }
 
@@ -141,8 +146,5 @@ int command_compare(int argc, char **argv)
     folder_state state = folder_examine(name, positional.item[1]);
     if (state == FOLDER_REFUSED)
         return STATUS_USE;
-    unsigned held = output_hold_signals();
-    int status = compare_run(&choice, positional.item[1], state, held);
-    output_release_signals(held);
-    return status;
+    return compare_run(&choice, positional.item[1], state);
 }

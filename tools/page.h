@@ -19,7 +19,7 @@ typedef struct html_page {
     FILE *html;       /* to write to */
     page_file file[PAGE_FILES_MAX]; /* the first is the page itself */
     size_t count;
-    FILE *data;       /* open between page_data_begin and page_data_end */
+    FILE *data;       /* open between page_file_begin and its end */
 } html_page;
 
 /* By this, near its beginning, a page is known as one of `command`; room for PAGE_MARK_MAX. */
@@ -35,14 +35,14 @@ void page_free(html_page *page);
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
 void page_section_end(html_page *page);
 
-/* A new file beside the page, to be filled with rows; NULL if there is no memory. */
+/* A new file beside the page, to be filled; NULL if there is no memory. */
 FILE *page_file_begin(html_page *page, const char *name);
 int page_file_end(html_page *page);
 
-/* A field between quotes. */
-void page_field(FILE *data, const char *text);
-
-/* The same for data: it is linked and shown inside the page, folded. */
+/* Ends a file that the page links and shows inside, folded. */
 int page_data_end(html_page *page, const char *what);
+
+/* A field of a row between quotes. */
+void page_field(FILE *data, const char *text);
 
 #endif

@@ -49,6 +49,8 @@ void comparison_print(FILE *file, const comparison *r)
     for (size_t i = 0; i < c->count; i++)
         fprintf(file, "| %s | %.5f | %+.1f | %.2f%% | %.2f |\n", c->way[i].name, r->agrees[i].ratio,
                 r->agrees[i].whole, 100 * r->agrees[i].beyond, r->agrees[i].mean_square);
+    if (r->reference_read)
+        fprintf(file, "\nThe reference was read: its noise is not known, and counts as that of the ways.\n");
     if (r->has_common)
         print_common(file, r);
     if (r->remarks[0])

@@ -11,7 +11,8 @@ typedef struct comparison {
     float exposure;
     const char *by;              /* what the ways differ in: "normals", "tables" */
     const char *reference_is;    /* "2048 samples of visible normals" */
-    char remarks[512];           /* of ways that the scene cannot have; "" if there are none */
+    int reference_read;          /* its noise is not known, and counts as that of the ways */
+    char remarks[1024];          /* of ways that the scene cannot have, of samples that were lost; "" if none */
     crop crops[CROPS];
     agreement agrees[WAYS_MAX];
     int has_common;              /* ways saw the same numbers as the first: what they share is no noise */

@@ -13,7 +13,8 @@ static void write_figures(html_page *page, const comparison *r)
     fprintf(page->html, "<div class=\"scroll\"><table><tr><th>%s<th>samples in<br>equal time<th>error"
                         "<th>without<br>fireflies<th>efficiency<th>without<br>fireflies"
                         "<th>error of<br>%llu samples<th>without<br>fireflies<th>time of<br>them"
-                        "<th>samples for the<br>error of %s<th>without<br>fireflies</tr>\n", r->by, (unsigned long long)c->samples, c->way[0].name);
+                        "<th>samples for the<br>error of %s<th>without<br>fireflies</tr>\n",
+            r->by, (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++) {
         const way *w = &c->way[i];
         fprintf(page->html, "<tr><td>%s<td>%llu<td>%.2f%%<td>%.2f%%<td>%.2f<td>%.2f<td>%.2f%%<td>%.2f%%<td>%.1f s"
@@ -34,9 +35,12 @@ static void write_result(html_page *page, const comparison *r)
     write_figures(page, r);
     fprintf(page->html, "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
                         "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
-                        "all pixels, less the noise of the reference. Without fireflies: the worst thousandth of the "
-                        "pixels is left out. Efficiency: one over error squared and time, that of %s is 1.</p>\n",
-            100 * ERROR_FLOOR, r->contest->way[0].name);
+                        "all pixels, %s. Without fireflies: the worst thousandth of the pixels is left out. "
+                        "Efficiency: one over error squared and time, that of %s is 1. In equal time the others "
+                        "stop at the first sample of all pixels that ends beyond it.</p>\n",
+            100 * ERROR_FLOOR,
+            r->reference_read ? "with the noise of the reference, which was read and whose noise nobody knows"
+                              : "less the noise of the reference", r->contest->way[0].name);
     if (r->remarks[0]) {
         fputs("<p class=\"note\">", page->html);
         chart_escape(page->html, r->remarks);
@@ -123,6 +127,9 @@ static void write_agreement(html_page *page, const comparison *r)
                 a->ratio, a->whole, 100 * a->beyond, a->mean_square);
     }
     fputs("</table>\n", page->html);
+    if (r->reference_read)
+        fputs("<p class=\"note\">The noise of the reference, which was read, counts as that of the ways.</p>\n",
+              page->html);
     page_section_end(page);
 }
 

@@ -3,7 +3,7 @@
  * render at the end. */
 #include "compare/contest.h"
 
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 enum { TURNS = 24, PASS_PATHS = 32768 };
@@ -45,8 +45,9 @@ static contest_point point_of(const contest *c, const film *f)
     return p;
 }
 
-/* A point is passed: powers of two of samples, and the count that all have. */
-static void keep_point(const contest *c, way *w)
+/* What is kept at powers of two of samples, and at the count that all have. 0 if there is no memory to tell an
+ * error. */
+static int keep_point(const contest *c, way *w)
 {
     const film *f = &w->film;
     if (f->samples == c->samples) {
@@ -54,10 +55,12 @@ static void keep_point(const contest *c, way *w)
         w->by_samples = point_of(c, f);
     }
     if (f->samples != w->next)
-        return;
+        return f->samples != c->samples || !isnan(w->by_samples.error.relative);
+    contest_point p = point_of(c, f);
     if (w->points < POINTS_MAX)
-        w->point[w->points++] = point_of(c, f);
+        w->point[w->points++] = p;
     w->next *= 2;
+    return !isnan(p.error.relative);
 }
 
 /* ---- rendering ---- */
@@ -87,10 +90,7 @@ static int render_some(contest *c, way *w, uint64_t samples)
     samples = samples < to_point ? samples : to_point;
     film_run run = {.samples = samples < to_all ? samples : to_all, .threads = c->threads, .seed = c->seed,
                     .progress = watch, .user = c};
-    if (!film_render(&w->film, w->plan, &run))
-        return 0;
-    keep_point(c, w);
-    return 1;
+    return film_render(&w->film, w->plan, &run) && keep_point(c, w);
 }
 
 static int render_to_samples(contest *c, way *w, uint64_t samples)

@@ -35,7 +35,7 @@ typedef struct way {
     path_plan *plan;       /* not owned */
     film film;             /* as it grows */
     film at_samples, at_time; /* as it was with `samples` samples, and after the time of the first way */
-    contest_point point[POINTS_MAX]; /* at powers of two, and at those two */
+    contest_point point[POINTS_MAX]; /* at powers of two of samples */
     size_t points;
     contest_point by_samples, by_time;
     uint64_t next;         /* samples at the next point */

@@ -10,8 +10,8 @@ typedef struct crop {
 
 enum { CROPS = 2, CROP_MAGNIFIED = 320 /* pixels across, at least, when it is shown */ };
 
-/* Where to look: where all ways err most after equal time, and where one errs most beside the first. Their size
- * follows the film's. 0 if there is no memory. */
+/* Where to look: where all ways err most after equal time, and where the others err most beside the first. Their
+ * size follows the film's. 0 if there is no memory. */
 int choose_crops(const contest *c, crop crops[CROPS]);
 
 /* How often a pixel of a crop is repeated. */

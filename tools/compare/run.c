@@ -36,7 +36,7 @@ static void begin_part(under_way *run, double part)
 
 /* ---- rendering ----------------------------------------------------------------------------------- */
 
-/* Seconds for a sample of all pixels, from about a second of the first way. */
+/* Seconds for a sample of all pixels, from half a second of the first way. */
 static double sample_seconds(const under_way *run)
 {
     const way *w = &run->contest.way[0];
@@ -48,18 +48,34 @@ static double sample_seconds(const under_way *run)
     return seconds;
 }
 
-/* In samples of one way. */
-static double work(const under_way *run)
+/* Of a pixel; 0 if the reference is read. */
+static double reference_samples(const under_way *run)
 {
-    double ways = (double)run->contest.count * (run->choice->table_count ? 2 : 1);
-    return ways + (run->choice->reference ? 0 : REFERENCE_TIMES);
+    const compare_choice *c = run->choice;
+    if (c->reference)
+        return 0;
+    return c->reference_spp ? (double)c->reference_spp : REFERENCE_TIMES * (double)run->contest.samples;
 }
 
+/* What is rendered beside the reference, in samples of one way. */
+static double ways_samples(const under_way *run)
+{
+    return (double)run->contest.samples * (double)run->contest.count * (run->choice->table_count ? 2 : 1);
+}
+
+/* As many as fit into the seconds, the reference included. */
 static void choose_samples(under_way *run)
 {
     const compare_choice *c = run->choice;
-    double fit = c->spp ? 0 : floor(c->seconds / (work(run) * sample_seconds(run)));
-    run->contest.samples = c->spp ? c->spp : (uint64_t)fmax(fit, 4);
+    run->contest.samples = c->spp ? c->spp : 1;
+    if (c->spp)
+        return;
+    double fit = c->seconds / sample_seconds(run), each = ways_samples(run);
+    if (c->reference_spp)
+        fit -= reference_samples(run);
+    else
+        each += reference_samples(run);
+    run->contest.samples = (uint64_t)fmax(floor(fit / each), 4);
 }
 
 static int stopped(const under_way *run)
@@ -72,9 +88,8 @@ static int render_reference(under_way *run)
 {
     const compare_choice *c = run->choice;
     const way *w = &run->contest.way[0];
-    film_run whole = {.samples = c->reference_spp ? c->reference_spp : REFERENCE_TIMES * run->contest.samples,
-                      .threads = run->contest.threads, .seed = c->seed + 1000003, .progress = show_progress,
-                      .user = run};
+    film_run whole = {.samples = (uint64_t)reference_samples(run), .threads = run->contest.threads,
+                      .seed = c->seed + 1000003, .progress = show_progress, .user = run};
     char message[512];
     path_plan *plan = path_prepare(w->scene, c->table_count ? SAMPLER_MATERIAL : SAMPLER_VISIBLE, 0, message,
                                    sizeof message);
@@ -115,6 +130,7 @@ static int read_reference(under_way *run)
                  read.width, read.height, s->width, s->height);
     image_free(&read);
     snprintf(run->reference_is, sizeof run->reference_is, "%.80s", path);
+    run->result.reference_read = 1;
     return good ? STATUS_GOOD : fits ? stopped(run) : STATUS_USE;
 }
 
@@ -138,11 +154,11 @@ static int render(under_way *run)
 {
     contest *c = &run->contest;
     choose_samples(run);
-    double all = work(run);
-    begin_part(run, REFERENCE_TIMES / all);
+    double once = (double)c->count * (double)c->samples, all = ways_samples(run) + reference_samples(run);
+    begin_part(run, reference_samples(run) / all);
     int status = run->choice->reference ? read_reference(run) : render_reference(run);
     c->reference = &run->reference;
-    begin_part(run, (double)c->count / all);
+    begin_part(run, once / all);
     if (status == STATUS_GOOD && !contest_run(c))
         status = stopped(run);
     begin_part(run, 1);
@@ -150,6 +166,16 @@ static int render(under_way *run)
 }
 
 /* ---- telling ------------------------------------------------------------------------------------- */
+
+/* At the end of the remarks, as much as fits. */
+static void remark_lost(comparison *r, const way *w)
+{
+    size_t at = strlen(r->remarks);
+    if (w->film.counts.samples_lost)
+        snprintf(r->remarks + at, sizeof r->remarks - at, "%s: %llu of %llu samples were not finite and count as "
+                 "black. ", w->name, (unsigned long long)w->film.counts.samples_lost,
+                 (unsigned long long)w->film.counts.paths);
+}
 
 static int judge(under_way *run)
 {
@@ -161,8 +187,10 @@ static int judge(under_way *run)
     r->exposure = s->integrator.exposure;
     r->by = run->choice->table_count ? "tables" : "normals";
     r->reference_is = run->reference_is;
-    for (size_t i = 0; i < run->contest.count; i++)
+    for (size_t i = 0; i < run->contest.count; i++) {
         r->agrees[i] = agreement_between(&run->contest.way[i].at_time, &run->reference);
+        remark_lost(r, &run->contest.way[i]);
+    }
     return choose_crops(&run->contest, r->crops);
 }
 
@@ -187,19 +215,20 @@ static void free_run(under_way *run)
     ways_free(run);
 }
 
-int compare_run(const compare_choice *c, const char *folder, folder_state state, unsigned held)
+/* Signals end the program as long as scenes are read and tables made; then they wait. */
+int compare_run(const compare_choice *c, const char *folder, folder_state state)
 {
     under_way *run = calloc(1, sizeof *run);
     if (!run)
         return complain(c->command, "no memory");
     run->choice = c;
-    run->held = held;
     run->shows = isatty(STDERR_FILENO);
     run->contest = (contest){.threads = (unsigned)c->threads, .seed = c->seed, .progress = show_progress,
                              .user = run};
     if (run->shows)
         fputs("\r\033[Kreading the scene, making its tables", stderr);
     int status = ways_prepare(run);
+    run->held = output_hold_signals();
     run->start = render_now();
     if (status == STATUS_GOOD)
         status = render(run);
@@ -207,6 +236,7 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state,
         fputs("\r\033[K", stderr);
     if (status == STATUS_GOOD)
         status = tell(run, folder, state);
+    output_release_signals(run->held);
     free_run(run);
     free(run);
     return status;

@@ -24,7 +24,7 @@ typedef struct compare_choice {
 
 extern const char *const compare_samplers[SAMPLER_PERFECT + 1]; /* their names */
 
-/* Renders and writes the page into the folder; an exit status. `held`: signals that wait (tools/output.h). */
-int compare_run(const compare_choice *choice, const char *folder, folder_state state, unsigned held);
+/* Renders and writes the page into the folder; an exit status. */
+int compare_run(const compare_choice *choice, const char *folder, folder_state state);
 
 #endif
