@@ -1,7 +1,7 @@
-/* A film is the same to the bit for any number of threads, in one run or in two, and another one for another
- * seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what a material cannot
- * have. An image of the surroundings brings its energy, seen where it should be, drawn or met: within 4.5 sigma,
- * 7e-6 each to fail by chance. */
+/* A film is the same to the bit for any number of threads, but for the rounding of sums also in two runs, and
+ * another one for another seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what
+ * a material of a shape cannot have. An image of the surroundings brings its energy, seen where it should be, drawn
+ * or met: within 4.5 sigma, 7e-6 each to fail by chance. */
 #include "path_case.h"
 #include "render/path_parts.h"
 
@@ -151,7 +151,8 @@ static void test_refusals(const render_case *c)
 static void test_unused(void)
 {
     render_case c;
-    vndf_description glass = {.eta = 1.5f, .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
+    const vndf_effects both = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC};
+    const vndf_description glass = {.effects = both, .eta = 1.5f};
     case_begin(&c, vec(0, 0, 5), vec(0, 0, 0));
     case_constant(&c, 1.0f);
     case_rough(&c, 0.3f, 0.3f, glass);

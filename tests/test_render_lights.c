@@ -1,7 +1,8 @@
 /* Lights are drawn with the density that they say: directions of an environment by chi-square, over cells of one
  * pixel and of several, with odd sides, and its density integrates to 1; points of emitting shapes, few that are
  * chosen by what they send and many that are chosen by power, against the density of what a ray meets and
- * against paths that only meet them; what stands right before a light bars it. Two chi-squares of level 1e-5 / 2; means within 4.5 sigma, 7e-6 each. */
+ * against paths that only meet them; what stands right before a light bars it. Two chi-squares of level 1e-5 / 2;
+ * means within 4.5 sigma, 7e-6 each. */
 #include "path_case.h"
 #include "render/path_parts.h"
 #include "statistics.h"
@@ -222,7 +223,8 @@ static void test_close_blocker(float before, int is_dark)
     TEST(geometry_add_rectangle(&c.scene.geometry, /* their fronts are below */
                                 (rectangle){vec(-9, -9, 100.0f - before), vec(0, 18, 0), vec(18, 0, 0)}, 0));
     case_material(&c, MATERIAL_LIGHT, 50, 50, 50);
-    TEST(geometry_add_rectangle(&c.scene.geometry, (rectangle){vec(-5, -5, 100), vec(0, 10, 0), vec(10, 0, 0)}, 1));
+    TEST(geometry_add_rectangle(&c.scene.geometry,
+                                (rectangle){vec(-5, -5, 100), vec(0, 10, 0), vec(10, 0, 0)}, 1));
     TEST(geometry_build(&c.scene.geometry));
     case_mean drawn = case_render(&c, SAMPLER_MATERIAL, 0, 16, 3);
     TEST(is_dark ? drawn.value == 0 : drawn.value > 0);

@@ -1,6 +1,6 @@
-/* Bodies absorb by Beer's law: one, several inside others or overlapping, with lamps in them; lights that are drawn
- * and lights that are met agree about it, also where a path never leaves a body that is open. Means of independent
- * samples with fixed seeds, within 4.5 sigma: 7e-6 for each of 7 to fail by chance. */
+/* Bodies absorb by Beer's law: one, several inside others or overlapping, with lamps in them; lights that are
+ * drawn and lights that are met agree about it, also where a path never leaves a body that is open. Means of
+ * independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of 7 to fail by chance. */
 #include "path_case.h"
 
 static const vndf_vec3 origin = {0.0f, 0.0f, 0.0f};
@@ -105,7 +105,7 @@ static void test_tinted(void)
     case_free(&c);
 }
 
-/* A single sheet of what absorbs, above a matte plate: paths that pass it are inside for ever, as far as they know.
+/* A single sheet of what absorbs, above a matte plate: paths that pass it are inside for ever, for all they know.
  * Light from far away is in no body, wherever it is found; a colour of which nothing is absorbed is no NaN. */
 static void test_open_body(void)
 {

@@ -85,7 +85,8 @@ typedef struct placement {
     vndf_vec3 move;
 } placement;
 
-int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message, size_t size);
+int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message,
+                     size_t size);
 /* The same of an open file, `name` for messages. */
 int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement *where, int material,
                       char *message, size_t size);

@@ -128,7 +128,7 @@ int geometry_blocked(const geometry *g, const ray *r)
     return g->nodes != NULL && line_from(&l, r) && meet(g, r, &l, 1, &m);
 }
 
-/* What is not nearer than the shape does not bar it: nor does the shape, which is met at the same distance again. */
+/* What is not nearer than the shape does not hide it: nor does itself, met again at the same distance. */
 int geometry_hides(const geometry *g, const ray *r, uint32_t at)
 {
     line l;

@@ -7,8 +7,8 @@
  *                         v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of what came before the line
  *
  * Corners, coordinates and normals are placed as they are read (obj_items.c). Triangles without an area are passed
- * over. Where the normals of a triangle contradict the order of its corners, the normals are believed. A polygon is
- * cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn and
+ * over. Where the normals of a triangle contradict the order of its corners, the normals are believed. A polygon
+ * is cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn and
  * triangles there may be OBJ_ITEMS_MAX, so the most hostile one takes some 3.2 GiB, and 1.5 GiB for the
  * hierarchy. */
 #include <errno.h>

@@ -1,5 +1,5 @@
-/* Lines v, vt and vn of an OBJ file, scaled, turned and moved. Texture coordinates count v from the bottom there and
- * from the top here. */
+/* Lines v, vt and vn of an OBJ file, scaled, turned and moved. Texture coordinates count v from the bottom there,
+ * and from the top here. */
 #include "render/obj_items.h"
 
 #include <stdlib.h>

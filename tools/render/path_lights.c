@@ -16,7 +16,7 @@ static void describe_sphere(path_light *l, const sphere *s)
 {
     l->sphere = *s;
     l->area = 4.0f * pi * s->radius * s->radius;
-    l->power = luminance(l->radiance) * 0.25f * l->area;
+    l->power = (float)luminance(l->radiance) * 0.25f * l->area;
 }
 
 /* About the middle of a rectangle, or that of the triangle of a corner and its two neighbours; the fourth corner
@@ -37,7 +37,7 @@ static void describe_flat(path_light *l, const rectangle *r, float part)
     l->rectangle = *r;
     l->area = part * length;
     l->normal = scale(normal, 1.0f / length);
-    l->power = luminance(l->radiance) * l->area;
+    l->power = (float)luminance(l->radiance) * l->area;
     l->sphere = sphere_about(r, part > 0.5f ? 0.5f : 1.0f / 3.0f);
 }
 
@@ -45,7 +45,7 @@ static void describe_flat(path_light *l, const rectangle *r, float part)
 static int describe(path_light *l, const scene *s, const shape *of)
 {
     const material *m = &s->materials[of->material];
-    if (m->kind != MATERIAL_LIGHT || !(luminance(m->colour) > 0.0f))
+    if (m->kind != MATERIAL_LIGHT || !(luminance(m->colour) > 0.0))
         return 0;
     l->kind = of->kind;
     for (int i = 0; i < 3; i++)

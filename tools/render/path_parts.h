@@ -188,9 +188,4 @@ void path_repeat(path_plan *plan);
 /* Of path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
 void (*path_loop(int lit, int absorbing))(path_walk *w);
 
-static inline float luminance(const float rgb[3])
-{
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
-
 #endif

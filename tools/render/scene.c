@@ -116,8 +116,8 @@ int scene_resize(scene *s, int width, char *message, size_t size)
 {
     double height = floor((double)s->height * width / s->width + 0.5);
     if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX)) {
-        snprintf(message, size, "a film of %d x %d pixels becomes %d x %.0f: it has 1 to %d rows and %d pixels at most",
-                 s->width, s->height, width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+        snprintf(message, size, "a film of %d x %d pixels becomes %d x %.0f: it has 1 to %d rows and %d pixels at "
+                                "most", s->width, s->height, width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
         return 0;
     }
     s->height = (int)height;
