@@ -1,11 +1,18 @@
-/* What the tests of the renderer's geometry share: random directions, and rays. */
+/* What the tests of the renderer's geometry share: random directions and shapes, and rays. */
 #ifndef TEST_RENDER_CASE_H
 #define TEST_RENDER_CASE_H
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "render/geometry.h"
 #include "test.h"
+
+/* How many of them, less in quick mode. */
+static inline int rays(int most)
+{
+    return getenv("VNDF_TEST_QUICK") ? most / 10 : most;
+}
 
 static inline float between(unsigned long long *state, float low, float high)
 {
@@ -65,6 +72,23 @@ static inline int add_globe(geometry *g, int rows, float radius)
             if (row > 0)
                 is_added &= geometry_add_triangle(g, &t, 0);
         }
+    return is_added;
+}
+
+/* `spread`: of places; `size`: of shapes. */
+static inline int add_random(geometry *g, unsigned long long *state, int count, float spread, float size)
+{
+    int is_added = 1;
+    for (int i = 0; i < count; i++) {
+        const vndf_vec3 at = point_in_box(state, spread), u = scale(random_direction(state), size);
+        const vndf_vec3 across = scale(unit(cross(u, random_direction(state))), between(state, 0.2f, 2.0f) * size);
+        const sphere s = {at, between(state, 0.1f, 1.0f) * size};
+        const rectangle r = {at, u, across};
+        const triangle t = bare_triangle(at, add(at, u), add(at, across));
+        is_added &= i % 3 == 0   ? geometry_add_sphere(g, s, i)
+                    : i % 3 == 1 ? geometry_add_rectangle(g, r, i)
+                                 : geometry_add_triangle(g, &t, i);
+    }
     return is_added;
 }
 

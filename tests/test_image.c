@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "render/image.h"
+#include "render/scene.h"
 
 enum { ROOM = 4096 };
 
@@ -113,10 +113,8 @@ static void test_look_up(void)
         return;
     for (int i = 0; i < 8; i++)
         made.rgb[3 * i] = (float)i; /* 0 1 2 3 over 4 5 6 7 */
-    image_nearest(&made, 0.3f, 0.9f, rgb);
+    image_at(&made, 1, 1, rgb);
     TEST(rgb[0] == 5.0f);
-    image_nearest(&made, -0.01f, 1.1f, rgb); /* repeated */
-    TEST(rgb[0] == 3.0f);
     image_bilinear(&made, 0.625f, 0.25f, rgb); /* a centre */
     TEST_NEAR(rgb[0], 2.0, 1e-6);
     image_bilinear(&made, 0.5f, 0.5f, rgb); /* between 1, 2, 5, 6 */
@@ -126,8 +124,6 @@ static void test_look_up(void)
     static const float odd[] = {-1e-9f, 0.99999999f, 1e30f, -1e30f, 0.0f, 1.0f, -0.0f};
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         for (size_t j = 0; j < sizeof odd / sizeof odd[0]; j++) {
-            image_nearest(&made, odd[i], odd[j], rgb);
-            TEST(rgb[0] >= 0.0f && rgb[0] <= 7.0f);
             image_bilinear(&made, odd[i], odd[j], rgb);
             TEST(rgb[0] >= 0.0f && rgb[0] <= 7.0f);
         }
@@ -151,7 +147,7 @@ static void test_patterns(void)
         image made;
         image_error error;
         float least = INFINITY, most = 0.0f;
-        TEST_HAS(image_pattern_help, names[i]);
+        TEST_HAS(scene_grammar[0], names[i]); /* told there */
         if (!TEST(image_make_pattern(&made, names[i], 96, 64, &error)))
             continue;
         for (int k = 0; k < 96 * 64 * 3; k++) {
@@ -162,6 +158,41 @@ static void test_patterns(void)
         TEST(i < 6 || (least > 0.09f && most <= 1.0f)); /* roughness */
         image_free(&made);
     }
+}
+
+static void expect_grey(const char *name, int width, int height, float even, float odd, int rows_differ)
+{
+    image made;
+    image_error error;
+    if (!TEST(image_make_pattern(&made, name, width, height, &error)))
+        return;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            TEST_NEAR((double)made.rgb[3 * (y * width + x) + 2], (double)((x + rows_differ * y) % 2 ? odd : even),
+                      1e-6);
+    image_free(&made);
+}
+
+/* Those that repeat are shaded once and copied. */
+static void test_repeated_patterns(void)
+{
+    image made;
+    image_error error;
+    float rgb[3];
+    expect_grey("checks", 64, 32, 0.05f, 0.9f, 1);
+    expect_grey("tiles", 16, 16, 0.25f, 0.75f, 1);
+    expect_grey("stripes", 128, 3, 0.12f, 0.45f, 0);
+    if (!TEST(image_make_pattern(&made, "grid", 480, 240, &error)))
+        return;
+    image_at(&made, 240, 125, rgb);
+    TEST(rgb[0] > 0.5f && rgb[1] < 0.2f); /* a red line in every third black one */
+    image_at(&made, 250, 125, rgb);
+    TEST(rgb[0] < 0.2f);
+    image_at(&made, 245, 125, rgb);
+    TEST(rgb[0] > 0.8f && rgb[1] > 0.8f);
+    image_at(&made, 245, 90, rgb);
+    TEST(rgb[0] > 0.5f && rgb[1] < 0.2f);
+    image_free(&made);
 }
 
 static void test_pattern_refusals(void)
@@ -185,6 +216,7 @@ int main(void)
     test_look_up();
     test_sizes();
     test_patterns();
+    test_repeated_patterns();
     test_pattern_refusals();
     return test_done();
 }

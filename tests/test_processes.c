@@ -252,14 +252,20 @@ static void test_read_only_folder(void)
 /* ---- signals ---- */
 
 /* The signal comes while the program works: after `delay`, or once its temporary is there. */
-static outcome interrupt(const char *const *words, int number, long delay, int awaits_temporary)
+static outcome interrupt_in(const setting *s, const char *const *words, int number, long delay,
+                            int awaits_temporary)
 {
-    child c = start(&plain, words);
-    pause_for(delay);
+    child c = start(s, words);
     for (int i = 0; awaits_temporary && i < 1000 && temporaries() == 0; i++)
         pause_for(10);
+    pause_for(delay);
     kill(c.pid, number);
     return finish(c);
+}
+
+static outcome interrupt(const char *const *words, int number, long delay, int awaits_temporary)
+{
+    return interrupt_in(&plain, words, number, delay, awaits_temporary);
 }
 
 /* A build of many seconds. The child of a busy machine may not have begun it yet: then the signal waits longer. */
@@ -298,6 +304,54 @@ static void test_interrupted_bench(int number)
           TEST(temporaries() == 0)))
         fprintf(stderr, "  signal %d: status %d, %s\n", number, o.status, o.errors);
     remove("old.csv");
+}
+
+static void put_scene(void)
+{
+    FILE *file = fopen("ball.scene", "w");
+    TEST(file && fputs("film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+                       "material gold conductor of gold distribution ggx alpha 0.2\n"
+                       "sphere centre 0 0 0 radius 1 material gold\n", file) >= 0);
+    if (file)
+        fclose(file);
+}
+
+/* What is there of a picture is saved, and it is said. On a busy machine even the first pass, of some
+ * milliseconds, may not be there yet: then the signal waits longer. */
+static void test_interrupted_render(void)
+{
+    static const char *const words[] = {"render", "ball.scene", "-o", "ball.pfm", "--spp", "1e9", "--threads", "1",
+                                        NULL};
+    char said[256] = "";
+    outcome o = {0, "before"};
+    FILE *out = tmpfile();
+    setting s = plain;
+    put_scene();
+    s.out = out ? fileno(out) : -1;
+    for (long delay = 100; delay < 5000 && strstr(o.errors, "before"); delay *= 2)
+        o = interrupt_in(&s, words, SIGINT, delay, 1);
+    if (TEST(out != NULL) && fseek(out, 0, SEEK_SET) == 0)
+        said[fread(said, 1, sizeof said - 1, out)] = '\0';
+    if (!(TEST(killed(o, SIGINT)) & TEST(o.errors[0] == '\0') & TEST_HAS(said, "8 x 8 pixels, ") &
+          TEST_HAS(said, " samples each (interrupted)") & TEST(temporaries() == 0) &
+          TEST(remove("ball.pfm") == 0)))
+        fprintf(stderr, "  status %d, %s\n", o.status, o.errors);
+    if (out)
+        fclose(out);
+    remove("ball.scene");
+}
+
+static void test_interrupted_compare(void)
+{
+    static const char *const words[] = {"compare", "ball.scene", "page", "--spp", "1e8", "--threads", "1", NULL};
+    outcome o = {0, ""};
+    put_scene();
+    for (long delay = 100; delay < 5000 && !o.errors[0]; delay *= 2)
+        o = interrupt(words, SIGINT, delay, 0);
+    if (!(TEST(killed(o, SIGINT)) & TEST_HAS(o.errors, "vndf compare: interrupted; nothing was written") &
+          TEST(rmdir("page") != 0 && errno == ENOENT)))
+        fprintf(stderr, "  status %d, %s\n", o.status, o.errors);
+    remove("ball.scene");
 }
 
 /* ---- pipes ---- */
@@ -406,6 +460,8 @@ int main(void)
         test_interrupted_sample(signals[i]);
         test_interrupted_bench(signals[i]);
     }
+    test_interrupted_render();
+    test_interrupted_compare();
     test_closed_pipe();
     test_closed_pipe_of_eval();
     test_taken_name();

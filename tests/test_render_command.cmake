@@ -1,5 +1,5 @@
-# vndf render: a scene becomes the same picture for any number of threads; wrong words are refused with status 2 and leave
-# nothing behind; --explain tells what the scene calls for; the language of scenes is printed.
+# vndf render: a scene becomes the same picture for any number of threads; wrong words are refused with status 2
+# and leave nothing behind; --explain tells what the scene calls for; the language of scenes is printed.
 cmake_minimum_required(VERSION 3.16)
 
 file(REMOVE_RECURSE ${OUT})
@@ -24,7 +24,8 @@ function(expect status text)
         WORKING_DIRECTORY ${OUT})
     string(FIND "${out}${err}" "${text}" at)
     if(NOT got EQUAL ${status} OR at EQUAL -1)
-        message(SEND_ERROR "vndf render ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
+        message(SEND_ERROR "vndf render ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n"
+            "${out}${err}")
     endif()
 endfunction()
 
@@ -35,7 +36,7 @@ expect(0 "pixels" ${scene} -o other.pfm --seed 5)
 expect(0 "perfect sampling: 2 BSDFs precomputed" ${scene} -o perfect.pfm --sampler perfect --spp 1)
 expect(0 "microfacets" ${scene} --explain)
 expect(0 "example:" --help)
-expect(0 "environment" --grammar)
+expect(0 "stripes  64 upright stripes" --grammar)
 file(SHA256 ${OUT}/one.pfm one)
 file(SHA256 ${OUT}/three.pfm three)
 file(SHA256 ${OUT}/other.pfm other)
@@ -50,10 +51,12 @@ expect(2 "SCENE is missing")
 expect(2 "-o OUT.png or -o OUT.pfm is missing" ${scene})
 expect(2 "must end in .png or .pfm" ${scene} -o no.gif)
 expect(2 "did you mean 'bounded'?" ${scene} -o no.png --sampler bouned)
-expect(2 "material 'ice'" ${scene} -o no.png --sampler bounded)
+expect(2 "material 'ice': normals bounded, normals that reflect to above the horizon: lobes must be reflection"
+    ${scene} -o no.png --sampler bounded)
 expect(2 "material 'rough': perfect sampling is precomputed for one roughness, this one has a map"
     ${mapped} -o no.png --sampler perfect)
 expect(2 "no.scene" no.scene -o no.png)
+expect(2 "--width: a film of 24 x 16 pixels becomes 16384 x 10923" ${scene} -o no.png --width 16384)
 expect(2 "--spp" ${scene} -o no.png --spp 0)
 expect(2 "cannot write" ${scene} -o ${OUT}/nowhere/no.png)
 file(GLOB left ${OUT}/*no* ${OUT}/*.tmp)

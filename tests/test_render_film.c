@@ -1,7 +1,7 @@
-/* A film is the same to the bit for any number of threads, in one run or in two, and another one for another
- * seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what a material cannot
- * have. An image of the surroundings brings its energy, seen where it should be, drawn or met: within 4.5 sigma,
- * 7e-6 each to fail by chance. */
+/* A film is the same to the bit for any number of threads, but for the rounding of sums also in two runs, and
+ * another one for another seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what
+ * a material of a shape cannot have. An image of the surroundings brings its energy, seen where it should be, drawn
+ * or met: within 4.5 sigma, 7e-6 each to fail by chance. */
 #include "path_case.h"
 #include "render/path_parts.h"
 
@@ -147,6 +147,22 @@ static void test_refusals(const render_case *c)
     check_refusal(c, SAMPLER_BOUNDED, "material 'material'");
 }
 
+/* Materials that no shape has are not prepared: they cannot refuse. */
+static void test_unused(void)
+{
+    render_case c;
+    const vndf_effects both = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC};
+    const vndf_description glass = {.effects = both, .eta = 1.5f};
+    case_begin(&c, vec(0, 0, 5), vec(0, 0, 0));
+    case_constant(&c, 1.0f);
+    case_rough(&c, 0.3f, 0.3f, glass);
+    case_material(&c, MATERIAL_MIRROR, 0.5f, 0.5f, 0.5f);
+    TEST(geometry_add_sphere(&c.scene.geometry, (sphere){vec(0, 0, 0), 1.0f}, case_last(&c)));
+    TEST(geometry_build(&c.scene.geometry));
+    case_is("one material of two", case_render(&c, SAMPLER_BOUNDED, 0, 1, 1), 0.5);
+    case_free(&c);
+}
+
 /* ---- surroundings ---- */
 
 static void surround(render_case *c, const image *map)
@@ -254,6 +270,7 @@ int main(void)
     test_effects(&c);
     test_refusals(&c);
     case_free(&c);
+    test_unused();
     test_image();
     test_image_and_lamp();
     test_directions();

@@ -1,7 +1,8 @@
 /* Lights are drawn with the density that they say: directions of an environment by chi-square, over cells of one
  * pixel and of several, with odd sides, and its density integrates to 1; points of emitting shapes, few that are
  * chosen by what they send and many that are chosen by power, against the density of what a ray meets and
- * against paths that only meet them. Two chi-squares of level 1e-5 / 2; means within 4.5 sigma, 7e-6 each. */
+ * against paths that only meet them; what stands right before a light bars it. Two chi-squares of level 1e-5 / 2;
+ * means within 4.5 sigma, 7e-6 each. */
 #include "path_case.h"
 #include "render/path_parts.h"
 #include "statistics.h"
@@ -188,6 +189,48 @@ static void test_density(const render_case *c)
     path_lights_free(&lights);
 }
 
+/* No corner of a light is outside of the sphere that stands for it, however obtuse a triangle is. */
+static void test_spheres_about(void)
+{
+    render_case c;
+    path_lights lights;
+    unsigned long long state = 8;
+    case_begin(&c, vec(0, 0, 1), vec(0, 0, 0));
+    case_material(&c, MATERIAL_LIGHT, 1, 1, 1);
+    for (int i = 0; i < 200; i++) {
+        vndf_vec3 a = vec(test_uniform(&state), test_uniform(&state), test_uniform(&state));
+        vndf_vec3 b = vec(test_uniform(&state), test_uniform(&state), test_uniform(&state));
+        add_triangle(&c, a, b, vec(test_uniform(&state), test_uniform(&state), test_uniform(&state)));
+    }
+    TEST(path_lights_make(&lights, &c.scene) && lights.count == 200);
+    for (uint32_t i = 0; i < lights.count; i++)
+        for (int k = 0; k < 3; k++) {
+            const path_light *l = &lights.lights[i];
+            vndf_vec3 way = subtract(c.scene.geometry.triangles[l->shape].corner[k], l->sphere.centre);
+            TEST(sqrtf(dot(way, way)) <= l->sphere.radius * 1.000001f);
+        }
+    path_lights_free(&lights);
+    case_free(&c);
+}
+
+/* A lamp far above a matte floor; behind a plate that is close to it, nothing comes from it. */
+static void test_close_blocker(float before, int is_dark)
+{
+    render_case c;
+    case_begin(&c, vec(0.3f, -3.0f, 1.0f), vec(0, 0, 0));
+    case_material(&c, MATERIAL_MATTE, 0.5f, 0.5f, 0.5f);
+    TEST(geometry_add_rectangle(&c.scene.geometry, (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)}, 0));
+    TEST(geometry_add_rectangle(&c.scene.geometry, /* their fronts are below */
+                                (rectangle){vec(-9, -9, 100.0f - before), vec(0, 18, 0), vec(18, 0, 0)}, 0));
+    case_material(&c, MATERIAL_LIGHT, 50, 50, 50);
+    TEST(geometry_add_rectangle(&c.scene.geometry,
+                                (rectangle){vec(-5, -5, 100), vec(0, 10, 0), vec(10, 0, 0)}, 1));
+    TEST(geometry_build(&c.scene.geometry));
+    case_mean drawn = case_render(&c, SAMPLER_MATERIAL, 0, 16, 3);
+    TEST(is_dark ? drawn.value == 0 : drawn.value > 0);
+    case_free(&c);
+}
+
 static void test_shapes(int count)
 {
     render_case c;
@@ -204,6 +247,9 @@ int main(void)
     test_environment(37, 19, 1);
     test_environment(1601, 801, 40);
     test_even();
+    test_spheres_about();
+    test_close_blocker(0.005f, 1);
+    test_close_blocker(-0.005f, 0);
     test_shapes(7);
     test_shapes(40);
     return test_done();

@@ -137,6 +137,19 @@ static void test_files(void)
     geometry_free(&g);
 }
 
+/* Some devices have no end. */
+static void test_endless(void)
+{
+    geometry g = {0};
+    char message[256];
+    FILE *device = getenv("VNDF_TEST_QUICK") ? NULL : fopen("/dev/zero", "rb");
+    if (!device)
+        return;
+    TEST(!geometry_read_obj(&g, device, "endless", &as_is, 0, message, sizeof message));
+    TEST_HAS(message, "endless:1: the file has more than 1073741824 bytes");
+    fclose(device);
+}
+
 static char *repeated(const char *head, const char *part, size_t times, size_t *length)
 {
     const size_t first = strlen(head), each = strlen(part);
@@ -219,6 +232,7 @@ int main(void)
     test_placement();
     test_errors();
     test_files();
+    test_endless();
     test_hostile();
     test_shipped_mesh();
     return test_done();

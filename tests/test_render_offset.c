@@ -4,11 +4,6 @@
 
 #include "render_case.h"
 
-static int rays(int most)
-{
-    return getenv("VNDF_TEST_QUICK") ? most / 10 : most;
-}
-
 /* On the side of n: cosines from 1e-6 to 1, evenly in the logarithm. */
 static vndf_vec3 leaving(unsigned long long *state, vndf_vec3 n, float side)
 {

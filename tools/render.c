@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "arguments.h"
+#include "clock.h"
 #include "command.h"
 #include "output.h"
 #include "render_explain.h"
@@ -110,7 +111,7 @@ typedef struct watch {
 static int show_progress(double done, void *user)
 {
     watch *w = user;
-    double at = render_now();
+    double at = clock_seconds();
     if (w->seconds > 0)
         done = fmax(done, fmin((at - w->start) / w->seconds, 1));
     if (w->shows && at - w->shown > 0.2 && done > 0) {
@@ -152,7 +153,7 @@ static int render_film(output_file *output, image_writer *write, const path_plan
                        const render_choice *c)
 {
     film f;
-    watch w = {output, isatty(STDERR_FILENO), render_now(), 0, c->seconds};
+    watch w = {output, isatty(STDERR_FILENO), clock_seconds(), 0, c->seconds};
     film_run run = {.samples = c->spp ? c->spp : s->integrator.samples, .seconds = c->seconds, .seed = c->seed,
                     .threads = (unsigned)c->threads, .progress = show_progress, .user = &w};
     if (!c->spp && c->seconds > 0)
@@ -215,9 +216,8 @@ static int read_and_render(const render_words *given, const char *path)
         return STATUS_USE;
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
-    if (c.width)
-        scene_resize(&s, (int)c.width);
-    int status = render_scene(given, &s, &c);
+    int fits = !c.width || scene_resize(&s, (int)c.width, message, sizeof message);
+    int status = fits ? render_scene(given, &s, &c) : complain(name, "--width: %s", message);
     scene_free(&s);
     return status;
 }
@@ -236,7 +236,8 @@ int command_render(int argc, char **argv)
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON && given.grammar.count) {
-        fputs(scene_grammar, stdout);
+        for (size_t i = 0; i < SCENE_GRAMMAR_PARTS; i++)
+            fputs(scene_grammar[i], stdout);
         return STATUS_GOOD;
     }
     if (parsed != PARSE_GO_ON)

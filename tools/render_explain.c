@@ -4,14 +4,13 @@
  *
  * Leaving out the microfacets makes their materials smooth, mirror or glass: what is left is the cost of finding
  * rays, and the rest of a segment is shading by this library. */
-#define _POSIX_C_SOURCE 200809L
 #include "render_explain.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "arguments.h"
+#include "clock.h"
 #include "command.h"
 #include "random.h"
 #include "render/path_parts.h"
@@ -52,13 +51,6 @@ typedef struct variant {
     double ns[TURNS], segment_ns[TURNS], ray_ns[TURNS]; /* a path, a segment of it, a ray of either kind */
 } variant;
 
-double render_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* ---- measuring ---- */
 
 /* `count` paths through pixels all over the film. */
@@ -77,9 +69,9 @@ static path_counts trace(const variant *v, const scene *s, uint64_t seed, size_t
 
 static void time_turn(variant *v, const scene *s, int turn, size_t count)
 {
-    double start = render_now();
+    double start = clock_seconds();
     path_counts counts = trace(v, s, (uint64_t)turn, count);
-    double ns = 1e9 * (render_now() - start);
+    double ns = 1e9 * (clock_seconds() - start);
     v->ns[turn] = ns / (double)count;
     v->segment_ns[turn] = ns / (double)counts.segments;
     v->ray_ns[turn] = ns / (double)(counts.segments + counts.shadow_rays);
@@ -99,9 +91,9 @@ static size_t paths_of_turn(const variant *all, const scene *s)
 {
     size_t count = 64;
     for (double spent = 0; spent < turn_seconds / 2; count *= 2) {
-        double start = render_now();
+        double start = clock_seconds();
         trace(all, s, 1000, count);
-        spent = render_now() - start;
+        spent = clock_seconds() - start;
     }
     return count;
 }

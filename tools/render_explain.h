@@ -7,7 +7,4 @@
 /* Measures and prints; an exit status. */
 int render_explain(const char *command, const scene *s, path_sampler sampler);
 
-/* Seconds of a clock that only goes forward. */
-double render_now(void);
-
 #endif

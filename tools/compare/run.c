@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "arguments.h"
+#include "clock.h"
 #include "command.h"
 #include "output.h"
-#include "render_explain.h"
 
 enum { REFERENCE_TIMES = 4 };
 
@@ -19,7 +19,7 @@ enum { REFERENCE_TIMES = 4 };
 static int show_progress(double done, void *user)
 {
     under_way *run = user;
-    double at = render_now(), all = run->from + done * (run->to - run->from);
+    double at = clock_seconds(), all = run->from + done * (run->to - run->from);
     if (run->shows && at - run->shown > 0.2 && at - run->start > 1 && all > 0) {
         fprintf(stderr, "\r\033[Kcomparing: %3.0f%%, %.0f s left", 100 * all, (at - run->start) * (1 - all) / all);
         fflush(stderr);
@@ -229,7 +229,7 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state)
         fputs("\r\033[Kreading the scene, making its tables", stderr);
     int status = ways_prepare(run);
     run->held = output_hold_signals();
-    run->start = render_now();
+    run->start = clock_seconds();
     if (status == STATUS_GOOD)
         status = render(run);
     if (run->shows)

@@ -16,9 +16,10 @@ static scene *add_scene(under_way *run, const scene_tables *tables)
         return NULL;
     }
     run->scene_count++;
-    if (run->choice->width)
-        scene_resize(s, (int)run->choice->width);
-    return s;
+    if (!run->choice->width || scene_resize(s, (int)run->choice->width, message, sizeof message))
+        return s;
+    complain(run->choice->command, "--width: %s", message);
+    return NULL;
 }
 
 /* 1; 0 and a message. */

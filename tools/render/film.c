@@ -7,20 +7,14 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 #ifdef VNDF_TOOLS_PTHREADS
 #  include <pthread.h>
 #endif
 
-enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
+#include "clock.h"
 
-static double clock_seconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
 
 /* ---- one pass ---- */
 
@@ -72,7 +66,7 @@ static void render_pixel(pass *p, int x, int y, path_counts *counts)
     for (uint64_t i = 0; i < p->samples; i++) {
         float rgb[3];
         path_trace(p->plan, x, y, p->first + i, p->run->seed, counts, rgb);
-        double light = 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+        double light = luminance(rgb);
         square += light * light;
         for (int k = 0; k < 3; k++)
             sum[k] += (double)rgb[k];
@@ -172,8 +166,8 @@ static int render_passes(film *f, pass *p)
 {
     const film_run *run = p->run;
     uint64_t start = f->samples;
-    double spent = 0, begun = clock_seconds(CLOCK_MONOTONIC), before = f->seconds;
-    double processor = f->processor - clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double spent = 0, begun = clock_seconds(), before = f->seconds;
+    double processor = f->processor - clock_processor_seconds();
     while (f->samples - start < run->samples && !(run->seconds > 0 && spent >= run->seconds)) {
         p->first = f->samples;
         p->samples = samples_of_pass(f, run->samples - (f->samples - start));
@@ -186,9 +180,9 @@ static int render_passes(film *f, pass *p)
         if (p->stopped)
             return 0;
         add_pass(f, p);
-        spent = clock_seconds(CLOCK_MONOTONIC) - begun;
+        spent = clock_seconds() - begun;
         f->seconds = before + spent;
-        f->processor = processor + clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+        f->processor = processor + clock_processor_seconds();
     }
     return 1;
 }

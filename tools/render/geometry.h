@@ -86,7 +86,8 @@ typedef struct placement {
     vndf_vec3 move;
 } placement;
 
-int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message, size_t size);
+int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message,
+                     size_t size);
 /* The same of an open file, `name` for messages. */
 int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement *where, int material,
                       char *message, size_t size);
@@ -100,6 +101,9 @@ int geometry_hit(const geometry *g, const ray *r, hit *h);
 
 /* Whether anything is in (from, to). */
 int geometry_blocked(const geometry *g, const ray *r);
+
+/* Whether anything else is before shape `at`, or in (from, to) where the ray misses it. */
+int geometry_hides(const geometry *g, const ray *r, uint32_t at);
 
 /* A ray from a hit on, that does not meet the same place again: to the side of `direction`. */
 ray ray_from(const hit *h, vndf_vec3 direction);

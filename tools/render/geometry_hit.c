@@ -128,6 +128,18 @@ int geometry_blocked(const geometry *g, const ray *r)
     return g->nodes != NULL && line_from(&l, r) && meet(g, r, &l, 1, &m);
 }
 
+/* What is not nearer than the shape does not hide it: nor does itself, met again at the same distance. */
+int geometry_hides(const geometry *g, const ray *r, uint32_t at)
+{
+    line l;
+    meeting m = {HUGE_VAL, 0.0, 0.0, 0};
+    if (g->nodes == NULL || !line_from(&l, r))
+        return 0;
+    if (!shape_meets(g, at, &l, &m))
+        m.distance = (double)r->to;
+    return meet(g, r, &l, 1, &m);
+}
+
 /* The place is off its surface by its rounding to float, 2^-24 of each coordinate, and what it was computed with;
  * the origin is rounded once more. Twice all of it along the normal is surely on the other side, and no shape
  * computes otherwise. */

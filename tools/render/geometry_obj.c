@@ -6,130 +6,27 @@
  *   f A B C ...           a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
  *                         v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of what came before the line
  *
- * Corners are placed as they are read. Triangles without an area are passed over. Where the normals of a triangle
- * contradict the order of its corners, the normals are believed. A polygon is cut while it is read and takes no
- * memory of its own. Of each of v, vt, vn and triangles there may be OBJ_ITEMS_MAX, so the most hostile file takes
- * some 3.2 GiB, and 1.5 GiB for the hierarchy. */
+ * Corners, coordinates and normals are placed as they are read (obj_items.c). Triangles without an area are passed
+ * over. Where the normals of a triangle contradict the order of its corners, the normals are believed. A polygon
+ * is cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn and
+ * triangles there may be OBJ_ITEMS_MAX, so the most hostile one takes some 3.2 GiB, and 1.5 GiB for the
+ * hierarchy. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/geometry.h"
-#include "render/obj_words.h"
-#include "render/wide.h"
+#include "render/obj_items.h"
 
 #define PI 3.14159265358979323846
-
-enum { OBJ_ITEMS_MAX = 1 << 24 };
-
-/* Rows of `width` floats. */
-typedef struct table {
-    float *data;
-    size_t count, room, width;
-    const char *name; /* for people */
-} table;
 
 typedef struct corner {
     long long v, vt, vn; /* from 1; 0: not there */
 } corner;
 
-typedef struct reader {
-    obj_text text;
-    table v, vt, vn;
-    double scale, cosine, sine;
-    wide move;
-    geometry *g;
-    size_t triangles; /* of this file */
-    int material;
-} reader;
-
-/* ---- items -------------------------------------------------------------------------------------- */
-
-static int append(reader *r, table *t, const float *row)
-{
-    if (t->count == OBJ_ITEMS_MAX)
-        return obj_complain(&r->text, "there are more than %d %s", OBJ_ITEMS_MAX, t->name);
-    if (t->count == t->room) {
-        const size_t room = t->room < 64 ? 64 : 2 * t->room;
-        float *larger = realloc(t->data, room * t->width * sizeof *larger);
-        if (!larger)
-            return obj_complain(&r->text, "no memory for %zu %s", room, t->name);
-        t->data = larger;
-        t->room = room;
-    }
-    memcpy(t->data + t->count++ * t->width, row, t->width * sizeof *row);
-    return 1;
-}
-
-/* `least` to `most` numbers, up to the line's end; 0 after a complaint. */
-static int read_numbers(reader *r, const char *what, int least, int most, double *values)
-{
-    double value;
-    int count = 0, is_there;
-    while ((is_there = obj_number(&r->text, &value)) == 1) {
-        if (count == most)
-            return obj_complain(&r->text, "%s has more than %d numbers", what, most);
-        values[count++] = value;
-    }
-    if (is_there == 0 && count < least)
-        return obj_complain(&r->text, "%s has %d number%s, it should have %d", what, count, count == 1 ? "" : "s",
-                            least);
-    return is_there == 0;
-}
-
-static wide turned(const reader *r, wide p)
-{
-    const wide t = {r->cosine * p.x + r->sine * p.z, p.y, r->cosine * p.z - r->sine * p.x};
-    return t;
-}
-
-static int read_v(reader *r)
-{
-    double p[7];
-    if (!read_numbers(r, "v", 3, 7, p))
-        return 0;
-    const wide given = {p[0], p[1], p[2]};
-    const wide placed = wide_add(turned(r, wide_scale(given, r->scale)), r->move);
-    const double at[3] = {placed.x, placed.y, placed.z}, reach = (double)GEOMETRY_REACH;
-    float row[3];
-    for (int axis = 0; axis < 3; axis++) {
-        if (!(fabs(at[axis]) <= reach))
-            return obj_complain(&r->text, "this corner lies farther than %g from the origin", reach);
-        row[axis] = (float)at[axis];
-    }
-    return append(r, &r->v, row);
-}
-
-static int read_vt(reader *r)
-{
-    double p[3] = {0.0, 0.0, 0.0};
-    if (!read_numbers(r, "vt", 1, 3, p))
-        return 0;
-    const double reach = 1e6; /* beyond, float has no digits for the place in a texture */
-    if (!(fabs(p[0]) <= reach && fabs(p[1]) <= reach))
-        return obj_complain(&r->text, "a texture coordinate is beyond %g", reach);
-    const float row[2] = {(float)p[0], (float)(1.0 - p[1])};
-    return append(r, &r->vt, row);
-}
-
-static int read_vn(reader *r)
-{
-    double p[3];
-    if (!read_numbers(r, "vn", 3, 3, p))
-        return 0;
-    const double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
-    const double by = largest > 0.0 ? 1.0 / largest : 0.0; /* so that squares are in range */
-    const wide given = {p[0] * by, p[1] * by, p[2] * by}, n = turned(r, given);
-    const double length = wide_length(n), side = r->scale < 0.0 ? -1.0 : 1.0; /* a mirrored mesh mirrors normals */
-    const vndf_vec3 made = narrow(wide_scale(n, length > 0.0 ? side / length : 0.0));
-    const float row[3] = {made.x, made.y, made.z};
-    return append(r, &r->vn, row);
-}
-
 /* ---- faces -------------------------------------------------------------------------------------- */
 
 /* An index at *at, which moves behind it; 0 after a complaint. */
-static int read_index(reader *r, const char **at, const table *of, long long *index)
+static int read_index(obj_reader *r, const char **at, const obj_table *of, long long *index)
 {
     char *end;
     const long long given = strtoll(*at, &end, 10); /* of a word of 63 letters: too large becomes the largest */
@@ -146,7 +43,7 @@ static int read_index(reader *r, const char **at, const table *of, long long *in
 }
 
 /* As obj_word. */
-static int read_corner(reader *r, corner *c)
+static int read_corner(obj_reader *r, corner *c)
 {
     const int is_there = obj_word(&r->text);
     if (is_there != 1)
@@ -172,7 +69,7 @@ static int read_corner(reader *r, corner *c)
                                           (int)(at - r->text.word), r->text.word) - 1;
 }
 
-static vndf_vec3 row_of(const table *t, long long index)
+static vndf_vec3 row_of(const obj_table *t, long long index)
 {
     const float *row = t->data + (size_t)(index - 1) * t->width;
     return vec(row[0], row[1], row[2]);
@@ -185,7 +82,7 @@ static wide winding(const triangle *t)
     return wide_cross(wide_subtract(widen(t->corner[1]), a), wide_subtract(widen(t->corner[2]), a));
 }
 
-static triangle triangle_of(const reader *r, const corner c[3])
+static triangle triangle_of(const obj_reader *r, const corner c[3])
 {
     triangle t;
     memset(&t, 0, sizeof t);
@@ -203,7 +100,7 @@ static triangle triangle_of(const reader *r, const corner c[3])
     return t;
 }
 
-static int add_triangle(reader *r, const corner c[3])
+static int add_triangle(obj_reader *r, const corner c[3])
 {
     triangle t = triangle_of(r, c);
     const wide n = winding(&t);
@@ -221,7 +118,7 @@ static int add_triangle(reader *r, const corner c[3])
     return geometry_add_triangle(r->g, &t, r->material) || obj_complain(&r->text, "no memory for its triangles");
 }
 
-static int read_f(reader *r)
+static int read_f(obj_reader *r)
 {
     corner c[3]; /* the first, the one before, and this */
     int count = 0, is_there;
@@ -240,39 +137,43 @@ static int read_f(reader *r)
 
 /* ---- files -------------------------------------------------------------------------------------- */
 
-static int read_line(reader *r)
+static int read_line(obj_reader *r)
 {
     const int is_there = obj_keyword(&r->text);
     if (is_there != 1)
         return is_there == 0;
     const char *word = r->text.word;
-    return strcmp(word, "v") == 0    ? read_v(r)
+    return strcmp(word, "v") == 0    ? obj_read_v(r)
            : strcmp(word, "f") == 0  ? read_f(r)
-           : strcmp(word, "vt") == 0 ? read_vt(r)
-           : strcmp(word, "vn") == 0 ? read_vn(r)
+           : strcmp(word, "vt") == 0 ? obj_read_vt(r)
+           : strcmp(word, "vn") == 0 ? obj_read_vn(r)
                                      : 1;
 }
 
-static int read_all(reader *r)
+static int read_all(obj_reader *r)
 {
+    int good;
     do
-        if (!read_line(r))
-            return 0;
-    while (obj_next_line(&r->text));
+        good = read_line(r);
+    while (good && obj_next_line(&r->text));
+    if (r->text.bytes > OBJ_BYTES_MAX) /* a device, perhaps, or a pipe: its last line is not its own */
+        return obj_complain(&r->text, "the file has more than %d bytes", OBJ_BYTES_MAX);
+    if (!good)
+        return 0;
     if (ferror(r->text.file))
         return obj_complain(&r->text, "the file cannot be read on from here");
     return r->triangles > 0 || obj_complain(&r->text, "the file ends here without a triangle that has an area");
 }
 
-static void reader_begin(reader *r, FILE *file, const char *name, const placement *where)
+static void reader_begin(obj_reader *r, FILE *file, const char *name, const placement *where)
 {
     const double turn = (double)where->turn * (PI / 180.0);
     r->text.file = file;
     r->text.name = name;
     r->text.line = 1;
-    r->v = (table){NULL, 0, 0, 3, "corners (v)"};
-    r->vt = (table){NULL, 0, 0, 2, "texture coordinates (vt)"};
-    r->vn = (table){NULL, 0, 0, 3, "normals (vn)"};
+    r->v = (obj_table){NULL, 0, 0, 3, "corners (v)"};
+    r->vt = (obj_table){NULL, 0, 0, 2, "texture coordinates (vt)"};
+    r->vn = (obj_table){NULL, 0, 0, 3, "normals (vn)"};
     r->scale = (double)where->scale;
     r->cosine = cos(turn);
     r->sine = sin(turn);
@@ -283,7 +184,7 @@ int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement
                       char *message, size_t size)
 {
     const size_t shapes = g->shape_count, triangles = g->triangle_count;
-    reader *r = calloc(1, sizeof *r); /* the text's block is long for a stack */
+    obj_reader *r = calloc(1, sizeof *r); /* the text's block is long for a stack */
     if (!r) {
         snprintf(message, size, "%s: no memory to read it", name);
         return 0;

@@ -36,11 +36,6 @@ static inline float repeated(float u, int count)
     return place >= 0.0f && place < (float)count ? place : 0.0f;
 }
 
-void image_nearest(const image *of, float u, float v, float rgb[3])
-{
-    image_at(of, (int)repeated(u, of->width), (int)repeated(v, of->height), rgb);
-}
-
 /* Between the centres of four pixels, which lie at halves. */
 void image_bilinear(const image *of, float u, float v, float rgb[3])
 {

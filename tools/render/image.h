@@ -29,13 +29,11 @@ int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_
 int image_make(image *made, int width, int height);
 void image_free(image *image);
 
-/* A pattern by name: see `image_pattern_help`. 0 and an error for an unknown name or no memory. */
+/* A pattern by name: scene_grammar has them. 0 and an error for an unknown name or no memory. */
 int image_make_pattern(image *made, const char *name, int width, int height, image_error *error);
-extern const char *const image_pattern_help; /* "checks, stripes, stars, studio, ...": what each is, a line each */
 
-/* u, v in [0, 1) from the left and the top, repeated outside; the nearest pixel, and between pixels. */
+/* A pixel; and between pixels: u, v in [0, 1) from the left and the top, repeated outside. */
 void image_at(const image *image, int x, int y, float rgb[3]);
-void image_nearest(const image *image, float u, float v, float rgb[3]);
 void image_bilinear(const image *image, float u, float v, float rgb[3]);
 
 /* To an open file; 0 if it cannot be written. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */

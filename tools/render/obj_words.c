@@ -24,7 +24,8 @@ static int look(obj_text *t)
 {
     if (t->at == t->end) {
         t->at = 0;
-        t->end = fread(t->block, 1, sizeof t->block, t->file);
+        t->end = t->bytes > OBJ_BYTES_MAX ? 0 : fread(t->block, 1, sizeof t->block, t->file);
+        t->bytes += t->end;
     }
     return t->at < t->end ? t->block[t->at] : EOF;
 }

@@ -106,13 +106,15 @@ static int draw_light(path_walk *w, light_sample *s)
     return 1;
 }
 
-/* A little short of the light, lest its own surface bar the way. */
 static int is_barred(path_walk *w, const path_point *p, const light_sample *s)
 {
+    const geometry *g = &w->plan->scene->geometry;
     ray r = ray_from(p->hit, s->direction);
-    r.to = s->distance < INFINITY ? s->distance * 0.9999f : r.to;
     w->counts->shadow_rays++;
-    return geometry_blocked(&w->plan->scene->geometry, &r);
+    if (!s->radiance)
+        return geometry_blocked(g, &r);
+    r.to = s->distance;
+    return geometry_hides(g, &r, s->shape);
 }
 
 static void add_light(path_walk *w, const light_sample *s, float value[3], float weight)

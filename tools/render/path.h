@@ -7,9 +7,11 @@
 
 #include "render/scene.h"
 
-/* How normals are drawn by all microfacet materials of a scene; MATERIAL: as each says. PERFECT: directions are, by
- * tables made for the whole BSDF of each (path_perfect.h). */
-typedef enum path_sampler { SAMPLER_MATERIAL, SAMPLER_ALL, SAMPLER_VISIBLE, SAMPLER_BOUNDED, SAMPLER_PERFECT } path_sampler;
+/* How normals are drawn by all microfacet materials of a scene; MATERIAL: as each says. PERFECT: directions are,
+ * by tables made for the whole BSDF of each (path_perfect.h). */
+typedef enum path_sampler {
+    SAMPLER_MATERIAL, SAMPLER_ALL, SAMPLER_VISIBLE, SAMPLER_BOUNDED, SAMPLER_PERFECT
+} path_sampler;
 
 /* Effects of a scene, a bit each: what has to run. --explain lists them. */
 enum {
@@ -45,6 +47,7 @@ typedef struct path_counts {
 
 /* One path through pixel (x, y): the radiance it brings. Number `index` of the pixel under `seed`: the same for
  * any number of threads. */
-void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts, float rgb[3]);
+void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
+                float rgb[3]);
 
 #endif

@@ -97,7 +97,7 @@ static void soften_row(const image *map, int y, float *soft)
     for (int x = -2; x < map->width; x++) {
         const float *p = row + 3 * ((x + 1 + map->width) % map->width);
         const float size[3] = {fabsf(p[0]), fabsf(p[1]), fabsf(p[2])};
-        float after = luminance(size);
+        float after = (float)luminance(size);
         if (x >= 0)
             soft[x] = 0.125f * before + 0.75f * here + 0.125f * after;
         before = here;

@@ -16,7 +16,18 @@ static void describe_sphere(path_light *l, const sphere *s)
 {
     l->sphere = *s;
     l->area = 4.0f * pi * s->radius * s->radius;
-    l->power = luminance(l->radiance) * 0.25f * l->area;
+    l->power = (float)luminance(l->radiance) * 0.25f * l->area;
+}
+
+/* About the middle of a rectangle, or that of the triangle of a corner and its two neighbours; the fourth corner
+ * of a rectangle is as far away as the first. */
+static sphere sphere_about(const rectangle *r, float middle)
+{
+    vndf_vec3 to_middle = scale(add(r->edge_u, r->edge_v), middle);
+    vndf_vec3 u = subtract(r->edge_u, to_middle), v = subtract(r->edge_v, to_middle);
+    float square = fmaxf(dot(to_middle, to_middle), fmaxf(dot(u, u), dot(v, v)));
+    sphere s = {add(r->corner, to_middle), sqrtf(square)};
+    return s;
 }
 
 static void describe_flat(path_light *l, const rectangle *r, float part)
@@ -26,17 +37,15 @@ static void describe_flat(path_light *l, const rectangle *r, float part)
     l->rectangle = *r;
     l->area = part * length;
     l->normal = scale(normal, 1.0f / length);
-    l->power = luminance(l->radiance) * l->area;
-    /* the sphere about it: about the centre of a rectangle, and of a triangle's corner and edges */
-    l->sphere.centre = add(r->corner, scale(add(r->edge_u, r->edge_v), part > 0.5f ? 0.5f : 1.0f / 3.0f));
-    l->sphere.radius = 0.5f * sqrtf(dot(r->edge_u, r->edge_u) + dot(r->edge_v, r->edge_v));
+    l->power = (float)luminance(l->radiance) * l->area;
+    l->sphere = sphere_about(r, part > 0.5f ? 0.5f : 1.0f / 3.0f);
 }
 
 /* 0: not one that is drawn. */
 static int describe(path_light *l, const scene *s, const shape *of)
 {
     const material *m = &s->materials[of->material];
-    if (m->kind != MATERIAL_LIGHT || !(luminance(m->colour) > 0.0f))
+    if (m->kind != MATERIAL_LIGHT || !(luminance(m->colour) > 0.0))
         return 0;
     l->kind = of->kind;
     for (int i = 0; i < 3; i++)
@@ -87,7 +96,7 @@ int path_lights_make(path_lights *made, const scene *s)
     if (!made->lights || !made->of_shape)
         return 0;
     for (size_t i = 0; i < g->shape_count; i++) {
-        path_light l = {.area = 0};
+        path_light l = {.shape = (uint32_t)i};
         int drawn = describe(&l, s, &g->shapes[i]);
         made->of_shape[i] = drawn ? (int32_t)made->count : -1;
         if (drawn)
@@ -235,6 +244,7 @@ int path_lights_draw(const path_lights *lights, const light_view *v, uint64_t ch
         return 0;
     s->density *= probability;
     s->radiance = l->radiance;
+    s->shape = l->shape;
     return 1;
 }
 

@@ -32,12 +32,13 @@ static inline void media_leave(path_media *media, const path_material *m)
         media->around[at] = media->around[at + 1];
 }
 
-/* Over a distance in the innermost, out of `left` if that is not NULL. */
+/* Over a distance in the innermost, out of `left` if that is not NULL. What goes on for ever has left all bodies,
+ * whatever is noted here: of an open one, the way out may have been missed. */
 static inline void media_absorb(const path_media *media, const path_material *left, float distance, float rgb[3])
 {
     unsigned count = media->count;
     count -= count > 0 && media->around[count - 1] == left;
-    if (count == 0 || !media->around[count - 1]->absorbs)
+    if (count == 0 || !(distance < INFINITY) || !media->around[count - 1]->absorbs)
         return;
     for (int i = 0; i < 3; i++)
         rgb[i] *= expf(-media->around[count - 1]->is->absorb[i] * distance);

@@ -95,9 +95,11 @@ typedef struct light_sample {
     float distance;
     float density;         /* per steradian */
     const float *radiance; /* NULL: what the environment has there */
+    uint32_t shape;        /* that has it */
 } light_sample;
 
 typedef struct path_light {
+    uint32_t shape;
     shape_kind kind;
     sphere sphere;
     rectangle rectangle; /* of a triangle: a corner and the edges from it */
@@ -185,10 +187,5 @@ void path_repeat(path_plan *plan);
 
 /* Of path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
 void (*path_loop(int lit, int absorbing))(path_walk *w);
-
-static inline float luminance(const float rgb[3])
-{
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
 
 #endif

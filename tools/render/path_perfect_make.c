@@ -63,7 +63,7 @@ static float worth_of(const perfect_hit *h, float u1, float u2, int refracts)
     vndf_bsdf_sample(&h->bsdf, u, &s);
     if (s.lobe == VNDF_LOBE_NONE || (s.lobe == VNDF_LOBE_REFLECTION && refracts))
         return 0.0f;
-    return (0.2126f * s.weight[0] + 0.7152f * s.weight[1] + 0.0722f * s.weight[2]) / carried(h, s.lobe);
+    return (float)luminance(s.weight) / carried(h, s.lobe);
 }
 
 static void weigh_point(const perfect_hit *h, float u1, float u2, cell_worth *sum)

@@ -51,6 +51,7 @@ static void place_film(path_plan *plan)
 
 /* ---- parts ---- */
 
+/* Those that no shape has stay empty: they cost nothing, and cannot refuse. */
 static int prepare_materials(path_plan *plan, path_sampler sampler, unsigned without, char *message, size_t size)
 {
     const scene *s = plan->scene;
@@ -60,9 +61,12 @@ static int prepare_materials(path_plan *plan, path_sampler sampler, unsigned wit
         snprintf(message, size, "no memory for %zu materials", s->material_count);
         return 0;
     }
-    for (size_t i = 0; i < s->material_count; i++)
-        if (!path_material_prepare(&plan->materials[i], &s->materials[i], &choice, message, size))
+    for (size_t i = 0; i < s->geometry.shape_count; i++) {
+        const int at = s->geometry.shapes[i].material;
+        path_material *made = &plan->materials[at];
+        if (!made->is && !path_material_prepare(made, &s->materials[at], &choice, message, size))
             return 0;
+    }
     return 1;
 }
 

@@ -4,7 +4,8 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include "clock.h"
 
 /* ---- a hit ---- */
 
@@ -97,17 +98,10 @@ static float perfect_pdf(const path_point *p, vndf_vec3 wo)
 
 /* ---- samplers, shared ---- */
 
-static double now(void)
-{
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The one of this BSDF, made if there is none yet. */
 static const path_perfect *share_perfect(path_perfects *all, const vndf_description *is, vndf_error *error)
 {
-    double start = now();
+    double start = clock_seconds();
     for (size_t i = 0; i < all->count; i++)
         if (path_perfect_is_of(all->list[i], is))
             return all->list[i];
@@ -120,7 +114,7 @@ static const path_perfect *share_perfect(path_perfects *all, const vndf_descript
     path_perfect *made = path_perfect_make(is, error);
     if (made)
         list[all->count++] = made;
-    all->seconds += now() - start;
+    all->seconds += clock_seconds() - start;
     return made;
 }
 
@@ -135,7 +129,9 @@ void path_perfects_free(path_perfects *all)
 
 static int refuse(const path_material *m, const char *why, char *message, size_t size)
 {
-    snprintf(message, size, "material '%s': %s", m->is->name ? m->is->name : "", why);
+    char said[512];
+    scene_wording(why, said, sizeof said);
+    snprintf(message, size, "material '%s': %s", m->is->name ? m->is->name : "", said);
     return 0;
 }
 

@@ -112,11 +112,17 @@ int scene_read(scene *made, const char *path, char *message, size_t size)
     return scene_read_with(made, path, &as_it_says, message, size);
 }
 
-void scene_resize(scene *s, int width)
+int scene_resize(scene *s, int width, char *message, size_t size)
 {
     double height = floor((double)s->height * width / s->width + 0.5);
-    s->height = (int)fmin(fmax(height, 1), IMAGE_SIDE_MAX);
+    if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX)) {
+        snprintf(message, size, "a film of %d x %d pixels becomes %d x %.0f: it has 1 to %d rows and %d pixels at "
+                                "most", s->width, s->height, width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+        return 0;
+    }
+    s->height = (int)height;
     s->width = width;
+    return 1;
 }
 
 void scene_free(scene *s)

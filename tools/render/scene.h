@@ -1,4 +1,5 @@
-/* A scene: what a scene file says, resolved and ready to be rendered. grammar.h has the language. */
+/* A scene: what a scene file says, resolved and ready to be rendered. scene_grammar.c has the
+ * language. */
 #ifndef RENDER_SCENE_H
 #define RENDER_SCENE_H
 
@@ -35,8 +36,7 @@ typedef enum material_kind {
 typedef struct material {
     char *name;             /* owned */
     material_kind kind;
-    vndf_description is;    /* MICROFACET; GLASS: eta */
-    vndf_material bsdf;     /* MICROFACET, resolved */
+    vndf_description is;    /* MICROFACET: the library takes it; GLASS: eta */
     textured alpha_x, alpha_y;
     int is_textured;        /* either has a map: vndf_bsdf_rough at each hit */
     float colour[3];        /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
@@ -81,12 +81,16 @@ int scene_read(scene *made, const char *path, char *message, size_t size);
 int scene_read_with(scene *made, const char *path, const scene_tables *tables, char *message, size_t size);
 /* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
 int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
-/* Pixels across; the height follows. */
-void scene_resize(scene *s, int width);
+/* Pixels across; the height follows. 0 and a message if that leaves no row, or more pixels than a film has. */
+int scene_resize(scene *s, int width, char *message, size_t size);
 
 void scene_free(scene *s);
 
-/* The language, for --help. */
-extern const char *const scene_grammar;
+/* What the library says of a material, in the words of the language. */
+void scene_wording(const char *said, char *message, size_t size);
+
+/* The language, for --grammar: one part after the other. */
+enum { SCENE_GRAMMAR_PARTS = 2 };
+extern const char *const scene_grammar[SCENE_GRAMMAR_PARTS];
 
 #endif

@@ -1,7 +1,8 @@
-/* The language of scene files, for people. */
+/* The language of scene files, for people: what is there once and images, then materials and shapes. (A string may
+ * have 4095 letters.) */
 #include "render/scene.h"
 
-const char *const scene_grammar =
+const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "A scene file is text: statements, each a word and then clauses - a keyword and what it takes.\n"
     "\n"
     "  camera from 0 1 5 to 0 0.5 0 field 35\n"
@@ -31,8 +32,13 @@ const char *const scene_grammar =
     "Images, 64 at most:\n"
     "  image NAME file FILE.pfm\n"
     "  image NAME pattern PATTERN [width PIXELS] [height PIXELS] (512 512)\n"
-    "      checks stripes tiles grid, environments studio stars, roughness noise blots brushed ramp\n"
-    "\n"
+    "      checks   64 x 32 black and white checks        stripes  64 upright stripes, amber on blue black\n"
+    "      tiles    16 x 16 checks, two greys             grid     48 x 24 black lines on white, some red\n"
+    "      studio   an environment: soft boxes in a grey room over a floor\n"
+    "      stars    an environment: 1500 points in the night\n"
+    "      noise, blots, brushed, ramp   for roughness, 0.1 to 1: clouds; polished with rough blots;\n"
+    "                                    streaks along u; up along u and down again\n"
+    "\n",
     "Materials, `material NAME KIND ...`:\n"
     "  conductor    of gold|silver|copper|aluminium; or, without `of`: eta R G B k R G B (over that outside)\n"
     "  dielectric   index N (inside over outside) [lobes reflection|transmission|both] (both)\n"
@@ -69,4 +75,5 @@ const char *const scene_grammar =
     "                             scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
     "\n"
     "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to 1, maps of\n"
-    "them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n";
+    "them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n",
+};

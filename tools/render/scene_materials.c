@@ -171,29 +171,16 @@ static int read_table(scene_reader *r, const clause c[CLAUSES], material *m)
 
 /* ---- resolving ---- */
 
-/* The library's words for effects are constants of C; here they are those of the grammar. */
-static void reword(char *message)
+/* What the library refuses is told where it stands; plans resolve again, with their sampler. */
+static int resolve(scene_reader *r, const statement *s, const material *m)
 {
-    char *to = message;
-    for (const char *at = message; *at;) {
-        const char *second = strncmp(at, "VNDF_", 5) == 0 ? strchr(at + 5, '_') : NULL;
-        if (!second) {
-            *to++ = *at++;
-            continue;
-        }
-        for (at = second + 1; (*at >= 'A' && *at <= 'Z') || *at == '_'; at++)
-            *to++ = (char)(*at == '_' ? '-' : *at - 'A' + 'a');
-    }
-    *to = '\0';
-}
-
-static int resolve(scene_reader *r, const statement *s, material *m)
-{
+    vndf_material made;
     vndf_error error = {VNDF_OK, ""};
-    if (vndf_material_resolve(&m->is, &m->bsdf, &error) == VNDF_OK)
+    char message[512];
+    if (vndf_material_resolve(&m->is, &made, &error) == VNDF_OK)
         return 1;
-    reword(error.message);
-    return reader_refuse(r, &s->words[1], "%s", error.message);
+    scene_wording(error.message, message, sizeof message);
+    return reader_refuse(r, &s->words[1], "%s", message);
 }
 
 static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSES], unsigned kind, material *m)

@@ -3,7 +3,7 @@
  *
  * A file is split into words (scene_words.c), words into statements - a word in the first column begins one -,
  * and a statement into clauses: a keyword and what it takes (scene_clauses.c). Each statement then has a
- * function of its own: scene_settings.c, scene_images.c, scene_shapes.c, scene_materials.c with scene_optics.c
+ * function of its own: scene_settings.c, scene_images.c, scene_shapes.c, scene_materials.c with scene_metals.c
  * and scene_tables.c. All of them return 1, or 0 after a refusal that names the place. */
 #ifndef RENDER_SCENE_READER_H
 #define RENDER_SCENE_READER_H

@@ -1,4 +1,4 @@
-/* Vectors of the renderer: vndf_vec3, in float. */
+/* Vectors of the renderer: vndf_vec3, in float; and colours. */
 #ifndef RENDER_VECTOR_H
 #define RENDER_VECTOR_H
 
@@ -40,6 +40,12 @@ static inline vndf_vec3 cross(vndf_vec3 a, vndf_vec3 b)
 static inline vndf_vec3 unit(vndf_vec3 a)
 {
     return scale(a, 1.0f / sqrtf(dot(a, a)));
+}
+
+/* Of linear light (ITU-R BT.709). */
+static inline double luminance(const float rgb[3])
+{
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
 /* An orthonormal right-handed frame: directions of a material are in it, z the normal. */
