@@ -57,6 +57,7 @@ static void test_errors(void)
     double truth = 0.8 * sqrt(mean_scale() / 16);
     TEST_RELATIVE(e.relative, truth, 5 * 1.5 / sqrt(2.0 * PIXELS));
     TEST(e.trimmed < e.relative && e.trimmed > 0.97 * e.relative);
+    TEST(e.spread[0] > sqrt(2.0 / PIXELS) && e.spread[0] < 3 * sqrt(2.0 / PIXELS)); /* 1 of equal noise */
     for (size_t i = 0; i < PIXELS / 2000; i++)
         for (size_t j = 0; j < 3; j++)
             of.sum[3 * (i * 1000 + 7) + j] += 16 * 30;
@@ -107,15 +108,18 @@ static void test_noise(void)
 static void test_ratios(void)
 {
     contest c = {.count = 2, .samples = 100};
-    c.way[0].by_time = (contest_point){100, 1, {0.2, 0.1}};
-    c.way[1].by_time = (contest_point){150, 2, {0.1, 0.05}};
-    c.way[0].by_samples = (contest_point){100, 1, {0.2, 0.1}};
-    c.way[1].by_samples = (contest_point){100, 1.3, {0.4, 0.3}};
-    TEST_RELATIVE(efficiency(&c, 0, 0), 1.0, 1e-12);
-    TEST_RELATIVE(efficiency(&c, 1, 0), 2.0, 1e-12);
-    TEST_RELATIVE(efficiency(&c, 1, 1), 2.0, 1e-12);
-    TEST_RELATIVE(samples_for_error(&c, 1, 0), 400.0, 1e-12);
-    TEST_RELATIVE(samples_for_error(&c, 1, 1), 900.0, 1e-12);
+    c.way[0].by_time = (contest_point){100, 1, {0.2, 0.1, {0.03, 0}}};
+    c.way[1].by_time = (contest_point){150, 2, {0.1, 0.05, {0.04, 0}}};
+    c.way[0].by_samples = (contest_point){100, 1, {0.2, 0.1, {0, 0}}};
+    c.way[1].by_samples = (contest_point){100, 1.3, {0.4, 0.3, {0, 0.5}}};
+    TEST_RELATIVE(efficiency(&c, 0, 0).value, 1.0, 1e-12);
+    TEST_RELATIVE(efficiency(&c, 1, 0).value, 2.0, 1e-12);
+    TEST_RELATIVE(efficiency(&c, 1, 0).spread, 2 * 0.05, 1e-12);
+    TEST_RELATIVE(efficiency(&c, 1, 1).value, 2.0, 1e-12);
+    TEST(efficiency(&c, 0, 0).spread == 0);
+    TEST_RELATIVE(samples_for_error(&c, 1, 1).spread, 450.0, 1e-12);
+    TEST_RELATIVE(samples_for_error(&c, 1, 0).value, 400.0, 1e-12);
+    TEST_RELATIVE(samples_for_error(&c, 1, 1).value, 900.0, 1e-12);
 }
 
 static void test_pictures(void)
@@ -137,7 +141,7 @@ static void test_pictures(void)
     size_t at = 50 * WIDTH + 70;
     TEST_NEAR((double)relative[at], 0.3 / (light_of(at) + ERROR_FLOOR * film_mean(&reference)), 1e-6);
     TEST(relative[0] == 0);
-    TEST(choose_crops(&c, crops));
+    TEST(choose_crops(&c, 0.5f, crops));
     TEST(crops[0].x <= 20 && crops[0].x + crops[0].width > 20 && crops[0].y <= 10 &&
          crops[0].y + crops[0].height > 10);
     TEST(crops[1].x <= 70 && crops[1].x + crops[1].width > 70 && crops[1].y <= 50 &&

@@ -36,8 +36,8 @@ function(expect_files folder)
 endfunction()
 
 expect(0 "| bounded | " ${scene} page --spp 8)
-expect_files(page index.html points.csv reference.pfm crops.png reference-film.png visible-time.png all-samples.png
-    bounded-error.png)
+expect_files(page index.html points.csv reference.pfm crops.png reference-film.png visible-time.png
+    visible-time.pfm all-samples.png bounded-error.png)
 expect(0 "The reference was read" ${scene} page --spp 4 --samplers all,visible --reference page/reference.pfm)
 expect(0 "replaced page/index.html" ${scene} page --spp 4 --samplers all,visible --reference page/reference.pfm)
 expect(0 "| 2 KiB | " ${scene} tables --spp 4 --tables 2048,3000 --threads 1)

@@ -77,7 +77,7 @@ static void test_box(void)
         if (!TEST(geometry_hit(&g, &out, &h)))
             continue;
         const rectangle *side = &g.rectangles[g.shapes[h.shape].at];
-        const vndf_vec3 at = add(side->corner, add(scale(side->edge_u, h.u), scale(side->edge_v, h.v)));
+        const vndf_vec3 at = add(side->corner, add(scale(side->edge_u, h.u), scale(side->edge_v, 1.0f - h.v)));
         TEST(dot(h.normal, out.direction) > 0.0f && dot(h.shading.x, side->edge_u) > 0.0f);
         TEST_NEAR((double)dot(subtract(at, h.place), subtract(at, h.place)), 0.0, 1e-11);
     }

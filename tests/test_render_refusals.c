@@ -81,7 +81,7 @@ static const wrong settings[] = {
     {"image sky file none.pfm", "1:16: " VNDF_SOURCE_DIR "/tests/none.pfm: "},
     {"image sky file test.h", "1:16: " VNDF_SOURCE_DIR "/tests/test.h: this is no PFM image"},
     {"image a pattern ramp\nimage a pattern ramp", "2:7: there is an image 'a' already"},
-    {"image a file corpus/pfm/grey\nenvironment image a", "2:19: the image is negative in column 1 of row 1"},
+    {"image a file corpus/pfm/grey\nenvironment image a", "2:19: as light the image must be from 0 to 1e+06; red is -0.5 in column 1 of row 1"},
     {"image a pattern ramp width 16384 height 16384", "1:17: 16384 x 16384 pixels are more than"},
 };
 
@@ -134,7 +134,9 @@ static const wrong materials[] = {
      "3:51: 'v-cavites' is no choice for 'masking'; did you mean 'v-cavities'?"},
     {"material a shape distribution ggx alpha 1 rotation 361", "3:52: rotation is 361"},
     {"image m file corpus/pfm/grey\nmaterial a shape distribution ggx alpha 1 alpha-y-map m",
-     "4:55: a map of roughness must be above 0; red is -0.5 in column 1 of row 1"},
+     "4:55: as roughness the image must be from 1e-06 to 1000; red is -0.5 in column 1 of row 1"},
+    {"image m file corpus/pfm/grey\nmaterial a matte colour 1 1 1 colour-map m",
+     "4:42: as colour the image must be from 0 to 1; red is"},
     {"material a shape distribution ggx alpha 1e999", "3:41: alpha is inf, it must be from"},
     {"image m pattern ramp\nmaterial a shape distribution ggx alpha 1 alpha-map m alpha-x-map m",
      "4:43: 'alpha-map' is"},

@@ -1,7 +1,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "page.h"
 
+#include <ctype.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "chart.h"
 #include "vndf.h"
@@ -9,6 +11,15 @@
 void page_mark(char mark[PAGE_MARK_MAX], const char *command)
 {
     snprintf(mark, PAGE_MARK_MAX, "<meta name=\"generator\" content=\"%s\">", command);
+}
+
+void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what)
+{
+    size_t room = PAGE_NAME_MAX - strlen(what) - 2;
+    snprintf(made, PAGE_NAME_MAX, "%.*s", (int)room, of);
+    for (char *at = made; *at; at++)
+        *at = (char)(isalnum((unsigned char)*at) ? tolower((unsigned char)*at) : '-');
+    snprintf(made + strlen(made), PAGE_NAME_MAX - strlen(made), "-%s", what);
 }
 
 /* ---- files --------------------------------------------------------------------------------------- */
@@ -90,7 +101,8 @@ static const char style[] =
     "h1{font-size:1.7em;margin:0 0 .2em}h2{font-size:1.3em;margin:2.2em 0 .2em;padding-top:.6em;"
     "border-top:1px solid var(--rule)}h3{font-size:1.05em;margin:1.4em 0 .4em}\n"
     "p{margin:.4em 0;max-width:75ch}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
-    "img{max-width:100%;height:auto}a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
+    "img{max-width:100%;height:auto}"
+    ".pixels{image-rendering:pixelated}a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"

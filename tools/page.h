@@ -22,6 +22,9 @@ typedef struct html_page {
     FILE *data;       /* open between page_file_begin and its end */
 } html_page;
 
+/* OF-WHAT, with what is no letter or digit of `of` as a hyphen: the name of a file beside the page. */
+void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what);
+
 /* By this, near its beginning, a page is known as one of `command`; room for PAGE_MARK_MAX. */
 enum { PAGE_MARK_MAX = 96 };
 void page_mark(char mark[PAGE_MARK_MAX], const char *command);

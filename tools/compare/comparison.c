@@ -2,55 +2,101 @@
  * are ratios of samples, and of time. */
 #include "compare/comparison.h"
 
+#include <math.h>
+
 static double error_of(const contest_point *p, int trimmed)
 {
     return trimmed ? p->error.trimmed : p->error.relative;
 }
 
-double efficiency(const contest *c, size_t i, int trimmed)
+/* The square of one error over that of another. */
+static measured ratio_of(const contest_point *a, const contest_point *b, int trimmed)
 {
-    const contest_point *first = &c->way[0].by_time, *p = &c->way[i].by_time;
-    double ratio = error_of(first, trimmed) / error_of(p, trimmed);
-    return ratio * ratio * first->seconds / p->seconds;
+    double ratio = error_of(a, trimmed) / error_of(b, trimmed);
+    double spread = a == b ? 0 : hypot(a->error.spread[trimmed], b->error.spread[trimmed]);
+    measured m = {ratio * ratio, ratio * ratio * spread};
+    return m;
 }
 
-double samples_for_error(const contest *c, size_t i, int trimmed)
+measured efficiency(const contest *c, size_t i, int trimmed)
 {
-    double ratio = error_of(&c->way[i].by_samples, trimmed) / error_of(&c->way[0].by_samples, trimmed);
-    return (double)c->samples * ratio * ratio;
+    const contest_point *first = &c->way[0].by_time, *p = &c->way[i].by_time;
+    measured m = ratio_of(first, p, trimmed);
+    m.value *= first->seconds / p->seconds;
+    m.spread *= first->seconds / p->seconds;
+    return m;
 }
+
+measured samples_for_error(const contest *c, size_t i, int trimmed)
+{
+    measured m = ratio_of(&c->way[i].by_samples, &c->way[0].by_samples, trimmed);
+    m.value *= (double)c->samples;
+    m.spread *= (double)c->samples;
+    return m;
+}
+
+/* Two digits, without an exponent. */
+static void percent(char text[COMMON_TEXT], const char *before, double part)
+{
+    double digits = part > 0 ? ceil(-log10(100 * part)) + 1 : 2;
+    snprintf(text, COMMON_TEXT, "%s%.*f%%", before, (int)fmin(fmax(digits, 1), 8), 100 * part);
+}
+
+/* What is not above twice what chance leaves cannot be told from nothing. */
+void common_text(char text[COMMON_TEXT], const comparison *r, size_t i)
+{
+    double seen = 2 * r->common_noise[i];
+    if (r->common[i] > seen)
+        percent(text, "", r->common[i]);
+    else
+        percent(text, "below ", seen);
+}
+
+/* ---- tables ---- */
 
 static void print_common(FILE *file, const comparison *r)
 {
-    fprintf(file, "\n| %s | error that more samples do not lessen | and what could not be seen |\n|---|---|---|\n",
-            r->by);
-    for (size_t i = 1; i < r->contest->count; i++)
-        fprintf(file, "| %s | %.2g%% | %.2g%% |\n", r->contest->way[i].name, 100 * r->common[i],
-                100 * r->common_noise[i]);
+    fprintf(file, "\n| %s | error that more samples do not lessen |\n|---|---|\n", r->by);
+    for (size_t i = 1; i < r->contest->count; i++) {
+        char text[COMMON_TEXT];
+        common_text(text, r, i);
+        fprintf(file, "| %s | %s |\n", r->contest->way[i].name, text);
+    }
+}
+
+static void print_agreement(FILE *file, const comparison *r)
+{
+    fprintf(file, "\n| %s | all light, of the reference's | in standard deviations "
+                  "| blocks of 16 x 16 pixels beyond 3 (by chance 0.27%%) | their mean square (1) |\n"
+                  "|---|---|---|---|---|\n", r->by);
+    for (size_t i = 0; i < r->contest->count; i++)
+        fprintf(file, "| %s | %.5f | %+.1f | %.2f%% | %.2f |\n", r->contest->way[i].name, r->agrees[i].ratio,
+                r->agrees[i].whole, 100 * r->agrees[i].beyond, r->agrees[i].mean_square);
+    if (r->reference_read)
+        fprintf(file, "\nThe reference was read: its noise is not known, and counts as that of the ways.\n");
+}
+
+static void print_way(FILE *file, const contest *c, size_t i)
+{
+    const way *w = &c->way[i];
+    measured e[2] = {efficiency(c, i, 0), efficiency(c, i, 1)};
+    measured s[2] = {samples_for_error(c, i, 0), samples_for_error(c, i, 1)};
+    fprintf(file, "| %s | %llu | %.2f%% (%.2f%%) | %.2f ± %.2f (%.2f ± %.2f) | %.2f%% (%.2f%%) | %.1f s "
+                  "| %.0f ± %.0f (%.0f ± %.0f) |\n", w->name, (unsigned long long)w->by_time.samples,
+            100 * w->by_time.error.relative, 100 * w->by_time.error.trimmed, e[0].value, e[0].spread, e[1].value,
+            e[1].spread, 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
+            w->by_samples.seconds, s[0].value, s[0].spread, s[1].value, s[1].spread);
 }
 
 void comparison_print(FILE *file, const comparison *r)
 {
     const contest *c = r->contest;
-    unsigned long long all = c->samples;
     fprintf(file, "| %s | samples in equal time | error | efficiency | error of %llu samples | time of them "
-                  "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n", r->by, all, c->way[0].name);
-    for (size_t i = 0; i < c->count; i++) {
-        const way *w = &c->way[i];
-        fprintf(file, "| %s | %llu | %.2f%% (%.2f%%) | %.2f (%.2f) | %.2f%% (%.2f%%) | %.1f s | %.0f (%.0f) |\n",
-                w->name, (unsigned long long)w->by_time.samples, 100 * w->by_time.error.relative,
-                100 * w->by_time.error.trimmed, efficiency(c, i, 0), efficiency(c, i, 1),
-                100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed, w->by_samples.seconds,
-                samples_for_error(c, i, 0), samples_for_error(c, i, 1));
-    }
-    fprintf(file, "\n| %s | all light, of the reference's | in standard deviations "
-                  "| blocks of 16 x 16 pixels beyond 3 (by chance 0.27%%) | their mean square (1) |\n"
-                  "|---|---|---|---|---|\n", r->by);
+                  "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n", r->by,
+            (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++)
-        fprintf(file, "| %s | %.5f | %+.1f | %.2f%% | %.2f |\n", c->way[i].name, r->agrees[i].ratio,
-                r->agrees[i].whole, 100 * r->agrees[i].beyond, r->agrees[i].mean_square);
-    if (r->reference_read)
-        fprintf(file, "\nThe reference was read: its noise is not known, and counts as that of the ways.\n");
+        print_way(file, c, i);
+    print_agreement(file, r);
     if (r->has_common)
         print_common(file, r);
     if (r->remarks[0])

@@ -19,11 +19,20 @@ typedef struct comparison {
     double common[WAYS_MAX], common_noise[WAYS_MAX];
 } comparison;
 
+/* A figure and its standard deviation. */
+typedef struct measured {
+    double value, spread;
+} measured;
+
 /* Of the first way's work: (its error^2 x time) over another's, after equal time; above 1 is better. */
-double efficiency(const contest *c, size_t i, int trimmed);
+measured efficiency(const contest *c, size_t i, int trimmed);
 
 /* The samples that way i needs for the error that the first has with all its samples. */
-double samples_for_error(const contest *c, size_t i, int trimmed);
+measured samples_for_error(const contest *c, size_t i, int trimmed);
+
+/* The error that more samples do not lessen, or below what it is, as text. */
+enum { COMMON_TEXT = 32 };
+void common_text(char text[COMMON_TEXT], const comparison *r, size_t i);
 
 /* Rows of a table in Markdown. */
 void comparison_print(FILE *file, const comparison *r);

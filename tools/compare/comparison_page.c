@@ -10,18 +10,20 @@
 static void write_figures(html_page *page, const comparison *r)
 {
     const contest *c = r->contest;
-    fprintf(page->html, "<div class=\"scroll\"><table><tr><th>%s<th>samples in<br>equal time<th>error"
-                        "<th>without<br>fireflies<th>efficiency<th>without<br>fireflies"
-                        "<th>error of<br>%llu samples<th>without<br>fireflies<th>time of<br>them"
-                        "<th>samples for the<br>error of %s<th>without<br>fireflies</tr>\n",
+    fprintf(page->html, "<div class=\"scroll\"><table><tr><th rowspan=\"2\">%s<th colspan=\"3\">equal time"
+                        "<th colspan=\"3\">equal samples: %llu</tr>\n<tr><th>samples<th>error<th>efficiency"
+                        "<th>seconds<th>error<th>samples for the error of %s</tr>\n",
             r->by, (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++) {
         const way *w = &c->way[i];
-        fprintf(page->html, "<tr><td>%s<td>%llu<td>%.2f%%<td>%.2f%%<td>%.2f<td>%.2f<td>%.2f%%<td>%.2f%%<td>%.1f s"
-                            "<td>%.0f<td>%.0f</tr>\n", w->name, (unsigned long long)w->by_time.samples,
-                100 * w->by_time.error.relative, 100 * w->by_time.error.trimmed, efficiency(c, i, 0),
-                efficiency(c, i, 1), 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
-                w->by_samples.seconds, samples_for_error(c, i, 0), samples_for_error(c, i, 1));
+        measured e[2] = {efficiency(c, i, 0), efficiency(c, i, 1)};
+        measured s[2] = {samples_for_error(c, i, 0), samples_for_error(c, i, 1)};
+        fprintf(page->html, "<tr><td>%s<td>%llu<td>%.2f%% (%.2f%%)<td>%.2f ± %.2f (%.2f ± %.2f)<td>%.1f"
+                            "<td>%.2f%% (%.2f%%)<td>%.0f ± %.0f (%.0f ± %.0f)</tr>\n", w->name,
+                (unsigned long long)w->by_time.samples, 100 * w->by_time.error.relative,
+                100 * w->by_time.error.trimmed, e[0].value, e[0].spread, e[1].value, e[1].spread,
+                w->by_samples.seconds, 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
+                s[0].value, s[0].spread, s[1].value, s[1].spread);
     }
     fputs("</table></div>\n", page->html);
 }
@@ -35,8 +37,9 @@ static void write_result(html_page *page, const comparison *r)
     write_figures(page, r);
     fprintf(page->html, "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
                         "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
-                        "all pixels, %s. Without fireflies: the worst thousandth of the pixels is left out. "
-                        "Efficiency: one over error squared and time, that of %s is 1. In equal time the others "
+                        "all pixels, %s. In brackets: without fireflies, the worst thousandth of the pixels. "
+                        "Efficiency: one over error squared and time, that of %s is 1; its standard deviation is "
+                        "from the spread of the pixels' errors, and rather too large. In equal time the others "
                         "stop at the first sample of all pixels that ends beyond it.</p>\n",
             100 * ERROR_FLOOR,
             r->reference_read ? "with the noise of the reference, which was read and whose noise nobody knows"
@@ -82,19 +85,24 @@ static void draw_curves(FILE *html, const comparison *r, int by_time)
     fputs("</figure>\n", html);
 }
 
+static void write_point(FILE *data, const way *w, const contest_point *p, int is_equal_time)
+{
+    page_field(data, w->name);
+    fprintf(data, ",%llu,%.4g,%.6g,%.6g,%d\n", (unsigned long long)p->samples, p->seconds, p->error.relative,
+            p->error.trimmed, is_equal_time);
+}
+
 static int write_points(html_page *page, const contest *c)
 {
     FILE *data = page_file_begin(page, "points.csv");
     if (!data)
         return 0;
-    fputs("way,samples,seconds,error,error_without_fireflies\n", data);
-    for (size_t i = 0; i < c->count; i++)
-        for (size_t k = 0; k < c->way[i].points; k++) {
-            const contest_point *p = &c->way[i].point[k];
-            page_field(data, c->way[i].name);
-            fprintf(data, ",%llu,%.4g,%.6g,%.6g\n", (unsigned long long)p->samples, p->seconds, p->error.relative,
-                    p->error.trimmed);
-        }
+    fputs("way,samples,seconds,error,error_without_fireflies,is_equal_time\n", data);
+    for (size_t i = 0; i < c->count; i++) {
+        for (size_t k = 0; k < c->way[i].points; k++)
+            write_point(data, &c->way[i], &c->way[i].point[k], 0);
+        write_point(data, &c->way[i], &c->way[i].by_time, 1);
+    }
     return page_data_end(page, "error against samples and time");
 }
 
@@ -135,11 +143,12 @@ static void write_agreement(html_page *page, const comparison *r)
 
 /* ---- all ---- */
 
-static int add_reference(html_page *page, const comparison *r)
+/* In full, for whoever wants to compute something else: the reference, and the ways after equal time. */
+static int add_image(html_page *page, const char *name, const film *f)
 {
     image made;
-    FILE *file = page_file_begin(page, "reference.pfm");
-    int good = file && film_image(r->contest->reference, &made);
+    FILE *file = page_file_begin(page, name);
+    int good = file && film_image(f, &made);
     if (good) {
         good = image_write_pfm(file, &made);
         image_free(&made);
@@ -168,5 +177,11 @@ int comparison_page(html_page *page, const comparison *r)
     write_agreement(page, r);
     if (r->has_common && !comparison_changes(page, r))
         return 0;
-    return add_reference(page, r) && page_end(page);
+    int good = add_image(page, "reference.pfm", r->contest->reference);
+    for (size_t i = 0; i < r->contest->count && good; i++) {
+        char name[PAGE_NAME_MAX];
+        page_name(name, r->contest->way[i].name, "time.pfm");
+        good = add_image(page, name, &r->contest->way[i].at_time);
+    }
+    return good && page_end(page);
 }

@@ -2,7 +2,6 @@
  * what tables change. */
 #include "compare/comparison.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,15 +14,9 @@ typedef struct map_range {
 
 static const map_range of_noise = {0.01, 1}, of_tables = {1e-5, 0.1};
 
-/* ---- pictures ---- */
+enum { SHOWN_WIDTH = 640 };
 
-/* WAY-WHAT.png, in small letters, digits and hyphens. */
-static void name_picture(char made[PAGE_NAME_MAX], const char *of, const char *what)
-{
-    snprintf(made, PAGE_NAME_MAX, "%.*s-%s.png", WAY_NAME_MAX, of, what);
-    for (char *at = made; *at && *at != '.'; at++)
-        *at = (char)(isalnum((unsigned char)*at) ? tolower((unsigned char)*at) : '-');
-}
+/* ---- pictures ---- */
 
 static int add_film(html_page *page, const comparison *r, const char *name, const film *f)
 {
@@ -46,10 +39,12 @@ static int add_crops(html_page *page, const comparison *r)
     return page_file_end(page) && good;
 }
 
+/* Small films larger, by whole factors: their pixels are what is to be seen. */
 static void show(FILE *html, const char *name, const char *caption, const film *size)
 {
-    fprintf(html, "<figure><a href=\"%s\"><img src=\"%s\" width=\"%d\" height=\"%d\" alt=\"\"></a><figcaption>",
-            name, name, size->width, size->height);
+    int factor = SHOWN_WIDTH / size->width > 1 ? SHOWN_WIDTH / size->width : 1;
+    fprintf(html, "<figure><a href=\"%s\"><img class=\"pixels\" src=\"%s\" width=\"%d\" height=\"%d\" "
+                  "alt=\"\"></a><figcaption>", name, name, factor * size->width, factor * size->height);
     chart_escape(html, caption);
     fputs("</figcaption></figure>\n", html);
 }
@@ -58,7 +53,7 @@ static int show_film(html_page *page, const comparison *r, const char *way_name,
                      const contest_point *p)
 {
     char name[PAGE_NAME_MAX], caption[160];
-    name_picture(name, way_name, what);
+    page_name(name, way_name, what);
     if (p)
         snprintf(caption, sizeof caption, "%s: %llu samples in %.1f s, error %.2f%%, without fireflies %.2f%%",
                  way_name, (unsigned long long)p->samples, p->seconds, 100 * p->error.relative,
@@ -76,9 +71,9 @@ static int write_pictures(html_page *page, const comparison *r)
     const contest *c = r->contest;
     page_section(page, "pictures", "Equal time", "The reference, then what each way has after the same time.");
     fputs("<div class=\"pair\">\n", page->html);
-    int good = show_film(page, r, "reference", "film", c->reference, NULL);
+    int good = show_film(page, r, "reference", "film.png", c->reference, NULL);
     for (size_t i = 0; i < c->count && good; i++)
-        good = show_film(page, r, c->way[i].name, "time", &c->way[i].at_time, &c->way[i].by_time);
+        good = show_film(page, r, c->way[i].name, "time.png", &c->way[i].at_time, &c->way[i].by_time);
     fputs("</div>\n<h3>Crops</h3>\n<figure class=\"wide\"><a href=\"crops.png\">"
           "<img src=\"crops.png\" alt=\"\"></a><figcaption>From left to right: reference", page->html);
     for (size_t i = 0; i < c->count; i++)
@@ -97,7 +92,7 @@ static int write_equal_samples(html_page *page, const comparison *r)
     page_section(page, "samples", "Equal samples", "What each way has with the same number of samples a pixel.");
     fputs("<div class=\"pair\">\n", page->html);
     for (size_t i = 0; i < c->count && good; i++)
-        good = show_film(page, r, c->way[i].name, "samples", &c->way[i].at_samples, &c->way[i].by_samples);
+        good = show_film(page, r, c->way[i].name, "samples.png", &c->way[i].at_samples, &c->way[i].by_samples);
     fputs("</div>\n", page->html);
     page_section_end(page);
     return good;
@@ -125,7 +120,7 @@ static int write_maps(html_page *page, const comparison *r)
     fputs("<div class=\"pair\">\n", page->html);
     for (size_t i = 0; i < c->count && good; i++) {
         char name[PAGE_NAME_MAX];
-        name_picture(name, c->way[i].name, "error");
+        page_name(name, c->way[i].name, "error.png");
         show(page->html, name, c->way[i].name, c->reference);
         good = add_map(page, name, &c->way[i].at_time, c->reference, &of_noise);
     }
@@ -143,11 +138,14 @@ int comparison_pictures(html_page *page, const comparison *r)
 
 static void write_common(FILE *html, const comparison *r)
 {
-    fprintf(html, "<table><tr><th>%s<th>error<th>could not be seen below</tr>\n", r->by);
-    for (size_t i = 1; i < r->contest->count; i++)
-        fprintf(html, "<tr><td>%s<td>%.2g%%<td>%.2g%%</tr>\n", r->contest->way[i].name, 100 * r->common[i],
-                100 * r->common_noise[i]);
-    fputs("</table>\n<p class=\"note\">The root of the mean product of two independent differences.</p>\n", html);
+    fprintf(html, "<table><tr><th>%s<th>error</tr>\n", r->by);
+    for (size_t i = 1; i < r->contest->count; i++) {
+        char text[COMMON_TEXT];
+        common_text(text, r, i);
+        fprintf(html, "<tr><td>%s<td>%s</tr>\n", r->contest->way[i].name, text);
+    }
+    fputs("</table>\n<p class=\"note\">The root of the mean product of two independent differences; below: twice "
+          "what chance leaves of it.</p>\n", html);
 }
 
 int comparison_changes(html_page *page, const comparison *r)
@@ -163,7 +161,7 @@ int comparison_changes(html_page *page, const comparison *r)
     fputs("<div class=\"pair\">\n", page->html);
     for (size_t i = 1; i < c->count && good; i++) {
         char name[PAGE_NAME_MAX];
-        name_picture(name, c->way[i].name, "changes");
+        page_name(name, c->way[i].name, "changes.png");
         show(page->html, name, c->way[i].name, c->reference);
         good = add_map(page, name, &c->way[i].at_samples, &c->way[0].at_samples, &of_tables);
     }

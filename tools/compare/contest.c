@@ -50,16 +50,17 @@ static contest_point point_of(const contest *c, const film *f)
 static int keep_point(const contest *c, way *w)
 {
     const film *f = &w->film;
+    if (f->samples != c->samples && f->samples != w->next)
+        return 1;
+    contest_point p = point_of(c, f);
     if (f->samples == c->samples) {
         copy_film(&w->at_samples, f);
-        w->by_samples = point_of(c, f);
+        w->by_samples = p;
     }
-    if (f->samples != w->next)
-        return f->samples != c->samples || !isnan(w->by_samples.error.relative);
-    contest_point p = point_of(c, f);
+    if (f->samples == w->next)
+        w->next *= 2;
     if (w->points < POINTS_MAX)
         w->point[w->points++] = p;
-    w->next *= 2;
     return !isnan(p.error.relative);
 }
 

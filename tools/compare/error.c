@@ -41,23 +41,27 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-static double root(double sum, size_t count)
+/* The root of the mean of squares, less `noise` each; *spread: the standard deviation of that mean beside it. */
+static double root_mean(const double *squares, size_t count, double noise, double *spread)
 {
-    return sqrt(fmax(sum, 0) / (double)count);
+    double sum = 0, fourth = 0, n = (double)count;
+    for (size_t i = count; i-- > 0;) { /* the smallest first */
+        sum += squares[i];
+        fourth += squares[i] * squares[i];
+    }
+    double mean = sum / n, left = fmax(mean - noise, 0);
+    *spread = left > 0 ? sqrt(fmax(fourth / n - mean * mean, 0) / n) / left : 0;
+    return sqrt(left);
 }
 
-/* `squares` of all pixels, changed; `noise`: the part of their sum that is the reference's. */
+/* `squares` of all pixels, changed; `noise`: the part of their mean that is the reference's. */
 static film_error summarise(double *squares, size_t count, double noise)
 {
+    film_error e;
     size_t trimmed = count / 1000;
-    double all = 0, worst = 0;
     qsort(squares, count, sizeof *squares, descending);
-    for (size_t i = count; i-- > 0;) {
-        all += squares[i];
-        worst += i < trimmed ? squares[i] : 0;
-    }
-    film_error e = {root(all - noise, count),
-                    root(all - worst - noise * (double)(count - trimmed) / (double)count, count - trimmed)};
+    e.relative = root_mean(squares, count, noise, &e.spread[0]);
+    e.trimmed = root_mean(squares + trimmed, count - trimmed, noise, &e.spread[1]);
     return e;
 }
 
@@ -66,7 +70,7 @@ film_error error_between(const film *of, const film *reference)
     size_t count = pixels(of);
     double floor = ERROR_FLOOR * film_mean(reference), noise = 0;
     double *squares = malloc(count * sizeof *squares);
-    film_error e = {(double)NAN, (double)NAN};
+    film_error e = {(double)NAN, (double)NAN, {0, 0}};
     if (!squares)
         return e;
     for (size_t i = 0; i < count; i++) {
@@ -75,7 +79,7 @@ film_error error_between(const film *of, const film *reference)
         squares[i] = off * off * scale;
         noise += film_variance(reference, i) * scale;
     }
-    e = summarise(squares, count, noise);
+    e = summarise(squares, count, noise / (double)count);
     free(squares);
     return e;
 }

@@ -69,14 +69,20 @@ static void add_up(double *sums, int width, int height)
         }
 }
 
-/* `sums` has a row and a column of zeros before the film's. Errors count up to 1. */
-static void add_errors(double *sums, const film *of, const film *reference, float *relative, double weight)
+/* As people see a pixel, roughly. */
+static double shown(const film *f, size_t pixel, double exposure)
 {
-    error_map(of, reference, relative);
+    return sqrt(fmin(fmax(exposure * film_light(f, pixel), 0), 1));
+}
+
+/* `sums` has a row and a column of zeros before the film's. What counts is what is seen of an error. */
+static void add_errors(double *sums, const film *of, const film *reference, double exposure, double weight)
+{
     for (int y = 0; y < of->height; y++)
         for (int x = 0; x < of->width; x++) {
             size_t to = (size_t)(y + 1) * (size_t)(of->width + 1) + (size_t)(x + 1);
-            sums[to] += weight * fmin((double)relative[(size_t)y * (size_t)of->width + (size_t)x], 1);
+            size_t at = (size_t)y * (size_t)of->width + (size_t)x;
+            sums[to] += weight * fabs(shown(of, at, exposure) - shown(reference, at, exposure));
         }
 }
 
@@ -111,17 +117,16 @@ static crop crop_size(const film *f)
     return size;
 }
 
-int choose_crops(const contest *c, crop crops[CROPS])
+int choose_crops(const contest *c, float exposure, crop crops[CROPS])
 {
     const film *of = c->reference;
     int width = of->width + 1, height = of->height + 1;
     size_t count = (size_t)width * (size_t)height;
     double *all = calloc(count, sizeof *all), *beside = calloc(count, sizeof *beside);
-    float *relative = malloc(count * sizeof *relative);
-    int good = all && beside && relative;
+    int good = all && beside;
     for (size_t i = 0; i < c->count && good; i++) {
-        add_errors(all, &c->way[i].at_time, of, relative, 1);
-        add_errors(beside, &c->way[i].at_time, of, relative, i ? 1 : -(double)(c->count - 1));
+        add_errors(all, &c->way[i].at_time, of, (double)exposure, 1);
+        add_errors(beside, &c->way[i].at_time, of, (double)exposure, i ? 1 : -(double)(c->count - 1));
     }
     if (good) {
         add_up(all, width, height);
@@ -131,7 +136,6 @@ int choose_crops(const contest *c, crop crops[CROPS])
     }
     free(all);
     free(beside);
-    free(relative);
     return good;
 }
 

@@ -10,9 +10,9 @@ typedef struct crop {
 
 enum { CROPS = 2, CROP_MAGNIFIED = 320 /* pixels across, at least, when it is shown */ };
 
-/* Where to look: where all ways err most after equal time, and where the others err most beside the first. Their
- * size follows the film's. 0 if there is no memory. */
-int choose_crops(const contest *c, crop crops[CROPS]);
+/* Where to look: where all ways are seen to err most after equal time, and where the others most beside the first.
+ * Their size follows the film's. 0 if there is no memory. */
+int choose_crops(const contest *c, float exposure, crop crops[CROPS]);
 
 /* How often a pixel of a crop is repeated. */
 int crop_factor(const crop *where);

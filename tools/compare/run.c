@@ -191,7 +191,7 @@ static int judge(under_way *run)
         r->agrees[i] = agreement_between(&run->contest.way[i].at_time, &run->reference);
         remark_lost(r, &run->contest.way[i]);
     }
-    return choose_crops(&run->contest, r->crops);
+    return choose_crops(&run->contest, r->exposure, r->crops);
 }
 
 static int tell(under_way *run, const char *folder, folder_state state)

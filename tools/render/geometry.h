@@ -33,7 +33,8 @@ typedef struct sphere {
     float radius;
 } sphere;
 
-/* corner + u edge_u + v edge_v; the normal is edge_u x edge_v. The edges are at right angles. */
+/* corner + u edge_u + (1 - v) edge_v: an image stands upright where edge_v goes up. The normal is edge_u x edge_v.
+ * The edges are at right angles. */
 typedef struct rectangle {
     vndf_vec3 corner, edge_u, edge_v;
 } rectangle;

@@ -70,7 +70,7 @@ static void describe_rectangle(const rectangle *r, const meeting *m, hit *h)
     set_place(h, wide_along(wide_along(corner, m->a, u), m->b, v), z, extent);
     h->shading = frame_from(z, u);
     h->u = texture(m->a);
-    h->v = texture(m->b);
+    h->v = texture(1.0 - m->b);
 }
 
 static wide blend(const vndf_vec3 *at, double b, double c)

@@ -20,6 +20,8 @@ const char *path_perfect_refuses(const vndf_description *is)
         return "perfect sampling of both lobes is precomputed for dielectrics alone";
     if (e->lobes != VNDF_LOBES_REFLECTION && is->eta == 1.0f)
         return "perfect sampling is precomputed for light that is bent, this one has 'index 1'";
+    if (e->masking == VNDF_MASKING_NONE)
+        return "perfect sampling is precomputed for weights that have a bound, this one has 'masking none'";
     return NULL;
 }
 

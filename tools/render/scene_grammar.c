@@ -40,7 +40,7 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "                                    streaks along u; up along u and down again\n"
     "\n",
     "Materials, `material NAME KIND ...`:\n"
-    "  conductor    of gold|silver|copper|aluminium, or eta R G B k R G B (index over that outside)\n"
+    "  conductor    of gold|silver|copper|aluminium; or, without `of`: eta R G B k R G B (over that outside)\n"
     "  dielectric   index N (inside over outside) [lobes reflection|transmission|both] (both)\n"
     "  reflector    f0 R G B (Schlick's formula) [index N] [lobes ...] (reflection)\n"
     "  shape        the microsurface alone, all is reflected: [index N] [lobes reflection|transmission]\n"
@@ -64,12 +64,16 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "  [colour R G B] [colour-map IMAGE]          multiply (1 1 1)\n"
     "  [absorb R G B]             per unit of length inside, where light passes (0 0 0)\n"
     "\n"
-    "Shapes; those of materials that light passes are closed, others show their front; an image lies on a\n"
-    "rectangle with its columns along edge-u and its rows up along edge-v:\n"
+    "Shapes. Those of materials that light passes are to be closed; of others, lights too, the back is black. An\n"
+    "image stands upright on sides of boxes and on rectangles, along edge-u and edge-v; goes around spheres from\n"
+    "+z by way of +x, its top at +y; lies on meshes as their vt say, which without vt have the colour of its corner:\n"
     "  sphere centre X Y Z radius R material NAME\n"
     "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
     "                             edges at right angles; from the front, edge-v is left of edge-u\n"
     "  box from X Y Z to X Y Z material NAME\n"
     "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
-    "                             scaled, then turned about y, then moved (1, 0, 0 0 0)\n",
+    "                             scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
+    "\n"
+    "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to 1, maps of\n"
+    "them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n",
 };

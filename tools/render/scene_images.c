@@ -46,6 +46,22 @@ static int add_image(scene_reader *r, const word *name, const image *added)
     return 1;
 }
 
+int reader_within(scene_reader *r, const word *at, const image *map, const image_range *range)
+{
+    for (int y = 0; y < map->height; y++)
+        for (int x = 0; x < map->width; x++) {
+            float rgb[3];
+            image_at(map, x, y, rgb);
+            for (int i = 0; i < range->channels; i++)
+                if (!((double)rgb[i] >= range->low && (double)rgb[i] <= range->high))
+                    return reader_refuse(r, at, "as %s the image must be from %g to %g; %s is %g in column %d of "
+                                                "row %d (from the top, from 0)", range->what, range->low,
+                                         range->high, i == 0 ? "red" : i == 1 ? "green" : "blue",
+                                         (double)rgb[i], x, y);
+        }
+    return 1;
+}
+
 static int check_name(scene_reader *r, const word *name)
 {
     const scene *s = r->made;

@@ -121,24 +121,12 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
 
 /* ---- roughness ---- */
 
-/* A map holds roughness in its first channel, times alpha. */
-static int check_map(scene_reader *r, const word *at, const image *map)
-{
-    for (int y = 0; y < map->height; y++)
-        for (int x = 0; x < map->width; x++) {
-            float rgb[3];
-            image_at(map, x, y, rgb);
-            if (!(rgb[0] > 0.0f))
-                return reader_refuse(r, at, "a map of roughness must be above 0; red is %g in column %d of row "
-                                            "%d (from the top, from 0)", (double)rgb[0], x, y);
-        }
-    return 1;
-}
-
+/* A map holds roughness in its first channel, times alpha: together they are what alpha may be. */
 static int read_map(scene_reader *r, const clause *both, const clause *one, textured *made)
 {
     const clause *c = one->at ? one : both;
-    return !c->at || (reader_image(r, c, &made->map) && check_map(r, c->values, made->map));
+    const image_range rough = {"roughness", 1, 1e-6 / (double)made->value, 1e3 / (double)made->value};
+    return !c->at || (reader_image(r, c, &made->map) && reader_within(r, c->values, made->map, &rough));
 }
 
 static int read_roughness(scene_reader *r, const clause c[CLAUSES], material *m)
@@ -208,13 +196,19 @@ static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSE
 
 /* ---- the statement ---- */
 
+static int read_colour_map(scene_reader *r, const clause *c, material *m)
+{
+    const image_range colour = {"colour", 3, 0, 1};
+    return !c->at || (reader_image(r, c, &m->colour_map) && reader_within(r, c->values, m->colour_map, &colour));
+}
+
 static int read_colours(scene_reader *r, const clause c[CLAUSES], material *m)
 {
     for (int i = 0; i < 3; i++)
         m->colour[i] = 1.0f;
     return (!c[COLOUR].at || reader_three(r, &c[COLOUR], 0, 1, m->colour)) &&
            (!c[RADIANCE].at || reader_three(r, &c[RADIANCE], 0, 1e6, m->colour)) &&
-           (!c[COLOUR_MAP].at || reader_image(r, &c[COLOUR_MAP], &m->colour_map)) &&
+           read_colour_map(r, &c[COLOUR_MAP], m) &&
            (!c[ABSORB].at || reader_three(r, &c[ABSORB], 0, 1e6, m->absorb)) &&
            (!c[INDEX].at || reader_number(r, &c[INDEX], 0, 0.01, 100, &m->is.eta));
 }

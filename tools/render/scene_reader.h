@@ -81,6 +81,15 @@ int reader_name(scene_reader *r, const statement *s, const char *what, const wor
 /* The image that a clause names. */
 int reader_image(scene_reader *r, const clause *c, const image **found);
 
+/* What the first channels of an image of something have to be. */
+typedef struct image_range {
+    const char *what; /* "colour" */
+    int channels;
+    double low, high;
+} image_range;
+
+int reader_within(scene_reader *r, const word *at, const image *map, const image_range *range);
+
 /* A path of the scene file, as seen from here; the caller frees it. NULL after a refusal. */
 char *reader_path(scene_reader *r, const word *at);
 

@@ -61,20 +61,6 @@ int read_integrator(scene_reader *r, const statement *s)
            (!c[3].at || reader_number(r, &c[3], 0, 1e-6, 1e6, &made->exposure));
 }
 
-/* Light comes from far away, so the map must not be negative. */
-static int check_map(scene_reader *r, const word *at, const image *map)
-{
-    for (int y = 0; y < map->height; y++)
-        for (int x = 0; x < map->width; x++) {
-            float rgb[3];
-            image_at(map, x, y, rgb);
-            if (fminf(rgb[0], fminf(rgb[1], rgb[2])) < 0.0f)
-                return reader_refuse(r, at, "the image is negative in column %d of row %d (from the top, from "
-                                            "0): that is no light", x, y);
-        }
-    return 1;
-}
-
 int read_environment(scene_reader *r, const statement *s)
 {
     clause c[] = {{.keyword = "constant", .takes = "R G B", .least = 3, .most = 3},
@@ -92,5 +78,6 @@ int read_environment(scene_reader *r, const statement *s)
     for (int i = 2; i < 4; i++)
         if (c[i].at && !c[1].at)
             return reader_refuse(r, c[i].at, "'%s' is of an image, and this statement has none", c[i].keyword);
-    return !made->map || check_map(r, c[1].values, made->map);
+    const image_range light = {"light", 3, 0, made->scale > 1.0f ? 1e6 / (double)made->scale : 1e6};
+    return !made->map || reader_within(r, c[1].values, made->map, &light);
 }
