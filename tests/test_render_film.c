@@ -1,7 +1,7 @@
 /* A film is the same to the bit for any number of threads, but for the rounding of sums also in two runs, and
  * another one for another seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what
- * a material of a shape cannot have. An image of the surroundings brings its energy, seen where it should be, drawn
- * or met: within 4.5 sigma, 7e-6 each to fail by chance. */
+ * a material of a shape cannot have. An image of the surroundings brings its energy, seen where it should be,
+ * drawn or met: within 4.5 sigma, 7e-6 each to fail by chance. */
 #include "path_case.h"
 #include "render/path_parts.h"
 

@@ -81,7 +81,8 @@ static const wrong settings[] = {
     {"image sky file none.pfm", "1:16: " VNDF_SOURCE_DIR "/tests/none.pfm: "},
     {"image sky file test.h", "1:16: " VNDF_SOURCE_DIR "/tests/test.h: this is no PFM image"},
     {"image a pattern ramp\nimage a pattern ramp", "2:7: there is an image 'a' already"},
-    {"image a file corpus/pfm/grey\nenvironment image a", "2:19: as light the image must be from 0 to 1e+06; red is -0.5 in column 1 of row 1"},
+    {"image a file corpus/pfm/grey\nenvironment image a",
+     "2:19: as light the image must be from 0 to 1e+06; red is -0.5 in column 1 of row 1"},
     {"image a pattern ramp width 16384 height 16384", "1:17: 16384 x 16384 pixels are more than"},
 };
 

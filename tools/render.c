@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -21,7 +22,8 @@ static const char help[] =
     "       vndf render --grammar\n"
     "\n"
     "Renders a scene file by path tracing, only with the effects that the scene calls for. The image is the same\n"
-    "for any number of threads. An interrupt (^C) saves the samples that are there.\n"
+    "for any number of threads. An interrupt (^C) saves the samples that are there; the exit status tells of it\n"
+    "then (130).\n"
     "\n"
     "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light\n"
     "  --spp N         samples a pixel (default: what the scene says)\n"
@@ -144,9 +146,13 @@ static int save(output_file *output, image_writer *write, const film *f, float e
     image made;
     if (!film_image(f, &made))
         return output_give_up(output, "no memory for the image");
+    char why[1024];
+    errno = 0;
     int written = write(output->file, &made, exposure);
+    snprintf(why, sizeof why, "cannot write '%s': %s", output->path ? output->path : "stdout",
+             errno ? strerror(errno) : "no memory, or no room");
     image_free(&made);
-    return written ? output_commit(output) : output_give_up(output, "the image cannot be written");
+    return written ? output_commit(output) : output_give_up(output, why);
 }
 
 static int render_film(output_file *output, image_writer *write, const path_plan *plan, const scene *s,

@@ -49,6 +49,7 @@ typedef struct variant {
     path_counts counts;
     int is_repeated;        /* every call of the library is made twice: see path_repeat.c */
     double ns[TURNS], segment_ns[TURNS], ray_ns[TURNS]; /* a path, a segment of it, a ray of either kind */
+    double saves[TURNS];    /* of the time of a path with all effects */
 } variant;
 
 /* ---- measuring ---- */
@@ -104,7 +105,11 @@ static void measure(variant *list, size_t count, const scene *s)
     for (int turn = 0; turn < TURNS; turn++)
         for (size_t i = 0; i < count; i++)
             time_turn(&list[i], s, turn, paths);
+    for (size_t i = 0; i < count; i++)
+        for (int turn = 0; turn < TURNS; turn++)
+            list[i].saves[turn] = 1 - list[i].ns[turn] / list[0].ns[turn];
     for (size_t i = 0; i < count; i++) {
+        qsort(list[i].saves, TURNS, sizeof list[i].saves[0], ascending);
         qsort(list[i].ns, TURNS, sizeof list[i].ns[0], ascending);
         qsort(list[i].segment_ns, TURNS, sizeof list[i].segment_ns[0], ascending);
         qsort(list[i].ray_ns, TURNS, sizeof list[i].ray_ns[0], ascending);
@@ -169,9 +174,10 @@ static void print_effects(const variant *list, size_t count)
         if (!v)
             printf("  %-26s (cannot be left out)\n", word->name);
         else
-            printf("  %-26s %+7.1f%% of the time of a path, over %s\n", word->name,
-                   100 * (list[0].ns[TURNS / 2] - v->ns[TURNS / 2]) / list[0].ns[TURNS / 2], word->without);
+            printf("  %-26s %+7.1f%% ± %.1f of the time of a path, over %s\n", word->name,
+                   100 * v->saves[TURNS / 2], 50 * (v->saves[3 * TURNS / 4] - v->saves[TURNS / 4]), word->without);
     }
+    puts("(a minus: without it paths go on for longer, or their time differs by less than can be told)");
     fputs("nothing is run for:", stdout);
     for (size_t i = 0, said = 0; i < EFFECT_WORDS; i++)
         if (!(effects & effect_words[i].effect))

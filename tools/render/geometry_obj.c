@@ -8,8 +8,8 @@
  *
  * Corners, coordinates and normals are placed as they are read (obj_items.c). Triangles without an area are passed
  * over. Where the normals of a triangle contradict the order of its corners, the normals are believed. A polygon
- * is cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn and
- * triangles there may be OBJ_ITEMS_MAX, so the most hostile one takes some 3.2 GiB, and 1.5 GiB for the
+ * is cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn
+ * and triangles there may be OBJ_ITEMS_MAX, so the most hostile one takes some 3.2 GiB, and 1.5 GiB for the
  * hierarchy. */
 #include <errno.h>
 #include <stdlib.h>

@@ -66,7 +66,7 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "\n"
     "Shapes. Those of materials that light passes are to be closed; of others, lights too, the back is black. An\n"
     "image stands upright on sides of boxes and on rectangles, along edge-u and edge-v; goes around spheres from\n"
-    "+z by way of +x, its top at +y; lies on meshes as their vt say, which without vt have the colour of its corner:\n"
+    "+z by way of +x, its top at +y; lies on meshes as vt say; without vt they have its corner's colour:\n"
     "  sphere centre X Y Z radius R material NAME\n"
     "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
     "                             edges at right angles; from the front, edge-v is left of edge-u\n"
@@ -74,6 +74,6 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
     "                             scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
     "\n"
-    "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to 1, maps of\n"
-    "them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n",
+    "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to 1, maps\n"
+    "of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n",
 };
