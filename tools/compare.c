@@ -49,7 +49,7 @@ static int read_sampler(const char *word, size_t length, compare_choice *c)
     char copy[32];
     snprintf(copy, sizeof copy, "%.*s", length < sizeof copy ? (int)length : (int)sizeof copy - 1, word);
     for (size_t i = SAMPLER_ALL; i <= SAMPLER_PERFECT; i++) {
-        if (strcmp(copy, compare_samplers[i]) != 0)
+        if (strcmp(copy, path_sampler_names[i]) != 0)
             continue;
         for (size_t k = 0; k < c->sampler_count; k++)
             if (c->sampler[k] == (path_sampler)i)
@@ -57,7 +57,7 @@ static int read_sampler(const char *word, size_t length, compare_choice *c)
         c->sampler[c->sampler_count++] = (path_sampler)i;
         return 1;
     }
-    const char *hint = nearest_word(copy, compare_samplers + 1, SAMPLER_PERFECT);
+    const char *hint = nearest_word(copy, path_sampler_names + 1, SAMPLER_PERFECT);
     complain(name, "--samplers: '%s' is none of visible, all, bounded and perfect%s%s%s", copy,
              hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
     return 0;

@@ -55,17 +55,15 @@ typedef struct render_choice {
 
 static int read_sampler(const words *given, path_sampler *sampler)
 {
-    static const char *const names[] = {"material", "all", "visible", "bounded", "perfect"};
     const char *word = only_word(given);
-    size_t count = sizeof names / sizeof names[0];
-    for (size_t i = 0; word && i < count; i++)
-        if (strcmp(word, names[i]) == 0) {
+    for (size_t i = 0; word && i < SAMPLERS; i++)
+        if (strcmp(word, path_sampler_names[i]) == 0) {
             *sampler = (path_sampler)i;
             return 1;
         }
     if (!word)
         return 1;
-    const char *hint = nearest_word(word, names, count);
+    const char *hint = nearest_word(word, path_sampler_names, SAMPLERS);
     complain(name, "--sampler: '%s' is none of all, visible, bounded, perfect and material%s%s%s", word,
              hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
     return 0;

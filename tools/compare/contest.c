@@ -6,13 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { TURNS = 24, PASS_PATHS = 32768 };
+enum { TURNS = 24 };
 
 /* ---- films ---- */
 
 static void copy_film(film *made, const film *of)
 {
-    size_t count = (size_t)of->width * (size_t)of->height;
+    size_t count = film_pixels(of);
     double *sum = made->sum, *square = made->square;
     memcpy(sum, of->sum, 3 * count * sizeof *sum);
     memcpy(square, of->square, count * sizeof *square);
@@ -105,8 +105,7 @@ static int render_to_samples(contest *c, way *w, uint64_t samples)
 /* A pass at a time; a film of few pixels takes several samples in one. */
 static int render_to_time(contest *c, way *w, double seconds)
 {
-    uint64_t pixels = (uint64_t)w->film.width * (uint64_t)w->film.height;
-    uint64_t samples = PASS_PATHS / pixels > 1 ? PASS_PATHS / pixels : 1;
+    uint64_t samples = film_pass_samples(&w->film);
     while (w->film.processor < seconds)
         if (!render_some(c, w, samples))
             return 0;

@@ -7,11 +7,6 @@
 
 enum { BLOCK = 16 };
 
-static size_t pixels(const film *f)
-{
-    return (size_t)f->width * (size_t)f->height;
-}
-
 double film_light(const film *f, size_t pixel)
 {
     const double *sum = f->sum + 3 * pixel;
@@ -28,9 +23,9 @@ double film_variance(const film *f, size_t pixel)
 double film_mean(const film *f)
 {
     double sum = 0;
-    for (size_t i = 0; i < pixels(f); i++)
+    for (size_t i = 0; i < film_pixels(f); i++)
         sum += film_light(f, i);
-    return sum / (double)pixels(f);
+    return sum / (double)film_pixels(f);
 }
 
 /* ---- an error ---- */
@@ -67,7 +62,7 @@ static film_error summarise(double *squares, size_t count, double noise)
 
 film_error error_between(const film *of, const film *reference)
 {
-    size_t count = pixels(of);
+    size_t count = film_pixels(of);
     double floor = ERROR_FLOOR * film_mean(reference), noise = 0;
     double *squares = malloc(count * sizeof *squares);
     film_error e = {(double)NAN, (double)NAN, {0, 0}};
@@ -87,7 +82,7 @@ film_error error_between(const film *of, const film *reference)
 void error_map(const film *of, const film *reference, float *relative)
 {
     double floor = ERROR_FLOOR * film_mean(reference);
-    for (size_t i = 0; i < pixels(of); i++) {
+    for (size_t i = 0; i < film_pixels(of); i++) {
         double light = film_light(reference, i);
         relative[i] = (float)(fabs(film_light(of, i) - light) / (light + floor));
     }
@@ -142,7 +137,7 @@ agreement agreement_between(const film *of, const film *reference)
 
 double common_error(const film of[2], const film exact[2], double *noise)
 {
-    size_t count = pixels(of);
+    size_t count = film_pixels(of);
     double floor = ERROR_FLOOR * film_mean(exact), sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++) {
         double light = film_light(exact, i);

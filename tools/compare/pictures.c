@@ -6,11 +6,6 @@
 
 #include "png.h"
 
-static size_t pixels(const film *f)
-{
-    return (size_t)f->width * (size_t)f->height;
-}
-
 /* ---- whole films ---- */
 
 int picture_of_film(FILE *file, const film *f, float exposure)
@@ -35,7 +30,7 @@ void error_colour(double part, unsigned char rgb[3])
 
 int picture_of_error(FILE *file, const film *of, const film *reference, double low, double high)
 {
-    size_t count = pixels(of);
+    size_t count = film_pixels(of);
     float *relative = malloc(count * sizeof *relative);
     unsigned char *rgb = malloc(3 * count);
     int good = relative && rgb;
@@ -162,7 +157,7 @@ static int put_film(image *to, int column, const film *f, const crop crops[CROPS
     int factor = crop_factor(&crops[0]);
     if (!film_image(f, &of))
         return 0;
-    for (size_t i = 0; i < 3 * pixels(f); i++)
+    for (size_t i = 0; i < 3 * film_pixels(f); i++)
         of.rgb[i] *= exposure;
     for (int row = 0; row < CROPS; row++)
         put_crop(to, column * (crops[0].width * factor + GAP), row * (crops[0].height * factor + GAP), &of,

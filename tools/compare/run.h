@@ -22,8 +22,6 @@ typedef struct compare_choice {
     const char *reference; /* a PFM; NULL: rendered */
 } compare_choice;
 
-extern const char *const compare_samplers[SAMPLER_PERFECT + 1]; /* their names */
-
 /* Renders and writes the page into the folder; an exit status. */
 int compare_run(const compare_choice *choice, const char *folder, folder_state state);
 

@@ -5,8 +5,6 @@
 #include "arguments.h"
 #include "command.h"
 
-const char *const compare_samplers[SAMPLER_PERFECT + 1] = {"material", "all", "visible", "bounded", "perfect"};
-
 static scene *add_scene(under_way *run, const scene_tables *tables)
 {
     char message[1024];
@@ -46,7 +44,7 @@ static int add_samplers(under_way *run)
     const scene *s = add_scene(run, &as_it_says);
     for (size_t i = 0; i < c->sampler_count && s; i++) {
         char message[512];
-        const char *sampler = compare_samplers[c->sampler[i]];
+        const char *sampler = path_sampler_names[c->sampler[i]];
         if (add_way(run, sampler, s, c->sampler[i], message, sizeof message))
             continue;
         if (c->named)

@@ -138,7 +138,7 @@ static void render_pass(pass *p)
 
 static void add_pass(film *f, const pass *p)
 {
-    size_t count = (size_t)f->width * (size_t)f->height;
+    size_t count = film_pixels(f);
     for (size_t i = 0; i < 3 * count; i++)
         f->sum[i] += p->sum[i];
     for (size_t i = 0; i < count; i++)
@@ -147,10 +147,15 @@ static void add_pass(film *f, const pass *p)
     add_counts(&f->counts, &p->counts);
 }
 
+uint64_t film_pass_samples(const film *f)
+{
+    uint64_t samples = PASS_PATHS / film_pixels(f);
+    return samples > 1 ? samples : 1;
+}
+
 static uint64_t samples_of_pass(const film *f, uint64_t left)
 {
-    uint64_t pixels = (uint64_t)f->width * (uint64_t)f->height;
-    uint64_t samples = PASS_PATHS / pixels > 1 ? PASS_PATHS / pixels : 1;
+    uint64_t samples = film_pass_samples(f);
     return samples < left ? samples : left;
 }
 
@@ -195,7 +200,7 @@ unsigned film_processors(void)
 
 int film_render(film *f, const path_plan *plan, const film_run *run)
 {
-    size_t count = (size_t)f->width * (size_t)f->height;
+    size_t count = film_pixels(f);
     pass p = {.plan = plan, .run = run, .width = f->width, .height = f->height};
     p.sum = malloc(3 * count * sizeof *p.sum);
     p.square = malloc(count * sizeof *p.square);
@@ -228,7 +233,7 @@ void film_free(film *f)
 
 int film_image(const film *f, image *made)
 {
-    size_t count = 3 * (size_t)f->width * (size_t)f->height;
+    size_t count = 3 * film_pixels(f);
     if (!image_make(made, f->width, f->height))
         return 0;
     for (size_t i = 0; i < count && f->samples; i++)

@@ -14,6 +14,11 @@ typedef struct film {
     path_counts counts;
 } film;
 
+static inline size_t film_pixels(const film *f)
+{
+    return (size_t)f->width * (size_t)f->height;
+}
+
 /* 0 if there is no memory. */
 int film_make(film *f, int width, int height);
 void film_free(film *f);
@@ -29,6 +34,9 @@ typedef struct film_run {
 
 /* Adds samples; returns 0 if it was stopped before all were there (what is there stays: whole passes only). */
 int film_render(film *f, const path_plan *plan, const film_run *run);
+
+/* Samples a pixel that a pass over all of them takes. */
+uint64_t film_pass_samples(const film *f);
 
 /* Threads that the machine runs at once, 1 to 256. */
 unsigned film_processors(void);

@@ -13,6 +13,9 @@ typedef enum path_sampler {
     SAMPLER_MATERIAL, SAMPLER_ALL, SAMPLER_VISIBLE, SAMPLER_BOUNDED, SAMPLER_PERFECT
 } path_sampler;
 
+enum { SAMPLERS = SAMPLER_PERFECT + 1 };
+extern const char *const path_sampler_names[SAMPLERS];
+
 /* Effects of a scene, a bit each: what has to run. --explain lists them. */
 enum {
     EFFECT_MICROFACETS = 1, EFFECT_REFRACTION = 2, EFFECT_MULTIPLE = 4, EFFECT_TEXTURED_ALPHA = 8,

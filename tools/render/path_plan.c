@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+const char *const path_sampler_names[SAMPLERS] = {"material", "all", "visible", "bounded", "perfect"};
+
 /* ---- effects ---- */
 
 static unsigned environment_effects(const environment *e)
