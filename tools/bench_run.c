@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bench_parts.h"
+#include "clock.h"
 
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
@@ -186,7 +187,7 @@ vndf_status bench_run(const bench_plan *plan, bench_rows *rows, vndf_error *erro
     *rows = (bench_rows){NULL, 0};
     if (!s)
         return fail(error, VNDF_ERROR_MEMORY, "no memory");
-    s->clock = (bench_clock){plan, bench_now()};
+    s->clock = (bench_clock){plan, clock_seconds()};
     vndf_status status = bench_list_make(&s->list, &s->clock, error);
     if (status == VNDF_OK)
         status = measure(s, error);

@@ -3,12 +3,11 @@
  * In a turn a method first runs once over its inputs, so that these and its tables are in the cache, and then
  * against the clock: once if that takes long enough, lest branches are learnt by heart. Three ways: a direction
  * each; many samples for one direction; and, for scalar methods, each input waiting for the last output. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "bench_parts.h"
+#include "clock.h"
 
 enum { TURNS_MIN = 7, TURNS_MAX = 501, EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
 
@@ -18,16 +17,9 @@ typedef struct times {
     double of[BENCH_ENTRIES_MAX][WAYS][TURNS_MAX];
 } times;
 
-double bench_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 double bench_elapsed(const bench_clock *at)
 {
-    return bench_now() - at->start;
+    return clock_seconds() - at->start;
 }
 
 int bench_go_on(const bench_clock *at, const char *what)
@@ -63,14 +55,14 @@ static double pass(const method *m, int way, const method_inputs *in, const meth
     method_run *run = run_of(m, way);
     if (!run)
         return NAN;
-    double start = bench_now();
+    double start = clock_seconds();
     run(m, in, out);
-    double once = bench_now() - start;
+    double once = clock_seconds() - start;
     int repeats = (int)fmin(fmax(turn_seconds / fmax(once, 1e-7), 1), 100);
-    start = bench_now();
+    start = clock_seconds();
     for (int i = 0; i < repeats; i++)
         run(m, in, out);
-    return (bench_now() - start) * 1e9 / (double)repeats / BENCH_BLOCK;
+    return (clock_seconds() - start) * 1e9 / (double)repeats / BENCH_BLOCK;
 }
 
 /* ---- all turns --------------------------------------------------------------------------------- */

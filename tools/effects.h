@@ -172,9 +172,6 @@ void effects_verify(effects_entry *entry, effects_block *block);
  * disagree. */
 void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
 
-/* Seconds of a clock that starts somewhere. */
-double effects_now(void);
-
 /* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT: stopped. */
 vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_block *block);
 

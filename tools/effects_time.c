@@ -1,11 +1,10 @@
 /* Time: all sets take turns, each turn with new random inputs that are the same for all sets, and the medians
  * over the turns count. In a turn a set first runs once over its inputs, so that these and its tables are in
  * the cache, and then against the clock: once if that takes long enough, lest branches are learnt by heart. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "clock.h"
 #include "effects.h"
 
 enum { TURNS_MIN = 7, TURNS_MAX = 301, EACH = 0, SHARED = 1, EVAL = 2, PDF = 3, BEYOND_BARE = 4, SERIES = 5 };
@@ -15,13 +14,6 @@ static const double turn_seconds = 20e-6; /* a pass shorter than this is repeate
 typedef struct times {
     double of[SERIES][TURNS_MAX];
 } times;
-
-double effects_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- one pass ---------------------------------------------------------------------------------- */
 
@@ -47,14 +39,14 @@ static void run(effects_loop *loop, int way, effects_block *block, const effects
 static double pass(const effects_subject *subject, int way, effects_block *block)
 {
     effects_loop *loop = loop_of(subject->loops, way);
-    double start = effects_now();
+    double start = clock_seconds();
     run(loop, way, block, subject);
-    double once = effects_now() - start;
+    double once = clock_seconds() - start;
     int repeats = (int)fmin(fmax(turn_seconds / fmax(once, 1e-7), 1), 100);
-    start = effects_now();
+    start = clock_seconds();
     for (int i = 0; i < repeats; i++)
         run(loop, way, block, subject);
-    return (effects_now() - start) * 1e9 / (double)repeats / EFFECTS_BLOCK;
+    return (clock_seconds() - start) * 1e9 / (double)repeats / EFFECTS_BLOCK;
 }
 
 /* ---- all turns --------------------------------------------------------------------------------- */
@@ -121,14 +113,14 @@ static void relate(effects_list *list)
 /* The first turn warms up the machine and is not counted. 0: stopped. */
 static int take_turns(effects_list *list, const effects_plan *plan, times *t, effects_block *block)
 {
-    double start = effects_now(), spent = 0;
+    double start = clock_seconds(), spent = 0;
     size_t turns = 0;
     turn(list, t, block, 0);
     for (; turns < TURNS_MAX && (turns < TURNS_MIN || spent < plan->seconds); turns++) {
         if (!plan->go_on(fmin(spent / plan->seconds, 0.99), "taking turns", plan->user))
             return 0;
         turn(list, t, block, turns);
-        spent = effects_now() - start;
+        spent = clock_seconds() - start;
     }
     for (size_t i = 0; i < list->count; i++)
         if (is_timed(&list->entry[i]))

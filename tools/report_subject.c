@@ -6,12 +6,11 @@
  * They are taken on a Fibonacci lattice (a rank-1 lattice of 6765 points), for 61 directions. The truth is the
  * source itself by vndf_truth_p22 and vndf_truth_area, in double. Nothing is missed: where the true density is
  * positive the drawn one is too. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "clock.h"
 #include "distribution.h"
 #include "report.h"
 
@@ -91,14 +90,6 @@ static void measure_angles(const report_subject *subject, const double areas[REP
 
 /* ---- building ------------------------------------------------------------------------------------ */
 
-/* Of this process: others on the machine do not make tables fewer. */
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Cut between characters, with an ellipsis. */
 static void copy_cut(char *copy, size_t size, const char *text)
 {
@@ -149,7 +140,8 @@ static vndf_status build_all(report_subject *subject, size_t largest, double sec
                              vndf_error *error)
 {
     static const size_t sizes[REPORT_SIZES] = {2048, 4096, 8192, 16384, 32768, 65536, 1048576};
-    double begin = seconds_now(), before = begin, last = 0;
+    /* Of this process: others on the machine do not make tables fewer. */
+    double begin = clock_processor_seconds(), before = begin, last = 0;
     for (size_t i = 0; i < REPORT_SIZES && sizes[i] <= largest && !is_full(subject); i++) {
         double next = last * (sizes[i] > 65536 ? 4 : 2);
         if (i >= 2 && before - begin + next > seconds) {
@@ -159,7 +151,7 @@ static vndf_status build_all(report_subject *subject, size_t largest, double sec
         vndf_status status = build_one(subject, sizes[i], watch, error);
         if (status != VNDF_OK)
             return status;
-        double now = seconds_now();
+        double now = clock_processor_seconds();
         last = now - before;
         before = now;
     }

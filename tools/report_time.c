@@ -5,12 +5,11 @@
  * in cache with a table, too many for a branch predictor to learn. Each loop is timed 11 times, the median counts.
  * Results are added up and the sum is looked at, so that no compiler leaves the work out. A sample is what view
  * and sample take together, less the view. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "chart.h"
+#include "clock.h"
 #include "random.h"
 #include "report.h"
 
@@ -90,13 +89,6 @@ static void draw_shared(workload *w)
     draw_batch(w, VNDF_SHARED_ALPHA | VNDF_SHARED_WI);
 }
 
-static double nanoseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
-
 static int ascending(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -108,9 +100,9 @@ static double time_loop(workload *w, loop *run)
     double spent[ROUNDS];
     run(w);
     for (int round = 0; round < ROUNDS; round++) {
-        double begin = nanoseconds();
+        double begin = clock_seconds();
         run(w);
-        spent[round] = (nanoseconds() - begin) / DIRECTIONS;
+        spent[round] = 1e9 * (clock_seconds() - begin) / DIRECTIONS;
     }
     qsort(spent, ROUNDS, sizeof spent[0], ascending);
     return spent[ROUNDS / 2];
