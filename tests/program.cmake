@@ -1,4 +1,4 @@
-# What scripts that run the program share: has, expect, split; `failures` counts, OUT is a fresh folder.
+# What scripts that run the program share: has, expect, answers, split; `failures` counts, OUT is a fresh folder.
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 set(failures 0)
@@ -18,6 +18,16 @@ macro(expect what)
         message("FAILED: ${what}")
     endif()
 endmacro()
+
+# answers(STATUS TEXT WORDS...): the program, run in OUT, ends with this status and prints this text somewhere.
+function(answers status text)
+    execute_process(COMMAND ${VNDF} ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
+        WORKING_DIRECTORY ${OUT})
+    string(FIND "${out}${err}" "${text}" at)
+    if(NOT got EQUAL ${status} OR at EQUAL -1)
+        message(SEND_ERROR "vndf ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
+    endif()
+endfunction()
 
 # Lines of a text, with what would change how CMake splits it replaced.
 macro(split text lines)

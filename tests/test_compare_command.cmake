@@ -2,8 +2,7 @@
 # wrong words are refused with status 2 and leave nothing behind.
 cmake_minimum_required(VERSION 3.16)
 
-file(REMOVE_RECURSE ${OUT})
-file(MAKE_DIRECTORY ${OUT})
+include(${CMAKE_CURRENT_LIST_DIR}/program.cmake)
 set(scene ${OUT}/ball.scene)
 file(WRITE ${scene} "film width 40 height 24\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
     "material gold conductor of gold distribution ggx alpha 0.3\nmaterial lamp light radiance 5 5 5\n"
@@ -13,16 +12,6 @@ file(WRITE ${OUT}/glass.scene "film width 40 height 24\ncamera from 0 0 5 to 0 0
 file(WRITE ${OUT}/file.scene "film width 40 height 24\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
     "material m conductor of gold distribution table ${SOURCE}/tables/student-t-2.5.vndf\n"
     "sphere centre 0 0 0 radius 1 material m\n")
-
-# Runs vndf compare; `status` is expected, and `text` in what it prints.
-function(expect status text)
-    execute_process(COMMAND ${VNDF} compare ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
-        WORKING_DIRECTORY ${OUT})
-    string(FIND "${out}${err}" "${text}" at)
-    if(NOT got EQUAL ${status} OR at EQUAL -1)
-        message(SEND_ERROR "vndf compare ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
-    endif()
-endfunction()
 
 # Files of the page are there, and the page mentions those that are pictures.
 function(expect_files folder)
@@ -35,30 +24,32 @@ function(expect_files folder)
     endforeach()
 endfunction()
 
-expect(0 "| bounded | " ${scene} page --spp 8)
+answers(0 "| bounded | " compare ${scene} page --spp 8)
 expect_files(page index.html points.csv reference.pfm crops.png reference-film.png visible-time.png
     visible-time.pfm all-samples.png bounded-error.png)
-expect(0 "The reference was read" ${scene} page --spp 4 --samplers all,visible --reference page/reference.pfm)
-expect(0 "replaced page/index.html" ${scene} page --spp 4 --samplers all,visible --reference page/reference.pfm)
-expect(0 "| 2 KiB | " ${scene} tables --spp 4 --tables 2048,3000 --threads 1)
+answers(0 "The reference was read" compare ${scene} page --spp 4 --samplers all,visible
+    --reference page/reference.pfm)
+answers(0 "replaced page/index.html" compare ${scene} page --spp 4 --samplers all,visible
+    --reference page/reference.pfm)
+answers(0 "| 2 KiB | " compare ${scene} tables --spp 4 --tables 2048,3000 --threads 1)
 expect_files(tables 2-kib-time.png 3000-bytes-changes.png closed-forms-changes.png)
-expect(0 "Without bounded" glass.scene glass --spp 4) # for the page; told on the terminal, too
-expect(0 "example:" --help)
+answers(0 "Without bounded" compare glass.scene glass --spp 4) # for the page; told on the terminal, too
+answers(0 "example:" compare --help)
 
-expect(2 "SCENE DIR" ${scene})
-expect(2 "did you mean 'bounded'?" ${scene} no --samplers visible,bouned)
-expect(2 "stands there twice" ${scene} no --samplers visible,visible)
-expect(2 "2048 stands there twice" ${scene} no --tables 2048,2048)
-expect(2 "two comparisons" ${scene} no --samplers visible --tables 2048)
-expect(2 "no whole number" ${scene} no --tables 2048.5)
-expect(2 "--tables" ${scene} no --tables 100)
-expect(2 "cannot build anew" file.scene no --tables 2048)
-expect(2 "material 'ice'" glass.scene no --samplers visible,bounded)
-expect(2 "it is 40 x 24 pixels" ${scene} no --spp 4 --width 20 --reference page/reference.pfm)
-expect(2 "no.pfm" ${scene} no --spp 4 --reference no.pfm)
-expect(2 "no.scene" no.scene no)
-expect(2 "has files in it" ${scene} ${OUT})
-expect(2 "--spp" ${scene} no --spp 1)
+answers(2 "SCENE DIR" compare ${scene})
+answers(2 "did you mean 'bounded'?" compare ${scene} no --samplers visible,bouned)
+answers(2 "stands there twice" compare ${scene} no --samplers visible,visible)
+answers(2 "2048 stands there twice" compare ${scene} no --tables 2048,2048)
+answers(2 "two comparisons" compare ${scene} no --samplers visible --tables 2048)
+answers(2 "no whole number" compare ${scene} no --tables 2048.5)
+answers(2 "--tables" compare ${scene} no --tables 100)
+answers(2 "cannot build anew" compare file.scene no --tables 2048)
+answers(2 "material 'ice'" compare glass.scene no --samplers visible,bounded)
+answers(2 "it is 40 x 24 pixels" compare ${scene} no --spp 4 --width 20 --reference page/reference.pfm)
+answers(2 "no.pfm" compare ${scene} no --spp 4 --reference no.pfm)
+answers(2 "no.scene" compare no.scene no)
+answers(2 "has files in it" compare ${scene} ${OUT})
+answers(2 "--spp" compare ${scene} no --spp 1)
 file(GLOB left ${OUT}/no* ${OUT}/*/*.tmp*)
 if(left)
     message(SEND_ERROR "left behind: ${left}")

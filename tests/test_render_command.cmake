@@ -2,8 +2,7 @@
 # and leave nothing behind; --explain tells what the scene calls for; the language of scenes is printed.
 cmake_minimum_required(VERSION 3.16)
 
-file(REMOVE_RECURSE ${OUT})
-file(MAKE_DIRECTORY ${OUT})
+include(${CMAKE_CURRENT_LIST_DIR}/program.cmake)
 set(scene ${OUT}/ball.scene)
 file(WRITE ${scene} "film width 24 height 16\ncamera from 0 0 5 to 0 0 0\nintegrator samples 3\n"
     "environment constant 1 1 1\nmaterial red matte colour 0.8 0.1 0.1\nmaterial glass glass index 1.5\n"
@@ -18,25 +17,14 @@ file(WRITE ${mapped} "camera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
     "material rough conductor of gold distribution ggx alpha 0.2 alpha-map blots\n"
     "sphere centre 0 0 0 radius 0.5 material rough\n")
 
-# Runs vndf render; `status` is expected, and `text` in what it prints.
-function(expect status text)
-    execute_process(COMMAND ${VNDF} render ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
-        WORKING_DIRECTORY ${OUT})
-    string(FIND "${out}${err}" "${text}" at)
-    if(NOT got EQUAL ${status} OR at EQUAL -1)
-        message(SEND_ERROR "vndf render ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n"
-            "${out}${err}")
-    endif()
-endfunction()
-
-expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o one.pfm --threads 1)
-expect(0 "24 x 16 pixels, 3 samples each" ${scene} -o three.pfm --threads 3)
-expect(0 "12 x 8 pixels, 2 samples each" ${scene} -o small.png --width 12 --spp 2 --sampler visible)
-expect(0 "pixels" ${scene} -o other.pfm --seed 5)
-expect(0 "perfect sampling: 2 BSDFs precomputed" ${scene} -o perfect.pfm --sampler perfect --spp 1)
-expect(0 "microfacets" ${scene} --explain)
-expect(0 "example:" --help)
-expect(0 "stripes  64 upright stripes" --grammar)
+answers(0 "24 x 16 pixels, 3 samples each" render ${scene} -o one.pfm --threads 1)
+answers(0 "24 x 16 pixels, 3 samples each" render ${scene} -o three.pfm --threads 3)
+answers(0 "12 x 8 pixels, 2 samples each" render ${scene} -o small.png --width 12 --spp 2 --sampler visible)
+answers(0 "pixels" render ${scene} -o other.pfm --seed 5)
+answers(0 "perfect sampling: 2 BSDFs precomputed" render ${scene} -o perfect.pfm --sampler perfect --spp 1)
+answers(0 "microfacets" render ${scene} --explain)
+answers(0 "example:" render --help)
+answers(0 "stripes  64 upright stripes" render --grammar)
 file(SHA256 ${OUT}/one.pfm one)
 file(SHA256 ${OUT}/three.pfm three)
 file(SHA256 ${OUT}/other.pfm other)
@@ -47,18 +35,18 @@ if(one STREQUAL other)
     message(SEND_ERROR "two seeds make the same image")
 endif()
 
-expect(2 "SCENE is missing")
-expect(2 "-o OUT.png or -o OUT.pfm is missing" ${scene})
-expect(2 "must end in .png or .pfm" ${scene} -o no.gif)
-expect(2 "did you mean 'bounded'?" ${scene} -o no.png --sampler bouned)
-expect(2 "material 'ice': normals bounded, normals that reflect to above the horizon: lobes must be reflection"
-    ${scene} -o no.png --sampler bounded)
-expect(2 "material 'rough': perfect sampling is precomputed for one roughness, this one has a map"
+answers(2 "SCENE is missing" render)
+answers(2 "-o OUT.png or -o OUT.pfm is missing" render ${scene})
+answers(2 "must end in .png or .pfm" render ${scene} -o no.gif)
+answers(2 "did you mean 'bounded'?" render ${scene} -o no.png --sampler bouned)
+answers(2 "material 'ice': normals bounded, normals that reflect to above the horizon: lobes must be reflection"
+    render ${scene} -o no.png --sampler bounded)
+answers(2 "material 'rough': perfect sampling is precomputed for one roughness, this one has a map" render
     ${mapped} -o no.png --sampler perfect)
-expect(2 "no.scene" no.scene -o no.png)
-expect(2 "--width: a film of 24 x 16 pixels becomes 16384 x 10923" ${scene} -o no.png --width 16384)
-expect(2 "--spp" ${scene} -o no.png --spp 0)
-expect(2 "cannot write" ${scene} -o ${OUT}/nowhere/no.png)
+answers(2 "no.scene" render no.scene -o no.png)
+answers(2 "--width: a film of 24 x 16 pixels becomes 16384 x 10923" render ${scene} -o no.png --width 16384)
+answers(2 "--spp" render ${scene} -o no.png --spp 0)
+answers(2 "cannot write" render ${scene} -o ${OUT}/nowhere/no.png)
 file(GLOB left ${OUT}/*no* ${OUT}/*.tmp)
 if(left)
     message(SEND_ERROR "left behind: ${left}")

@@ -52,6 +52,29 @@ void common_text(char text[COMMON_TEXT], const comparison *r, size_t i)
         percent(text, "below ", seen);
 }
 
+/* Without fireflies in brackets. */
+static void error_text(char text[FIGURE_TEXT], const film_error *e)
+{
+    snprintf(text, FIGURE_TEXT, "%.2f%% (%.2f%%)", 100 * e->relative, 100 * e->trimmed);
+}
+
+static void measured_text(char text[FIGURE_TEXT], int digits, measured all, measured trimmed)
+{
+    snprintf(text, FIGURE_TEXT, "%.*f ± %.*f (%.*f ± %.*f)", digits, all.value, digits, all.spread, digits,
+             trimmed.value, digits, trimmed.spread);
+}
+
+void way_figures(char text[FIGURES][FIGURE_TEXT], const contest *c, size_t i)
+{
+    const way *w = &c->way[i];
+    snprintf(text[FIGURE_TIME_SAMPLES], FIGURE_TEXT, "%llu", (unsigned long long)w->by_time.samples);
+    error_text(text[FIGURE_TIME_ERROR], &w->by_time.error);
+    measured_text(text[FIGURE_EFFICIENCY], 2, efficiency(c, i, 0), efficiency(c, i, 1));
+    snprintf(text[FIGURE_SECONDS], FIGURE_TEXT, "%.1f", w->by_samples.seconds);
+    error_text(text[FIGURE_ERROR], &w->by_samples.error);
+    measured_text(text[FIGURE_SAMPLES_FOR_ERROR], 0, samples_for_error(c, i, 0), samples_for_error(c, i, 1));
+}
+
 /* ---- tables ---- */
 
 static void print_common(FILE *file, const comparison *r)
@@ -76,26 +99,19 @@ static void print_agreement(FILE *file, const comparison *r)
         fprintf(file, "\nThe reference was read: its noise is not known, and counts as that of the ways.\n");
 }
 
-static void print_way(FILE *file, const contest *c, size_t i)
-{
-    const way *w = &c->way[i];
-    measured e[2] = {efficiency(c, i, 0), efficiency(c, i, 1)};
-    measured s[2] = {samples_for_error(c, i, 0), samples_for_error(c, i, 1)};
-    fprintf(file, "| %s | %llu | %.2f%% (%.2f%%) | %.2f ± %.2f (%.2f ± %.2f) | %.2f%% (%.2f%%) | %.1f s "
-                  "| %.0f ± %.0f (%.0f ± %.0f) |\n", w->name, (unsigned long long)w->by_time.samples,
-            100 * w->by_time.error.relative, 100 * w->by_time.error.trimmed, e[0].value, e[0].spread, e[1].value,
-            e[1].spread, 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
-            w->by_samples.seconds, s[0].value, s[0].spread, s[1].value, s[1].spread);
-}
-
 void comparison_print(FILE *file, const comparison *r)
 {
     const contest *c = r->contest;
     fprintf(file, "| %s | samples in equal time | error | efficiency | error of %llu samples | time of them "
                   "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n", r->by,
             (unsigned long long)c->samples, c->way[0].name);
-    for (size_t i = 0; i < c->count; i++)
-        print_way(file, c, i);
+    for (size_t i = 0; i < c->count; i++) {
+        char f[FIGURES][FIGURE_TEXT];
+        way_figures(f, c, i);
+        fprintf(file, "| %s | %s | %s | %s | %s | %s s | %s |\n", c->way[i].name, f[FIGURE_TIME_SAMPLES],
+                f[FIGURE_TIME_ERROR], f[FIGURE_EFFICIENCY], f[FIGURE_ERROR], f[FIGURE_SECONDS],
+                f[FIGURE_SAMPLES_FOR_ERROR]);
+    }
     print_agreement(file, r);
     if (r->has_common)
         print_common(file, r);

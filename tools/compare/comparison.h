@@ -30,6 +30,15 @@ measured efficiency(const contest *c, size_t i, int trimmed);
 /* The samples that way i needs for the error that the first has with all its samples. */
 measured samples_for_error(const contest *c, size_t i, int trimmed);
 
+/* The figures of a way as text, for tables of any kind. */
+typedef enum figure {
+    FIGURE_TIME_SAMPLES, FIGURE_TIME_ERROR, FIGURE_EFFICIENCY, FIGURE_SECONDS, FIGURE_ERROR,
+    FIGURE_SAMPLES_FOR_ERROR, FIGURES
+} figure;
+
+enum { FIGURE_TEXT = 64 };
+void way_figures(char text[FIGURES][FIGURE_TEXT], const contest *c, size_t i);
+
 /* The error that more samples do not lessen, or below what it is, as text. */
 enum { COMMON_TEXT = 32 };
 void common_text(char text[COMMON_TEXT], const comparison *r, size_t i);

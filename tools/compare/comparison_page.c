@@ -15,15 +15,12 @@ static void write_figures(html_page *page, const comparison *r)
                         "<th>seconds<th>error<th>samples for the error of %s</tr>\n",
             r->by, (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++) {
-        const way *w = &c->way[i];
-        measured e[2] = {efficiency(c, i, 0), efficiency(c, i, 1)};
-        measured s[2] = {samples_for_error(c, i, 0), samples_for_error(c, i, 1)};
-        fprintf(page->html, "<tr><td>%s<td>%llu<td>%.2f%% (%.2f%%)<td>%.2f ± %.2f (%.2f ± %.2f)<td>%.1f"
-                            "<td>%.2f%% (%.2f%%)<td>%.0f ± %.0f (%.0f ± %.0f)</tr>\n", w->name,
-                (unsigned long long)w->by_time.samples, 100 * w->by_time.error.relative,
-                100 * w->by_time.error.trimmed, e[0].value, e[0].spread, e[1].value, e[1].spread,
-                w->by_samples.seconds, 100 * w->by_samples.error.relative, 100 * w->by_samples.error.trimmed,
-                s[0].value, s[0].spread, s[1].value, s[1].spread);
+        char f[FIGURES][FIGURE_TEXT];
+        way_figures(f, c, i);
+        fprintf(page->html, "<tr><td>%s", c->way[i].name);
+        for (int k = 0; k < FIGURES; k++)
+            fprintf(page->html, "<td>%s", f[k]);
+        fputs("</tr>\n", page->html);
     }
     fputs("</table></div>\n", page->html);
 }

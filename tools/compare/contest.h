@@ -21,8 +21,8 @@ enum { WAYS_MAX = 8, POINTS_MAX = 40, WAY_NAME_MAX = 32 };
 typedef struct film_error {
     double relative; /* root of the mean of (I - R)^2 / (R^2 + floor^2), of luminance, less the noise of R */
     double trimmed;  /* the same without the thousandth part of the pixels that are worst: fireflies */
-    double spread[2]; /* standard deviations of the squares of the two, as parts of them; rather too large, as pixels
-                       * differ in how noisy they are, too */
+    double spread[2]; /* standard deviations of the squares of the two, as parts of them; rather too large, as
+                       * pixels differ in how noisy they are, too */
 } film_error;
 
 typedef struct contest_point {
