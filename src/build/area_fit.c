@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-/* Area below the horizon, of that at grazing incidence, down to which relative precision is asked. */
-static const double AREA_LEAST = 1e-12;
 static const double CURVE_MOST = 1e11; /* of an area: beyond it no knot helps */
 static const double HALF_PI = 1.57079632679489661923;
 
@@ -17,8 +15,7 @@ double vndf_side_share(const vndf_side *side, double y)
     double mass = vndf_side_area(side, y).mass;
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
-    double seen = mass / side->profile->f1;
-    return pow(seen, VNDF_FADE) * fmin(1.0, seen / AREA_LEAST);
+    return vndf_fade(mass / side->profile->f1);
 }
 
 static vndf_area_knot knot_at(const vndf_side *side, double y)
@@ -55,7 +52,7 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
         double y = a + at[i] * h, truth = vndf_side_area(side, y).mass;
         double error = fabs(vndf_area_piece_at(piece, at[i]) - truth);
-        double whole = side->below ? truth + AREA_LEAST * side->profile->f1 : truth / vndf_side_share(side, y);
+        double whole = side->below ? truth + VNDF_AREA_CLAIMED * side->profile->f1 : truth / vndf_side_share(side, y);
         worst = fmax(worst, error / whole);
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};

@@ -55,7 +55,7 @@ static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, dou
 /* Cells of an azimuth row: at most a few per cent of the bytes each. */
 static uint32_t most_cells_for(size_t max_bytes)
 {
-    return max_bytes < 6000 ? 8 : max_bytes < 40000 ? 20 : 32;
+    return max_bytes < 6000 ? 12 : 32;
 }
 
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)

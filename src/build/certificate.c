@@ -137,7 +137,7 @@ static double area_error(const vndf_survey *v)
         for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
             double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
             double area = vndf_profile_area(v->profile, y, y - 1);
-            if (area > VNDF_SURVEY_AREA_LEAST * v->profile->f1)
+            if (area > VNDF_AREA_CLAIMED * v->profile->f1)
                 worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
         }
     return worst;

@@ -26,8 +26,12 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
-/* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 is left. */
-#define VNDF_FADE 0.05
+/* Part of the area at grazing incidence below which nothing is claimed. */
+#define VNDF_AREA_CLAIMED 1e-10
+
+/* What an error counts for a direction below the horizon that sees this part of the area at grazing incidence: a
+ * third of its size at VNDF_AREA_CLAIMED, next to nothing below. */
+double vndf_fade(double seen);
 
 typedef struct vndf_profile {
     const vndf_source *source;

@@ -14,6 +14,11 @@ static const double HALF_PI = 1.57079632679489661923;
 /* y - atan y: here the series errs by 1e-11 of it, the difference by 1e-13. */
 static const double SERIES_MOST = 0.05;
 
+double vndf_fade(double seen)
+{
+    return pow(seen, 0.05) * fmin(1.0, seen / VNDF_AREA_CLAIMED);
+}
+
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
 
 /* The panel of R: r_i <= R < r_(i+1), the ends extended. */

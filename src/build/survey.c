@@ -212,7 +212,7 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     c = (float)c;
     double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
-    if (!(area > VNDF_SURVEY_AREA_LEAST * v->profile->f1) || vndf_guard_stopped(v->profile->guard))
+    if (!(area > VNDF_AREA_CLAIMED * v->profile->f1) || vndf_guard_stopped(v->profile->guard))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);

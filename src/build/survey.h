@@ -5,9 +5,6 @@
 #include "build/profile.h"
 #include "table/table.h"
 
-/* Of half the area at grazing incidence: below it nothing is claimed. */
-#define VNDF_SURVEY_AREA_LEAST 1e-10
-
 /* Mass that the largest weight and the error of D do without. */
 #define VNDF_SURVEY_LEFT_OUT 1e-6
 

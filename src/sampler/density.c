@@ -205,13 +205,9 @@ static piece piece_of(const vndf_engine_ray *ray, uint32_t j)
     const vndf_radial_cell *cell = &ray->table->cells[j];
     double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
     piece p = {cell->f0, cell->f1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, w0, w1, 0.0, 1.0, 0};
-    if (j + 2 < ray->cut || j > ray->cut + 2)
-        return p;
-    p.weighted = 1;
+    p.weighted = j + 2 >= ray->cut;
     if (j + 2 == ray->cut)
         p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
-    else if (j == ray->cut + 2)
-        p.v0 += (way < 1.0 ? way : 1.0) * (w1 - w0);
     return p;
 }
 

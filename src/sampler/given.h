@@ -101,6 +101,26 @@ VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bar
     return q;
 }
 
+/* The same for a weighted cell (math/weighted_cell.h) whose V is W: all of them beyond the cut. */
+VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_spot *at, const vndf_bare *n, doubles c, doubles k)
+{
+    doubles_four f = doubles_load_four(&at->line, 0);
+    doubles w0 = doubles_positive(c * at->z0 + k * at->x0), w1 = doubles_positive(c * at->z1 + k * at->x1);
+    doubles xi = at->inner, eta = at->outer, whole = xi + eta, w = w0 * eta + w1 * xi, half = 0.5 * (w0 + w1);
+    doubles m = w0 * f.c + w1 * f.d, e0 = f.a * half, e1 = f.b * half, twice = 2.0 * m;
+    doubles from = w0 * whole + w, zeta = xi * from, rest = eta * (w1 * whole + w), both = zeta + rest;
+    doubles b = m * (both * both) + (e0 + e1 - twice) * (zeta * rest), length = n->across + n->z;
+    /* over X where f begins at 0 as X does */
+    doubles_m first = doubles_both(vndf_spot_is_first(at), doubles_at_most(f.a, doubles_set(0.0)));
+    doubles over = e1 * zeta + twice * rest;
+    doubles p = doubles_pick(first, over * from, zeta * over + e0 * (rest * rest));
+    doubles x = doubles_pick(first, at->x1, vndf_spot_between(at, at->x0, at->x1)), part = m * n->product;
+    doubles sum = vndf_spot_between(at, at->x0 + at->z0, at->x1 + at->z1);
+    vndf_quotient q = {p * (part * part) * (sum * sum * sum) * (2.0 * w * both),
+                       b * b * (vndf_spot_width(at) * x * whole) * (length * length * length)};
+    return q;
+}
+
 /* The quotient, if all digits are there. */
 VNDF_INLINE doubles vndf_given_density(doubles above, doubles below, doubles_m *plain)
 {

@@ -183,10 +183,9 @@ VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_g
     vndf_quotient azimuth = vndf_row_density(w, &shares, cosine, sine);
     vndf_cut_law law = below ? vndf_cut_law_below(d, c, k) : vndf_cut_law_above(d, c, k);
     vndf_spot at = vndf_spot_at(d, n.across, n.z);
-    vndf_quotient q = vndf_given_in_cell(&at, &n, c, k);
-    const doubles_u away = doubles_set_u(3);
-    *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + away, at.cell)
-                                        : doubles_at_most_u(at.cell + away, law.cut));
+    vndf_quotient q = below ? vndf_given_in_weighted_cell(&at, &n, c, k) : vndf_given_in_cell(&at, &n, c, k);
+    *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
+                                        : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
     doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);
     if (below) /* the wedge is all there is */
         return vndf_given_density(0.5 * above, under, plain);

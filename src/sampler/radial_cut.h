@@ -89,17 +89,16 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
     return piece;
 }
 
-/* One of the two cells beside it; without a cut the last two, where W may vanish. */
-VNDF_INLINE vndf_radial_piece vndf_radial_piece_beside(const vndf_radial_law *law, uint32_t j,
-                                                       vndf_radial_piece piece)
+/* Any cell beyond the cut, or one of the two inside it; without a cut the last two, where W may vanish. */
+VNDF_INLINE vndf_radial_piece vndf_radial_piece_weighted(const vndf_radial_law *law, uint32_t j,
+                                                         vndf_radial_piece piece)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
-    int beyond = j > law->cut, second = beyond ? j > law->cut + 1 : j + 1 < law->cut;
-    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1);
-    float way = 16.0f * law->part, change = second ? (way < 1.0f ? way : 1.0f) * (w0 - w1) : 0.0f;
+    int second = j + 1 < law->cut;
+    float w0 = vndf_radial_weight(law, j), w1 = vndf_radial_weight(law, j + 1), way = 16.0f * law->part;
     piece.weighted = 1;
-    piece.v0 = beyond ? w0 - change : w0;
-    piece.v1 = beyond ? w1 : w1 + change;
+    piece.v0 = w0;
+    piece.v1 = second ? w1 + (way < 1.0f ? way : 1.0f) * (w0 - w1) : w1;
     float half = law->gain * (0.5f * (piece.v0 + piece.v1));
     piece.cell.e0 = cell->f0 * vndf_radial_over(w0, piece.v0) * half;
     piece.cell.e1 = cell->f1 * vndf_radial_over(w1, piece.v1) * half;
@@ -112,7 +111,7 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_of(const vndf_radial_law *law, u
         return vndf_radial_piece_cut(law);
     vndf_radial_lanes cell = vndf_radial_load(law->table, j);
     vndf_radial_piece piece = vndf_radial_piece_plain(law, &cell);
-    return j + 2 < law->cut || j > law->cut + 2 ? piece : vndf_radial_piece_beside(law, j, piece);
+    return j + 2 < law->cut ? piece : vndf_radial_piece_weighted(law, j, piece);
 }
 
 /* Where the piece's rational cell stands at a place of the whole cell. */
