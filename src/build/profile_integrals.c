@@ -16,7 +16,7 @@ static const double SERIES_MOST = 0.05;
 
 double vndf_fade(double seen)
 {
-    return pow(seen, 0.05) * fmin(1.0, seen / VNDF_AREA_CLAIMED);
+    return pow(seen, 0.0) * fmin(1.0, seen / VNDF_AREA_CLAIMED);
 }
 
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */

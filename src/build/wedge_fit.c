@@ -95,8 +95,7 @@ static void set_aspect(const vndf_wedge_fit *fit, vndf_row *row)
 /* ---- cells of q ---- */
 
 /* Directions by which cells are judged. */
-static const double JUDGES[] = {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97};
-enum { JUDGE_COUNT = sizeof JUDGES / sizeof *JUDGES };
+enum { JUDGE_COUNT = 40 };
 
 typedef struct judge {
     direction d;
@@ -148,7 +147,7 @@ static int place_cells(vndf_wedge_fit *fit, uint32_t most_cells, double enough)
     enum { START = sizeof start / sizeof *start };
     bench judges = {fit, {{{0, 0, 0}, 0, 0, 0}}};
     for (int i = 0; i < JUDGE_COUNT; i++)
-        judges.judges[i] = judge_at(fit, JUDGES[i]);
+        judges.judges[i] = judge_at(fit, (i + 0.5) / JUDGE_COUNT);
     return vndf_refine(&fit->q, start, START, most_cells + 1 - START, enough, NULL, worst_miss, &judges);
 }
 
@@ -288,7 +287,7 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
 
 /* Where a quadratic through both ends and the middle misses most, and where what is seen fades out between
  * them. */
-static const double PROBES[] = {0.22, 0.6, 0.8, 0.95};
+static const double PROBES[] = {0.1, 0.22, 0.35, 0.65, 0.78, 0.9};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
 {
