@@ -105,7 +105,7 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
     double area = area_error(plan->max_bytes, error);
     vndf_table_size size;
-    size.radial = vndf_refinement_needed(&plan->radial, error) - 1;
+    size.radial = vndf_refinement_needed(&plan->radial, 0.5 * error) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
     size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
