@@ -18,6 +18,19 @@ double vndf_side_share(const vndf_side *side, double y)
     return vndf_fade(mass / side->profile->f1);
 }
 
+double vndf_side_least(const vndf_side *side)
+{
+    double low = 0.0, high = 1.0;
+    for (int i = 0; side->below && i < 40; i++) {
+        double y = (low + high) / 2;
+        if (vndf_side_area(side, y).mass > VNDF_AREA_CLAIMED * side->profile->f1)
+            high = y;
+        else
+            low = y;
+    }
+    return side->below ? high : 0.0;
+}
+
 static vndf_area_knot knot_at(const vndf_side *side, double y)
 {
     vndf_area_value v = vndf_side_area(side, y);

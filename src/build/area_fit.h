@@ -19,6 +19,9 @@ vndf_area_value vndf_side_area(const vndf_side *side, double y);
  * hardly where nothing is claimed any more. */
 double vndf_side_share(const vndf_side *side, double y);
 
+/* The y below which nothing is claimed (VNDF_AREA_CLAIMED); 0 above the horizon. */
+double vndf_side_least(const vndf_side *side);
+
 /* The ends of the spline's piece from a to b. */
 void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_knot *from, vndf_area_knot *to);
 

@@ -40,10 +40,15 @@ static int refine_radial(vndf_plan *plan, size_t limit)
     return good;
 }
 
+/* Where all that is seen below the horizon lies beyond this y, rows begin at its edge. */
+static const double ROWS_END = 1.0 / 32;
+
 static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
 {
-    static const double start[] = {0.0, 0.5, 1.0};
-    return vndf_refine(rows, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_wedge_row_error, fit);
+    double least = vndf_side_least(&fit->side);
+    const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
+    int ends = least > ROWS_END;
+    return vndf_refine(rows, ends ? seen : whole, ends ? 4 : 3, limit, enough, NULL, vndf_wedge_row_error, fit);
 }
 
 static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, double enough)
