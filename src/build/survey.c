@@ -1,6 +1,9 @@
 /* The visible normals from one direction are integrated over half a turn of azimuth (both halves are
  * alike) and over slope, on Gauss points of the cells of either stage, so that every integrand is smooth
- * between the points; the cells that hold a jump of the mask, c + s cos(a) R = 0, end there. */
+ * between the points; the cells that hold a jump of the mask, c + s cos(a) R = 0, end there. Where the profile has
+ * panels far narrower than a radial cell, the points follow the panels: a feature that the table cannot hold is
+ * missed by the table, not by its measurement. Slopes of the points do not depend on the direction, so that P22 is
+ * evaluated there once. */
 #include "build/survey.h"
 
 #include <math.h>
@@ -12,11 +15,15 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* f of a cell changes by more than this: it takes the finer rule. */
-static const double STEEP = 1.3;
-
 /* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
-enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, FRONT_PANELS = 20 };
+enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, FRONT_PANELS = 12 };
+
+/* A panel is a feature of its own if it is narrower than this part of a stretch and holds more than that part of
+ * the cell's mass. */
+static const double NARROW_PANEL = 0.25, HEAVY_PANEL = 0.01;
+
+/* A cell with so small a part of a ray's mass is not looked into. */
+static const double CELL_LEAST = 1e-9;
 
 static uint32_t parts_for(uint32_t cells, uint32_t least)
 {
@@ -39,54 +46,160 @@ static vndf_view view_of(const vndf_distribution *table, double s, double c)
     return vndf_view_scaled(table, 1.0, 1.0, wi);
 }
 
+/* ---- slopes ---- */
+
+typedef struct knots {
+    double x0, x1, z0, z1;
+} knots;
+
+static knots knots_of(const vndf_distribution *d, uint32_t j)
+{
+    knots k = {d->knots.x[j], d->knots.x[j + 1], d->knots.z[j], d->knots.z[j + 1]};
+    return k;
+}
+
+/* xi of a slope in a cell. */
+static double place_of(knots k, double r)
+{
+    double inner = r * k.z0 - k.x0, outer = k.x1 - r * k.z1;
+    return inner / (inner + outer);
+}
+
+/* f of a cell changes by more than this: it takes the finer rule. */
+static int is_steep(const vndf_radial_cell *cell)
+{
+    const float steep = 1.3f;
+    return cell->f0 > steep * cell->f1 || cell->f1 > steep * cell->f0;
+}
+
+static uint32_t points_in(const vndf_survey *v, uint32_t j, double width)
+{
+    return width < 1.0 || is_steep(&v->table->cells[j]) ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
+}
+
+/* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
+static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, double to, uint32_t count, uint32_t i)
+{
+    int fine = count == VNDF_GAUSS;
+    knots k = knots_of(v->table, j);
+    double xi = from + (to - from) * (fine ? vndf_gauss_node[i] : vndf_gauss_coarse_node[i]);
+    double weight = (to - from) * (fine ? vndf_gauss_weight[i] : vndf_gauss_coarse_weight[i]);
+    double x = (1 - xi) * k.x0 + xi * k.x1, z = (1 - xi) * k.z0 + xi * k.z1, width = k.x1 * k.z0 - k.x0 * k.z1;
+    vndf_survey_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z)};
+    node.mass *= vndf_profile_p22(v->profile, node.r);
+    return node;
+}
+
+static int add_stretch(vndf_survey *v, uint32_t j, double from, double to)
+{
+    uint32_t count = points_in(v, j, to - from);
+    if ((v->stretch_count & (v->stretch_count - 1)) == 0) { /* a power of two: full */
+        size_t room = v->stretch_count ? 2 * v->stretch_count : 1;
+        vndf_survey_stretch *stretch = realloc(v->stretch, room * sizeof *stretch);
+        vndf_survey_node *node = realloc(v->node, room * VNDF_GAUSS * sizeof *node);
+        v->stretch = stretch ? stretch : v->stretch;
+        v->node = node ? node : v->node;
+        if (!stretch || !node)
+            return 0;
+    }
+    vndf_survey_stretch made = {from, to, j, (uint32_t)v->node_count, count};
+    v->stretch[v->stretch_count++] = made;
+    for (uint32_t i = 0; i < count; i++)
+        v->node[v->node_count++] = node_in(v, j, from, to, count, i);
+    return 1;
+}
+
+/* A part of a cell, divided at the panels in it that are features of their own; *panel is the first that ends in
+ * it or beyond. */
+static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *panel)
+{
+    const vndf_profile *p = v->profile;
+    knots k = knots_of(v->table, j);
+    double heavy = HEAVY_PANEL * ((double)v->table->cells[j].mu0 + v->table->cells[j].mu1), at = from;
+    int good = 1;
+    for (; *panel < p->count && good; ++*panel) {
+        double begin = place_of(k, p->panel[*panel].r), end = place_of(k, p->panel[*panel + 1].r);
+        if (!(end < to))
+            break;
+        if (!(end > from && end - begin < NARROW_PANEL * (to - from) && p->panel[*panel].m0 > heavy))
+            continue;
+        if (begin > at)
+            good = add_stretch(v, j, at, begin);
+        good = good && add_stretch(v, j, begin > at ? begin : at, end);
+        at = end;
+    }
+    return good && add_stretch(v, j, at, to);
+}
+
+static int add_stretches(vndf_survey *v)
+{
+    uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
+    size_t panel = 0;
+    int good = 1;
+    for (uint32_t i = 0; i < v->table->radial_count * parts && good; i++) {
+        double part = i % parts;
+        good = add_part(v, i / parts, part / parts, (part + 1) / parts, &panel);
+    }
+    return good;
+}
+
+/* ---- one azimuth ---- */
+
 /* One azimuth of a direction, with the weight that it has in the sum. */
 typedef struct ray {
     vndf_engine_ray drawn;
     double weight;
 } ray;
 
-/* pdf per unit of slope area of the unit problem at R: the engine's density is per X Z^2 dR da. */
-static double drawn_density(const ray *at, double r)
+static void add_node(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, uint32_t j,
+                     const vndf_survey_node *n)
 {
-    double unit = 1 / (1 + r);
-    double x = r < HUGE_VAL ? r * unit : 1.0, z = unit;
-    double w = at->drawn.k * x + at->drawn.c * z;
-    return w > 0 ? vndf_engine_ray_density(&at->drawn, x, z, w) * z * z * z : 0.0;
-}
-
-/* Slopes from r0 to r1, which may be infinite: X and Z are linear between them, dR = width/Z^2 dxi. */
-static void add_slopes(vndf_survey *v, const ray *at, double r0, double r1, int steep)
-{
-    const double *node = steep ? vndf_gauss_node : vndf_gauss_coarse_node;
-    const double *weight = steep ? vndf_gauss_weight : vndf_gauss_coarse_weight;
-    int points = steep ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
-    double x0 = r0 / (1 + r0), z0 = 1 / (1 + r0), z1 = 1 / (1 + r1), x1 = z1 > 0 ? r1 / (1 + r1) : 1.0;
-    double width = z1 > 0 ? (r1 - r0) * z0 * z1 : z0;
-    for (int i = 0; i < points && v->count < v->capacity; i++) {
-        double xi = node[i], x = x0 + xi * (x1 - x0), z = z0 + xi * (z1 - z0), r = x / z;
-        double measure = at->weight * weight[i] * width * r / (z * z), mask = at->drawn.c + at->drawn.k * r;
-        double truth = mask > 0 ? vndf_profile_p22(v->profile, r) * mask / v->area : 0.0;
-        vndf_survey_point one = {truth * measure, drawn_density(at, r) * measure};
+    double mask = at->drawn.c + at->drawn.k * n->r;
+    if (mask > 0 && v->count < v->capacity) {
+        double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
+        vndf_survey_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
         v->samples[v->count++] = one;
     }
 }
 
-/* One azimuth: every radial cell that is seen, in parts where there are few, the one at the cut up to the cut. */
+/* The visible part of a stretch in the cell of the cut. */
+static void add_cut(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, const vndf_survey_stretch *s)
+{
+    double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
+    for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
+        vndf_survey_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
+        add_node(v, at, piece, s->cell, &n);
+    }
+}
+
+/* The stretches of a cell, from s on. */
+static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s, uint32_t count)
+{
+    uint32_t j = s->cell;
+    vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
+    if (!(piece.mass > CELL_LEAST * at->drawn.mass)) {
+        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
+        return;
+    }
+    for (uint32_t n = 0; n < count; n++)
+        if (j == at->drawn.cut)
+            add_cut(v, at, &piece, s + n);
+        else
+            for (uint32_t i = 0; i < s[n].count; i++)
+                add_node(v, at, &piece, j, v->node + s[n].first + i);
+}
+
+/* Every radial cell that is seen, the one at the cut up to the cut. */
 static void add_azimuth(vndf_survey *v, const ray *at)
 {
-    double k = at->drawn.k, c = at->drawn.c, cut = c * k < 0 ? -c / k : 0.0;
-    const vndf_distribution *d = v->table;
-    for (uint32_t i = 0; i < d->radial_count * v->radial_parts; i++) {
-        uint32_t j = i / v->radial_parts, part = i % v->radial_parts;
-        double r0 = vndf_survey_slope(d, j, part, v->radial_parts);
-        double r1 = vndf_survey_slope(d, j, part + 1, v->radial_parts);
-        double f0 = d->cells[j].f0, f1 = d->cells[j].f1;
-        if (c > 0 && cut > 0)
-            r1 = fmin(r1, cut);
-        else if (c < 0)
-            r0 = fmax(r0, cut > 0 ? cut : HUGE_VAL);
-        if (r1 > r0)
-            add_slopes(v, at, r0, r1, v->radial_parts > 1 || f0 > STEEP * f1 || f1 > STEEP * f0);
+    const vndf_engine_ray *r = &at->drawn;
+    int inside = r->c > 0, beyond = r->c < 0;
+    for (size_t i = 0, next; i < v->stretch_count; i = next) {
+        uint32_t j = v->stretch[i].cell;
+        for (next = i + 1; next < v->stretch_count && v->stretch[next].cell == j;)
+            next++;
+        if (r->mass > 0 && !(inside && j > r->cut) && !(beyond && j < r->cut))
+            add_cell(v, at, v->stretch + i, (uint32_t)(next - i));
     }
 }
 
@@ -114,7 +227,7 @@ static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uin
  * be had, and cells of a jump's azimuth are steep. */
 static double azimuth_lack(const vndf_view *view, const quarter *turn, double taken)
 {
-    enum { PARTS = 64 };
+    enum { PARTS = 16 };
     double mass = 0.0;
     for (uint32_t i = 0; i < turn->cells * PARTS * VNDF_GAUSS_COARSE; i++) {
         uint32_t in_cell = i % (PARTS * VNDF_GAUSS_COARSE);
@@ -238,15 +351,19 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
 
 int vndf_survey_from(vndf_survey *v, const vndf_distribution *table, const vndf_profile *profile)
 {
-    uint32_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_survey made = {table, profile, parts_for(table->radial_count, RADIAL_PARTS_LEAST), NULL, 0, 0, 0.0, 0.0};
+    size_t parts = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
+    vndf_survey made = {table, profile, NULL, NULL, 0, 0, NULL, 0, 0, 0.0, 0.0};
     *v = made;
-    v->capacity = (size_t)cells * VNDF_GAUSS_COARSE * table->radial_count * v->radial_parts * VNDF_GAUSS;
+    if (!add_stretches(v))
+        return 0;
+    v->capacity = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
     v->samples = malloc(v->capacity * sizeof *v->samples);
     return v->samples != NULL;
 }
 
 void vndf_survey_free(vndf_survey *v)
 {
+    free(v->stretch);
+    free(v->node);
     free(v->samples);
 }

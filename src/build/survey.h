@@ -13,14 +13,27 @@ typedef struct vndf_survey_point {
     double truth, drawn;
 } vndf_survey_point;
 
+/* A stretch of a radial cell, in xi, and its Gauss points: of all radial cells, in order. */
+typedef struct vndf_survey_stretch {
+    double from, to;
+    uint32_t cell, first, count; /* points */
+} vndf_survey_stretch;
+
+/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR. */
+typedef struct vndf_survey_node {
+    double xi, weight, r, mass;
+} vndf_survey_node;
+
 typedef struct vndf_survey {
     const vndf_distribution *table;
     const vndf_profile *profile;
-    uint32_t radial_parts;      /* of each radial cell */
+    vndf_survey_stretch *stretch;
+    vndf_survey_node *node;
+    size_t stretch_count, node_count;
     vndf_survey_point *samples; /* of one direction after the other */
     size_t count, capacity;
     double area;                /* true area of the direction, for s + |c| = 1 */
-    double lack;                /* of its drawn mass, for want of azimuths */
+    double lack;                /* of its drawn mass, for what the samples leave out */
 } vndf_survey;
 
 typedef struct vndf_finding {

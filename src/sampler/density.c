@@ -167,47 +167,27 @@ static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
     return w > 0.0 ? w : 0.0;
 }
 
-/* A cell as far as it is visible, f times its length at its ends, W and V there. */
-typedef struct piece {
-    double f0, f1, mass, w0, w1, v0, v1, begin, length;
-    int weighted;
-} piece;
-
 /* The cell j of the cut; c > 0 > k, then c < 0 < k. */
-static piece piece_above(const vndf_engine_ray *ray, uint32_t j)
+static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
     const vndf_knots *k = &ray->table->knots;
     double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
-    piece p = {cell->f0, cubic(cell, h, 1.0 - h), w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h),
-               w, 0.0, w, 0.0, 0.0, h, 1};
+    double half = 0.5 * w * h, mass = w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h);
+    vndf_engine_piece p = {cell->f0 * half, cubic(cell, h, 1.0 - h) * half, mass, w, 0.0, 0.0, h, 1};
     return p;
 }
 
-static piece piece_below(const vndf_engine_ray *ray, uint32_t j)
+static vndf_engine_piece piece_below(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
     double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
-    double mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
-    piece p = {cubic(cell, 1.0 - h, h), cell->f1, mass, 0.0, w, 0.0, w, 1.0 - h, h, 1};
-    return p;
-}
-
-/* Any cell; see radial.h for V of the second cell beside the cut. */
-static piece piece_of(const vndf_engine_ray *ray, uint32_t j)
-{
-    if (j == ray->cut)
-        return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
-    const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
-    piece p = {cell->f0, cell->f1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, w0, w1, 0.0, 1.0, 0};
-    p.weighted = j + 2 >= ray->cut;
-    if (j + 2 == ray->cut)
-        p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
+    double half = 0.5 * w * h, mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
+    vndf_engine_piece p = {cubic(cell, 1.0 - h, h) * half, cell->f1 * half, mass, 0.0, w, 1.0 - h, h, 1};
     return p;
 }
 
@@ -216,46 +196,62 @@ static double over(double w, double v)
     return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
 }
 
-/* A place in the rational cell of a piece: zeta and 1 - zeta, the ends of the cell per zeta, and (dzeta/dxi)
- * over the weight. */
+/* Beyond the cut V is W; of the second cell inside it see radial.h. */
+vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t j)
+{
+    if (j == ray->cut)
+        return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
+    vndf_engine_piece p = {cell->f0 * w0, cell->f1 * w1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, 0.0, 1.0, 0};
+    if (j + 2 < ray->cut)
+        return p;
+    p.weighted = 1;
+    if (j + 2 == ray->cut)
+        p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
+    double half = 0.5 * (p.v0 + p.v1);
+    p.e0 = cell->f0 * over(w0, p.v0) * half;
+    p.e1 = cell->f1 * over(w1, p.v1) * half;
+    return p;
+}
+
+/* A place in the rational cell of a piece: zeta and 1 - zeta, zeta over xi, and (dzeta/dxi) over the weight. */
 typedef struct inner {
-    double zeta, rest, e0, e1, ratio, per;
+    double zeta, rest, ratio, per;
 } inner;
 
 /* Where the normal has the weight w. */
-static inner inner_of(const piece *p, place at, double w)
+static inner inner_of(const vndf_engine_piece *p, place at, double w)
 {
-    double xi = at.xi / p->length, eta = at.eta / p->length;
+    double xi = at.xi, eta = at.eta;
     if (p->length < 1.0) {
+        xi /= p->length;
+        eta /= p->length;
         xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
         eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
     }
-    inner in = {xi, eta, p->f0 * p->w0, p->f1 * p->w1, 1.0, 1.0};
+    inner in = {xi, eta, 1.0, 1.0};
     if (p->weighted) {
-        double sum = p->v0 + p->v1, v = p->v0 * eta + p->v1 * xi, half = 0.5 * sum;
-        in.ratio = (p->v0 + v) / sum;
+        double per = 1.0 / (p->v0 + p->v1), v = p->v0 * eta + p->v1 * xi;
+        in.ratio = (p->v0 + v) * per;
         in.zeta = xi * in.ratio;
-        in.rest = eta * ((v + p->v1) / sum);
-        in.e0 = p->f0 * over(p->w0, p->v0) * half;
-        in.e1 = p->f1 * over(p->w1, p->v1) * half;
-        in.per = (p->length < 1.0 ? w : v) / half;
+        in.rest = eta * ((v + p->v1) * per);
+        in.per = 2.0 * (p->length < 1.0 ? w : v) * per;
     }
-    in.e0 *= p->length;
-    in.e1 *= p->length;
     return in;
 }
 
 /* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
  * X does. */
-static double density_over_x(const vndf_engine_ray *ray, const piece *p, place at, double w)
+static double density_over_x(const vndf_engine_ray *ray, const vndf_engine_piece *p, place at, double w)
 {
     const vndf_knots *k = &ray->table->knots;
     inner in = inner_of(p, at, w);
     double per = in.per / p->length;
-    if (at.cell == 0 && p->f0 == 0.0)
-        return per * in.ratio * rational_density_over(in.e1, p->mass, in.zeta, in.rest) / (p->length * k->x[1]);
+    if (at.cell == 0 && p->e0 == 0.0)
+        return per * in.ratio * rational_density_over(p->e1, p->mass, in.zeta, in.rest) / (p->length * k->x[1]);
     double x = at.eta * k->x[at.cell] + at.xi * k->x[at.cell + 1];
-    return per * rational_density(in.e0, in.e1, p->mass, in.zeta, in.rest) / x;
+    return per * rational_density(p->e0, p->e1, p->mass, in.zeta, in.rest) / x;
 }
 
 /* The law of the radius for one azimuth: its cut, and all of its mass. */
@@ -272,12 +268,12 @@ static void find_law(vndf_engine_ray *ray)
     if (!(c > 0.0) && !(k > 0.0))
         return;
     uint32_t j = ray->cut = place_of(d, fabs(c), fabs(k)).cell;
-    piece p = piece_of(ray, j);
+    vndf_engine_piece p = vndf_engine_piece_of(ray, j);
     ray->part = p.length;
     if (c > 0.0)
-        ray->mass = c * d->knots.e[j] + p.w0 * d->knots.g[j] + p.mass;
+        ray->mass = c * d->knots.e[j] + p.v0 * d->knots.g[j] + p.mass;
     else
-        ray->mass = k * d->knots.s[j + 1] + p.w1 * d->knots.t[j + 1] + p.mass;
+        ray->mass = k * d->knots.s[j + 1] + p.v1 * d->knots.t[j + 1] + p.mass;
 }
 
 /* ---- both ---- */
@@ -303,7 +299,7 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
     int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
     if (!(ray->mass > 0.0) || !(ray->azimuth > 0.0))
         return 0.0;
-    piece p = piece_of(ray, hidden ? ray->cut : at.cell);
+    vndf_engine_piece p = vndf_engine_piece_of(ray, hidden ? ray->cut : at.cell);
     if (!(p.length > 0.0))
         return 0.0;
     if (hidden) { /* by rounding alone, since w > 0: the place is the cut */
@@ -312,6 +308,16 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
     }
     double sum = sum_at(ray->table, at), density = density_over_x(ray, &p, at, w * sum) * (sum * sum * sum);
     return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
+}
+
+double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *p, uint32_t j, double xi,
+                                 double eta)
+{
+    const vndf_knots *k = &ray->table->knots;
+    place at = {j, xi, eta};
+    double x = eta * k->x[j] + xi * k->x[j + 1], w = ray->k * x + ray->c * (eta * k->z[j] + xi * k->z[j + 1]);
+    return w > 0.0 && p->length > 0.0 && ray->mass > 0.0
+               ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass : 0.0;
 }
 
 /* Mass of the law before knot j, c >= 0. */
@@ -327,12 +333,12 @@ double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z)
     place at = place_of(ray->table, x, z);
     if (!(ray->mass > 0.0) || at.cell > ray->cut)
         return 1.0;
-    piece p = piece_of(ray, at.cell);
+    vndf_engine_piece p = vndf_engine_piece_of(ray, at.cell);
     if (!(p.length > 0.0) || !(p.mass > 0.0))
         return mass_before(ray, at.cell) / ray->mass;
     inner in = inner_of(&p, at, 0.0);
     double w = in.zeta * in.rest;
-    double inside = (p.mass * in.zeta * in.zeta + in.e0 * w) / (1.0 + ((in.e0 + in.e1) / p.mass - 2.0) * w);
+    double inside = (p.mass * in.zeta * in.zeta + p.e0 * w) / (1.0 + ((p.e0 + p.e1) / p.mass - 2.0) * w);
     double part = (mass_before(ray, at.cell) + inside) / ray->mass;
     return part < 1.0 ? part : 1.0;
 }

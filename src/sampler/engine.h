@@ -89,6 +89,18 @@ double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
 double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);
 
+/* A cell of the law as far as it is visible, from `begin` on, `length` long in xi: its mass and the densities at
+ * its ends per xi of the part or, if weighted, per zeta of V (math/weighted_cell.h), and V there. */
+typedef struct vndf_engine_piece {
+    double e0, e1, mass, v0, v1, begin, length;
+    int weighted;
+} vndf_engine_piece;
+vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t cell);
+
+/* Per dxi da at a visible place of that cell, xi and eta from its knots. */
+double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *piece, uint32_t cell,
+                                 double xi, double eta);
+
 /* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length. */
 void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
