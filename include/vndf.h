@@ -109,15 +109,27 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured on a table, after rounding to float, against quadrature of the D it was
  * given, over incident directions from 0 to 180 degrees where the projected area exceeds 1e-10 of its
- * value at grazing incidence. All zero for the closed forms. */
+ * value at grazing incidence; worst where its azimuth rows, its radial cells and the edge of what is seen lie
+ * worst, which is where the builder looks. All zero for the closed forms.
+ *
+ * hidden and finest say how well the builder knew D. Of a formula it has a proof, of a family and a CSV it knows
+ * every scale: finest is 0, and no more than `hidden` of the mass or of the area at grazing incidence can have
+ * escaped it. A callback can only be sampled: hidden is 1, and what is narrower than `finest` times its slope may
+ * have escaped. */
 typedef struct vndf_certificate {
     float tv;          /* largest total variation distance between sampled and true visible normals */
     float tv_theta;    /* the incident angle where it was found, degrees */
+    float tv_above;    /* the same over directions from 0 to 90 degrees */
+    float tv_above_theta;
     float max_weight;  /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
     float area_error;  /* largest relative error of the projected area, hence of Lambda and G1 */
     float consistency; /* largest |integral of the pdf - 1| */
     float ndf_error;   /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
+    float hidden;      /* part that may have escaped, in [0, 1]: see above */
+    float finest;      /* relative width of slope; 0 if nothing narrower escapes either */
+    float horizon_power; /* p < 0 if D grows as cos(theta_m)^p towards the horizon, so that angular grids of a
+                          * host cannot resolve it; 0 if D is bounded there */
 } vndf_certificate;
 
 /* What a distribution is. Strings belong to the distribution. */

@@ -22,11 +22,11 @@ static char *copy(const char *text)
 /* Bytes of the file for counts and texts (table/file.h). */
 static size_t file_bytes(vndf_table_size s, const char *source)
 {
-    size_t floats = 7 + 2 * ((size_t)s.radial + 1) + 4 * (size_t)s.radial;
+    size_t floats = 2 * ((size_t)s.radial + 1) + 4 * (size_t)s.radial;
     floats += (size_t)s.above_rows * (2 * s.above_cells + 3) + vndf_row_knots(s.above_rows) + s.above_cells + 1;
     floats += (size_t)s.below_rows * (2 * s.below_cells + 3) + vndf_row_knots(s.below_rows) + s.below_cells + 1;
     floats += 4 * ((size_t)s.above_knots + s.below_knots);
-    return 16 + 16 + 28 + 4 * floats + 8 + strlen(source) + strlen(TOOL) + 4;
+    return 16 + 16 + sizeof(vndf_certificate) + 28 + 4 * floats + 8 + strlen(source) + strlen(TOOL) + 4;
 }
 
 static int fits(const vndf_plan *plan, double error, size_t max_bytes)

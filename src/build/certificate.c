@@ -30,23 +30,35 @@ static double ndf_error(const vndf_survey *v)
     return worst;
 }
 
-/* ---- directions ---- */
+/* ---- directions ----
+ *
+ * Over the angle of incidence the total variation has as many maxima as the table has parts: between the knots of
+ * azimuth rows, where a quadratic misses a cubic; as the cut passes through a radial cell; and where the last of
+ * what is claimed is seen. So that is where it is measured, beside some fixed directions; and then again between
+ * the two neighbours that promise most. */
 
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
 static const double ANGLES[] = {0,    10, 20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9, 90,
                                 90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
 static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
-enum { ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES, ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS };
 
-/* More directions where the total variation is large, so that its maximum is not missed between two: small tables
- * have few rows, hence broad maxima, and cost little. */
-enum { MORE = 30, MORE_IF_SMALL = 60, SMALL_RADIAL_CELLS = 160 };
+/* Where a quadratic through both ends and the middle of a span misses a cubic most. */
+static const double ROW_PEAKS[] = {0.21, 0.79};
 
-/* And where so much of the area at grazing incidence is left, half of it being 1: compact supports end within a
- * small part of a degree. */
-static const double LEVELS[] = {1e-2, 1e-4, 1e-6};
-enum { LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS };
-enum { DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + LEVEL_COUNT + MORE_IF_SMALL };
+/* Parts of the area at grazing incidence that are left, half of it being 1: compact supports end within a small
+ * part of a degree. */
+static const double LEVELS[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1.5 * VNDF_AREA_CLAIMED};
+
+enum {
+    ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES,
+    ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS,
+    PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
+    LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
+    SPANS_MOST = 40, /* of rows on a side, and of radial cells: of more, every second or third ... is looked at */
+    BETWEEN = 48,
+    DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
+                      BETWEEN
+};
 
 typedef struct direction {
     double angle; /* of incidence at canonical scale, in [0, pi] */
@@ -60,8 +72,9 @@ typedef struct circle {
 
 static void add_direction(circle *all, vndf_survey *v, double s, double c)
 {
+    double length = hypot(s, c);
     int i = all->count++;
-    direction made = {atan2(s, c), vndf_survey_direction(v, s, c)};
+    direction made = {atan2(s, c), vndf_survey_direction(v, s / length, c / length)};
     for (; i > 0 && all->at[i - 1].angle > made.angle; i--)
         all->at[i] = all->at[i - 1];
     all->at[i] = made;
@@ -70,14 +83,35 @@ static void add_direction(circle *all, vndf_survey *v, double s, double c)
 static void add_grid(circle *all, vndf_survey *v)
 {
     for (int i = 0; i < ANGLE_COUNT; i++) {
-        double theta = ANGLES[i] * PI / 180, s = sin(theta) * v->profile->scale;
-        double c = ANGLES[i] == 90 ? 0 : cos(theta), length = hypot(s, c);
-        add_direction(all, v, s / length, c / length);
+        double theta = ANGLES[i] * PI / 180;
+        add_direction(all, v, sin(theta) * v->profile->scale, ANGLES[i] == 90 ? 0 : cos(theta));
     }
-    for (int i = 0; i < 2 * ELEVATION_COUNT; i++) {
-        double k = ELEVATIONS[i / 2] * (i % 2 ? -1 : 1), length = hypot(1, k);
-        add_direction(all, v, 1 / length, k / length);
-    }
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i++)
+        add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
+}
+
+/* Between the knots of a side's azimuth rows. */
+static void add_rows(circle *all, vndf_survey *v, const vndf_wedge *side)
+{
+    uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
+    for (uint32_t i = 0; i < spans; i += step)
+        for (int n = 0; n < PEAK_COUNT; n++) {
+            double y = side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]);
+            add_direction(all, v, side == &v->table->above ? 1 - y : y, side == &v->table->above ? y : y - 1);
+        }
+}
+
+/* Cuts in the radial cells beyond which something is claimed. */
+static void add_cuts(circle *all, vndf_survey *v)
+{
+    const vndf_distribution *d = v->table;
+    uint32_t last = 0;
+    while (last + 1 < d->radial_count &&
+           vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) > VNDF_AREA_CLAIMED * v->profile->f1)
+        last++;
+    uint32_t step = last / SPANS_MOST + 1;
+    for (uint32_t j = 0; j <= last; j += step)
+        add_direction(all, v, 1, -vndf_survey_slope(d, j, 1, 3));
 }
 
 /* The area falls from 90 to 180 degrees. */
@@ -121,6 +155,10 @@ static void take(vndf_certificate *c, vndf_finding f, double theta)
         c->tv = (float)f.tv;
         c->tv_theta = (float)theta;
     }
+    if (f.tv > c->tv_above && theta <= 90.0) {
+        c->tv_above = (float)f.tv;
+        c->tv_above_theta = (float)theta;
+    }
     c->max_weight = fmaxf(c->max_weight, (float)f.max_weight);
     c->area_error = fmaxf(c->area_error, (float)f.area_error);
     c->consistency = fmaxf(c->consistency, (float)f.consistency);
@@ -143,32 +181,51 @@ static double area_error(const vndf_survey *v)
     return worst;
 }
 
-/* D may be unbounded at the pole or fall so slowly that it is at the horizon; a cell is bounded. */
+/* n where P22 is r^-n between two slopes. */
+static double power_between(const vndf_profile *profile, double r0, double r1)
+{
+    return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
+}
+
+/* p where D = P22/cos^4 is cos^p towards the horizon. */
+static double horizon_power(const vndf_profile *profile)
+{
+    double end = profile->panel[profile->count].r, power = power_between(profile, end / 16, end / 4) - 4;
+    return power < -4e-3 ? power : 0.0;
+}
+
+/* D may be unbounded at the pole or at the horizon; a cell is bounded. */
 static int is_bounded(const vndf_profile *profile)
 {
-    double r0 = profile->panel[0].r, r1 = profile->panel[profile->count].r;
-    double pole = vndf_profile_p22(profile, 4 * r0) / vndf_profile_p22(profile, 16 * r0);
-    double tail = vndf_profile_p22(profile, r1 / 16) / vndf_profile_p22(profile, r1 / 4);
-    return pole < 1.01 && tail > 254;
+    double first = profile->panel[0].r;
+    return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
 }
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
 {
     vndf_survey v;
-    vndf_certificate none = {0, 0, 1, 0, 0, 0, 0};
-    if (!vndf_survey_from(&v, table, profile))
-        return 0;
+    vndf_certificate none = {.max_weight = 1};
     circle all = {.count = 0};
-    add_grid(&all, &v);
-    add_levels(&all, &v);
-    for (int i = 0; i < (table->radial_count <= SMALL_RADIAL_CELLS ? MORE_IF_SMALL : MORE); i++)
-        add_between(&all, &v);
-    *c = none;
-    for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
-        take(c, all.at[i].found, atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
-    c->area_error = fmaxf(c->area_error, (float)area_error(&v));
-    c->weight_bounded = (float)is_bounded(profile);
-    c->ndf_error = (float)ndf_error(&v);
+    int good = vndf_survey_from(&v, table, profile);
+    if (good) {
+        add_grid(&all, &v);
+        add_rows(&all, &v, &table->above);
+        add_rows(&all, &v, &table->below);
+        add_cuts(&all, &v);
+        add_levels(&all, &v);
+        for (int i = 0; i < BETWEEN; i++)
+            add_between(&all, &v);
+        *c = none;
+        for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
+            take(c, all.at[i].found,
+                 atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
+        c->area_error = fmaxf(c->area_error, (float)area_error(&v));
+        c->horizon_power = (float)horizon_power(profile);
+        c->weight_bounded = (float)is_bounded(profile);
+        c->ndf_error = (float)ndf_error(&v);
+        c->hidden = (float)profile->hidden;
+        c->finest = (float)profile->finest;
+    }
     vndf_survey_free(&v);
-    return 1;
+    return good;
 }

@@ -42,6 +42,7 @@ typedef struct vndf_profile {
     vndf_profile_point *point;      /* VNDF_GAUSS per panel */
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
+    double hidden, finest;          /* vndf_certificate */
     int rough;                      /* more panels are needed than there may be */
 } vndf_profile;
 

@@ -12,7 +12,7 @@
 #include "table/validate.h"
 
 static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
-enum { VERSION = 2, TEXT_MAX = 32768, HEAD = 16 };
+enum { VERSION = 3, TEXT_MAX = 32768, HEAD = 16 };
 
 /* ---- writing ---- */
 

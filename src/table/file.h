@@ -1,9 +1,9 @@
-/* The table on disk, version 2. All little-endian; strings without terminator; floats are IEEE single.
+/* The table on disk, version 3. All little-endian; strings without terminator; floats are IEEE single.
  *
  *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
  *     f64 normalization           f64 scale
  *     u32 radial cells; above: cells, rows, knots; below: cells, rows, knots
- *     7 f32 certificate (order of vndf_certificate)
+ *     12 f32 certificate (order of vndf_certificate)
  *     u32 n, n bytes source       u32 n, n bytes tool
  *     radial  f32 x[n+1], z[n+1], f0[n], f1[n], mu0[n], mu1[n]
  *     wedge above, then below: f32 q[cells+1], row_y[(rows+1)/2], aspect_p[rows], aspect_r[rows],
