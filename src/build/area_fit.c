@@ -15,7 +15,7 @@ double vndf_side_share(const vndf_side *side, double y)
     double mass = vndf_side_area(side, y).mass;
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
-    return vndf_fade(mass / side->profile->f1);
+    return vndf_profile_fade(side->profile, mass / (side->profile->f1 * hypot(y, 1 - y)));
 }
 
 double vndf_side_least(const vndf_side *side)
@@ -23,7 +23,7 @@ double vndf_side_least(const vndf_side *side)
     double low = 0.0, high = 1.0;
     for (int i = 0; side->below && i < 40; i++) {
         double y = (low + high) / 2;
-        if (vndf_side_area(side, y).mass > VNDF_AREA_CLAIMED * side->profile->f1)
+        if (vndf_profile_seen(side->profile, y, y - 1) > vndf_profile_claimed(side->profile))
             high = y;
         else
             low = y;
@@ -65,7 +65,7 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
         double y = a + at[i] * h, truth = vndf_side_area(side, y).mass;
         double error = fabs(vndf_area_piece_at(piece, at[i]) - truth);
-        double whole = side->below ? truth + VNDF_AREA_CLAIMED * side->profile->f1 : truth / vndf_side_share(side, y);
+        double whole = side->below ? truth + vndf_profile_claimed(side->profile) * side->profile->f1 : truth / vndf_side_share(side, y);
         worst = fmax(worst, error / whole);
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};

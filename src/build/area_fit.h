@@ -19,7 +19,7 @@ vndf_area_value vndf_side_area(const vndf_side *side, double y);
  * hardly where nothing is claimed any more. */
 double vndf_side_share(const vndf_side *side, double y);
 
-/* The y below which nothing is claimed (VNDF_AREA_CLAIMED); 0 above the horizon. */
+/* The y below which nothing is claimed (vndf_profile_claimed); 0 above the horizon. */
 double vndf_side_least(const vndf_side *side);
 
 /* The ends of the spline's piece from a to b. */

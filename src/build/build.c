@@ -10,6 +10,10 @@
 
 enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
 
+/* Nobody asked for a size: the first of these whose table has this total variation, or else the last. */
+static const size_t BYTES_TRIED[] = {BYTES_DEFAULT, 24576, 32768};
+static const double TV_DEFAULT = 1e-3;
+
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
 static char *copy(const char *text)
@@ -111,7 +115,7 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     return table;
 }
 
-static vndf_distribution *build_planned(vndf_plan *plan, size_t max_bytes, double max_tv, vndf_error *error)
+static vndf_distribution *cut_table(vndf_plan *plan, size_t max_bytes, double max_tv, vndf_error *error)
 {
     double best = error_for_bytes(plan, max_bytes);
     if (best == 0.0) {
@@ -122,6 +126,34 @@ static vndf_distribution *build_planned(vndf_plan *plan, size_t max_bytes, doubl
         return NULL;
     }
     return max_tv > 0.0 ? build_to_tv(plan, best, max_tv, error) : finish(plan, best, error);
+}
+
+static vndf_distribution *build_within(const vndf_profile *profile, size_t max_bytes, double max_tv,
+                                       vndf_error *error)
+{
+    vndf_plan plan;
+    vndf_distribution *table = NULL;
+    if (vndf_plan_make(&plan, profile, max_bytes))
+        table = cut_table(&plan, max_bytes, max_tv, error);
+    else if (!vndf_guard_stopped(profile->guard))
+        profile->guard->starved = 1;
+    vndf_plan_free(&plan);
+    return table;
+}
+
+static vndf_distribution *build_default(const vndf_profile *profile, vndf_error *error)
+{
+    vndf_distribution *table = NULL;
+    for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
+        vndf_distribution *larger = build_within(profile, BYTES_TRIED[i], 0.0, error);
+        if (larger) {
+            vndf_free(table);
+            table = larger;
+        }
+        if (vndf_guard_stopped(profile->guard) || (larger && larger->certificate.tv <= TV_DEFAULT))
+            break;
+    }
+    return table;
 }
 
 static vndf_status check_options(const vndf_source *source, size_t max_bytes, double max_tv, vndf_error *error)
@@ -140,29 +172,24 @@ static vndf_status check_options(const vndf_source *source, size_t max_bytes, do
 vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                               vndf_certificate *certificate, vndf_error *error)
 {
-    size_t max_bytes = options && options->max_bytes ? options->max_bytes : BYTES_DEFAULT;
-    double max_tv = options ? options->max_tv : 0.0;
-    if (check_options(source, max_bytes, max_tv, error) != VNDF_OK)
-        return NULL;
     vndf_build_options none = {0, 0, NULL, NULL}, given = options ? *options : none;
+    size_t max_bytes = given.max_bytes ? given.max_bytes : BYTES_DEFAULT;
+    if (check_options(source, max_bytes, given.max_tv, error) != VNDF_OK)
+        return NULL;
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)
         return NULL;
-    vndf_plan plan;
-    vndf_distribution *table = NULL;
-    if (vndf_plan_make(&plan, profile, max_bytes))
-        table = build_planned(&plan, max_bytes, max_tv, error);
-    else if (!vndf_guard_stopped(&guard))
-        guard.starved = 1;
+    vndf_distribution *table = given.max_bytes || given.max_tv > 0.0
+                                   ? build_within(profile, max_bytes, given.max_tv, error)
+                                   : build_default(profile, error);
     if (vndf_guard_status(&guard, error) != VNDF_OK) {
         vndf_free(table);
         table = NULL;
     }
     if (table && certificate)
         *certificate = table->certificate;
-    vndf_plan_free(&plan);
     vndf_profile_free(profile);
     return table;
 }

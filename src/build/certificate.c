@@ -45,9 +45,8 @@ static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4,
 /* Where a quadratic through both ends and the middle of a span misses a cubic most. */
 static const double ROW_PEAKS[] = {0.21, 0.79};
 
-/* Parts of the area at grazing incidence that are left, half of it being 1: compact supports end within a small
- * part of a degree. */
-static const double LEVELS[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1.5 * VNDF_AREA_CLAIMED};
+/* What is seen there, as powers of what is claimed: compact supports end within a small part of a degree. */
+static const double LEVELS[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.96, 0.99, 0.999};
 
 enum {
     ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES,
@@ -107,7 +106,8 @@ static void add_cuts(circle *all, vndf_survey *v)
     const vndf_distribution *d = v->table;
     uint32_t last = 0;
     while (last + 1 < d->radial_count &&
-           vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) > VNDF_AREA_CLAIMED * v->profile->f1)
+           vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) >
+               vndf_profile_claimed(v->profile) * v->profile->f1)
         last++;
     uint32_t step = last / SPANS_MOST + 1;
     for (uint32_t j = 0; j <= last; j += step)
@@ -118,10 +118,10 @@ static void add_cuts(circle *all, vndf_survey *v)
 static void add_levels(circle *all, vndf_survey *v)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
-        double low = PI / 2, high = PI;
+        double low = PI / 2, high = PI, level = pow(vndf_profile_claimed(v->profile), LEVELS[i]);
         for (int step = 0; step < 40 && !vndf_guard_stopped(v->profile->guard); step++) {
-            double angle = (low + high) / 2, area = vndf_profile_area(v->profile, sin(angle), cos(angle));
-            if (area > LEVELS[i] * v->profile->f1)
+            double angle = (low + high) / 2;
+            if (vndf_profile_seen(v->profile, sin(angle), cos(angle)) > level)
                 low = angle;
             else
                 high = angle;
@@ -175,7 +175,7 @@ static double area_error(const vndf_survey *v)
         for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
             double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
             double area = vndf_profile_area(v->profile, y, y - 1);
-            if (area > VNDF_AREA_CLAIMED * v->profile->f1)
+            if (vndf_profile_seen(v->profile, y, y - 1) > vndf_profile_claimed(v->profile))
                 worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
         }
     return worst;

@@ -26,12 +26,6 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
-/* Part of the area at grazing incidence below which nothing is claimed. */
-#define VNDF_AREA_CLAIMED 1e-10
-
-/* What an error counts for a direction below the horizon that sees this part of the area at grazing incidence: a
- * third of its size at VNDF_AREA_CLAIMED, next to nothing below. */
-double vndf_fade(double seen);
 
 typedef struct vndf_profile {
     const vndf_source *source;
@@ -75,5 +69,15 @@ vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y);
 
 /* Projected area of the unit problem for the direction (s, 0, c), s >= 0, of any length. */
 double vndf_profile_area(const vndf_profile *profile, double s, double c);
+
+/* The same for the direction of length 1, as a part of that at grazing incidence. */
+double vndf_profile_seen(const vndf_profile *profile, double s, double c);
+
+/* The part below which nothing is claimed: 1e-10 of the area at grazing incidence at alpha = 1, which for a narrow
+ * distribution is less of the unit problem's; and never less than 1e-14 of that. */
+double vndf_profile_claimed(const vndf_profile *profile);
+
+/* What an error counts where this part is seen: all, down to what is claimed, and then next to nothing. */
+double vndf_profile_fade(const vndf_profile *profile, double seen);
 
 #endif

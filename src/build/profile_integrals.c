@@ -14,11 +14,6 @@ static const double HALF_PI = 1.57079632679489661923;
 /* y - atan y: here the series errs by 1e-11 of it, the difference by 1e-13. */
 static const double SERIES_MOST = 0.05;
 
-double vndf_fade(double seen)
-{
-    return pow(seen, 0.0) * fmin(1.0, seen / VNDF_AREA_CLAIMED);
-}
-
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
 
 /* The panel of R: r_i <= R < r_(i+1), the ends extended. */
@@ -222,4 +217,19 @@ double vndf_profile_area(const vndf_profile *profile, double s, double c)
 {
     double sum = s + fabs(c);
     return 2 * sum * vndf_profile_area_below(profile, s / sum).mass + (c > 0 ? c : 0);
+}
+
+double vndf_profile_seen(const vndf_profile *profile, double s, double c)
+{
+    return vndf_profile_area(profile, s, c) / (2 * profile->f1 * hypot(s, c));
+}
+
+double vndf_profile_claimed(const vndf_profile *profile)
+{
+    return 1e-10 * fmin(fmax(profile->scale, 1e-4), 1.0);
+}
+
+double vndf_profile_fade(const vndf_profile *profile, double seen)
+{
+    return fmin(1.0, seen / vndf_profile_claimed(profile));
 }

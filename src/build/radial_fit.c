@@ -210,7 +210,7 @@ static double share_of_deep_views(const vndf_profile *profile, double a, double 
     if (!(a > least && slope > 0 && seen > 0))
         return 0.0;
     double share = (m.m1 + (a - rho) * m.m0) / seen * fmax(1.0, (a - rho) / (b - a));
-    return fmin(1.0, share) * vndf_fade(seen / profile->f1) / (1 + a * 1e-8);
+    return fmin(1.0, share) * vndf_profile_fade(profile, seen / profile->f1) / (1 + a * 1e-8);
 }
 
 vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
@@ -226,7 +226,7 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
     double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
     double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
-    double seen = vndf_fade(s / s0) / (1 + a.r * 1e-8);
+    double seen = vndf_profile_fade(fit->profile, s / s0) / (1 + a.r * 1e-8);
     double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
     found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
     double beyond = share_of_deep_views(fit->profile, a.r, b.r, m);

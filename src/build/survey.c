@@ -189,11 +189,15 @@ static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s
                 add_node(v, at, &piece, j, v->node + s[n].first + i);
 }
 
+static const double POINT_OPERATIONS = 2;
+
 /* Every radial cell that is seen, the one at the cut up to the cut. */
 static void add_azimuth(vndf_survey *v, const ray *at)
 {
     const vndf_engine_ray *r = &at->drawn;
     int inside = r->c > 0, beyond = r->c < 0;
+    if (!vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->node_count))
+        return;
     for (size_t i = 0, next; i < v->stretch_count; i = next) {
         uint32_t j = v->stretch[i].cell;
         for (next = i + 1; next < v->stretch_count && v->stretch[next].cell == j;)
@@ -325,7 +329,8 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     c = (float)c;
     double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
-    if (!(area > VNDF_AREA_CLAIMED * v->profile->f1) || vndf_guard_stopped(v->profile->guard))
+    if (!(vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile)) ||
+        vndf_guard_stopped(v->profile->guard))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
