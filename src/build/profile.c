@@ -4,7 +4,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "build/proof.h"
 #include "core/error.h"
 #include "math/ascending.h"
 
@@ -12,7 +14,6 @@ enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40 };
 
 static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
-static const double UNEVEN = 0.43; /* a jump in the middle would be half of either rule, and pass for smooth */
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
 static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
@@ -102,7 +103,7 @@ static int stopped(const vndf_profile *profile)
 
 static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
 {
-    double middle = u0 + (u1 - u0) * UNEVEN, gap = exp(u0) * expm1(middle - u0);
+    double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
     vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1);
     vndf_moments sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
     if (stopped(profile))
@@ -121,28 +122,34 @@ static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments wh
     }
 }
 
-/* The largest integrand per octave, for what is negligible beside it. */
+static double integrand(vndf_profile *profile, double r)
+{
+    return density(profile, r) * r * r;
+}
+
+/* The largest integrand per octave and at the edges, for what is negligible beside it. */
 static double peak(vndf_profile *profile)
 {
     double most = 0.0;
-    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !stopped(profile); i++) {
-        double r = exp2(i / 16.0) / profile->scale, p = density(profile, r) * r * r;
-        most = p > most ? p : most;
-    }
+    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !stopped(profile); i++)
+        most = fmax(most, integrand(profile, exp2(i / 16.0) / profile->scale));
+    for (size_t i = 0; i < profile->edge_count && !stopped(profile); i++)
+        most = fmax(most, integrand(profile, profile->edge[i] / profile->scale));
     return most;
 }
 
-/* Octave edges and the known breaks of the source, ascending, as logarithms of canonical R. */
+/* Octave edges, the known breaks of the source and other edges, ascending, as logarithms of canonical R. */
 static double *make_edges(const vndf_profile *profile, size_t *count)
 {
     const vndf_source *source = profile->source;
     double shift = log(profile->scale), low = -OCTAVES * log(2.0), high = -low;
-    double *edge = malloc((2 * OCTAVES + 1 + source->break_count) * sizeof *edge);
+    double *edge = malloc((2 * OCTAVES + 1 + source->break_count + profile->edge_count) * sizeof *edge);
     size_t n = 0;
     for (int i = -OCTAVES; edge && i <= OCTAVES; i++)
         edge[n++] = i * log(2.0) - shift;
-    for (size_t i = 0; edge && i < source->break_count; i++) {
-        double u = source->breaks[i] > 0.0 ? log(source->breaks[i]) : low;
+    for (size_t i = 0; edge && i < source->break_count + profile->edge_count; i++) {
+        double r = i < source->break_count ? source->breaks[i] : profile->edge[i - source->break_count];
+        double u = r > 0.0 ? log(r) : low;
         if (u > low && u < high)
             edge[n++] = u - shift;
     }
@@ -214,6 +221,7 @@ static void sum_panels(vndf_profile *profile)
 /* The Gauss points of all panels, for integrals with other kernels. */
 static int fill_points(vndf_profile *profile)
 {
+    free(profile->point);
     profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
     for (size_t i = 0; profile->point && i < profile->count; i++) {
         double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r);
@@ -301,7 +309,7 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
 
 /* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
  * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
-static vndf_status make(vndf_profile *profile, vndf_error *error)
+static vndf_status settle(vndf_profile *profile, vndf_error *error)
 {
     enum { PASSES = 4 };
     double most = peak(profile); /* first to a size that neither overflows nor vanishes */
@@ -313,7 +321,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
         double mass = 2 * PI * profile->f0;
         if (pass > 0 && fabs(mass - 1.0) < SAME_MASS)
-            return fill_points(profile) ? VNDF_OK : no_memory(error);
+            return VNDF_OK;
         double middle = median(profile);
         profile->normalization /= mass;
         profile->scale *= middle;
@@ -330,6 +338,65 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
                      "one at a median slope of %g", profile->scale);
 }
 
+/* ---- what no point has met ---- */
+
+static int add_edges(vndf_profile *profile, const vndf_proof *proof)
+{
+    size_t count = profile->edge_count + proof->edge_count;
+    double *edge = realloc(profile->edge, (count + 1) * sizeof *edge);
+    if (!edge)
+        return 0;
+    memcpy(edge + profile->edge_count, proof->edge, proof->edge_count * sizeof *edge);
+    qsort(edge, count, sizeof *edge, vndf_ascending);
+    profile->edge = edge;
+    profile->edge_count = count;
+    return 1;
+}
+
+static vndf_status unproven(const vndf_profile *profile, const vndf_proof *proof, vndf_error *error)
+{
+    profile->guard->what = "bounds";
+    return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                     "P22 cannot be resolved at slope %.9g: up to %.3g of the mass, or of the area at grazing "
+                     "incidence, may lie between the points that were looked at, %.3g of it there",
+                     proof->where, proof->hidden, proof->worst);
+}
+
+/* 1 if panels have to be made anew, with more edges; else *status is the answer. */
+static int look_closer(vndf_profile *profile, int last, vndf_status *status, vndf_error *error)
+{
+    vndf_proof proof;
+    int good = vndf_proof_from(&proof, profile), again = 0;
+    profile->hidden = proof.hidden;
+    if (vndf_guard_stopped(profile->guard))
+        *status = vndf_guard_status(profile->guard, error);
+    else if (!good || (proof.edge_count && !add_edges(profile, &proof)))
+        *status = no_memory(error);
+    else if (proof.edge_count && !last)
+        again = 1;
+    else if (!proof.proven && (*status == VNDF_OK || !(profile->f0 > 0.0)))
+        *status = unproven(profile, &proof, error);
+    vndf_proof_free(&proof);
+    return again;
+}
+
+/* Points first; then what lies between them, where the source can tell, until nothing more is found. */
+static vndf_status make(vndf_profile *profile, vndf_error *error)
+{
+    enum { LOOKS = 12 };
+    for (int i = 0;; i++) {
+        profile->normalization = profile->scale = 1.0;
+        profile->floor = 0.0;
+        vndf_status status = settle(profile, error);
+        if (stopped(profile) || profile->count == 0)
+            return status;
+        if (!fill_points(profile))
+            return no_memory(error);
+        if (!profile->source->reach || !look_closer(profile, i + 1 == LOOKS, &status, error))
+            return status;
+    }
+}
+
 vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error)
 {
     vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
@@ -340,7 +407,6 @@ vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vn
     }
     profile->source = source;
     profile->guard = guard;
-    profile->normalization = profile->scale = 1.0;
     if (make(profile, error) == VNDF_OK)
         return profile;
     vndf_profile_free(profile);
@@ -353,5 +419,6 @@ void vndf_profile_free(vndf_profile *profile)
         return;
     free(profile->panel);
     free(profile->point);
+    free(profile->edge);
     free(profile);
 }

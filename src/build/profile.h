@@ -26,6 +26,9 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
+/* Where panels are cut: a jump in the middle would be half of either rule, and pass for smooth. */
+#define VNDF_UNEVEN 0.43
+
 /* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 is left. */
 #define VNDF_FADE 0.05
 
@@ -39,6 +42,10 @@ typedef struct vndf_profile {
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     int rough;                      /* more panels are needed than there may be */
+    double *edge;                   /* slopes in the source's unit where panels end besides its own breaks, */
+    size_t edge_count;              /* ascending */
+    double hidden;                  /* of the mass, or of the area at grazing incidence, that may be missed: at most */
+    double finest;                  /* 0 if that is proven; else the relative width that points were looked at */
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:

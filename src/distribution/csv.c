@@ -125,7 +125,7 @@ static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_erro
 {
     csv_source *source = calloc(1, sizeof *source);
     if (source) {
-        source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS };
+        source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS, NULL };
         source->breaks = malloc(BREAKS * sizeof *source->breaks);
     }
     if (!source || !source->breaks || !vndf_curve_allocate(&source->curve, rows->count)) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "distribution/expression.h"
+#include "distribution/expression_bound.h"
 #include "distribution/number.h"
 #include "distribution/source.h"
 #include "distribution/words.h"
@@ -44,6 +44,24 @@ static double ndf_p22(const vndf_source *self, double r)
     ndf_variables(r, variables);
     double c2 = variables[0] * variables[0];
     return vndf_expression_run(expression, expression->count, variables, NULL) * c2 * c2;
+}
+
+static vndf_reach slope_reach(const vndf_source *self, double low, double high)
+{
+    vndf_jet r = vndf_jet_of_slope(low, high);
+    vndf_jet p22 = vndf_expression_jet(&((const expression_source *)self)->expression, &r);
+    return vndf_reach_from(&p22, &r, low, high);
+}
+
+/* c, theta, t; c^4 apart. */
+static vndf_reach ndf_reach(const vndf_source *self, double low, double high)
+{
+    vndf_jet r = vndf_jet_of_slope(low, high), one = vndf_jet_number(1), minus_half = vndf_jet_number(-0.5);
+    vndf_jet square = vndf_jet_product(&r, &r), q = vndf_jet_sum(&one, &square), q2 = vndf_jet_product(&q, &q);
+    vndf_jet variables[3] = {vndf_jet_pow(&q, &minus_half), vndf_jet_atan(&r), r};
+    vndf_jet ndf = vndf_expression_jet(&((const expression_source *)self)->expression, variables);
+    vndf_jet p22 = vndf_jet_quotient(&ndf, &q2);
+    return vndf_reach_from(&p22, &r, low, high);
 }
 
 static void destroy(vndf_source *self)
@@ -92,10 +110,11 @@ static int find_breaks(expression_source *source, vndf_variables_of_slope *varia
     return 1;
 }
 
-/* option says which of the two kinds it is; p22 and variables belong to it. */
+/* option says which of the two kinds it is; p22, reach and variables belong to it. */
 static vndf_source *make(const char *option, const char *text, const vndf_names *names,
-                         double (*p22)(const vndf_source *, double), vndf_variables_of_slope *variables,
-                         vndf_error *error)
+                         double (*p22)(const vndf_source *, double),
+                         vndf_reach (*reach)(const vndf_source *, double, double),
+                         vndf_variables_of_slope *variables, vndf_error *error)
 {
     vndf_expression expression;
     if (vndf_expression_parse(text, names, &expression, error) != VNDF_OK)
@@ -109,7 +128,7 @@ static vndf_source *make(const char *option, const char *text, const vndf_names 
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1, operations_of(&expression) };
+    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 1, operations_of(&expression), reach };
     source->expression = expression;
     if (find_breaks(source, variables))
         return &source->base;
@@ -123,7 +142,7 @@ vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *
 {
     static const char *const variables[] = { "c", "theta", "t" };
     vndf_names names = { variables, 3, parameters, count };
-    return make("--ndf", text, &names, ndf_p22, ndf_variables, error);
+    return make("--ndf", text, &names, ndf_p22, ndf_reach, ndf_variables, error);
 }
 
 vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters, size_t count,
@@ -131,5 +150,5 @@ vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter
 {
     static const char *const variables[] = { "r" };
     vndf_names names = { variables, 1, parameters, count };
-    return make("--slope", text, &names, slope_p22, slope_variables, error);
+    return make("--slope", text, &names, slope_p22, slope_reach, slope_variables, error);
 }
