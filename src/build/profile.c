@@ -16,7 +16,8 @@ static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
-static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
+static const double SAME_EDGE = 1e-13;  /* in log R: narrower than where resolve() calls it a jump */
+static const double ROUNDED = 4e-16;    /* of a slope: what points may be off by */
 static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
 static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
 static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: one cell draws it */
@@ -51,17 +52,25 @@ double vndf_profile_p22(const vndf_profile *profile, double r)
 
 /* ---- panels ---- */
 
-static vndf_moments rule(vndf_profile *profile, double u0, double u1)
+/* Ten points of a panel: its moments as far as they tell, and how far m0 may be off because they are rounded. */
+typedef struct estimate {
+    double m0, m1, noise;
+} estimate;
+
+static estimate rule(vndf_profile *profile, double u0, double u1)
 {
-    double r0 = exp(u0);
-    vndf_moments sum = {0.0, 0.0};
+    double r0 = exp(u0), least = HUGE_VAL, most = 0.0;
+    estimate sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
         /* not as a difference: panels get as narrow as 1e-13 r */
         double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
-        double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * density(profile, r);
+        double f = r * r * density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * f;
         sum.m0 += w;
         sum.m1 += w * beyond;
+        least = fmin(least, f);
+        most = fmax(most, f);
     }
+    sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least);
     return sum;
 }
 
@@ -81,7 +90,7 @@ static int grow(vndf_profile *profile)
     return 1;
 }
 
-static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
+static void push(vndf_profile *profile, double u0, estimate sum, int jump)
 {
     if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
         profile->rough = 1;
@@ -101,14 +110,15 @@ static int stopped(const vndf_profile *profile)
     return profile->rough || vndf_guard_stopped(profile->guard);
 }
 
-static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
+static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least)
 {
     double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
-    vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1);
-    vndf_moments sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
+    estimate l = rule(profile, u0, middle), r = rule(profile, middle, u1);
+    estimate sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap, 0.0};
     if (stopped(profile))
         return;
-    int good = agree(sum.m0, whole.m0, least) && agree(sum.m1, whole.m1, least * gap);
+    double slack = least + whole.noise + l.noise + r.noise;
+    int good = agree(sum.m0, whole.m0, slack) && agree(sum.m1, whole.m1, slack * gap);
     if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
         push(profile, u0, sum, !good);
         return;
@@ -138,6 +148,16 @@ static double peak(vndf_profile *profile)
     return most;
 }
 
+/* Drops what is too close to the one before it. */
+static size_t thin(double *edge, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || edge[i] - edge[kept - 1] > SAME_EDGE)
+            edge[kept++] = edge[i];
+    return kept;
+}
+
 /* Octave edges, the known breaks of the source and other edges, ascending, as logarithms of canonical R. */
 static double *make_edges(const vndf_profile *profile, size_t *count)
 {
@@ -155,7 +175,7 @@ static double *make_edges(const vndf_profile *profile, size_t *count)
     }
     if (edge)
         qsort(edge, n, sizeof *edge, vndf_ascending);
-    *count = n;
+    *count = edge ? thin(edge, n) : 0;
     return edge;
 }
 
@@ -168,8 +188,7 @@ static void fill_panels(vndf_profile *profile)
     if (!edge)
         profile->guard->starved = 1;
     for (size_t i = 0; i + 1 < edges && !stopped(profile); i++)
-        if (edge[i + 1] - edge[i] > SAME_EDGE)
-            resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
+        resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
     if (!stopped(profile) && grow(profile)) {
         vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
         profile->panel[profile->count] = end;

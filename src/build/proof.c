@@ -179,7 +179,7 @@ static double seen(const view *v, double u)
     double from = part ? v->middle : v->inner, to = part ? v->outer : v->middle, sum = 0.0, weight = 0.0;
     for (int i = 0; i < VNDF_GAUSS; i++) {
         double gap = (u - from) / (to - from) - vndf_gauss_node[i];
-        if (gap == 0.0)
+        if (gap == 0.0 || !(to > from))
             return v->value[part][i];
         sum += vndf_gauss_barycentric[i] / gap * v->value[part][i];
         weight += vndf_gauss_barycentric[i] / gap;
