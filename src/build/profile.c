@@ -2,6 +2,7 @@
  * narrow ring is seen, and takes halves back where the whole does as well. */
 #include "build/profile.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,7 @@ enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40 };
 static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
+static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
 static const double SAME_EDGE = 1e-13;  /* in log R: narrower than where resolve() calls it a jump */
 static const double ROUNDED = 4e-16;    /* of a slope: what points may be off by */
@@ -52,7 +54,8 @@ double vndf_profile_p22(const vndf_profile *profile, double r)
 
 /* ---- panels ---- */
 
-/* Ten points of a panel: its moments as far as they tell, and how far m0 may be off because they are rounded. */
+/* Ten points of a panel: its moments as far as they tell, and how far m0 may be off because they and P are
+ * rounded. */
 typedef struct estimate {
     double m0, m1, noise;
 } estimate;
@@ -70,7 +73,8 @@ static estimate rule(vndf_profile *profile, double u0, double u1)
         least = fmin(least, f);
         most = fmax(most, f);
     }
-    sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least);
+    double step = profile->normalization * DBL_TRUE_MIN * profile->scale * profile->scale; /* of small values */
+    sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least) + step * r0 * r0 * (u1 - u0);
     return sum;
 }
 
@@ -100,9 +104,9 @@ static void push(vndf_profile *profile, double u0, estimate sum, int jump)
     profile->panel[profile->count++] = panel;
 }
 
-static int agree(double a, double b, double least)
+static int agree(double a, double b, double part, double least)
 {
-    return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
+    return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
 }
 
 static int stopped(const vndf_profile *profile)
@@ -117,8 +121,8 @@ static void resolve(vndf_profile *profile, double u0, double u1, estimate whole,
     estimate sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap, 0.0};
     if (stopped(profile))
         return;
-    double slack = least + whole.noise + l.noise + r.noise;
-    int good = agree(sum.m0, whole.m0, slack) && agree(sum.m1, whole.m1, slack * gap);
+    double slack = least + whole.noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    int good = agree(sum.m0, whole.m0, part, slack) && agree(sum.m1, whole.m1, part, slack * gap);
     if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
         push(profile, u0, sum, !good);
         return;
@@ -332,7 +336,11 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
 {
     enum { PASSES = 4 };
     double most = peak(profile); /* first to a size that neither overflows nor vanishes */
-    if (most > 0.0 && 1.0 / most < HUGE_VAL)
+    if (most > 0.0 && most < LEAST_PEAK)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor",
+                         most);
+    if (most > 0.0)
         profile->normalization = 1.0 / most;
     vndf_status status = measure(profile, error);
     if (status == VNDF_OK)
@@ -372,9 +380,12 @@ static int add_edges(vndf_profile *profile, const vndf_proof *proof)
     return 1;
 }
 
-static vndf_status unproven(const vndf_profile *profile, const vndf_proof *proof, vndf_error *error)
+static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
 {
-    profile->guard->what = "bounds";
+    if (isinf(proof->worst))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 cannot be bounded at slope %.9g: it may be infinite or not a number there",
+                         proof->where);
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                      "P22 cannot be resolved at slope %.9g: up to %.3g of the mass, or of the area at grazing "
                      "incidence, may lie between the points that were looked at, %.3g of it there",
@@ -394,7 +405,7 @@ static int look_closer(vndf_profile *profile, int last, vndf_status *status, vnd
     else if (proof.edge_count && !last)
         again = 1;
     else if (!proof.proven && (*status == VNDF_OK || !(profile->f0 > 0.0)))
-        *status = unproven(profile, &proof, error);
+        *status = unproven(&proof, error);
     vndf_proof_free(&proof);
     return again;
 }

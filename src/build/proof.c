@@ -37,13 +37,25 @@ static double integrand(const vndf_profile *profile, double slope)
     return vndf_profile_p22(profile, r) * r * r;
 }
 
+static int is_narrow(const piece *p)
+{
+    return p->high - p->low <= NARROW * p->high;
+}
+
+/* Between neighbouring doubles nothing can be looked at: about a pole that is not one of them they stand for it. */
+static double between_doubles(const vndf_profile *profile, const piece *p)
+{
+    return 2 * log(p->high / p->low) * (integrand(profile, p->low) + integrand(profile, p->high));
+}
+
 static void look(const state *s, piece *p)
 {
     const vndf_profile *profile = s->profile;
     vndf_reach reach = {0, 0, 0};
     if (vndf_guard_spend(profile->guard, REACH_OPERATIONS * profile->source->operations))
         reach = profile->source->reach(profile->source, p->low, p->high);
-    p->stray = profile->normalization * reach.stray;
+    int pole = isinf(reach.stray) && is_narrow(p);
+    p->stray = pole ? between_doubles(profile, p) : profile->normalization * reach.stray;
     p->mass = integrand(profile, sqrt(p->low) * sqrt(p->high)) * log(p->high / p->low);
 }
 
@@ -106,11 +118,6 @@ static void measure(state *s)
     }
     for (size_t i = 0; i < s->count; i++)
         s->stray += share(s, &s->piece[i], s->piece[i].stray);
-}
-
-static int is_narrow(const piece *p)
-{
-    return p->high - p->low <= NARROW * p->high;
 }
 
 static double enough(const state *s)

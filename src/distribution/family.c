@@ -246,8 +246,8 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
     }
     vndf_text_add_word(&words, "--family");
     vndf_text_add_word(&words, specification);
-    source->base = (vndf_source){ p22, destroy, vndf_text_finish(&words, error), NULL, 0, 1,
-                                  OPERATIONS * (double)source->count, NULL };
+    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .description = vndf_text_finish(&words, error),
+                                  .rebuildable = 1, .operations = OPERATIONS * (double)source->count };
     if (source->base.description)
         return &source->base;
     free(source);
