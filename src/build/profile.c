@@ -23,6 +23,7 @@ static const double ROUNDED = 4e-16;    /* of a slope: what points may be off by
 static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
 static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
 static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double NARROW = 1.01;      /* ratio of a panel's ends that was cut for what is in it */
 static const double SAME_MASS = 1e-7;   /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)
@@ -360,6 +361,7 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
     }
     if (status != VNDF_OK)
         return status;
+    profile->unsettled = 1;
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                      "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last "
                      "one at a median slope of %g", profile->scale);
@@ -367,17 +369,33 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
 
 /* ---- what no point has met ---- */
 
-static int add_edges(vndf_profile *profile, const vndf_proof *proof)
+static int add_edges(vndf_profile *profile, const double *more, size_t more_count)
 {
-    size_t count = profile->edge_count + proof->edge_count;
+    size_t count = profile->edge_count + more_count;
     double *edge = realloc(profile->edge, (count + 1) * sizeof *edge);
     if (!edge)
         return 0;
-    memcpy(edge + profile->edge_count, proof->edge, proof->edge_count * sizeof *edge);
-    qsort(edge, count, sizeof *edge, vndf_ascending);
     profile->edge = edge;
+    memcpy(edge + profile->edge_count, more, more_count * sizeof *edge);
+    qsort(edge, count, sizeof *edge, vndf_ascending);
     profile->edge_count = count;
     return 1;
+}
+
+/* Ends of the panels that were cut more than all are: what one pass has met by chance the next ones look for. */
+static int keep_edges(vndf_profile *profile)
+{
+    const vndf_panel *p = profile->panel;
+    double *edge = malloc(2 * profile->count * sizeof *edge);
+    size_t count = 0;
+    for (size_t i = 0; edge && i < profile->count; i++)
+        if (p[i + 1].r < p[i].r * NARROW) {
+            edge[count++] = p[i].r * profile->scale;
+            edge[count++] = p[i + 1].r * profile->scale;
+        }
+    int good = edge && add_edges(profile, edge, count);
+    free(edge);
+    return good;
 }
 
 static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
@@ -400,7 +418,7 @@ static int look_closer(vndf_profile *profile, int last, vndf_status *status, vnd
     profile->hidden = proof.hidden;
     if (vndf_guard_stopped(profile->guard))
         *status = vndf_guard_status(profile->guard, error);
-    else if (!good || (proof.edge_count && !add_edges(profile, &proof)))
+    else if (!good || (proof.edge_count && !add_edges(profile, proof.edge, proof.edge_count)))
         *status = no_memory(error);
     else if (proof.edge_count && !last)
         again = 1;
@@ -417,13 +435,17 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     for (int i = 0;; i++) {
         profile->normalization = profile->scale = 1.0;
         profile->floor = 0.0;
+        profile->unsettled = 0;
         vndf_status status = settle(profile, error);
         if (stopped(profile) || profile->count == 0)
             return status;
         if (!fill_points(profile))
             return no_memory(error);
-        if (!profile->source->reach || !look_closer(profile, i + 1 == LOOKS, &status, error))
+        int again = profile->source->reach && look_closer(profile, i + 1 == LOOKS, &status, error);
+        if (!again && (!profile->unsettled || i + 1 == LOOKS))
             return status;
+        if (!again && !keep_edges(profile))
+            return no_memory(error);
     }
 }
 

@@ -42,6 +42,7 @@ typedef struct vndf_profile {
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     int rough;                      /* more panels are needed than there may be */
+    int unsettled;                  /* two passes found different masses */
     double *edge;                   /* slopes in the source's unit where panels end besides its own breaks, */
     size_t edge_count;              /* ascending */
     double hidden;                  /* of the mass, or of the area at grazing incidence, that may be missed: at most */

@@ -53,7 +53,7 @@ vndf_reach vndf_reach_from(const vndf_jet *p22, const vndf_jet *r, double low, d
     vndf_reach reach = {vndf_interval_low(p22->at[0]), vndf_interval_high(p22->at[0]), HUGE_VAL};
     for (int k = 0; k <= VNDF_JET; k++, power *= h / 2) {
         vndf_interval width = vndf_interval_difference(g.at[k], g.at[k]);
-        double stray = vndf_interval_high(width) * power / (k + 1);
+        double stray = vndf_wide_double(width.high) * power / (k + 1);
         reach.stray = stray < reach.stray ? stray : reach.stray;
     }
     return reach;
