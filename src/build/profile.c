@@ -410,12 +410,27 @@ static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
                      proof->where, proof->hidden, proof->worst);
 }
 
+static const double FINEST = 1e-3; /* width of what samples find if nothing is said */
+
+/* The proof if there is one, else samples. 0 if there is no memory. */
+static int look_between(vndf_profile *profile, vndf_proof *proof)
+{
+    profile->finest = 0.0;
+    int good = profile->source->reach ? vndf_proof_from(proof, profile) : 1;
+    if (profile->source->reach && (proof->proven || proof->edge_count || profile->sampled == 0.0))
+        return good;
+    profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
+    if (profile->source->reach)
+        vndf_proof_free(proof);
+    return good && vndf_proof_by_samples(proof, profile, profile->finest);
+}
+
 /* 1 if panels have to be made anew, with more edges; else *status is the answer. */
 static int look_closer(vndf_profile *profile, int last, vndf_status *status, vndf_error *error)
 {
-    vndf_proof proof;
-    int good = vndf_proof_from(&proof, profile), again = 0;
-    profile->hidden = proof.hidden;
+    vndf_proof proof = {0};
+    int good = look_between(profile, &proof), again = 0;
+    profile->hidden = fmin(proof.hidden, 1.0);
     if (vndf_guard_stopped(profile->guard))
         *status = vndf_guard_status(profile->guard, error);
     else if (!good || (proof.edge_count && !add_edges(profile, proof.edge, proof.edge_count)))
@@ -441,7 +456,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
             return status;
         if (!fill_points(profile))
             return no_memory(error);
-        int again = profile->source->reach && look_closer(profile, i + 1 == LOOKS, &status, error);
+        int again = look_closer(profile, i + 1 == LOOKS, &status, error);
         if (!again && (!profile->unsettled || i + 1 == LOOKS))
             return status;
         if (!again && !keep_edges(profile))
@@ -449,7 +464,17 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     }
 }
 
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error)
+/* 0 if there is no memory. */
+static int take_resolution(vndf_profile *profile, const vndf_resolution *resolution, vndf_error *error)
+{
+    vndf_resolution none = {NULL, 0, 0.0}, given = resolution ? *resolution : none;
+    profile->sampled = given.finest;
+    profile->description = vndf_resolution_describe(&given, profile->source->description, error);
+    return profile->description && (given.break_count == 0 || add_edges(profile, given.breaks, given.break_count));
+}
+
+vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
+                                vndf_error *error)
 {
     vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
     if (!profile) {
@@ -459,7 +484,9 @@ vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vn
     }
     profile->source = source;
     profile->guard = guard;
-    if (make(profile, error) == VNDF_OK)
+    if (!take_resolution(profile, resolution, error))
+        no_memory(error);
+    else if (make(profile, error) == VNDF_OK)
         return profile;
     vndf_profile_free(profile);
     return NULL;
@@ -472,5 +499,6 @@ void vndf_profile_free(vndf_profile *profile)
     free(profile->panel);
     free(profile->point);
     free(profile->edge);
+    free(profile->description);
     free(profile);
 }

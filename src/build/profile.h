@@ -9,6 +9,7 @@
 #define VNDF_BUILD_PROFILE_H
 
 #include "build/guard.h"
+#include "distribution/resolution.h"
 #include "distribution/source.h"
 #include "quadrature/gauss.h"
 
@@ -34,6 +35,8 @@ typedef struct vndf_profile_point {
 
 typedef struct vndf_profile {
     const vndf_source *source;
+    char *description;              /* of the source and of how closely it is looked at; owned */
+    double sampled;                 /* what was asked for as the finest; 0: nothing */
     vndf_guard *guard;              /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale, floor;
     size_t count, capacity;         /* panels; panel[count] is the outer end */
@@ -50,8 +53,9 @@ typedef struct vndf_profile {
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:
- * it has to live as long, or be taken away. */
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
+ * it has to live as long, or be taken away. The resolution, which may be NULL, is copied. */
+vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
+                                vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
 /* P(R) at canonical scale; only the floor once the guard has stopped the build. */

@@ -277,6 +277,47 @@ int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile)
     return good;
 }
 
+/* ---- samples ---- */
+
+enum { SAMPLE_EDGES = 1 << 16 };
+
+/* |P22 r^2 - what was seen| du at a sample that stands for du, as a part of all. */
+static double missed_at(const vndf_profile *profile, const view *v, double u, double du)
+{
+    double slope = exp(u), miss = fabs(integrand(profile, slope) - seen(v, u)) * du;
+    return profile->f0 > 0.0 ? miss * (1.0 / profile->f0 + slope / profile->scale / profile->f1) : miss;
+}
+
+/* Adds what a panel has missed to what was found; keeps places that hold more than `least`. */
+static void sample_panel(vndf_proof *proof, const vndf_profile *profile, size_t panel, double width, double least)
+{
+    view v;
+    view_panel(&v, profile, panel);
+    double count = ceil((v.outer - v.inner) / (width / 2)), du = (v.outer - v.inner) / count;
+    for (double i = 0; i < count && !vndf_guard_stopped(profile->guard); i++) {
+        double u = v.inner + (i + 0.5) * du, miss = missed_at(profile, &v, u, du);
+        proof->hidden += miss;
+        if (miss > least && proof->edge_count + 2 < SAMPLE_EDGES) {
+            take_edge(proof, exp(u - width));
+            take_edge(proof, exp(u + width));
+        }
+    }
+}
+
+int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width)
+{
+    double samples = 2 / width * log(profile->panel[profile->count].r / profile->panel[0].r);
+    memset(proof, 0, sizeof *proof);
+    proof->edge = malloc(SAMPLE_EDGES * sizeof *proof->edge);
+    for (size_t i = 0; proof->edge && i < profile->count; i++)
+        sample_panel(proof, profile, i, width, MISS / samples);
+    proof->proven = proof->hidden <= MISS || !(profile->f0 > 0.0);
+    if (proof->hidden <= MISS)
+        proof->edge_count = 0;
+    proof->hidden = 1.0;
+    return proof->edge != NULL;
+}
+
 void vndf_proof_free(vndf_proof *proof)
 {
     free(proof->edge);

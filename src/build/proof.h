@@ -17,6 +17,10 @@ typedef struct vndf_proof {
 
 /* 0 if there is no memory or the build has to end; to be freed either way. Needs the profile's points. */
 int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile);
+/* The same for a source that has no bound, by values no farther apart than half of `width` of their slope: what is as
+ * wide is met. Nothing is proven of what is not; proven says that no more was found. */
+int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width);
+
 void vndf_proof_free(vndf_proof *proof);
 
 #endif
