@@ -68,7 +68,7 @@ static estimate rule(vndf_profile *profile, double u0, double u1)
     for (int i = 0; i < VNDF_GAUSS; i++) {
         /* not as a difference: panels get as narrow as 1e-13 r */
         double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
-        double f = r * r * density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * f;
+        double p = density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
         sum.m0 += w;
         sum.m1 += w * beyond;
         least = fmin(least, f);
