@@ -52,7 +52,8 @@ VNDF_API const char *vndf_family_help(void);
 VNDF_API const char *vndf_family_material(size_t index);
 
 /* A C function: D(cos theta_m), or P22(r) (better for narrow distributions: 1 - cos loses digits). It
- * must return the same value for the same argument. name is copied into the table as its provenance. */
+ * must return the same value for the same argument. name is copied into the table as its provenance. A function can
+ * only be sampled: features narrower than vndf_build_options.finest can hide, unless its breaks tell of them. */
 typedef double vndf_density_function(double x, void *user);
 VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
                                                vndf_error *error);
@@ -75,8 +76,8 @@ VNDF_API void vndf_source_free(vndf_source *source);
 
 /* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they
  * take, not by seconds, so that the same input gives the same result on every machine: an evaluation of P22
- * counts as 8 operations (16 for a mix), for a formula as 4, 8 for each function and power in it, and one for
- * each number, name and other operator. An operation takes some 4 to 12 ns, so that no formula takes more than
+ * counts as 8 operations (16 for a mix), for a formula as 4, 8 for each power and function in it but abs, min, max
+ * and step, and one for each of these, of the numbers, names and other operators. An operation takes some 4 to 12 ns, so that no formula takes more than
  * minutes; the time of a callback is its own. Memory stays below 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096,     /* characters */
@@ -88,6 +89,7 @@ enum {
     VNDF_LIMIT_CSV_ROWS = 1000000,
     VNDF_LIMIT_CSV_LINE = 4096,              /* characters of a line */
     VNDF_LIMIT_CSV_BYTES = 1 << 26,          /* of a file */
+    VNDF_LIMIT_BREAKS = 64,                  /* of vndf_build_options */
     VNDF_LIMIT_BUILD_PANELS = 60000          /* pieces in which P22 is smooth to 1e-10 */
 };
 #define VNDF_LIMIT_BUILD_OPERATIONS 1e10
@@ -99,12 +101,24 @@ enum {
  * the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
 typedef int vndf_progress(double done, const char *what, void *user);
 
-/* Zeroed options are the defaults. */
+/* Zeroed options are the defaults.
+ *
+ * Narrow features. A formula and a family are bounded between all points by interval arithmetic, a CSV is looked at
+ * in every row: together no more than 1e-5 of the mass, or of the area at grazing incidence, can hide from a table of
+ * these, however narrow its place - all else is resolved, or refused with the slope where it may be
+ * (VNDF_ERROR_DISTRIBUTION). What is narrower than the spacing of doubles is no feature. A callback can only be
+ * sampled: what is narrower than `finest` of its slope may hide, whole, unless a break is given there. The certificate
+ * says which it was (vndf_certificate: hidden, finest). */
 typedef struct vndf_build_options {
     size_t max_bytes;         /* size of the file at most; 0: 16384; from 2048 to 1 MiB */
     double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
     vndf_progress *progress;  /* may be NULL */
     void *progress_user;
+    const double *breaks;     /* slopes, in the source's unit, where something begins, ends, or has its peak: P22 is */
+    size_t break_count;       /* looked at closely beside them; for any source; copied into the provenance */
+    double finest;            /* width, relative to the slope, of what samples have to find, from 1e-9 to 1; 0: 1e-3.
+                                 Costs 280/finest evaluations. A formula that cannot be bounded, and would be refused,
+                                 is sampled if finest is given */
 } vndf_build_options;
 
 /* Builds a table. options and certificate may be NULL. NULL and an error if the source cannot be the
@@ -113,7 +127,8 @@ typedef struct vndf_build_options {
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 
-/* Measures a table against a source: the certificate that vndf_build would write. */
+/* Measures a table against a source: the certificate that vndf_build would write. Breaks and finest are those that
+ * the table was built with: its provenance ends with them, as --break R and --finest W. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 

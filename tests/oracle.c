@@ -193,7 +193,7 @@ vndf_source *oracle_source(const oracle *o)
 vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {max_bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = max_bytes};
     vndf_source *source = oracle_source(o);
     vndf_distribution *table = source ? vndf_build(source, &options, certificate, &error) : NULL;
     if (source && !table)

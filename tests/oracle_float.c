@@ -23,7 +23,7 @@ static int build_into(const char *recipe, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
     char *slope;
-    vndf_build_options options = {strtoul(recipe, &slope, 10), 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = strtoul(recipe, &slope, 10)};
     int family = strncmp(slope, " family ", 8) == 0;
     vndf_source *source = family ? vndf_source_family(slope + 8, &error)
                                  : vndf_source_slope_expression(slope, NULL, 0, &error);

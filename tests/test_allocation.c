@@ -140,7 +140,7 @@ static int make_alone(const subject *of, vndf_error *error)
 /* The failures of the source were the subject of make_alone. */
 static int build(const subject *of, vndf_error *error)
 {
-    vndf_build_options options = {2048, of->max_tv, NULL, NULL};
+    vndf_build_options options = {.max_bytes = 2048, .max_tv = of->max_tv};
     long after = left;
     left = -1;
     vndf_source *source = of->make(error);

@@ -16,10 +16,10 @@ static const size_t SIZES[] = {2048, 4096, 16384};
 
 static void test_moments(const vndf_source *source, const char *text, size_t bytes)
 {
-    vndf_build_options options = {bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = bytes};
     vndf_error error = {VNDF_OK, ""};
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    vndf_profile *profile = vndf_profile_from(source, &guard, &error);
+    vndf_profile *profile = vndf_profile_from(source, NULL, &guard, &error);
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
     if (TEST(profile && table)) {
         double f0 = (double)table->f0_total, f1 = (double)table->f1_total;

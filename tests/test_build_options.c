@@ -45,7 +45,7 @@ static vndf_distribution *build(size_t max_bytes, double max_tv, vndf_certificat
 {
     oracle o = oracle_get(ORACLE_GGX);
     vndf_source *source = oracle_source(&o);
-    vndf_build_options options = {max_bytes, max_tv, NULL, NULL};
+    vndf_build_options options = {.max_bytes = max_bytes, .max_tv = max_tv};
     vndf_distribution *table = vndf_build(source, &options, claim, error);
     vndf_source_free(source);
     return table;
@@ -110,7 +110,7 @@ static void test_progress(void)
     oracle o = oracle_get(ORACLE_GGX);
     vndf_source *source = oracle_source(&o);
     told all = {0, 0, 1 << 30, 1}, some = {0, 0, 2, 1};
-    vndf_build_options options = {0, 0, note, &all};
+    vndf_build_options options = {.progress = note, .progress_user = &all};
     vndf_error error = {VNDF_OK, ""};
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
     TEST(table && all.calls > 1 && all.in_order);

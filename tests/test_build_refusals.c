@@ -32,7 +32,7 @@ static const char *const accepted[] = {
 static vndf_distribution *build(const char *slope, vndf_error *error)
 {
     vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
-    vndf_build_options options = {4096, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = 4096};
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
     vndf_source_free(source);
     return table;

@@ -104,7 +104,7 @@ static void test_knots(const char *p22)
 {
     unsigned long long state = 43;
     tried t = {0, 0, 0};
-    vndf_build_options options = {65536, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = 65536};
     vndf_source *source = vndf_source_slope_expression(p22, NULL, 0, NULL);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, NULL) : NULL;
     for (int i = 0; TEST(table != NULL) && i < (oracle_quick() ? 1000 : 5000); i++) {
@@ -129,7 +129,7 @@ static void test_source(const char *p22, size_t bytes, double jump)
     static const vndf_vec3 directions[] = {{0, 0, 1}, {0.5f, 0, 0.8660254f}, {-0.64f, 0.48f, 0.6f}};
     unsigned long long state = 41;
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = bytes};
     vndf_source *source = vndf_source_slope_expression(p22, NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     for (int i = 0; TEST(table != NULL) && i < 6; i++) {

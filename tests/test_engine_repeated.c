@@ -122,7 +122,7 @@ static const subject subjects[] = {
 static void test_table(const subject *s)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {s->bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = s->bytes};
     vndf_source *source = vndf_source_slope_expression(s->name, NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     if (TEST(table != NULL))

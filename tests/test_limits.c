@@ -49,7 +49,7 @@ static void test_names(void)
 {
     static char name[VNDF_LIMIT_NAME_LENGTH + 2];
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {65536, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = 65536};
     memset(name, '\'', VNDF_LIMIT_NAME_LENGTH);
     vndf_source *source = vndf_source_slope_callback(laplace, NULL, name, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
@@ -182,7 +182,7 @@ static int count(double done, const char *what, void *user)
 static void test_asked_often(void)
 {
     long asked = 0;
-    vndf_build_options options = {0, 0, count, &asked};
+    vndf_build_options options = {.progress = count, .progress_user = &asked};
     vndf_source *source = vndf_source_family("ggx", NULL);
     vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
     TEST(table && asked > 100);

@@ -18,7 +18,7 @@ static const char *repeat(char text[VNDF_LIMIT_EXPRESSION_LENGTH + 1], const cha
 static void try_formula(const char *slope, size_t max_bytes)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {max_bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = max_bytes};
     vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, &error);
     clock_t from = clock();
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;

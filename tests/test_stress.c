@@ -43,7 +43,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, size
 static void test_source(vndf_source *source, size_t bytes, size_t every)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {bytes, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = bytes};
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     if (!table)
         fprintf(stderr, "  %s\n", error.message);

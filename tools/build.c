@@ -28,6 +28,9 @@ static const char help[] =
     "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
+    "  --break R       a slope where something begins, ends or has its peak; may be repeated. Formulas, families and\n"
+    "                  rows need none: what is narrow is found, or refused with its slope\n"
+    "  --finest W      a formula that cannot be bounded is sampled for what is as wide as W of its slope\n"
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384)\n"
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
     "  -o FILE         the table; it appears whole or not at all\n"
@@ -37,7 +40,7 @@ static const char help[] =
 
 typedef struct build_words {
     source_words source;
-    words list, bytes, tv, output;
+    words list, bytes, tv, breaks, finest, output;
 } build_words;
 
 static int print_list(void)
@@ -70,14 +73,27 @@ static int show_progress(double done, const char *what, void *user)
     return output_stopping(w->held);
 }
 
+/* The numbers of --break into room, and --finest. */
+static int read_resolution(const build_words *given, double room[WORDS_MAX], vndf_build_options *options)
+{
+    for (size_t i = 0; i < given->breaks.count; i++)
+        if (!parse_numbers(name, "--break", given->breaks.item[i], 1e-30, 1e30, 1, 1, &room[i]))
+            return 0;
+    options->breaks = room;
+    options->break_count = given->breaks.count;
+    return option_number(name, "--finest", &given->finest, 1e-9, 1, &options->finest);
+}
+
 static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
 {
     vndf_build_options options = {0};
     vndf_error error = {VNDF_OK, ""};
     unsigned long long bytes = 0;
+    double breaks[WORDS_MAX];
     watch at = {held, isatty(STDERR_FILENO), NULL};
     if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
-        !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv))
+        !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv) ||
+        !read_resolution(given, breaks, &options))
         return NULL;
     options.max_bytes = (size_t)bytes;
     options.progress = show_progress;
@@ -137,6 +153,7 @@ int command_build(int argc, char **argv)
         {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
         {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
         {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
+        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks}, {"--finest", 1, 1, &given.finest},
         {"-o", 1, 1, &given.output},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};

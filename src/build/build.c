@@ -35,7 +35,7 @@ static size_t file_bytes(vndf_table_size s, const char *source)
 
 static int fits(const vndf_plan *plan, double error, size_t max_bytes)
 {
-    return file_bytes(vndf_plan_size(plan, error), plan->profile->source->description) <= max_bytes;
+    return file_bytes(vndf_plan_size(plan, error), plan->profile->description) <= max_bytes;
 }
 
 /* The least error for which the table is small enough, or 0. */
@@ -59,7 +59,7 @@ static double error_for_bytes(const vndf_plan *plan, size_t max_bytes)
 /* The table for an error target as it would be read back from its file: certificate and texts included. */
 static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
 {
-    const char *source = plan->profile->source->description;
+    const char *source = plan->profile->description;
     vndf_distribution *draft = vndf_plan_assemble(plan, vndf_plan_size(plan, error)), *table = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0;
@@ -122,7 +122,7 @@ static vndf_distribution *cut_table(vndf_plan *plan, size_t max_bytes, double ma
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)max_bytes,
-                  (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->source->description));
+                  (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->description));
         return NULL;
     }
     return max_tv > 0.0 ? build_to_tv(plan, best, max_tv, error) : finish(plan, best, error);
@@ -172,13 +172,16 @@ static vndf_status check_options(const vndf_source *source, size_t max_bytes, do
 vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                               vndf_certificate *certificate, vndf_error *error)
 {
-    vndf_build_options none = {0, 0, NULL, NULL}, given = options ? *options : none;
+    vndf_build_options none = {0}, given = options ? *options : none;
     size_t max_bytes = given.max_bytes ? given.max_bytes : BYTES_DEFAULT;
     if (check_options(source, max_bytes, given.max_tv, error) != VNDF_OK)
         return NULL;
+    vndf_resolution resolution = {given.breaks, given.break_count, given.finest};
+    if (vndf_resolution_check(&resolution, error) != VNDF_OK)
+        return NULL;
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
-    vndf_profile *profile = vndf_profile_from(source, &guard, error);
+    vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
     if (!profile)
         return NULL;
     vndf_distribution *table = given.max_bytes || given.max_tv > 0.0
@@ -201,7 +204,11 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table and a place for its certificate are needed");
     vndf_guard guard = vndf_guard_from(NULL, NULL);
     vndf_error inner = {VNDF_OK, ""};
-    vndf_profile *profile = vndf_profile_from(source, &guard, &inner);
+    vndf_resolution as_built;
+    double breaks[VNDF_LIMIT_BREAKS];
+    if (vndf_resolution_read(distribution->source, breaks, &as_built, error) != VNDF_OK)
+        return error ? error->status : VNDF_ERROR_ARGUMENT;
+    vndf_profile *profile = vndf_profile_from(source, &as_built, &guard, &inner);
     if (!profile)
         return vndf_fail(error, inner.status, "%s", inner.message);
     double scale = profile->scale / distribution->scale;

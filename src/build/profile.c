@@ -2,9 +2,12 @@
  * narrow ring is seen, and takes halves back where the whole does as well. */
 #include "build/profile.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "build/proof.h"
 #include "core/error.h"
 #include "math/ascending.h"
 
@@ -12,13 +15,15 @@ enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40 };
 
 static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
-static const double UNEVEN = 0.43; /* a jump in the middle would be half of either rule, and pass for smooth */
 static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
+static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
-static const double SAME_EDGE = 1e-12;  /* in log R: the width at which resolve() calls it a jump */
+static const double SAME_EDGE = 1e-13;  /* in log R: narrower than where resolve() calls it a jump */
+static const double ROUNDED = 4e-16;    /* of a slope: what points may be off by */
 static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
 static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
 static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double NARROW = 1.01;      /* ratio of a panel's ends that was cut for what is in it */
 static const double SAME_MASS = 1e-7;   /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)
@@ -50,17 +55,27 @@ double vndf_profile_p22(const vndf_profile *profile, double r)
 
 /* ---- panels ---- */
 
-static vndf_moments rule(vndf_profile *profile, double u0, double u1)
+/* Ten points of a panel: its moments as far as they tell, and how far m0 may be off because they and P are
+ * rounded. */
+typedef struct estimate {
+    double m0, m1, noise;
+} estimate;
+
+static estimate rule(vndf_profile *profile, double u0, double u1)
 {
-    double r0 = exp(u0);
-    vndf_moments sum = {0.0, 0.0};
+    double r0 = exp(u0), least = HUGE_VAL, most = 0.0;
+    estimate sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
         /* not as a difference: panels get as narrow as 1e-13 r */
         double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
-        double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * density(profile, r);
+        double p = density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
         sum.m0 += w;
         sum.m1 += w * beyond;
+        least = fmin(least, f);
+        most = fmax(most, f);
     }
+    double step = profile->normalization * DBL_TRUE_MIN * profile->scale * profile->scale; /* of small values */
+    sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least) + step * r0 * r0 * (u1 - u0);
     return sum;
 }
 
@@ -80,7 +95,7 @@ static int grow(vndf_profile *profile)
     return 1;
 }
 
-static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
+static void push(vndf_profile *profile, double u0, estimate sum, int jump)
 {
     if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
         profile->rough = 1;
@@ -90,9 +105,9 @@ static void push(vndf_profile *profile, double u0, vndf_moments sum, int jump)
     profile->panel[profile->count++] = panel;
 }
 
-static int agree(double a, double b, double least)
+static int agree(double a, double b, double part, double least)
 {
-    return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
+    return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
 }
 
 static int stopped(const vndf_profile *profile)
@@ -100,14 +115,15 @@ static int stopped(const vndf_profile *profile)
     return profile->rough || vndf_guard_stopped(profile->guard);
 }
 
-static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments whole, int depth, double least)
+static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least)
 {
-    double middle = u0 + (u1 - u0) * UNEVEN, gap = exp(u0) * expm1(middle - u0);
-    vndf_moments l = rule(profile, u0, middle), r = rule(profile, middle, u1);
-    vndf_moments sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap};
+    double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
+    estimate l = rule(profile, u0, middle), r = rule(profile, middle, u1);
+    estimate sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap, 0.0};
     if (stopped(profile))
         return;
-    int good = agree(sum.m0, whole.m0, least) && agree(sum.m1, whole.m1, least * gap);
+    double slack = least + whole.noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    int good = agree(sum.m0, whole.m0, part, slack) && agree(sum.m1, whole.m1, part, slack * gap);
     if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
         push(profile, u0, sum, !good);
         return;
@@ -121,34 +137,50 @@ static void resolve(vndf_profile *profile, double u0, double u1, vndf_moments wh
     }
 }
 
-/* The largest integrand per octave, for what is negligible beside it. */
+static double integrand(vndf_profile *profile, double r)
+{
+    return density(profile, r) * r * r;
+}
+
+/* The largest integrand per octave and at the edges, for what is negligible beside it. */
 static double peak(vndf_profile *profile)
 {
     double most = 0.0;
-    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !stopped(profile); i++) {
-        double r = exp2(i / 16.0) / profile->scale, p = density(profile, r) * r * r;
-        most = p > most ? p : most;
-    }
+    for (int i = -16 * OCTAVES; i < 16 * OCTAVES && !stopped(profile); i++)
+        most = fmax(most, integrand(profile, exp2(i / 16.0) / profile->scale));
+    for (size_t i = 0; i < profile->edge_count && !stopped(profile); i++)
+        most = fmax(most, integrand(profile, profile->edge[i] / profile->scale));
     return most;
 }
 
-/* Octave edges and the known breaks of the source, ascending, as logarithms of canonical R. */
+/* Drops what is too close to the one before it. */
+static size_t thin(double *edge, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || edge[i] - edge[kept - 1] > SAME_EDGE)
+            edge[kept++] = edge[i];
+    return kept;
+}
+
+/* Octave edges, the known breaks of the source and other edges, ascending, as logarithms of canonical R. */
 static double *make_edges(const vndf_profile *profile, size_t *count)
 {
     const vndf_source *source = profile->source;
     double shift = log(profile->scale), low = -OCTAVES * log(2.0), high = -low;
-    double *edge = malloc((2 * OCTAVES + 1 + source->break_count) * sizeof *edge);
+    double *edge = malloc((2 * OCTAVES + 1 + source->break_count + profile->edge_count) * sizeof *edge);
     size_t n = 0;
     for (int i = -OCTAVES; edge && i <= OCTAVES; i++)
         edge[n++] = i * log(2.0) - shift;
-    for (size_t i = 0; edge && i < source->break_count; i++) {
-        double u = source->breaks[i] > 0.0 ? log(source->breaks[i]) : low;
+    for (size_t i = 0; edge && i < source->break_count + profile->edge_count; i++) {
+        double r = i < source->break_count ? source->breaks[i] : profile->edge[i - source->break_count];
+        double u = r > 0.0 ? log(r) : low;
         if (u > low && u < high)
             edge[n++] = u - shift;
     }
     if (edge)
         qsort(edge, n, sizeof *edge, vndf_ascending);
-    *count = n;
+    *count = edge ? thin(edge, n) : 0;
     return edge;
 }
 
@@ -161,8 +193,7 @@ static void fill_panels(vndf_profile *profile)
     if (!edge)
         profile->guard->starved = 1;
     for (size_t i = 0; i + 1 < edges && !stopped(profile); i++)
-        if (edge[i + 1] - edge[i] > SAME_EDGE)
-            resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
+        resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
     if (!stopped(profile) && grow(profile)) {
         vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
         profile->panel[profile->count] = end;
@@ -214,6 +245,7 @@ static void sum_panels(vndf_profile *profile)
 /* The Gauss points of all panels, for integrals with other kernels. */
 static int fill_points(vndf_profile *profile)
 {
+    free(profile->point);
     profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
     for (size_t i = 0; profile->point && i < profile->count; i++) {
         double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r);
@@ -301,11 +333,15 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
 
 /* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
  * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
-static vndf_status make(vndf_profile *profile, vndf_error *error)
+static vndf_status settle(vndf_profile *profile, vndf_error *error)
 {
     enum { PASSES = 4 };
     double most = peak(profile); /* first to a size that neither overflows nor vanishes */
-    if (most > 0.0 && 1.0 / most < HUGE_VAL)
+    if (most > 0.0 && most < LEAST_PEAK)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor",
+                         most);
+    if (most > 0.0)
         profile->normalization = 1.0 / most;
     vndf_status status = measure(profile, error);
     if (status == VNDF_OK)
@@ -313,7 +349,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
         double mass = 2 * PI * profile->f0;
         if (pass > 0 && fabs(mass - 1.0) < SAME_MASS)
-            return fill_points(profile) ? VNDF_OK : no_memory(error);
+            return VNDF_OK;
         double middle = median(profile);
         profile->normalization /= mass;
         profile->scale *= middle;
@@ -325,12 +361,120 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     }
     if (status != VNDF_OK)
         return status;
+    profile->unsettled = 1;
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                      "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last "
                      "one at a median slope of %g", profile->scale);
 }
 
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error)
+/* ---- what no point has met ---- */
+
+static int add_edges(vndf_profile *profile, const double *more, size_t more_count)
+{
+    size_t count = profile->edge_count + more_count;
+    double *edge = realloc(profile->edge, (count + 1) * sizeof *edge);
+    if (!edge)
+        return 0;
+    profile->edge = edge;
+    memcpy(edge + profile->edge_count, more, more_count * sizeof *edge);
+    qsort(edge, count, sizeof *edge, vndf_ascending);
+    profile->edge_count = count;
+    return 1;
+}
+
+/* Ends of the panels that were cut more than all are: what one pass has met by chance the next ones look for. */
+static int keep_edges(vndf_profile *profile)
+{
+    const vndf_panel *p = profile->panel;
+    double *edge = malloc(2 * profile->count * sizeof *edge);
+    size_t count = 0;
+    for (size_t i = 0; edge && i < profile->count; i++)
+        if (p[i + 1].r < p[i].r * NARROW) {
+            edge[count++] = p[i].r * profile->scale;
+            edge[count++] = p[i + 1].r * profile->scale;
+        }
+    int good = edge && add_edges(profile, edge, count);
+    free(edge);
+    return good;
+}
+
+static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
+{
+    if (isinf(proof->worst))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 cannot be bounded at slope %.9g: it may be infinite or not a number there",
+                         proof->where);
+    return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                     "P22 cannot be resolved at slope %.9g: up to %.3g of the mass, or of the area at grazing "
+                     "incidence, may lie between the points that were looked at, %.3g of it there",
+                     proof->where, proof->hidden, proof->worst);
+}
+
+static const double FINEST = 1e-3; /* width of what samples find if nothing is said */
+
+/* The proof if there is one, else samples. 0 if there is no memory. */
+static int look_between(vndf_profile *profile, vndf_proof *proof)
+{
+    profile->finest = 0.0;
+    int good = profile->source->reach ? vndf_proof_from(proof, profile) : 1;
+    if (profile->source->reach && (proof->proven || proof->edge_count || profile->sampled == 0.0))
+        return good;
+    profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
+    if (profile->source->reach)
+        vndf_proof_free(proof);
+    return good && vndf_proof_by_samples(proof, profile, profile->finest);
+}
+
+/* 1 if panels have to be made anew, with more edges; else *status is the answer. */
+static int look_closer(vndf_profile *profile, int last, vndf_status *status, vndf_error *error)
+{
+    vndf_proof proof = {0};
+    int good = look_between(profile, &proof), again = 0;
+    profile->hidden = fmin(proof.hidden, 1.0);
+    if (vndf_guard_stopped(profile->guard))
+        *status = vndf_guard_status(profile->guard, error);
+    else if (!good || (proof.edge_count && !add_edges(profile, proof.edge, proof.edge_count)))
+        *status = no_memory(error);
+    else if (proof.edge_count && !last)
+        again = 1;
+    else if (!proof.proven && (*status == VNDF_OK || !(profile->f0 > 0.0)))
+        *status = unproven(&proof, error);
+    vndf_proof_free(&proof);
+    return again;
+}
+
+/* Points first; then what lies between them, where the source can tell, until nothing more is found. */
+static vndf_status make(vndf_profile *profile, vndf_error *error)
+{
+    enum { LOOKS = 12 };
+    for (int i = 0;; i++) {
+        profile->normalization = profile->scale = 1.0;
+        profile->floor = 0.0;
+        profile->unsettled = 0;
+        vndf_status status = settle(profile, error);
+        if (stopped(profile) || profile->count == 0)
+            return status;
+        if (!fill_points(profile))
+            return no_memory(error);
+        int again = look_closer(profile, i + 1 == LOOKS, &status, error);
+        if (!again && (!profile->unsettled || i + 1 == LOOKS))
+            return status;
+        if (!again && !keep_edges(profile))
+            return no_memory(error);
+    }
+}
+
+/* 0 if there is no memory. */
+static int take_resolution(vndf_profile *profile, const vndf_resolution *resolution, vndf_error *error)
+{
+    vndf_resolution none = {NULL, 0, 0.0}, given = resolution ? *resolution : none;
+    profile->sampled = given.finest;
+    profile->description = vndf_resolution_describe(&given, profile->source->description, error);
+    return profile->description && (given.break_count == 0 || add_edges(profile, given.breaks, given.break_count));
+}
+
+vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
+                                vndf_error *error)
 {
     vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
     if (!profile) {
@@ -340,8 +484,9 @@ vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vn
     }
     profile->source = source;
     profile->guard = guard;
-    profile->normalization = profile->scale = 1.0;
-    if (make(profile, error) == VNDF_OK)
+    if (!take_resolution(profile, resolution, error))
+        no_memory(error);
+    else if (make(profile, error) == VNDF_OK)
         return profile;
     vndf_profile_free(profile);
     return NULL;
@@ -353,5 +498,7 @@ void vndf_profile_free(vndf_profile *profile)
         return;
     free(profile->panel);
     free(profile->point);
+    free(profile->edge);
+    free(profile->description);
     free(profile);
 }

@@ -9,6 +9,7 @@
 #define VNDF_BUILD_PROFILE_H
 
 #include "build/guard.h"
+#include "distribution/resolution.h"
 #include "distribution/source.h"
 #include "quadrature/gauss.h"
 
@@ -26,9 +27,13 @@ typedef struct vndf_profile_point {
     double r, weight;
 } vndf_profile_point;
 
+/* Where panels are cut: a jump in the middle would be half of either rule, and pass for smooth. */
+#define VNDF_UNEVEN 0.43
 
 typedef struct vndf_profile {
     const vndf_source *source;
+    char *description;              /* of the source and of how closely it is looked at; owned */
+    double sampled;                 /* what was asked for as the finest; 0: nothing */
     vndf_guard *guard;              /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale, floor;
     size_t count, capacity;         /* panels; panel[count] is the outer end */
@@ -36,13 +41,18 @@ typedef struct vndf_profile {
     vndf_profile_point *point;      /* VNDF_GAUSS per panel */
     double f0, f1;                  /* totals */
     double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
-    double hidden, finest;          /* vndf_certificate */
     int rough;                      /* more panels are needed than there may be */
+    int unsettled;                  /* two passes found different masses */
+    double *edge;                   /* slopes in the source's unit where panels end besides its own breaks, */
+    size_t edge_count;              /* ascending */
+    double hidden;                  /* of the mass, or of the area at grazing incidence, that may be missed: at most */
+    double finest;                  /* 0 if that is proven; else the relative width that points were looked at */
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:
- * it has to live as long, or be taken away. */
-vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
+ * it has to live as long, or be taken away. The resolution, which may be NULL, is copied. */
+vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
+                                vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
 /* P(R) at canonical scale; only the floor once the guard has stopped the build. */

@@ -30,10 +30,18 @@ static const double INSIDE = 1e-3;      /* the cubic stays off 0 when its moment
 
 /* ---- knots ---- */
 
+/* How much P changes so near to r, as a part of the higher side. */
+static double change_at(const vndf_profile *profile, double r, double beside)
+{
+    double here = vndf_profile_p22(profile, r * (1 - beside)), there = vndf_profile_p22(profile, r * (1 + beside));
+    return fmax(here, there) * r * r > JUMP_MASS ? fabs(here - there) / fmax(here, there) : 0.0;
+}
+
+/* A slope that is merely steep changes less where it is seen from nearer. */
 static int jumps_at(const vndf_profile *profile, double r)
 {
-    double here = vndf_profile_p22(profile, r * (1 - BESIDE)), there = vndf_profile_p22(profile, r * (1 + BESIDE));
-    return fabs(here - there) > JUMP_LEAST * fmax(here, there) && fmax(here, there) * r * r > JUMP_MASS;
+    double change = change_at(profile, r, BESIDE);
+    return change > JUMP_LEAST && change_at(profile, r, BESIDE / 8) > change / 2;
 }
 
 int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
@@ -64,15 +72,30 @@ static int is_jump(const vndf_radial_fit *fit, double r)
     return 0;
 }
 
+/* Of the floats about a knot, those with the slope next to r on the side asked for: x and z together come nearer
+ * to it than either alone. */
+static void round_to_side(vndf_fit_knot *knot, double r, int above)
+{
+    const float x[] = {nextafterf(knot->x, 0.0f), knot->x, nextafterf(knot->x, 2.0f)};
+    const float z[] = {nextafterf(knot->z, 0.0f), knot->z, nextafterf(knot->z, 2.0f)};
+    double nearest = HUGE_VAL;
+    for (int i = 0; i < 9; i++) {
+        double beyond = ((double)x[i / 3] / (double)z[i % 3] / r - 1) * (above ? 1 : -1);
+        if (beyond >= 0 && beyond < nearest) {
+            nearest = beyond;
+            knot->x = x[i / 3];
+            knot->z = z[i % 3];
+        }
+    }
+}
+
 vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r)
 {
     int infinite = r == HUGE_VAL;
     vndf_fit_knot knot = {infinite ? 1.0f : (float)(r / (1 + r)), (float)(1 / (1 + r)), r, is_jump(fit, r)};
     if (knot.jump) { /* the side with more normals keeps its edge inside its own cell */
         double before = vndf_profile_p22(fit->profile, r * (1 - BESIDE));
-        int down = before > vndf_profile_p22(fit->profile, r * (1 + BESIDE));
-        knot.x = nextafterf(knot.x, down ? 2.0f : 0.0f);
-        knot.z = nextafterf(knot.z, down ? 0.0f : 2.0f);
+        round_to_side(&knot, r, before > vndf_profile_p22(fit->profile, r * (1 + BESIDE)));
     }
     if (!infinite)
         knot.r = (double)knot.x / (double)knot.z;

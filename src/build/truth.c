@@ -12,7 +12,7 @@ struct vndf_truth {
 vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error)
 {
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    vndf_profile *profile = vndf_profile_from(source, &guard, error);
+    vndf_profile *profile = vndf_profile_from(source, NULL, &guard, error);
     vndf_truth *truth = profile ? malloc(sizeof *truth) : NULL;
     if (profile)
         profile->guard = NULL; /* no counter is shared: areas may be asked for by several threads */

@@ -58,7 +58,7 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ p22, destroy, description, NULL, 0, 0, OPERATIONS };
+    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS };
     source->density = density;
     source->user = user;
     return &source->base;

@@ -22,17 +22,27 @@ static double larger(double x, double y)
 }
 
 static const vndf_function functions[] = {
-    { "exp", exp, NULL, VNDF_KINK_NONE },     { "log", log, NULL, VNDF_KINK_NONE },
-    { "sqrt", sqrt, NULL, VNDF_KINK_NONE },   { "sin", sin, NULL, VNDF_KINK_NONE },
-    { "cos", cos, NULL, VNDF_KINK_NONE },     { "tan", tan, NULL, VNDF_KINK_NONE },
-    { "asin", asin, NULL, VNDF_KINK_NONE },   { "acos", acos, NULL, VNDF_KINK_NONE },
-    { "atan", atan, NULL, VNDF_KINK_NONE },   { "sinh", sinh, NULL, VNDF_KINK_NONE },
-    { "cosh", cosh, NULL, VNDF_KINK_NONE },   { "tanh", tanh, NULL, VNDF_KINK_NONE },
-    { "erf", erf, NULL, VNDF_KINK_NONE },     { "erfc", erfc, NULL, VNDF_KINK_NONE },
-    { "lgamma", lgamma, NULL, VNDF_KINK_NONE }, { "gamma", tgamma, NULL, VNDF_KINK_NONE },
-    { "abs", fabs, NULL, VNDF_KINK_ZERO },    { "min", NULL, smaller, VNDF_KINK_EQUAL },
-    { "max", NULL, larger, VNDF_KINK_EQUAL }, { "pow", NULL, pow, VNDF_KINK_NONE },
-    { "step", step, NULL, VNDF_KINK_ZERO },
+    { "exp", exp, NULL, VNDF_KINK_NONE, vndf_jet_exp, NULL },
+    { "log", log, NULL, VNDF_KINK_NONE, vndf_jet_log, NULL },
+    { "sqrt", sqrt, NULL, VNDF_KINK_NONE, vndf_jet_sqrt, NULL },
+    { "sin", sin, NULL, VNDF_KINK_NONE, vndf_jet_sin, NULL },
+    { "cos", cos, NULL, VNDF_KINK_NONE, vndf_jet_cos, NULL },
+    { "tan", tan, NULL, VNDF_KINK_NONE, vndf_jet_tan, NULL },
+    { "asin", asin, NULL, VNDF_KINK_NONE, vndf_jet_asin, NULL },
+    { "acos", acos, NULL, VNDF_KINK_NONE, vndf_jet_acos, NULL },
+    { "atan", atan, NULL, VNDF_KINK_NONE, vndf_jet_atan, NULL },
+    { "sinh", sinh, NULL, VNDF_KINK_NONE, vndf_jet_sinh, NULL },
+    { "cosh", cosh, NULL, VNDF_KINK_NONE, vndf_jet_cosh, NULL },
+    { "tanh", tanh, NULL, VNDF_KINK_NONE, vndf_jet_tanh, NULL },
+    { "erf", erf, NULL, VNDF_KINK_NONE, vndf_jet_erf, NULL },
+    { "erfc", erfc, NULL, VNDF_KINK_NONE, vndf_jet_erfc, NULL },
+    { "lgamma", lgamma, NULL, VNDF_KINK_NONE, vndf_jet_lgamma, NULL },
+    { "gamma", tgamma, NULL, VNDF_KINK_NONE, vndf_jet_gamma, NULL },
+    { "abs", fabs, NULL, VNDF_KINK_ZERO, vndf_jet_abs, NULL },
+    { "min", NULL, smaller, VNDF_KINK_EQUAL, NULL, vndf_jet_min },
+    { "max", NULL, larger, VNDF_KINK_EQUAL, NULL, vndf_jet_max },
+    { "pow", NULL, pow, VNDF_KINK_NONE, NULL, vndf_jet_pow },
+    { "step", step, NULL, VNDF_KINK_ZERO, vndf_jet_step, NULL },
 };
 
 const vndf_function *vndf_function_find(const char *name, size_t size)

@@ -8,11 +8,12 @@
  *
  * Names stand for the variables of the formula, for pi and for the caller's parameters; functions are
  * known by the parenthesis behind them, so that a parameter may be called gamma. Blanks separate.
- * expression_parse.c reads, expression.c evaluates, expression_breaks.c finds kinks and jumps, and
- * expression_source.c makes a distribution of it. */
+ * expression_parse.c reads, expression.c evaluates, expression_breaks.c finds kinks and jumps, expression_bound.c
+ * bounds what lies between points, and expression_source.c makes a distribution of it. */
 #ifndef VNDF_DISTRIBUTION_EXPRESSION_H
 #define VNDF_DISTRIBUTION_EXPRESSION_H
 
+#include "distribution/jet.h"
 #include "vndf_build.h"
 
 enum {
@@ -23,12 +24,14 @@ enum {
  * two arguments are equal. */
 typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
 
-/* A function of one argument or of two; the other pointer is NULL. */
+/* A function of one argument or of two; the other pointers are NULL. */
 typedef struct vndf_function {
     const char *name;
     double (*one)(double);
     double (*two)(double, double);
     vndf_kink kink;
+    vndf_jet (*jet_one)(const vndf_jet *);
+    vndf_jet (*jet_two)(const vndf_jet *, const vndf_jet *);
 } vndf_function;
 
 typedef enum vndf_operation {

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "distribution/expression_bound.h"
 #include "distribution/materials.h"
 #include "distribution/number.h"
 #include "distribution/source.h"
@@ -25,6 +26,7 @@ typedef struct lobe {
     const vndf_family_form *form;
     double parameter[VNDF_FAMILY_PARAMETERS];
     double factor, scale; /* factor * P22(r/scale) */
+    vndf_expression formula; /* owned; of P22 */
 } lobe;
 
 typedef struct family_source {
@@ -52,8 +54,25 @@ static double p22(const vndf_source *self, double r)
     return sum;
 }
 
+static vndf_reach reach(const vndf_source *self, double low, double high)
+{
+    const family_source *source = (const family_source *)self;
+    vndf_jet r = vndf_jet_of_slope(low, high), sum = vndf_jet_number(0);
+    for (size_t i = 0; i < source->count; i++) {
+        const lobe *l = &source->lobes[i];
+        vndf_jet factor = vndf_jet_number(l->factor), scale = vndf_jet_number(l->scale);
+        vndf_jet unit = vndf_jet_quotient(&r, &scale), p22_of_unit = vndf_expression_jet(&l->formula, &unit);
+        vndf_jet product = vndf_jet_product(&factor, &p22_of_unit);
+        sum = vndf_jet_sum(&sum, &product);
+    }
+    return vndf_reach_from(&sum, &r, low, high);
+}
+
 static void destroy(vndf_source *self)
 {
+    family_source *source = (family_source *)self;
+    for (size_t i = 0; i < source->count; i++)
+        vndf_expression_free(&source->lobes[i].formula);
     free(self->description);
     free(self);
 }
@@ -156,7 +175,7 @@ static int is_material(const vndf_family_form *form, part rest)
 static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
 {
     part rest = whole, name = cut(&rest, ':');
-    *l = (lobe){ vndf_family_form_find(name.text, name.size), { 0, 0 }, 1, 1 };
+    *l = (lobe){ vndf_family_form_find(name.text, name.size), { 0, 0 }, 1, 1, { NULL, 0 } };
     if (!l->form)
         return unknown_family(name, error);
     return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
@@ -230,6 +249,22 @@ static vndf_status read_specification(const char *specification, family_source *
     return read_lobe(whole, &source->lobes[0], error);
 }
 
+static vndf_status compile(lobe *l, vndf_error *error)
+{
+    static const char *const variables[] = { "r" };
+    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = { { "a", l->parameter[0] }, { "b", l->parameter[1] } };
+    vndf_names names = { variables, 1, parameters, VNDF_FAMILY_PARAMETERS };
+    return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
+}
+
+static vndf_status compile_all(family_source *source, vndf_error *error)
+{
+    vndf_status status = VNDF_OK;
+    for (size_t i = 0; i < source->count && status == VNDF_OK; i++)
+        status = compile(&source->lobes[i], error);
+    return status;
+}
+
 vndf_source *vndf_source_family(const char *specification, vndf_error *error)
 {
     vndf_text words = { NULL, 0, 0, 0 };
@@ -240,16 +275,15 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
                   specification ? "no memory for a source" : "the family's name is NULL");
         return NULL;
     }
-    if (read_specification(specification, source, error) != VNDF_OK) {
-        free(source);
-        return NULL;
+    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .rebuildable = 1, .reach = reach };
+    if (read_specification(specification, source, error) == VNDF_OK && compile_all(source, error) == VNDF_OK) {
+        vndf_text_add_word(&words, "--family");
+        vndf_text_add_word(&words, specification);
+        source->base.description = vndf_text_finish(&words, error);
+        source->base.operations = OPERATIONS * (double)source->count;
     }
-    vndf_text_add_word(&words, "--family");
-    vndf_text_add_word(&words, specification);
-    source->base = (vndf_source){ p22, destroy, vndf_text_finish(&words, error), NULL, 0, 1,
-                                  OPERATIONS * (double)source->count };
     if (source->base.description)
         return &source->base;
-    free(source);
+    destroy(&source->base);
     return NULL;
 }

@@ -24,6 +24,7 @@ typedef struct vndf_family_form {
     const char *reason;       /* of the limits, for messages */
     double (*p22)(const double *parameter, double r); /* any scale, finite for 0 <= r <= 1e75 */
     double (*mass)(const double *parameter);          /* 2 pi integral P22(r) r dr */
+    const char *formula;                              /* p22 in r, with the parameters a and b: for bounds */
 } vndf_family_form;
 
 /* The form of this name, NULL if there is none; the i-th form, NULL past the last. */

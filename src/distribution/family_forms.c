@@ -12,7 +12,8 @@
  *   hyper-cauchy  (2 + r^2/sigma^2)^-q                       Wellems et al., J. Opt. A 8, 2006
  *   phong         D ~ cos^N                                  Blinn 1977, from Phong 1975
  *
- * Powers are taken as exp(-n log1p(x)), which keeps its digits for large n and small x. */
+ * Powers are taken as exp(-n log1p(x)), which keeps its digits for large n and small x. The formulas in words are
+ * the same functions for interval arithmetic. */
 #include <math.h>
 #include <string.h>
 
@@ -136,21 +137,30 @@ static double phong_mass(const double *parameter)
 }
 
 static const vndf_family_form forms[] = {
-    { "ggx", "ggx", 0, 0, { { NULL, 0, 0, 0, 0 } }, "", ggx_p22, unit_mass },
-    { "beckmann", "beckmann", 0, 0, { { NULL, 0, 0, 0, 0 } }, "", beckmann_p22, unit_mass },
+    { "ggx", "ggx", 0, 0, { { NULL, 0, 0, 0, 0 } }, "", ggx_p22, unit_mass,
+      "1/(pi*(1+r^2)^2)" },
+    { "beckmann", "beckmann", 0, 0, { { NULL, 0, 0, 0, 0 } }, "", beckmann_p22, unit_mass,
+      "exp(-r^2)/pi" },
     { "student-t", "student-t:GAMMA", 1, 1, { { "GAMMA", 1.5, 1e9, 1, 0 } },
-      "P22 falls as r^(-2 GAMMA), which has to be faster than r^-3", student_p22, unit_mass },
+      "P22 falls as r^(-2 GAMMA), which has to be faster than r^-3", student_p22, unit_mass,
+      "exp(-a*log(1+r^2/(a-1)))/pi" },
     { "gtr", "gtr:GAMMA[,ALPHA]", 1, 2, { { "GAMMA", 0, 1000, 1, 0 }, { "ALPHA", 1e-9, 1, 0, 0.1 } },
-      "GAMMA = 2 is ggx of roughness ALPHA, larger GAMMA has shorter tails", gtr_p22, gtr_mass },
+      "GAMMA = 2 is ggx of roughness ALPHA, larger GAMMA has shorter tails", gtr_p22, gtr_mass,
+      "(b^2*(1+r^2)/(b^2+r^2))^a/(1+r^2)^2" },
     { "epd", "epd:P", 1, 1, { { "P", 0.05, 1000, 0, 0 } },
-      "P = 1 is beckmann, smaller P has longer tails, large P is a disc", epd_p22, epd_mass },
+      "P = 1 is beckmann, smaller P has longer tails, large P is a disc", epd_p22, epd_mass,
+      "exp(-r^(2*a))" },
     { "abc", "abc:B,C or abc:MATERIAL", 2, 2, { { "B", 0, 1e15, 1, 0 }, { "C", 0, 1000, 1, 0 } },
-      "both grow with the sharpness of the peak", abc_p22, abc_mass },
+      "both grow with the sharpness of the peak", abc_p22, abc_mass,
+      "exp(-b*log(1+a*r^2/(1+r^2+sqrt(1+r^2))))/(1+r^2)^2" },
     { "sgd", "sgd:ALPHA,P or sgd:MATERIAL/CHANNEL", 2, 2, { { "ALPHA", 1e-9, 1e6, 0, 0 }, { "P", 0, 1000, 0, 0 } },
-      "ALPHA is the width of the peak, P the strength of its core", sgd_p22, sgd_mass },
+      "ALPHA is the width of the peak, P the strength of its core", sgd_p22, sgd_mass,
+      "exp(-r^2/a-b*log(1+(r/a)^2))" },
     { "hyper-cauchy", "hyper-cauchy:Q[,SIGMA]", 1, 2, { { "Q", 1.5, 1e9, 1, 0 }, { "SIGMA", 1e-9, 1e9, 0, 1 } },
-      "P22 falls as r^(-2 Q), which has to be faster than r^-3", hyper_cauchy_p22, hyper_cauchy_mass },
-    { "phong", "phong:N", 1, 1, { { "N", 0, 1e9, 0, 0 } }, "N = 0 is a constant D", phong_p22, phong_mass },
+      "P22 falls as r^(-2 Q), which has to be faster than r^-3", hyper_cauchy_p22, hyper_cauchy_mass,
+      "exp(-a*log(1+(r/b)^2/2))" },
+    { "phong", "phong:N", 1, 1, { { "N", 0, 1e9, 0, 0 } }, "N = 0 is a constant D", phong_p22, phong_mass,
+      "exp(-(a+4)/2*log(1+r^2))" },
 };
 
 const vndf_family_form *vndf_family_form_at(size_t index)

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "distribution/expression.h"
 #include "distribution/number.h"
+#include "distribution/resolution.h"
 #include "distribution/words.h"
 
 static const char *const options[] = { "--ndf", "--slope", "--family" };
@@ -73,6 +74,7 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
     char excerpt[VNDF_EXCERPT];
     if (vndf_words_split(description, &words, error) != VNDF_OK)
         return NULL;
+    words.count = vndf_resolution_start(&words);
     if (is_rebuildable(&words))
         source = make(&words, error);
     else
