@@ -101,8 +101,8 @@ static void add_up(oracle_table *t)
 
 static int read_table(oracle_table *t, bytes b, size_t size)
 {
-    enum { HEAD = 16, CERTIFICATE = 7 };
-    if (size < HEAD || memcmp(b.at, "VNDFtab\n\2\0\0", 11) != 0)
+    enum { HEAD = 16, CERTIFICATE = 12 };
+    if (size < HEAD || memcmp(b.at, "VNDFtab\n\3\0\0", 11) != 0)
         return 0;
     b.at += HEAD;
     read_double(&b); /* normalization */

@@ -35,7 +35,7 @@ typedef struct oracle_table {
     double *numbers;                             /* where all of them are */
 } oracle_table;
 
-/* Reads a file; 0 after a message if it is no table of version 2. */
+/* Reads a file; 0 after a message if it is no table of version 3. */
 int oracle_table_read(oracle_table *t, const char *path);
 void oracle_table_free(oracle_table *t);
 

@@ -4,10 +4,10 @@
  * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a,
  * and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.
  * Radius. Cells of f(xi) W(xi), W = c Z + k X, k = s cos a, divided by the mass of all that is visible. In the
- * cell of the cut, in the two beside it and without a cut in the last two the variable is zeta = xi (v0 + V)/(v0
- * + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the second cell's knot
- * towards the cut: there it is 16 h of the way to W of the other knot, h the visible part of the cell of the cut,
- * all of it from 1/16 on. */
+ * cell of the cut, in all beyond it, in the two inside it and without a cut in the last two the variable is
+ * zeta = xi (v0 + V)/(v0 + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the
+ * knot towards the cut of the second cell inside it: there it is 16 h of the way to W of the other knot, h the
+ * visible part of the cell of the cut, all of it from 1/16 on. */
 #include "oracle_table.h"
 
 #include <math.h>
@@ -153,12 +153,10 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
     piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1,
-               j + 2 >= cut && j <= cut + 2};
+               j + 2 >= cut};
     double way = cut < t->count && p.weighted ? fmin(16 * cut_piece(v, cut).length, 1) : 0;
     if (j + 2 == cut)
         p.v1 += way * (w0 - w1);
-    if (j == cut + 2)
-        p.v0 += way * (w1 - w0);
     return p;
 }
 

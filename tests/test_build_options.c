@@ -18,7 +18,7 @@ static void test_sizes(void)
     oracle o = oracle_get(ORACLE_GGX);
     double last = 1;
     for (int i = 0; i < (oracle_quick() ? 2 : 6); i++) {
-        vndf_certificate claim = {0, 0, 0, 0, 0, 0, 0};
+        vndf_certificate claim = {0};
         vndf_distribution *table = oracle_build(&o, sizes[i], &claim);
         vndf_certificate held = vndf_distribution_info(table).certificate;
         TEST(table && vndf_distribution_info(table).bytes <= sizes[i]);

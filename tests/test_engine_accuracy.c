@@ -33,7 +33,7 @@ static double ndf_error(const oracle *o, const vndf_distribution *table)
 
 static void test_table(const oracle *o)
 {
-    vndf_certificate claim = {0, 0, 0, 0, 0, 0, 0};
+    vndf_certificate claim = {0};
     vndf_distribution *table = oracle_build(o, 0, &claim);
     vndf_surface surface = {table, 1.0f, 1.0f};
     double most = 0, area = 0, heavy = 1 + 1.25 * ((double)claim.max_weight - 1) + 1e-6;

@@ -83,22 +83,34 @@ VNDF_INLINE doubles vndf_given_ndf(const vndf_distribution *d, const vndf_bare *
 
 /* ---- the cell of the radius ---- */
 
-/* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k); xi, eta, x and x + z
- * stand here times inner + outer, which drops out. */
+/* What all cells have in common: p is the numerator of a rational cell, over X in the first cell where f begins at
+ * 0 as X does, and b what its square divides, m the cell's mass. xi, eta, x and x + z stand here times inner +
+ * outer, which drops out. */
+VNDF_INLINE vndf_quotient vndf_given_quotient(const vndf_spot *at, const vndf_bare *n, doubles_m first, doubles m,
+                                              doubles p, doubles b)
+{
+    doubles x = doubles_pick(first, at->x1, vndf_spot_between(at, at->x0, at->x1)), part = m * n->product;
+    doubles sum = vndf_spot_between(at, at->x0 + at->z0, at->x1 + at->z1), length = n->across + n->z;
+    vndf_quotient q = {p * (part * part) * (sum * sum * sum),
+                       b * b * (vndf_spot_width(at) * x) * (length * length * length)};
+    return q;
+}
+
+VNDF_INLINE doubles_m vndf_given_is_first(const vndf_spot *at, doubles f0)
+{
+    return doubles_both(vndf_spot_is_first(at), doubles_at_most(f0, doubles_set(0.0)));
+}
+
+/* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k). */
 VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bare *n, doubles c, doubles k)
 {
     doubles_four f = doubles_load_four(&at->line, 0);
     doubles w0 = c * at->z0 + k * at->x0, w1 = c * at->z1 + k * at->x1, e0 = f.a * w0, e1 = f.b * w1;
     doubles m = w0 * f.c + w1 * f.d, xi = at->inner, eta = at->outer, twice = 2.0 * m, whole = xi + eta;
-    doubles b = m * (whole * whole) + (e0 + e1 - twice) * (xi * eta), length = n->across + n->z;
-    /* over X where f begins at 0 as X does */
-    doubles_m first = doubles_both(vndf_spot_is_first(at), doubles_at_most(f.a, doubles_set(0.0)));
+    doubles b = m * (whole * whole) + (e0 + e1 - twice) * (xi * eta);
+    doubles_m first = vndf_given_is_first(at, f.a);
     doubles over = e1 * xi + twice * eta, p = doubles_pick(first, over, xi * over + e0 * (eta * eta));
-    doubles x = doubles_pick(first, at->x1, vndf_spot_between(at, at->x0, at->x1)), part = m * n->product;
-    doubles sum = vndf_spot_between(at, at->x0 + at->z0, at->x1 + at->z1);
-    vndf_quotient q = {p * (part * part) * (sum * sum * sum),
-                       b * b * (vndf_spot_width(at) * x) * (length * length * length)};
-    return q;
+    return vndf_given_quotient(at, n, first, m, p, b);
 }
 
 /* The same for a weighted cell (math/weighted_cell.h) whose V is W: all of them beyond the cut. */
@@ -109,15 +121,13 @@ VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_spot *at, const
     doubles xi = at->inner, eta = at->outer, whole = xi + eta, w = w0 * eta + w1 * xi, half = 0.5 * (w0 + w1);
     doubles m = w0 * f.c + w1 * f.d, e0 = f.a * half, e1 = f.b * half, twice = 2.0 * m;
     doubles from = w0 * whole + w, zeta = xi * from, rest = eta * (w1 * whole + w), both = zeta + rest;
-    doubles b = m * (both * both) + (e0 + e1 - twice) * (zeta * rest), length = n->across + n->z;
-    /* over X where f begins at 0 as X does */
-    doubles_m first = doubles_both(vndf_spot_is_first(at), doubles_at_most(f.a, doubles_set(0.0)));
+    doubles b = m * (both * both) + (e0 + e1 - twice) * (zeta * rest);
+    doubles_m first = vndf_given_is_first(at, f.a);
     doubles over = e1 * zeta + twice * rest;
     doubles p = doubles_pick(first, over * from, zeta * over + e0 * (rest * rest));
-    doubles x = doubles_pick(first, at->x1, vndf_spot_between(at, at->x0, at->x1)), part = m * n->product;
-    doubles sum = vndf_spot_between(at, at->x0 + at->z0, at->x1 + at->z1);
-    vndf_quotient q = {p * (part * part) * (sum * sum * sum) * (2.0 * w * both),
-                       b * b * (vndf_spot_width(at) * x * whole) * (length * length * length)};
+    vndf_quotient q = vndf_given_quotient(at, n, first, m, p, b);
+    q.above *= 2.0 * w * both;
+    q.below *= whole;
     return q;
 }
 
