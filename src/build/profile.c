@@ -331,6 +331,17 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
     return check_values(profile, error);
 }
 
+/* Where the narrowest panel begins. */
+static double narrowest(const vndf_profile *profile)
+{
+    const vndf_panel *p = profile->panel;
+    size_t at = 0;
+    for (size_t i = 1; i < profile->count; i++)
+        if (p[i + 1].r * p[at].r < p[at + 1].r * p[i].r)
+            at = i;
+    return p[at].r;
+}
+
 /* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
  * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
 static vndf_status settle(vndf_profile *profile, vndf_error *error)
@@ -363,8 +374,8 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
         return status;
     profile->unsettled = 1;
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                     "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last "
-                     "one at a median slope of %g", profile->scale);
+                     "P22 has a feature too narrow to be resolved: two integrations of it disagree; the narrowest "
+                     "part that was tried lies at slope %.9g", narrowest(profile) * profile->scale);
 }
 
 /* ---- what no point has met ---- */
