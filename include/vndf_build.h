@@ -114,8 +114,8 @@ typedef struct vndf_build_options {
     double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
     vndf_progress *progress;  /* may be NULL */
     void *progress_user;
-    const double *breaks;     /* slopes, in the source's unit, where something begins, ends, or has its peak: P22 is */
-    size_t break_count;       /* looked at closely beside them; for any source; copied into the provenance */
+    const double *breaks;     /* slopes, in the source's unit, where something begins, ends, or has its peak: beside */
+    size_t break_count;       /* them P22 is looked at to 1e-12 of the slope; for any source; kept in the provenance */
     double finest;            /* width, relative to the slope, of what samples have to find, from 1e-9 to 1; 0: 1e-3.
                                  Costs 280/finest evaluations. A formula that cannot be bounded, and would be refused,
                                  is sampled if finest is given */

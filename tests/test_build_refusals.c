@@ -21,12 +21,19 @@ static const refusal refusals[] = {
     {"r^-3*exp(-r)", "at the pole"},
     {"(1+r*r)^-1.52", "tail"},                  /* integrable, but in slopes that no float normal has */
     {"r^-1.9*exp(-r)", "below slope 1e-30"},    /* the same at the pole */
+    {"1e-320*exp(-r*r)", "too small for doubles"},
+    {"exp(-r)+step(r-1)*step(1.001-r)*sqrt(1.0001-r)", "not a number"},
+    {"exp(-r)*(1+cos(1e12*r))", "too rough"},
+    {"exp(-r)*(1+5e13*exp(-((r-1.37)/1e-15)^2))", "cannot be resolved at slope 1.3"},
 };
 
 static const char *const accepted[] = {
     "r^-1.7*exp(-r)", "(1+r*r)^-1.65", "step(1-r)", "exp(-((r-1)/0.02)^2)", "step(r-1)*exp(-r)",
         "exp(-r*r)+1e4*exp(-1e4*r*r)",
-    "1e-30*exp(-r*r)", "1e30*exp(-r*r)",
+    "1e-30*exp(-r*r)", "1e30*exp(-r*r)", "1e-305*exp(-r*r)",
+    "exp(-((r-1)/1e-5)^2)", "exp(-((r-1.37)/5e-5)^2)", /* all mass in a narrow ring */
+    "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", /* far out infinity times 0 and over infinity */
+    "exp(-r)/sqrt(abs(r^2-2))", /* infinite, but at no double */
 };
 
 static vndf_distribution *build(const char *slope, vndf_error *error)
@@ -50,15 +57,23 @@ static void test_refusals(void)
     }
 }
 
-static void test_accepted(void)
+static void test_accepted(const char *slope)
 {
-    for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++) {
-        vndf_error error = {VNDF_OK, ""};
-        vndf_distribution *table = build(accepted[i], &error);
-        if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
-            fprintf(stderr, "  %s: %s\n", accepted[i], error.message);
-        vndf_free(table);
-    }
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *table = build(slope, &error);
+    if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
+        fprintf(stderr, "  %s: %s\n", slope, error.message);
+    vndf_free(table);
+}
+
+/* A staircase. */
+static void test_steps(void)
+{
+    enum { STEPS = 40 };
+    char text[1024] = "0";
+    for (int i = 1; i <= STEPS; i++)
+        sprintf(text + strlen(text), "+step(%g-r)", 0.05 * i);
+    test_accepted(text);
 }
 
 static double bad_callback(double r, void *user)
@@ -89,7 +104,9 @@ static void test_where(void)
 int main(void)
 {
     test_refusals();
-    test_accepted();
+    for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++)
+        test_accepted(accepted[i]);
+    test_steps();
     test_where();
     return test_done();
 }

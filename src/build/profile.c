@@ -331,6 +331,17 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
     return check_values(profile, error);
 }
 
+/* Where the narrowest panel begins. */
+static double narrowest(const vndf_profile *profile)
+{
+    const vndf_panel *p = profile->panel;
+    size_t at = 0;
+    for (size_t i = 1; i < profile->count; i++)
+        if (p[i + 1].r * p[at].r < p[at + 1].r * p[i].r)
+            at = i;
+    return p[at].r;
+}
+
 /* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
  * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
 static vndf_status settle(vndf_profile *profile, vndf_error *error)
@@ -363,8 +374,8 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
         return status;
     profile->unsettled = 1;
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                     "P22 has a feature too narrow to be resolved: two integrations of it disagree, the last "
-                     "one at a median slope of %g", profile->scale);
+                     "P22 has a feature too narrow to be resolved: two integrations of it disagree; the narrowest "
+                     "part that was tried lies at slope %.9g", narrowest(profile) * profile->scale);
 }
 
 /* ---- what no point has met ---- */
@@ -443,7 +454,7 @@ static int look_closer(vndf_profile *profile, int last, vndf_status *status, vnd
     return again;
 }
 
-/* Points first; then what lies between them, where the source can tell, until nothing more is found. */
+/* Points first; then what lies between them, until nothing more is found. */
 static vndf_status make(vndf_profile *profile, vndf_error *error)
 {
     enum { LOOKS = 12 };
@@ -464,13 +475,31 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     }
 }
 
+/* Panels that are narrower the nearer they are to a break: what is there may be of any width. */
+static int add_break(vndf_profile *profile, double r)
+{
+    enum { SHELLS = 20 };
+    double edge[2 * SHELLS + 1] = {r};
+    for (int i = 0; i < SHELLS; i++) {
+        double beside = ldexp(r, -2 * (i + 1));
+        edge[2 * i + 1] = r - beside;
+        edge[2 * i + 2] = r + beside;
+    }
+    return add_edges(profile, edge, 2 * SHELLS + 1);
+}
+
 /* 0 if there is no memory. */
 static int take_resolution(vndf_profile *profile, const vndf_resolution *resolution, vndf_error *error)
 {
     vndf_resolution none = {NULL, 0, 0.0}, given = resolution ? *resolution : none;
     profile->sampled = given.finest;
     profile->description = vndf_resolution_describe(&given, profile->source->description, error);
-    return profile->description && (given.break_count == 0 || add_edges(profile, given.breaks, given.break_count));
+    int good = profile->description != NULL;
+    for (size_t i = 0; good && i < given.break_count; i++)
+        good = add_break(profile, given.breaks[i]);
+    if (profile->description && !good)
+        no_memory(error);
+    return good;
 }
 
 vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
@@ -484,10 +513,10 @@ vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution
     }
     profile->source = source;
     profile->guard = guard;
-    if (!take_resolution(profile, resolution, error))
-        no_memory(error);
-    else if (make(profile, error) == VNDF_OK)
+    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* a look that fails may be followed by one that does not */
+    if (take_resolution(profile, resolution, &inner) && make(profile, &inner) == VNDF_OK)
         return profile;
+    vndf_fail(error, inner.status, "%s", inner.message);
     vndf_profile_free(profile);
     return NULL;
 }
