@@ -110,7 +110,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * sampled: what is narrower than `finest` of its slope may hide, whole, unless a break is given there. The certificate
  * says which it was (vndf_certificate: hidden, finest). */
 typedef struct vndf_build_options {
-    size_t max_bytes;         /* size of the file at most; 0: 16384; from 2048 to 1 MiB */
+    size_t max_bytes;         /* size of the file at most, from 2048 to 1 MiB; 0: 16384, or with no max_tv either up
+                               * to 32768 where the total variation would exceed 1e-3: narrow rings, oscillations */
     double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
     vndf_progress *progress;  /* may be NULL */
     void *progress_user;

@@ -14,7 +14,8 @@ if(NOT DEFINED OUT)
 endif()
 file(MAKE_DIRECTORY ${OUT})
 
-set(columns tv tv_theta max_weight weight_bounded area_error consistency ndf_error)
+set(columns tv tv_theta tv_above tv_above_theta max_weight weight_bounded area_error consistency ndf_error hidden finest
+    horizon_power)
 
 # vndf(VARIABLE words...): runs the program; what it prints goes to the variable.
 function(vndf output)

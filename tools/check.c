@@ -75,11 +75,14 @@ static int compare(const char *what, float stored, float measured, double floor)
 static int compare_certificates(const vndf_certificate *stored, const vndf_certificate *measured)
 {
     int good = compare("tv", stored->tv, measured->tv, 0);
+    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0);
     good &= compare("max_weight", stored->max_weight, measured->max_weight, 1);
     good &= compare("area_error", stored->area_error, measured->area_error, 0);
     good &= compare("consistency", stored->consistency, measured->consistency, 0);
     good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0);
     good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0);
+    good &= compare("hidden", stored->hidden, measured->hidden, 0);
+    good &= compare("finest", stored->finest, measured->finest, 0);
     return good;
 }
 

@@ -19,11 +19,15 @@ static const char help[] =
     "and the certificate, as measured when the table was made, incident directions from 0 to 180 degrees:\n"
     "  tv             largest total variation distance between sampled and true visible normals\n"
     "  tv_theta       incident angle where it was found, degrees\n"
+    "  tv_above, tv_above_theta    the same for directions from 0 to 90 degrees\n"
     "  max_weight     largest true/sampled density where all but 1e-6 of the mass is\n"
     "  weight_bounded 1 if true/sampled is bounded everywhere\n"
     "  area_error     largest relative error of the projected area, Lambda and G1\n"
     "  consistency    largest |integral of pdf - 1|\n"
     "  ndf_error      largest relative error of ndf where all but 1e-6 of the mass is\n"
+    "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
+    "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
+    "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
     "\n"
     "example: vndf info wavy.vndf\n";
 
@@ -31,11 +35,16 @@ void describe_certificate(const vndf_certificate *certificate)
 {
     printf("tv %.4g\n", (double)certificate->tv);
     printf("tv_theta %.6g\n", (double)certificate->tv_theta);
+    printf("tv_above %.4g\n", (double)certificate->tv_above);
+    printf("tv_above_theta %.6g\n", (double)certificate->tv_above_theta);
     printf("max_weight %.6g\n", (double)certificate->max_weight);
     printf("weight_bounded %d\n", certificate->weight_bounded > 0);
     printf("area_error %.4g\n", (double)certificate->area_error);
     printf("consistency %.4g\n", (double)certificate->consistency);
     printf("ndf_error %.4g\n", (double)certificate->ndf_error);
+    printf("hidden %.4g\n", (double)certificate->hidden);
+    printf("finest %.4g\n", (double)certificate->finest);
+    printf("horizon_power %.4g\n", (double)certificate->horizon_power);
 }
 
 void describe_info(const vndf_info *info)

@@ -18,9 +18,9 @@ static const double PI = 3.14159265358979323846;
 /* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
 enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, FRONT_PANELS = 12 };
 
-/* A panel is a feature of its own if it is narrower than this part of a stretch and holds more than that part of
- * the cell's mass. */
-static const double NARROW_PANEL = 0.25, HEAVY_PANEL = 0.01;
+/* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
+ * that part of the cell's mass. */
+static const double NARROW = 0.25, HEAVY = 0.02;
 
 /* A cell with so small a part of a ray's mass is not looked into. */
 static const double CELL_LEAST = 1e-9;
@@ -109,24 +109,40 @@ static int add_stretch(vndf_survey *v, uint32_t j, double from, double to)
     return 1;
 }
 
+/* Panels next to each other in a part of a cell. */
+typedef struct panels {
+    double begin, end, mass;
+} panels;
+
+static panels with_panel(panels p, double begin, double end, double mass, double widest)
+{
+    panels alone = {begin, end, mass}, more = {p.begin, end, p.mass + mass};
+    return p.end == begin && end - p.begin < widest ? more : alone;
+}
+
 /* A part of a cell, divided at the panels in it that are features of their own; *panel is the first that ends in
  * it or beyond. */
 static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *panel)
 {
     const vndf_profile *p = v->profile;
     knots k = knots_of(v->table, j);
-    double heavy = HEAVY_PANEL * ((double)v->table->cells[j].mu0 + v->table->cells[j].mu1), at = from;
+    double heavy = HEAVY * vndf_profile_moments(p, vndf_survey_slope(v->table, j, 0, 1),
+                                                vndf_survey_slope(v->table, j, 1, 1)).m0;
+    double at = from, widest = NARROW * (to - from);
+    panels few = {-1, -1, 0};
     int good = 1;
     for (; *panel < p->count && good; ++*panel) {
         double begin = place_of(k, p->panel[*panel].r), end = place_of(k, p->panel[*panel + 1].r);
         if (!(end < to))
             break;
-        if (!(end > from && end - begin < NARROW_PANEL * (to - from) && p->panel[*panel].m0 > heavy))
+        few = with_panel(few, begin, end, p->panel[*panel].m0, widest);
+        if (!(end > at && end - few.begin < widest && few.mass > heavy))
             continue;
-        if (begin > at)
-            good = add_stretch(v, j, at, begin);
-        good = good && add_stretch(v, j, begin > at ? begin : at, end);
-        at = end;
+        if (few.begin > at)
+            good = add_stretch(v, j, at, few.begin);
+        good = good && add_stretch(v, j, few.begin > at ? few.begin : at, end);
+        at = few.begin = few.end = end;
+        few.mass = 0;
     }
     return good && add_stretch(v, j, at, to);
 }
@@ -327,7 +343,7 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction that the run time is given */
     c = (float)c;
-    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, miss = 0.0;
+    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, truth = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
     if (!(vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile)) ||
         vndf_guard_stopped(v->profile->guard))
@@ -346,9 +362,10 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
         add_quarter(v, &view, &wedge);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
+        truth += v->samples[i].truth;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);
     }
-    f.tv = miss / 2;
+    f.tv = (miss + fabs(truth - 1)) / 2; /* what the points do not see of the truth is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
     f.max_weight = weight_of(v);
     return f;
