@@ -54,7 +54,7 @@ enum {
     PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
     SPANS_MOST = 40, /* of rows on a side, and of radial cells: of more, every second or third ... is looked at */
-    BETWEEN = 48,
+    BETWEEN = 60,
     DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
                       BETWEEN
 };
@@ -130,14 +130,15 @@ static void add_levels(circle *all, vndf_survey *v)
     }
 }
 
-/* Between the two neighbours that promise most. */
-static void add_between(circle *all, vndf_survey *v)
+/* Between the two neighbours that promise most of the total variation, or of the weight. */
+static void add_between(circle *all, vndf_survey *v, int by_weight)
 {
     int best = 0;
     double most = -1.0;
     for (int i = 0; i + 1 < all->count; i++) {
-        double tv = fmax(all->at[i].found.tv, all->at[i + 1].found.tv);
-        double promise = tv * sqrt(all->at[i + 1].angle - all->at[i].angle);
+        const vndf_finding *a = &all->at[i].found, *b = &all->at[i + 1].found;
+        double size = by_weight ? fmax(a->max_weight, b->max_weight) - 1 : fmax(a->tv, b->tv);
+        double promise = size * sqrt(all->at[i + 1].angle - all->at[i].angle);
         if (promise > most) {
             most = promise;
             best = i;
@@ -214,7 +215,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
         add_cuts(&all, &v);
         add_levels(&all, &v);
         for (int i = 0; i < BETWEEN; i++)
-            add_between(&all, &v);
+            add_between(&all, &v, i % 3 == 2);
         *c = none;
         for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
             take(c, all.at[i].found,
