@@ -128,13 +128,12 @@ static void keep(const char *input)
 
 static void try_name(const subject *s, int kind)
 {
-    static const run_setting plain = {0, NULL, NULL};
     const char *words[RUN_WORDS] = {NULL};
     char name[64];
     TEST(make_name(name, kind, s->input));
     for (int i = 0; i < RUN_WORDS && s->words[i]; i++)
         words[i] = strcmp(s->words[i], OUTPUT) == 0 ? name : s->words[i];
-    const run_outcome *o = run_program(&plain, words);
+    const run_outcome *o = run_program(&run_plain, words);
     if (!(is_refused(o) & stays(s->input)))
         run_tell(words, o);
     remove_name(name, kind);
@@ -143,9 +142,8 @@ static void try_name(const subject *s, int kind)
 /* Under another name the same words are good. */
 static void test_other(void)
 {
-    static const run_setting plain = {0, NULL, NULL};
     static const char *const words[] = {"render", "all.png", "--spp", "1", "-o", "fine.png", NULL};
-    const run_outcome *o = run_program(&plain, words);
+    const run_outcome *o = run_program(&run_plain, words);
     if (!TEST(o->status == 0) || !TEST(remove("fine.png") == 0))
         run_tell(words, o);
 }
@@ -171,7 +169,6 @@ static void test_stdout(void)
 /* Files of a folder: one that is read and would be replaced is refused, the same bytes once more are not written. */
 static void test_folder(void)
 {
-    static const run_setting plain = {0, NULL, NULL};
     static const char *const make[] = {"compare", "ball.scene", "page", "--spp", "2", "--samplers", "visible,all",
                                        NULL};
     static const char *const repeat[] = {"compare", "ball.scene", "page", "--spp", "2", "--samplers", "visible,all",
@@ -179,11 +176,11 @@ static void test_folder(void)
     static const char *const spoil[] = {"compare", "ball.scene", "page", "--spp", "4", "--samplers", "visible,all",
                                         "--reference", "page/all-time.pfm", NULL};
     struct stat before, after;
-    TEST(run_put("ball.scene", run_scene) && run_program(&plain, make)->status == 0);
-    TEST(stat("page/reference.pfm", &before) == 0 && run_program(&plain, repeat)->status == 0);
+    TEST(run_put("ball.scene", run_scene) && run_program(&run_plain, make)->status == 0);
+    TEST(stat("page/reference.pfm", &before) == 0 && run_program(&run_plain, repeat)->status == 0);
     TEST(stat("page/reference.pfm", &after) == 0 && after.st_ino == before.st_ino);
     keep("page/all-time.pfm");
-    const run_outcome *o = run_program(&plain, spoil);
+    const run_outcome *o = run_program(&run_plain, spoil);
     if (!(is_refused(o) & stays("page/all-time.pfm")))
         run_tell(spoil, o);
     TEST(system("rm -r page ball.scene") == 0);
@@ -192,13 +189,12 @@ static void test_folder(void)
 /* Two outputs are two files. */
 static void test_outputs(void)
 {
-    static const run_setting plain = {0, NULL, NULL};
     static const char *const names[][2] = {{"a", "a"}, {"a", "./a"}, {"a", "folder/../a"}, {"a", "link"}};
     TEST(symlink("a", "link") == 0);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const char *words[] = {"bench", "--only", "ggx", "--seconds", "0.1", "--csv", names[i][0], "--markdown",
                                names[i][1], NULL};
-        const run_outcome *o = run_program(&plain, words);
+        const run_outcome *o = run_program(&run_plain, words);
         if (!(TEST(o->status == 2) & TEST_HAS(o->text, "both name 'a'")))
             run_tell(words, o);
     }
