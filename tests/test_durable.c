@@ -50,6 +50,7 @@ enum { WRITE = 1, FLUSH, CLOSE, SYNC, MODE, RENAME, STEPS };
 static int failing, renames, unsynced;
 static struct stat synced;
 static FILE *spoiled; /* the stream that a write failed of */
+static char renamed[512]; /* the last temporary */
 
 static int fails(int step)
 {
@@ -114,6 +115,7 @@ int __wrap_rename(const char *from, const char *to)
 {
     struct stat is;
     renames++;
+    snprintf(renamed, sizeof renamed, "%s", from);
     unsynced += stat(from, &is) != 0 || is.st_ino != synced.st_ino || is.st_size != synced.st_size;
     return fails(RENAME) ? -1 : __real_rename(from, to);
 }
@@ -233,6 +235,30 @@ static void test_output(void)
             fprintf(stderr, "  step %d\n", step);
     }
     remove("old.txt");
+}
+
+/* ---- long names of other letters ---- */
+
+/* A temporary's name is cut between characters, since some systems have no other names: "n", then characters of two
+ * bytes. */
+static int is_cut_well(void)
+{
+    size_t length = strcspn(renamed, ".");
+    return length % 2 == 1 && length > 50 && length < 200 && renamed[length - 1] == '\xA9';
+}
+
+static void test_characters(void)
+{
+    char name[256] = "n";
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *loaded = vndf_load(table, &error);
+    for (size_t i = 1; i + 1 < sizeof name; i += 2)
+        memcpy(name + i, "\xC3\xA9", 2);
+    name[255] = '\0';
+    TEST(strlen(name) == 255 && vndf_save(loaded, name, &error) == VNDF_OK && is_cut_well());
+    TEST(write_output(name) == STATUS_GOOD && is_cut_well());
+    vndf_free(loaded);
+    remove(name);
 }
 
 /* ---- errors long before the end ---- */
@@ -357,6 +383,7 @@ int main(void)
     TEST(run_put("ball.scene", run_scene) && mkdir("page", 0777) == 0);
     test_save();
     test_output();
+    test_characters();
     test_earlier_error();
     for (int i = 0; i < COMMANDS; i++)
         test_command(&commands[i]);
