@@ -126,12 +126,12 @@ VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it (NAME.PROCESS.tmp, a long name cut; another number where
- * that is taken), flushed to the disk, then renamed over path. If that fails the old file is whole and no temporary
- * is left. A file that is replaced keeps its permissions, and where path is a symbolic link, the file that it leads
- * to is replaced, or made, and the link stays; other hard links keep the old file. What is no regular file - a
- * device, a pipe - is refused. A signal that ends the process meanwhile may leave a temporary: block it, as
- * `vndf build` does. */
+/* Writes the table to a file: to a temporary beside it (NAME.PROCESS.tmp, a long name cut; another number
+ * where that is taken), flushed to the disk, then renamed over path. If that fails the old file is whole and
+ * no temporary is left. A file that is replaced keeps its permissions, and where path is a symbolic link, the
+ * file that it leads to is replaced, or made, and the link stays; other hard links keep the old file. What is
+ * no regular file - a device, a pipe - is refused. A signal that ends the process meanwhile may leave a
+ * temporary: block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 /* The same to memory, for vndf_load_memory: `size` bytes, as vndf_distribution_info tells them. */

@@ -1,5 +1,5 @@
-/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout. For tests whose
- * property is about processes and files; POSIX. */
+/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout. For tests
+ * whose property is about processes and files; POSIX. */
 #ifndef VNDF_TEST_RUN_PROGRAM_H
 #define VNDF_TEST_RUN_PROGRAM_H
 
@@ -41,7 +41,9 @@ static inline void run_become(const run_setting *s, int said)
 {
     int in = open(s->in ? s->in : "/dev/null", O_RDONLY);
     int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : said;
-    if ((s->left && !run_leave(s->left)) || in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
+    if (s->left && !run_leave(s->left))
+        _exit(RUN_NOT_RUN);
+    if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
         _exit(RUN_NOT_RUN);
     for (int i = 3; i < 64; i++)
         close(i);

@@ -1,6 +1,6 @@
-/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes and one that takes
- * exactly that many is made, max_tv is met or refused with what was reached, options out of range are refused, and
- * progress may stop a build. */
+/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes and one that
+ * takes exactly that many is made, max_tv is met or refused with what was reached, options out of range are
+ * refused, and progress may stop a build. */
 #include "core/checksum.h"
 #include "oracle.h"
 #include "table/file.h"
@@ -145,8 +145,9 @@ static size_t bytes_with_name(size_t length)
     return size;
 }
 
-/* The name stands in the table, so that a letter is a byte. Near the longest name with which a table fits it is the
- * coarsest, whose size is known then; the name that fills it to the last byte has to fit, and no longer one. */
+/* The name stands in the table, so that a letter is a byte. Near the longest name with which a table fits it
+ * is the coarsest, whose size is known then; the name that fills it to the last byte has to fit, and no longer
+ * one. */
 static void test_exact_size(void)
 {
     size_t fits = 1, large = 2000, size = 0;

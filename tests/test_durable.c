@@ -1,9 +1,10 @@
 /* What is said to be written is on the disk: every output of every command, and vndf_save, is flushed and synced
- * before it is renamed over the old file, and whichever step fails - a write, also one long before the end, the flush,
- * the sync, closing, the mode, the rename, a full disk - is told; then the old file is whole and no temporary is left.
+ * before it is renamed over the old file, and whichever step fails - a write, also one long before the end, the
+ * flush, the sync, closing, the mode, the rename, a full disk - is told; then the old file is whole and no temporary
+ * is left.
  *
- * The linker puts the functions below in the place of the C library's (--wrap), in the library and the program's parts
- * as well as here. */
+ * The linker puts the functions below in the place of the C library's (--wrap), in the library and the program's
+ * parts as well as here. */
 #if defined(__unix__)
 #  define _XOPEN_SOURCE 700
 #endif
@@ -239,8 +240,8 @@ static void test_output(void)
 
 /* ---- long names of other letters ---- */
 
-/* A temporary's name is cut between characters, since some systems have no other names: "n", then characters of two
- * bytes. */
+/* A temporary's name is cut between characters, since some systems have no other names: "n", then characters
+ * of two bytes. */
 static int is_cut_well(void)
 {
     size_t length = strcspn(renamed, ".");
@@ -361,7 +362,8 @@ static int try_command(const void *given)
 
 static void test_command(const command *c)
 {
-    const trial trials[] = {{c, 0, RLIM_INFINITY}, {c, SYNC, RLIM_INFINITY}, {c, FLUSH, RLIM_INFINITY}, {c, 0, 30}};
+    const trial trials[] = {
+        {c, 0, RLIM_INFINITY}, {c, SYNC, RLIM_INFINITY}, {c, FLUSH, RLIM_INFINITY}, {c, 0, 30}};
     static const char *const why[] = {"", "quota", "cannot write", "too large"};
     for (size_t i = 0; i < sizeof trials / sizeof *trials; i++) {
         put_old(c->name);

@@ -1,7 +1,7 @@
-/* A file that is replaced keeps its mode and owner; behind symbolic links it is the file at their end, there or not,
- * that is written, and the links stay; what a crash left under a temporary's name is neither overwritten nor in the
- * way; names of 255 bytes are good; and what goes to stdout by `-o -` is the file's bytes and nothing else. So it is
- * for all outputs of the program and for vndf_save. */
+/* A file that is replaced keeps its mode and owner; behind symbolic links it is the file at their end, there
+ * or not, that is written, and the links stay; what a crash left under a temporary's name is neither
+ * overwritten nor in the way; names of 255 bytes are good; and what goes to stdout by `-o -` is the file's
+ * bytes and nothing else. So it is for all outputs of the program and for vndf_save. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  define HAS_PROCESSES 1

@@ -11,8 +11,8 @@
 
 /* ---- the standard descriptors -------------------------------------------------------------------- */
 
-/* The wrong way round, so that a read or a write still fails: stdin can be written alone, the others read. The root
- * folder stands in where there is no /dev/null. */
+/* The wrong way round, so that a read or a write still fails: stdin can be written alone, the others read. The
+ * root folder stands in where there is no /dev/null. */
 static int open_in_place(int descriptor)
 {
     int opened = open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);

@@ -1,6 +1,7 @@
-/* Files that appear whole or not at all (replace.h), none of which is an input as well (files.h). While the temporary
- * exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and closing lets the signal
- * through after the temporary is gone. (Waiting, not a handler: a handler would need global state.) */
+/* Files that appear whole or not at all (replace.h), none of which is an input as well (files.h). While the
+ * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and
+ * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
+ * global state.) */
 #ifndef TOOLS_OUTPUT_H
 #define TOOLS_OUTPUT_H
 
@@ -45,16 +46,17 @@ void output_discard(output_file *output);
 /* "-" */
 int output_is_stdout(const char *path);
 
-/* Refuses a path that a rename would damage: a device, a pipe, a folder, or an input of the command. 1 if it is free
- * or another file, which is noted as an output, or "-". */
+/* Refuses a path that a rename would damage: a device, a pipe, a folder, or an input of the command. 1 if it
+ * is free or another file, which is noted as an output, or "-". */
 int output_replaceable(const char *command, const char *path);
 
 /* Whether a CSV and a table in Markdown, NULL or "-" or a path each, can be written, before what they hold is
  * measured; and whether they are two files. 1, or 0 after a complaint. */
 int outputs_distinct(const char *command, const char *csv, const char *markdown);
 
-/* Whether --csv, which other commands read, names an earlier result of this one, beginning with `head`, or a new
- * file: a file with a D in it is not to be replaced by a slip. 1, or 0 after a complaint that ends with `hint`. */
+/* Whether --csv, which other commands read, names an earlier result of this one, beginning with `head`, or a
+ * new file: a file with a D in it is not to be replaced by a slip. 1, or 0 after a complaint that ends with
+ * `hint`. */
 enum { OUTPUT_HEAD_MAX = 64 };
 int output_is_earlier(const char *command, const char *path, const char *head, const char *hint);
 

@@ -1,7 +1,7 @@
-/* A file that is replaced at once: what is written goes to a temporary beside it, which is renamed over it when it
- * is whole and on the disk. At the end of symbolic links it is the file that they lead to, there already or not,
- * that is replaced; it keeps its mode, and its owner as far as the system lets us. (The program's outputs; vndf_save
- * of the library does the same for a host.) */
+/* A file that is replaced at once: what is written goes to a temporary beside it, which is renamed over it
+ * when it is whole and on the disk. At the end of symbolic links it is the file that they lead to, there
+ * already or not, that is replaced; it keeps its mode, and its owner as far as the system lets us. (The
+ * program's outputs; vndf_save of the library does the same for a host.) */
 #ifndef TOOLS_REPLACE_H
 #define TOOLS_REPLACE_H
 

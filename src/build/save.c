@@ -169,8 +169,8 @@ static size_t kept_length(const char *name)
     return length;
 }
 
-/* A new file beside target: NAME.PROCESS.tmp, or another number where that is taken: by another thread, or by what
- * a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. NULL and errno. */
+/* A new file beside target: NAME.PROCESS.tmp, or another number where that is taken: by another thread, or by
+ * what a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. NULL and errno. */
 static FILE *create_temporary(const char *target, char **name)
 {
     FILE *file = NULL;
