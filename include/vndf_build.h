@@ -25,7 +25,8 @@ typedef struct vndf_parameter {
 /* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses, numbers, pi,
  * parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
  * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that
- * points at the column if it cannot be read. The text and parameters are copied. */
+ * points at the column if it cannot be read. The text and parameters are copied; parameters that the formula does
+ * not use are no error here (`vndf build --set` refuses them). */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters,
                                                  size_t count, vndf_error *error);
 
@@ -141,10 +142,17 @@ VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it (path.PROCESS.tmp), flushed to the disk, then renamed
- * over path. If that fails the old file is whole and no temporary is left. A signal that ends the process
- * meanwhile may leave one: block it, as `vndf build` does. */
+/* Writes the table to a file: to a temporary beside it (NAME.PROCESS.tmp, a long name cut; another number
+ * where that is taken), flushed to the disk, then renamed over path. If that fails the old file is whole and
+ * no temporary is left. A file that is replaced keeps its permissions, and where path is a symbolic link, the
+ * file that it leads to is replaced, or made, and the link stays; other hard links keep the old file. What is
+ * no regular file - a device, a pipe - is refused. A signal that ends the process meanwhile may leave a
+ * temporary: block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
+
+/* The same to memory, for vndf_load_memory: `size` bytes, as vndf_distribution_info tells them. */
+VNDF_API vndf_status vndf_save_memory(const vndf_distribution *distribution, void *bytes, size_t size,
+                                      vndf_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
-/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes, max_tv is met or
- * refused with what was reached, options out of range are refused, and progress may stop a build. */
+/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes and one that
+ * takes exactly that many is made, max_tv is met or refused with what was reached, options out of range are
+ * refused, and progress may stop a build. */
 #include "core/checksum.h"
 #include "oracle.h"
 #include "table/file.h"
@@ -121,9 +122,49 @@ static void test_progress(void)
     vndf_source_free(source);
 }
 
+static double laplace(double r, void *user)
+{
+    (void)user;
+    return exp(-r);
+}
+
+/* The bytes of the smallest table that 2048 allow, with a name of `length` letters in it; 0: none fits. */
+static size_t bytes_with_name(size_t length)
+{
+    static char name[2048];
+    const vndf_build_options options = {2048, 0, NULL, NULL};
+    vndf_error error = {VNDF_OK, ""};
+    memset(name, 'n', length);
+    name[length] = '\0';
+    vndf_source *source = vndf_source_slope_callback(laplace, NULL, name, &error);
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    size_t size = table ? vndf_distribution_info(table).bytes : 0;
+    TEST(size ? size <= 2048 : error.status == VNDF_ERROR_TARGET);
+    vndf_free(table);
+    vndf_source_free(source);
+    return size;
+}
+
+/* The name stands in the table, so that a letter is a byte. Near the longest name with which a table fits it
+ * is the coarsest, whose size is known then; the name that fills it to the last byte has to fit, and no longer
+ * one. */
+static void test_exact_size(void)
+{
+    size_t fits = 1, large = 2000, size = 0;
+    while (large - fits > 32) {
+        size_t middle = (fits + large) / 2, found = bytes_with_name(middle);
+        size = found ? found : size;
+        fits = found ? middle : fits;
+        large = found ? large : middle;
+    }
+    fits += 2048 - size;
+    TEST(size > 0 && bytes_with_name(fits) == 2048 && bytes_with_name(fits + 1) == 0);
+}
+
 int main(void)
 {
     test_sizes();
+    test_exact_size();
     test_same_bytes();
     test_target();
     test_bad_options();

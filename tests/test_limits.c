@@ -124,14 +124,22 @@ static void test_long_files(void)
     remove(path);
 }
 
-/* The size that a table states bounds what is read and allocated, whatever follows. */
+static void state_size(unsigned char *bytes, unsigned size)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[12 + i] = (unsigned char)(size >> (8 * i) & 0xffu);
+}
+
+/* The size that a table states bounds what is read and allocated, whatever follows; the largest that is possible
+ * fails for what follows alone. */
 static void test_stated_size(void)
 {
     unsigned char bytes[64] = "VNDFtab\n";
     vndf_error error = {VNDF_OK, ""};
     bytes[8] = 2;
-    for (int i = 0; i < 4; i++)
-        bytes[12 + i] = (unsigned char)((VNDF_LIMIT_TABLE_BYTES + 1u) >> (8 * i) & 0xffu);
+    state_size(bytes, VNDF_LIMIT_TABLE_BYTES);
+    TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && !strstr(error.message, "are possible"));
+    state_size(bytes, VNDF_LIMIT_TABLE_BYTES + 1u);
     TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && error.status == VNDF_ERROR_TABLE);
     TEST_HAS(error.message, "from 64 to 8388608 are possible");
     TEST(make_long("limits.tmp", bytes, sizeof bytes, 0));

@@ -18,8 +18,8 @@ set(run_time core math table sampler bsdf)
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)
 
-# Saving a table flushes it to the disk, which the C library has no call for.
-set(system_build unistd)
+# Saving a table keeps modes and links and flushes to the disk, which the C library has no calls for.
+set(system_build fcntl sys/stat unistd)
 # Lanes are the processor's own.
 set(system_math immintrin)
 

@@ -79,7 +79,7 @@ static int print_to(const char *path, const bench_rows *rows, void (*print)(FILE
 static int print_all(const bench_words *given, const bench_rows *rows)
 {
     const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    int taken = (csv && strcmp(csv, "-") == 0) || (markdown && strcmp(markdown, "-") == 0);
+    int taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
     if (!taken)
         bench_print_text(stdout, rows);
     int status = print_to(csv, rows, bench_print_csv);
@@ -120,27 +120,11 @@ static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
     return printed == STATUS_GOOD ? judged : printed;
 }
 
-/* `build` reads what --csv names, here it is written: a file with a D in it is not replaced. */
-static int is_free_for_csv(const char *path)
-{
-    static const char ours[] = "method,distribution,";
-    char start[sizeof ours] = "";
-    FILE *file = fopen(path, "r");
-    if (!file)
-        return 1;
-    size_t size = fread(start, 1, sizeof ours - 1, file);
-    fclose(file);
-    if (size == 0 || strncmp(start, ours, sizeof ours - 1) == 0)
-        return 1;
-    complain(name, "--csv %s: the file is no earlier result of this command and is kept; a D is read by --csv-data",
-             path);
-    return 0;
-}
-
 static int outputs_usable(const bench_words *given)
 {
     const char *csv = only_word(&given->csv);
-    return outputs_distinct(name, csv, only_word(&given->markdown)) && (!csv || is_free_for_csv(csv));
+    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
+           (!csv || output_is_earlier(name, csv, "method,distribution,", "a D is read by --csv-data"));
 }
 
 static int run_words(const bench_words *given)

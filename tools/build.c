@@ -2,6 +2,7 @@
  * builder, saves, prints what came out. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "arguments.h"
@@ -24,7 +25,7 @@ static const char help[] =
     "  --slope EXPR    P22 = D cos^4, in r, the slope length tan(theta_m)\n"
     "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log sqrt sin cos tan asin acos\n"
     "                  atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
-    "  --set NAME=X    a parameter of the expression; may be repeated\n"
+    "  --set NAME=X    a parameter of the expression, which has to use it; may be repeated\n"
     "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
@@ -34,7 +35,7 @@ static const char help[] =
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384; up to 32768 where the total\n"
     "                  variation would exceed 1e-3 and no --max-tv is given)\n"
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
-    "  -o FILE         the table; it appears whole or not at all\n"
+    "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n";
@@ -109,11 +110,30 @@ static vndf_distribution *build_table(const vndf_source *source, const build_wor
     return table;
 }
 
+static int save_to_stdout(const vndf_distribution *table)
+{
+    vndf_error error = {VNDF_OK, ""};
+    size_t size = vndf_distribution_info(table).bytes;
+    void *bytes = malloc(size);
+    int good = bytes && vndf_save_memory(table, bytes, size, &error) == VNDF_OK;
+    if (good)
+        fwrite(bytes, 1, size, stdout);
+    free(bytes);
+    return good ? output_finish_stdout(name) : complain(name, "no memory for the table");
+}
+
+/* And says what it is, if there is a place for it. */
 static int save_table(const vndf_distribution *table, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_status status = vndf_save(table, path, &error);
-    return status == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
+    if (output_is_stdout(path))
+        return save_to_stdout(table);
+    if (vndf_save(table, path, &error) != VNDF_OK)
+        return complain(name, "%s", error.message);
+    vndf_info info = vndf_distribution_info(table);
+    describe_info(&info);
+    describe_certificate(&info.certificate);
+    return STATUS_GOOD;
 }
 
 static int build_and_save(const vndf_source *source, const build_words *given, unsigned held)
@@ -124,11 +144,6 @@ static int build_and_save(const vndf_source *source, const build_words *given, u
     if (!table)
         return STATUS_USE;
     int status = save_table(table, only_word(&given->output));
-    if (status == STATUS_GOOD) {
-        vndf_info info = vndf_distribution_info(table);
-        describe_info(&info);
-        describe_certificate(&info.certificate);
-    }
     vndf_free(table);
     return status;
 }

@@ -16,6 +16,7 @@
 #include "consistency.h"
 #include "distribution.h"
 #include "hard.h"
+#include "output.h"
 #include "statistics.h"
 #include "vndf_build.h"
 
@@ -90,6 +91,9 @@ static int compare_certificates(const vndf_certificate *stored, const vndf_certi
 static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
+    *failed = csv && !input_named(name, csv);
+    if (*failed)
+        return NULL;
     vndf_source *source = csv ? vndf_source_csv_file(csv, &error) : vndf_source_of(table, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
     if (*failed)

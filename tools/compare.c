@@ -33,7 +33,8 @@ static const char help[] =
     "  --seed N            another choice of random numbers (default 0)\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a page of this command, which is\n"
-    "replaced; pictures of ways that it no longer has stay. Interrupted, the command leaves DIR as it was.\n"
+    "replaced; pictures of ways that it no longer has stay. Interrupted, or if a file to be replaced was read, the\n"
+    "command leaves DIR as it was; DIR/reference.pfm may be read again.\n"
     "\n"
     "example: vndf compare tools/scenes/metal.scene metal-page --seconds 60 --width 320\n"
     "         vndf compare tools/scenes/rings.scene rings-page --tables 2048,16384\n";

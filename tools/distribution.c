@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "output.h"
+
 int distribution_open(chosen_distribution *chosen, const char *command, const char *name)
 {
     vndf_error error = {VNDF_OK, ""};
@@ -12,6 +14,8 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
         chosen->distribution = vndf_ggx();
     else if (strcmp(name, "beckmann") == 0)
         chosen->distribution = vndf_beckmann();
+    else if (!input_named(command, name))
+        return 0;
     else
         chosen->distribution = chosen->owned = vndf_load(name, &error);
     if (!chosen->distribution)

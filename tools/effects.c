@@ -79,7 +79,7 @@ static int print_to(const char *path, const effects_list *list, void (*print)(FI
 static int print_all(const effects_words *given, const effects_list *list)
 {
     const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    if (!(csv && strcmp(csv, "-") == 0) && !(markdown && strcmp(markdown, "-") == 0))
+    if (!(csv && output_is_stdout(csv)) && !(markdown && output_is_stdout(markdown)))
         effects_print_text(stdout, list);
     int status = print_to(csv, list, effects_print_csv);
     int second = print_to(markdown, list, effects_print_markdown);
@@ -189,6 +189,13 @@ static int run_set(effects_plan *plan, const effects_words *given)
     return status;
 }
 
+static int outputs_usable(const effects_words *given)
+{
+    const char *csv = only_word(&given->csv);
+    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
+           (!csv || output_is_earlier(name, csv, "set,distribution,", "tables are named by --distribution"));
+}
+
 static int run_words(const effects_words *given)
 {
     vndf_surface alpha;
@@ -204,7 +211,7 @@ static int run_words(const effects_words *given)
         return run_set(&plan, given);
     if (given->passes.count)
         return complain(name, "--passes is for --run");
-    if (!outputs_distinct(name, only_word(&given->csv), only_word(&given->markdown)))
+    if (!outputs_usable(given))
         return STATUS_USE;
     watch w = {output_hold_signals(), isatty(STDERR_FILENO)};
     plan.user = &w;

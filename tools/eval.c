@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "command.h"
 #include "distribution.h"
+#include "output.h"
 
 static const char name[] = "vndf eval";
 
@@ -97,7 +98,7 @@ int command_eval(int argc, char **argv)
     if (!distribution_open(&chosen, name, only_word(&positional)))
         return STATUS_USE;
     int status = STATUS_USE;
-    if (view_from_words(name, &aim, chosen.distribution, &surface, &wi))
+    if (view_from_words(name, &aim, chosen.distribution, &surface, &wi) && input_stdin(name))
         status = evaluate_lines(&surface, wi);
     distribution_close(&chosen);
     return status;

@@ -79,6 +79,10 @@ folder_state folder_examine(const char *command, const char *path)
         complain(command, "the name of the folder is empty");
         return FOLDER_REFUSED;
     }
+    if (output_is_stdout(path)) {
+        complain(command, "'-' is stdout, and this needs a folder for its files; one of that name is './-'");
+        return FOLDER_REFUSED;
+    }
     if (stat(path, &status) != 0 && errno == ENOENT) {
         if (can_be_made(path))
             return FOLDER_NEW;
@@ -108,15 +112,33 @@ typedef struct opened_files {
     size_t count;
 } opened_files;
 
+/* Byte for byte. Then it is left alone: it may be an input that the page only repeats, as the reference of an
+ * earlier comparison. */
+static int is_there(const char *path, const page_file *file)
+{
+    char part[4096];
+    size_t done = 0, got;
+    struct stat status;
+    FILE *old = stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "rb") : NULL;
+    if (!old)
+        return 0;
+    while ((got = fread(part, 1, sizeof part, old)) > 0 && got <= file->size - done &&
+           memcmp(part, file->text + done, got) == 0)
+        done += got;
+    fclose(old);
+    return got == 0 && done == file->size;
+}
+
 static int write_temporary(opened_files *opened, const char *command, const char *folder, const page_file *file)
 {
     output_file *output = &opened->output[opened->count];
     char *path = path_in(folder, file->name);
     if (!path)
         return complain(command, "no memory");
-    if (!output_open(output, command, path)) {
+    int repeats = is_there(path, file);
+    if (repeats || !output_open(output, command, path)) {
         free(path);
-        return STATUS_USE;
+        return repeats ? STATUS_GOOD : STATUS_USE;
     }
     opened->path[opened->count++] = path;
     if (fwrite(file->text, 1, file->size, output->file) == file->size && fflush(output->file) == 0)

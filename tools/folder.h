@@ -1,7 +1,8 @@
 /* Files that appear in a folder together. The folder is made if it is not there. If it is, it must be empty or
- * hold a page of the same command, whose files are then replaced and nothing else touched. All files are written
- * to temporaries first and renamed when all have been written; a failure or a signal before that leaves the folder
- * as it was. */
+ * hold a page of the same command, whose files are then replaced - none of them if one is an input - and
+ * nothing else touched. All files are written to temporaries first and renamed when all have been written; a
+ * failure or a signal before that leaves the folder as it was. A file that is there already, byte for byte,
+ * stays. */
 #ifndef TOOLS_FOLDER_H
 #define TOOLS_FOLDER_H
 

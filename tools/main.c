@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "files.h"
 #include "output.h"
 #include "vndf.h"
 
@@ -42,9 +43,12 @@ static int print_help(void)
          "         vndf check wavy.vndf\n"
          "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
          "\n"
-         "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed;\n"
-         "a reader that closes the pipe ends the program quietly, by SIGPIPE or, where that is ignored, with "
-         "status 2");
+         "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed, text for a\n"
+         "closed or full stdout included, even where the file of -o is whole; a reader that closes the pipe ends\n"
+         "the program quietly, by SIGPIPE or, where that is ignored, with status 2\n"
+         "\n"
+         "files: one that is written appears whole or not at all, keeps its permissions, and is never an input of\n"
+         "the same command; behind a symbolic link it is the link's file. `-o -` is stdout, without other text");
     return STATUS_GOOD;
 }
 
@@ -75,6 +79,8 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    if (!files_begin())
+        return STATUS_USE;
     output_ignore_size_signal();
     int status = dispatch(argc, argv);
     int delivered = output_finish_stdout("vndf");

@@ -2,17 +2,20 @@
  * normals for each function over incident angles, and a verdict. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "arguments.h"
 #include "command.h"
 #include "distribution.h"
 #include "masking.h"
 #include "output.h"
+#include "source_text.h"
 
 static const char name[] = "vndf masking";
 
 static const char help[] =
-    "usage: vndf masking [FILE|ggx|beckmann ...] [--alpha AX[,AY]] [--phi DEG] [--csv FILE]\n"
+    "usage: vndf masking [FILE|ggx|beckmann ...] [--csv FILE | --family NAME[:PARAM,...] | --ndf EXPR |\n"
+    "                    --slope EXPR] [--alpha AX[,AY]] [--phi DEG] [-o OUT.csv]\n"
     "\n"
     "Prints for each distribution (default: ggx and beckmann) the integral over all normals wm of\n"
     "\n"
@@ -32,11 +35,14 @@ static const char help[] =
     "\n"
     "  --alpha AX[,AY]  roughness along x and y (default 0.5; at 1 the Schlick-Smith of ggx is Smith's)\n"
     "  --phi DEG        azimuth of the incident directions from the x axis, -360 to 360 (default 0)\n"
-    "  --csv FILE       the integrals as CSV as well; - for stdout, in place of the text\n"
+    "  --csv FILE, --family NAME, --ndf EXPR, --slope EXPR, --set NAME=X\n"
+    "                   your own D, as `vndf build --help` describes them, by a table of 16 KiB; it comes last\n"
+    "  -o OUT.csv       the integrals as CSV as well; - for stdout, in place of the text\n"
     "\n"
     "exit status: 0 whatever the verdicts are, 2 wrong use\n"
     "\n"
-    "example: vndf masking ggx tables/hazy.vndf --alpha 0.5\n";
+    "example: vndf masking ggx tables/hazy.vndf --alpha 0.5\n"
+    "         vndf masking --csv tables/example.csv -o masking.csv\n";
 
 enum { ANGLES = 8 };
 static const double angle[ANGLES] = {0, 15, 30, 45, 60, 75, 85, 89};
@@ -46,12 +52,13 @@ static const char *const function_name[MASKING_COUNT] = {"smith", "v-cavities", 
                                                          "schlick-smith"};
 
 typedef struct masking_words {
-    words alpha, phi, csv;
+    source_words source;
+    words subjects, alpha, phi, output;
 } masking_words;
 
 /* One distribution at all angles. */
 typedef struct masking_rows {
-    const char *subject;
+    const char *subject; /* its name */
     vndf_surface surface;
     double phi;
     masking_integrals at[ANGLES];
@@ -127,6 +134,14 @@ static void write_header(FILE *file)
 
 /* ---- command ------------------------------------------------------------------------------------- */
 
+/* What is to be reported on, and where. */
+typedef struct masking_plan {
+    const masking_words *given;
+    const output_file *csv;          /* NULL: there is none */
+    const vndf_distribution *own;    /* of the source that was given; NULL: there is none */
+    const char *own_name;
+} masking_plan;
+
 /* Roughness and azimuth. 1, or 0 after a complaint. */
 static int read_settings(const masking_words *given, masking_rows *rows)
 {
@@ -142,42 +157,49 @@ static int read_settings(const masking_words *given, masking_rows *rows)
 }
 
 /* To the CSV, if there is one, and to stdout unless that takes it. */
-static int report_subject(const masking_words *given, masking_rows *rows, const output_file *csv)
+static int report_rows(const masking_plan *plan, const char *subject, const vndf_distribution *distribution)
 {
-    chosen_distribution chosen;
-    if (!distribution_open(&chosen, name, rows->subject))
+    masking_rows rows = {.subject = subject, .surface.distribution = distribution};
+    if (!read_settings(plan->given, &rows))
         return STATUS_USE;
-    rows->surface.distribution = chosen.distribution;
-    int good = read_settings(given, rows);
-    if (good)
-        measure(rows);
-    distribution_close(&chosen);
-    if (good && csv)
-        write_rows(csv->file, rows);
-    if (good && (!csv || csv->path))
-        print_rows(rows);
-    return good ? STATUS_GOOD : STATUS_USE;
+    measure(&rows);
+    if (plan->csv)
+        write_rows(plan->csv->file, &rows);
+    if (!plan->csv || plan->csv->path)
+        print_rows(&rows);
+    return STATUS_GOOD;
 }
 
-static int report_all(const masking_words *given, const words *subjects, const output_file *csv)
+static int report_subject(const masking_plan *plan, const char *subject)
 {
-    int status = STATUS_GOOD;
-    for (size_t i = 0; i < subjects->count && status == STATUS_GOOD; i++) {
-        masking_rows rows = {.subject = subjects->item[i]};
-        if (csv && output_interrupted(csv))
-            break;
-        status = report_subject(given, &rows, csv);
-    }
+    chosen_distribution chosen;
+    if (!distribution_open(&chosen, name, subject))
+        return STATUS_USE;
+    int status = report_rows(plan, subject, chosen.distribution);
+    distribution_close(&chosen);
     return status;
 }
 
-static int report_with_csv(const masking_words *given, const words *subjects)
+static int report_all(const masking_plan *plan)
+{
+    const words *subjects = &plan->given->subjects;
+    int status = STATUS_GOOD;
+    for (size_t i = 0; i < subjects->count && status == STATUS_GOOD; i++) {
+        if (plan->csv && output_interrupted(plan->csv))
+            return status;
+        status = report_subject(plan, subjects->item[i]);
+    }
+    return status == STATUS_GOOD && plan->own ? report_rows(plan, plan->own_name, plan->own) : status;
+}
+
+static int report_with_csv(masking_plan *plan)
 {
     output_file output;
-    if (!output_open(&output, name, only_word(&given->csv)))
+    if (!output_open(&output, name, only_word(&plan->given->output)))
         return STATUS_USE;
+    plan->csv = &output;
     write_header(output.file);
-    int status = report_all(given, subjects, &output);
+    int status = report_all(plan);
     if (status != STATUS_GOOD)
         output_discard(&output);
     else
@@ -185,20 +207,62 @@ static int report_with_csv(const masking_words *given, const words *subjects)
     return status;
 }
 
+static int report(masking_plan *plan)
+{
+    return plan->given->output.count ? report_with_csv(plan) : report_all(plan);
+}
+
+/* A table of the source that was given stands for it. */
+static int report_with_own(masking_plan *plan)
+{
+    char title[256];
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = source_from_words(name, &plan->given->source);
+    if (!source)
+        return STATUS_USE;
+    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
+    vndf_source_free(source);
+    if (!table)
+        return complain(name, "%s", error.message);
+    source_text_name(&plan->given->source, title, sizeof title);
+    plan->own = table;
+    plan->own_name = title;
+    int status = report(plan);
+    vndf_free(table);
+    return status;
+}
+
+static int check_words(masking_words *given)
+{
+    const char *path = only_word(&given->output);
+    size_t sources = source_words_count(&given->source);
+    if (sources > 1)
+        return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
+    if (path && !output_is_stdout(path) && strcmp(output_extension(path), "csv") != 0)
+        return complain(name, "-o '%s': the name must end in .csv, or be - for stdout", path);
+    if (!given->subjects.count && !sources) {
+        given->subjects.item[given->subjects.count++] = "ggx";
+        given->subjects.item[given->subjects.count++] = "beckmann";
+    }
+    return source_words_check_set(name, &given->source);
+}
+
 int command_masking(int argc, char **argv)
 {
     masking_words given = {0};
-    words subjects = {{NULL}, 0};
+    masking_plan plan = {.given = &given};
     const option_form options[] = {
-        {"--alpha", 1, 1, &given.alpha}, {"--phi", 1, 1, &given.phi}, {"--csv", 1, 1, &given.csv}};
+        {"--ndf", 1, 1, &given.source.ndf}, {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv}, {"--family", 1, 1, &given.source.family},
+        {"--set", 1, WORDS_MAX, &given.source.set}, {"--alpha", 1, 1, &given.alpha},
+        {"--phi", 1, 1, &given.phi}, {"-o", 1, 1, &given.output},
+    };
     const command_form form = {
         name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 0, WORDS_MAX};
-    int parsed = parse_arguments(&form, argc, argv, &subjects);
+    int parsed = parse_arguments(&form, argc, argv, &given.subjects);
+    if (parsed == PARSE_GO_ON)
+        parsed = check_words(&given);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    if (!subjects.count) {
-        subjects.item[subjects.count++] = "ggx";
-        subjects.item[subjects.count++] = "beckmann";
-    }
-    return given.csv.count ? report_with_csv(&given, &subjects) : report_all(&given, &subjects, NULL);
+    return source_words_count(&given.source) ? report_with_own(&plan) : report(&plan);
 }

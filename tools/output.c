@@ -2,15 +2,13 @@
 #include "output.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "arguments.h"
 #include "command.h"
+#include "files.h"
 
 /* ---- signals ------------------------------------------------------------------------------------- */
 
@@ -65,7 +63,7 @@ int output_stopping(unsigned held)
 
 int output_interrupted(const output_file *output)
 {
-    return output->temporary && output_stopping(output->held);
+    return output->path && output_stopping(output->held);
 }
 
 void output_ignore_size_signal(void)
@@ -77,6 +75,27 @@ void output_ignore_size_signal(void)
 
 /* ---- opening ------------------------------------------------------------------------------------- */
 
+int output_is_stdout(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+int input_named(const char *command, const char *path)
+{
+    const char *role = files_note_input(path);
+    if (role)
+        complain(command, "'%s' cannot be read: it is %s as well", path, role);
+    return !role;
+}
+
+int input_stdin(const char *command)
+{
+    const char *role = files_note_stdin();
+    if (role)
+        complain(command, "stdin cannot be read: it is %s as well", role);
+    return !role;
+}
+
 int output_replaceable(const char *command, const char *path)
 {
     struct stat status;
@@ -84,79 +103,42 @@ int output_replaceable(const char *command, const char *path)
         complain(command, "the name of the output file is empty");
         return 0;
     }
-    if (stat(path, &status) != 0 || S_ISREG(status.st_mode))
+    if (output_is_stdout(path))
         return 1;
-    complain(command, "'%s' is not a file that can be replaced", path);
-    return 0;
-}
-
-static char *temporary_beside(const char *path)
-{
-    size_t size = strlen(path) + 32;
-    char *name = malloc(size);
-    if (name)
-        snprintf(name, size, "%s.%ld.tmp", path, (long)getpid());
-    return name;
-}
-
-/* O_EXCL: never write through something that another user put there. */
-static FILE *create_new(const char *path)
-{
-    int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
-    if (descriptor >= 0 && !file)
-        close(descriptor);
-    return file;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+        complain(command, "'%s' is not a file that can be replaced", path);
+        return 0;
+    }
+    const char *role = files_note_output(path);
+    if (role)
+        complain(command, "'%s' is not replaced: it is %s", path, role);
+    return !role;
 }
 
 static int open_file(output_file *output)
 {
-    output->temporary = temporary_beside(output->path);
-    if (!output->temporary) {
-        complain(output->command, "no memory");
-        return 0;
-    }
     output->held = output_hold_signals();
-    output->file = create_new(output->temporary);
-    if (output->file)
+    if (replace_begin(&output->replaces, output->path)) {
+        output->file = output->replaces.file;
         return 1;
+    }
     complain(output->command, "cannot write '%s': %s", output->path, strerror(errno));
     output_release_signals(output->held);
-    free(output->temporary);
     return 0;
 }
 
 int output_open(output_file *output, const char *command, const char *path)
 {
-    output->command = command;
-    output->path = path;
-    output->temporary = NULL;
-    if (strcmp(path, "-") != 0)
-        return output_replaceable(command, path) && open_file(output);
-    output->path = NULL;
-    output->file = stdout;
-    return 1;
+    *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
+    return !output->path || (output_replaceable(command, path) && open_file(output));
 }
 
 /* ---- closing ------------------------------------------------------------------------------------- */
 
-/* Flushes; 0 and errno if that or any write before failed. Of a write before, the reason may be lost: another
- * one, of a byte that nobody will read, shows it. */
-static int flush(FILE *file)
-{
-    int failed_before = ferror(file);
-    errno = 0;
-    if (fflush(file) == 0 && !failed_before)
-        return 1;
-    if (errno == 0 && write(fileno(file), "", 1) >= 0)
-        errno = 0; /* it would work by now */
-    return 0;
-}
-
 /* The error is cleared once it is told, so that it is told once. */
 int output_finish_stdout(const char *command)
 {
-    if (flush(stdout))
+    if (replace_flush(stdout))
         return STATUS_GOOD;
     clearerr(stdout);
     if (errno != EPIPE)
@@ -164,72 +146,45 @@ int output_finish_stdout(const char *command)
     return STATUS_USE;
 }
 
-static void close_file(output_file *output)
-{
-    free(output->temporary);
-    output->temporary = NULL;
-    output_release_signals(output->held);
-}
-
-/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be
- * synced. */
-static int close_and_rename(output_file *output)
-{
-    int good = flush(output->file) && (fsync(fileno(output->file)) == 0 || errno == EINVAL || errno == EROFS);
-    int reason = errno, closed = fclose(output->file) == 0;
-    if (!good)
-        errno = reason;
-    return good && closed && rename(output->temporary, output->path) == 0;
-}
-
 int output_commit(output_file *output)
 {
-    if (!output->temporary)
+    int status = STATUS_GOOD;
+    if (!output->path)
         return output_finish_stdout(output->command);
-    if (close_and_rename(output)) {
-        close_file(output);
-        return STATUS_GOOD;
-    }
-    int reason = errno;
-    remove(output->temporary);
-    complain(output->command, "cannot write '%s': %s", output->path, reason ? strerror(reason) : "write failed");
-    close_file(output);
-    return STATUS_USE;
-}
-
-static void remove_temporary(output_file *output)
-{
-    if (!output->temporary)
-        return;
-    fclose(output->file);
-    remove(output->temporary);
+    if (!replace_commit(&output->replaces))
+        status = complain(output->command, "cannot write '%s': %s", output->path,
+                          errno ? strerror(errno) : "write failed");
+    output_release_signals(output->held);
+    return status;
 }
 
 /* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited
  * are let through last, when all is said. */
 int output_give_up(output_file *output, const char *why)
 {
-    remove_temporary(output);
+    if (output->path)
+        replace_discard(&output->replaces);
     complain(output->command, "%s", why);
-    if (output->temporary)
-        close_file(output);
+    if (output->path)
+        output_release_signals(output->held);
     return STATUS_USE;
 }
 
 void output_discard(output_file *output)
 {
-    remove_temporary(output);
-    if (output->temporary)
-        close_file(output);
+    if (!output->path)
+        return;
+    replace_discard(&output->replaces);
+    output_release_signals(output->held);
 }
+
+/* ---- before the work ----------------------------------------------------------------------------- */
 
 static int is_usable(const char *command, const char *path)
 {
     output_file output;
-    if (!path || strcmp(path, "-") == 0)
-        return 1;
-    if (!output_open(&output, command, path))
-        return 0;
+    if (!path || !output_open(&output, command, path))
+        return !path;
     output_discard(&output);
     return 1;
 }
@@ -238,11 +193,25 @@ int outputs_distinct(const char *command, const char *csv, const char *markdown)
 {
     if (!is_usable(command, csv) || !is_usable(command, markdown))
         return 0;
-    if (csv && markdown && strcmp(csv, markdown) == 0) {
+    if (csv && markdown && files_same(csv, markdown)) {
         complain(command, "--csv and --markdown both name '%s'", csv);
         return 0;
     }
     return 1;
+}
+
+int output_is_earlier(const char *command, const char *path, const char *head, const char *hint)
+{
+    char start[OUTPUT_HEAD_MAX] = "";
+    FILE *file = output_is_stdout(path) ? NULL : fopen(path, "r");
+    if (!file)
+        return 1;
+    size_t size = fread(start, 1, strlen(head), file);
+    fclose(file);
+    if (size == 0 || strncmp(start, head, strlen(head)) == 0)
+        return 1;
+    complain(command, "--csv %s: the file is no earlier result of this command and is kept; %s", path, hint);
+    return 0;
 }
 
 const char *output_extension(const char *path)

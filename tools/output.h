@@ -1,19 +1,25 @@
-/* Files that appear whole or not at all: what is written goes to a temporary beside the file and is
- * renamed over it at the end. While the temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask
- * output_interrupted() now and then, and closing lets the signal through after the temporary is gone.
- * (Waiting, not a handler: a handler would need global state.) */
+/* Files that appear whole or not at all (replace.h), none of which is an input as well (files.h). While the
+ * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and
+ * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
+ * global state.) */
 #ifndef TOOLS_OUTPUT_H
 #define TOOLS_OUTPUT_H
 
 #include <stdio.h>
 
+#include "replace.h"
+
 typedef struct output_file {
-    const char *command; /* opens every message */
-    const char *path;    /* NULL for stdout */
-    char *temporary;     /* owned; NULL for stdout */
-    FILE *file;
-    unsigned held;       /* stopping signals that wait; see output_hold_signals */
+    const char *command;  /* opens every message */
+    const char *path;     /* NULL for stdout */
+    FILE *file;           /* to write to */
+    replacement replaces; /* unless it is stdout */
+    unsigned held;        /* stopping signals that wait; see output_hold_signals */
 } output_file;
+
+/* Notes a file that is read, or stdin. 1, or 0 after a complaint: it is an output of the same command. */
+int input_named(const char *command, const char *path);
+int input_stdin(const char *command);
 
 /* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
@@ -37,12 +43,22 @@ int output_give_up(output_file *output, const char *why);
 /* The same without a word, for one of several files when another one failed. */
 void output_discard(output_file *output);
 
-/* Refuses a path that a rename would damage: a device, a pipe, a folder. 1 if it is free or a file. */
+/* "-" */
+int output_is_stdout(const char *path);
+
+/* Refuses a path that a rename would damage: a device, a pipe, a folder, or an input of the command. 1 if it
+ * is free or another file, which is noted as an output, or "-". */
 int output_replaceable(const char *command, const char *path);
 
 /* Whether a CSV and a table in Markdown, NULL or "-" or a path each, can be written, before what they hold is
  * measured; and whether they are two files. 1, or 0 after a complaint. */
 int outputs_distinct(const char *command, const char *csv, const char *markdown);
+
+/* Whether --csv, which other commands read, names an earlier result of this one, beginning with `head`, or a
+ * new file: a file with a D in it is not to be replaced by a slip. 1, or 0 after a complaint that ends with
+ * `hint`. */
+enum { OUTPUT_HEAD_MAX = 64 };
+int output_is_earlier(const char *command, const char *path, const char *head, const char *hint);
 
 /* Makes the stopping signals wait, for a library call that writes a file. The result tells
  * output_release_signals which ones it stopped, and is of no other use. */

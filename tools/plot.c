@@ -20,7 +20,7 @@ static const char help[] =
     "\n"
     "  --theta A,B,...  incident angles from the normal in degrees, 0 to 180, at most 8 (default 0,45,80,100)\n"
     "  --alpha AX[,AY]  roughness along x and y (default 1)\n"
-    "  -o OUT.svg       the figure\n"
+    "  -o OUT.svg       the figure; - for stdout\n"
     "\n"
     "example: vndf plot wavy.vndf --theta 0,60 -o wavy.svg\n";
 
@@ -95,8 +95,8 @@ static int draw_figure(FILE *file, const figure_plan *figure)
 static int plot_to_file(const figure_plan *figure, const char *path)
 {
     output_file output;
-    if (strcmp(output_extension(path), "svg") != 0)
-        return complain(name, "-o '%s': the name has to end in .svg", path);
+    if (!output_is_stdout(path) && strcmp(output_extension(path), "svg") != 0)
+        return complain(name, "-o '%s': the name has to end in .svg, or be - for stdout", path);
     if (!output_open(&output, name, path))
         return STATUS_USE;
     if (draw_figure(output.file, figure) && !output_interrupted(&output))

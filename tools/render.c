@@ -3,7 +3,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -25,7 +24,9 @@ static const char help[] =
     "for any number of threads. An interrupt (^C) saves the samples that are there; the exit status tells of it\n"
     "then (130).\n"
     "\n"
-    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light\n"
+    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; -: stdout, in place of\n"
+    "                  the text, where an interrupt leaves nothing\n"
+    "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: what the scene says)\n"
     "  --seconds S     stop after S seconds; without --spp as many samples as they give\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
@@ -42,7 +43,7 @@ static const char help[] =
     "         vndf render tools/scenes/glass.scene -o glass.pfm --seconds 20 --sampler visible --explain\n";
 
 typedef struct render_words {
-    words output, spp, seconds, threads, seed, sampler, width, exposure, explain, grammar;
+    words output, format, spp, seconds, threads, seed, sampler, width, exposure, explain, grammar;
 } render_words;
 
 typedef struct render_choice {
@@ -89,14 +90,17 @@ static int write_pfm(FILE *file, const image *made, float exposure)
     return image_write_pfm(file, made);
 }
 
-static image_writer *writer_of(const char *path)
+static image_writer *writer_of(const char *path, const char *format)
 {
-    const char *extension = output_extension(path);
-    if (strcmp(extension, "png") == 0)
+    const char *chosen = format ? format : output_is_stdout(path) ? "png" : output_extension(path);
+    if (strcmp(chosen, "png") == 0)
         return image_write_png;
-    if (strcmp(extension, "pfm") == 0)
+    if (strcmp(chosen, "pfm") == 0)
         return write_pfm;
-    complain(name, "-o '%s': the name must end in .png or .pfm", path);
+    if (format)
+        complain(name, "--format '%s' is none of png and pfm", format);
+    else
+        complain(name, "-o '%s': the name must end in .png or .pfm, or be - for stdout", path);
     return NULL;
 }
 
@@ -144,13 +148,11 @@ static int save(output_file *output, image_writer *write, const film *f, float e
     image made;
     if (!film_image(f, &made))
         return output_give_up(output, "no memory for the image");
-    char why[1024];
-    errno = 0;
     int written = write(output->file, &made, exposure);
-    snprintf(why, sizeof why, "cannot write '%s': %s", output->path ? output->path : "stdout",
-             errno ? strerror(errno) : "no memory, or no room");
     image_free(&made);
-    return written ? output_commit(output) : output_give_up(output, why);
+    if (written || ferror(output->file)) /* which is told by closing */
+        return output_commit(output);
+    return output_give_up(output, "no memory for the image");
 }
 
 static int render_film(output_file *output, image_writer *write, const path_plan *plan, const scene *s,
@@ -168,7 +170,8 @@ static int render_film(output_file *output, image_writer *write, const path_plan
     if (w.shows)
         fputs("\r\033[K", stderr);
     if (f.samples) {
-        print_summary(&f, c, whole);
+        if (output->path)
+            print_summary(&f, c, whole);
         status = save(output, write, &f, c->exposure > 0 ? (float)c->exposure : s->integrator.exposure);
     } else {
         status = output_give_up(output, output_interrupted(output) ? "interrupted before every pixel had a sample"
@@ -178,11 +181,11 @@ static int render_film(output_file *output, image_writer *write, const path_plan
     return status;
 }
 
-static int render_to_file(const char *path, const path_plan *plan, const scene *s, const render_choice *c)
+static int render_to_file(const render_words *given, const path_plan *plan, const scene *s, const render_choice *c)
 {
     output_file output;
-    image_writer *write = writer_of(path);
-    if (!write || !output_open(&output, name, path))
+    image_writer *write = writer_of(only_word(&given->output), only_word(&given->format));
+    if (!write || !output_open(&output, name, only_word(&given->output)))
         return STATUS_USE;
     return render_film(&output, write, plan, s, c);
 }
@@ -202,13 +205,23 @@ static int render_scene(const render_words *given, const scene *s, const render_
     int status = STATUS_GOOD;
     if (!plan)
         return complain(name, "%s", message);
-    print_precomputed(plan);
+    if (!given->output.count || !output_is_stdout(only_word(&given->output)))
+        print_precomputed(plan);
     if (given->explain.count)
         status = render_explain(name, s, c->sampler);
     if (status == STATUS_GOOD && given->output.count)
-        status = render_to_file(only_word(&given->output), plan, s, c);
+        status = render_to_file(given, plan, s, c);
     path_free(plan);
     return status;
+}
+
+/* Before anything is read or rendered; 0 after a complaint. */
+static int is_output_usable(const render_words *given)
+{
+    const char *path = only_word(&given->output);
+    if (path && given->explain.count && output_is_stdout(path))
+        return complain(name, "--explain prints to stdout, where -o - puts the picture; give one of them"), 0;
+    return !path || (writer_of(path, only_word(&given->format)) && output_replaceable(name, path));
 }
 
 static int read_and_render(const render_words *given, const char *path)
@@ -216,7 +229,7 @@ static int read_and_render(const render_words *given, const char *path)
     render_choice c;
     scene s;
     char message[1024];
-    if (!read_choice(given, &c) || (given->output.count && !writer_of(only_word(&given->output))))
+    if (!read_choice(given, &c) || !is_output_usable(given))
         return STATUS_USE;
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
@@ -231,7 +244,8 @@ int command_render(int argc, char **argv)
     render_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"-o", 1, 1, &given.output},         {"--spp", 1, 1, &given.spp},
+        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
+        {"--spp", 1, 1, &given.spp},
         {"--seconds", 1, 1, &given.seconds}, {"--threads", 1, 1, &given.threads},
         {"--seed", 1, 1, &given.seed},       {"--sampler", 1, 1, &given.sampler},
         {"--width", 1, 1, &given.width},     {"--exposure", 1, 1, &given.exposure},

@@ -14,7 +14,7 @@
 static const char name[] = "vndf sample";
 
 static const char help[] =
-    "usage: vndf sample FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]] -n N [--seed S] -o OUT\n"
+    "usage: vndf sample FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]] -n N -o OUT [options]\n"
     "\n"
     "Draws visible normals from one incident direction, each with its density per steradian.\n"
     "\n"
@@ -24,13 +24,14 @@ static const char help[] =
     "  -n N             how many\n"
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
-    "                   wm.x wm.y wm.z pdf; -: CSV on stdout\n"
+    "                   wm.x wm.y wm.z pdf; -: stdout\n"
+    "  --format NAME    csv or f32, whatever OUT ends in (default, for -: csv)\n"
     "\n"
     "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n";
 
 typedef struct sample_words {
     aim_words aim;
-    words number, seed, output;
+    words number, seed, format, output;
 } sample_words;
 
 typedef void write_normal(FILE *file, vndf_vec3 wm, float pdf);
@@ -53,14 +54,17 @@ static void write_f32(FILE *file, vndf_vec3 wm, float pdf)
     fwrite(bytes, 1, sizeof bytes, file);
 }
 
-static write_normal *writer_for(const char *path)
+static write_normal *writer_for(const char *path, const char *format)
 {
-    const char *extension = output_extension(path);
-    if (strcmp(path, "-") == 0 || strcmp(extension, "csv") == 0)
+    const char *chosen = format ? format : output_is_stdout(path) ? "csv" : output_extension(path);
+    if (strcmp(chosen, "csv") == 0)
         return write_csv;
-    if (strcmp(extension, "f32") == 0)
+    if (strcmp(chosen, "f32") == 0)
         return write_f32;
-    complain(name, "-o '%s': the name has to end in .csv or .f32, or be - for CSV on stdout", path);
+    if (format)
+        complain(name, "--format '%s' is none of csv and f32", format);
+    else
+        complain(name, "-o '%s': the name has to end in .csv or .f32, or be - for stdout", path);
     return NULL;
 }
 
@@ -92,7 +96,7 @@ static int sample_to_file(const sample_words *given, const vndf_distribution *di
     output_file output;
     unsigned long long count = 0, seed = 1;
     const char *path = only_word(&given->output);
-    write_normal *write = writer_for(path);
+    write_normal *write = writer_for(path, only_word(&given->format));
     if (!write || !view_from_words(name, &given->aim, distribution, &surface, &wi) ||
         !option_count(name, "-n", &given->number, 1, 1e12, &count) ||
         !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed) || !output_open(&output, name, path))
@@ -109,6 +113,7 @@ int command_sample(int argc, char **argv)
     const option_form options[] = {
         {"--theta", 1, 1, &given.aim.theta}, {"--phi", 1, 1, &given.aim.phi}, {"--alpha", 1, 1, &given.aim.alpha},
         {"-n", 1, 1, &given.number},         {"--seed", 1, 1, &given.seed},   {"-o", 1, 1, &given.output},
+        {"--format", 1, 1, &given.format},
     };
     const command_form form = {
         name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files.h"
+
 /* ---- clauses ---- */
 
 static clause *find_clause(const word *w, clause *clauses, size_t count)
@@ -175,7 +177,12 @@ char *reader_path(scene_reader *r, const word *at)
     }
     memcpy(path, r->name, folder);
     memcpy(path + folder, at->text, length + 1);
-    return path;
+    const char *role = files_note_input(path);
+    if (!role)
+        return path;
+    reader_refuse(r, at, "this file is %s as well", role);
+    free(path);
+    return NULL;
 }
 
 char *reader_copy(scene_reader *r, const word *at)

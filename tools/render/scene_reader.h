@@ -90,7 +90,7 @@ typedef struct image_range {
 
 int reader_within(scene_reader *r, const word *at, const image *map, const image_range *range);
 
-/* A path of the scene file, as seen from here; the caller frees it. NULL after a refusal. */
+/* A path of the scene file, as seen from here, noted as an input; the caller frees it. NULL after a refusal. */
 char *reader_path(scene_reader *r, const word *at);
 
 /* A copy that the caller frees; NULL after a refusal. */

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files.h"
+
 static const char *why(void)
 {
     return errno ? strerror(errno) : "it cannot be read";
@@ -42,6 +44,11 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
 
 char *whole_file(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
+    const char *role = files_note_input(path);
+    if (role) {
+        snprintf(reason, reason_size, "it is %s as well", role);
+        return NULL;
+    }
     errno = 0;
     FILE *file = fopen(path, "rb");
     if (!file) {
