@@ -57,7 +57,7 @@ static void test_target(void)
     const double targets[] = {0.1, 0.01, 1e-3, 3e-4};
     size_t last = 0;
     for (int i = 0; i < (oracle_quick() ? 2 : 4); i++) {
-        vndf_certificate claim = {1, 0, 0, 0, 0, 0, 0};
+        vndf_certificate claim = {.tv = 1};
         vndf_error error = {VNDF_OK, ""};
         vndf_distribution *table = build(0, targets[i], &claim, &error);
         TEST(table != NULL && claim.tv <= targets[i]);
@@ -132,7 +132,7 @@ static double laplace(double r, void *user)
 static size_t bytes_with_name(size_t length)
 {
     static char name[2048];
-    const vndf_build_options options = {2048, 0, NULL, NULL};
+    const vndf_build_options options = {.max_bytes = 2048};
     vndf_error error = {VNDF_OK, ""};
     memset(name, 'n', length);
     name[length] = '\0';
