@@ -89,8 +89,10 @@ double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
 double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);
 
-/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length. */
-void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
+/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some
+ * steps of 2^-24: returns whether that is known to move it by no more than 1e-5 (sampler/nearest.h is for where it
+ * is not). */
+int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z);
