@@ -30,9 +30,11 @@
  * contraction: the same bits for every compiler, optimisation level, C library and machine with IEEE 754 floats
  * and doubles in the default rounding mode that keep denormals. The sources refuse to compile where intermediate
  * results have more digits (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A
- * caller that flushes denormals to zero gets the same bits as long as none occurs. tests/corpus/same_bits.txt has
- * hashes to compare machines by. Not promised: vndf_build.h, whose tables depend on the C library's exp, log and
- * pow in their last digits - a table file, once built, gives the same bits everywhere. */
+ * caller that flushes denormals to zero, or has them read as zero, gets the same bits as long as none occurs, and
+ * all else that is promised here even then, of the numbers that are left: a denormal component of wi or wm is 0 to
+ * it, as a denormal D is. tests/corpus/same_bits.txt has hashes to compare machines by. Not promised:
+ * vndf_build.h, whose tables depend on the C library's exp, log and pow in their last digits - a table file, once
+ * built, gives the same bits everywhere. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -171,10 +173,16 @@ typedef struct vndf_view {
     float area, spread;            /* projected area of the unit problem; times ax ay */
 } vndf_view;
 
-/* wi need not be unit. Invalid input - NULL, a direction that is zero or not finite, alpha times the
- * distribution's scale (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample
- * then returns (0, 0, 1) with density 0, and every other function 0. One valid view sees nothing: wi = (0, 0, -1)
- * exactly, where every normal is turned away; samples are then horizontal normals with density 0. */
+/* wi need not be unit: any length that floats have will do. alpha_x and alpha_y may be as far apart as their range
+ * allows. Invalid input - NULL, a direction that is zero or not finite, alpha times the distribution's scale
+ * (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1)
+ * with density 0, and every other function 0.
+ *
+ * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: Dv is D(wm) cos(theta_m), and vndf_sample
+ * draws from all normals, as the microsurface has them. There wi has no azimuth for u1 to count from, and x takes
+ * its place; beside it u1 counts from the azimuth of the stretched wi, whatever that is, so that the same numbers
+ * give a normal turned about z, while densities hardly change. Straight from below, wi.x = wi.y = 0 > wi.z, every
+ * normal is turned away: samples are horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of
@@ -188,20 +196,24 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
  * mirrored at the normal. Beckmann: u1 moves the slope along wi, u2 the slope across. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The density per steradian with which vndf_sample draws wm (unit, wm.z >= 0); 0 where wi.wm <= 0, elsewhere >=
- * FLT_MIN. Of a table: within 1e-5, relative, of what its numbers define, wherever that is above 1e-30; so are
- * area, lambda, g1 and ndf. For a table this is close to, not equal to, vndf_visible: the ratio
- * vndf_visible/vndf_pdf is the weight that makes an estimator exact, and its maximum stands in the certificate. */
+/* The density per steradian with which vndf_sample draws wm, which is unit; 0 where wm.z < 0, as no normal points
+ * below the surface, and where wi.wm <= 0, elsewhere >= FLT_MIN. Of a table: within 1e-5, relative, of what its
+ * numbers define, wherever that is above 1e-30; so are area, lambda, g1 and ndf. For a table this is close to, not
+ * equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the weight that makes an estimator exact, and its
+ * maximum stands in the certificate. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm, or into a normal within some roundings of it. Three places
- * give no more than numbers in [0, 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at
- * u2 = 0; where u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of the normal),
- * directions below the horizon that see less than 1e-10 of what they would at grazing incidence, and the view
- * that sees nothing. */
+/* The uniform numbers that vndf_sample turns into wm, or nearly: a normal that it drew comes back within 1e-5 -
+ * the distance of unit normals whose slopes are over alpha - or, in far tails and gaps of D where steps of the
+ * numbers themselves lead farther than that, within what four steps of 2^-24 of u1 and u2 make; the numbers may be
+ * others by as many steps, or by what the rounding of wm is worth. Three places give no more than numbers in [0,
+ * 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at u2 = 0; where u1 = 0 and 1 lie at
+ * a right angle to wi all of u2 changes with the last bit of the normal), directions below the horizon that see
+ * less than 1e-10 of what they would at grazing incidence, and the view that sees nothing. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
-/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian. For the closed forms this is vndf_pdf, FLT_MIN included. */
+/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian; 0 where wm.z < 0. For the closed forms this is vndf_pdf,
+ * FLT_MIN included. */
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* ---- many at once ------------------------------------------------------------------------------ */

@@ -16,7 +16,7 @@ static const stress_property properties[STRESS_COUNT] = {
     {"facing", "-wi.wm over the sum of |terms|, in 2^-24", 2},
     {"positive", "1 where the density is not finite and > 0", 0},
     {"repeated", "|pdf(sample)/density returned - 1|", 1e-5},
-    {"inverted", "distance from stretched normal to sample(invert), inside", 1e-5},
+    {"inverted", "distance to sample(invert), beyond 4 steps of u", 1e-5},
     {"area", "A < max(0, cos), relative, or not finite", 2e-7},
     {"mirrored", "|A(w) - A(-w) - cos|/A", 1e-6},
     {"lambda", "Lambda < 0 above, |Lambda(-w) + 1 + Lambda(w)|/(1 + |Lambda|)", 0},
@@ -78,33 +78,28 @@ static double distance_stretched(const vndf_surface *surface, vndf_vec3 a, vndf_
     return sqrt(sum);
 }
 
-/* What came back, or what was put in where the two are within 8 steps of 2^-24: in a heavy tail one such step
- * moves the normal by more than any tolerance. */
-static float settled(float back, float given)
-{
-    return fabs((double)back - (double)given) <= 8 * 0x1p-24 ? given : back;
-}
-
 /* The normal that the uniform numbers of `wm` give; NaN if they are none. */
-static vndf_vec3 returned(const vndf_view *view, const stress_point *at, vndf_vec3 wm)
+static vndf_vec3 returned(const vndf_view *view, vndf_vec3 wm)
 {
     vndf_vec3 none = {NAN, NAN, NAN};
     float u1 = -1, u2 = -1;
     vndf_invert(view, wm, &u1, &u2);
-    if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
-        return none;
-    return vndf_sample(view, settled(u1, at->u1), settled(u2, at->u2), NULL);
+    return u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1 ? vndf_sample(view, u1, u2, NULL) : none;
 }
 
-/* How far that normal moves where wm is up to four roundings off in each component. */
-static double moved_by_rounding(const vndf_surface *surface, const vndf_view *view, const stress_point *at,
-                                vndf_vec3 wm, vndf_vec3 back)
+static float moved(float u, int steps)
 {
-    const float step[3] = {1 - 0x1p-22f, 1, 1 + 0x1p-22f};
+    return (float)fmin(1, fmax(0, (double)u + steps * 0x1p-24));
+}
+
+/* How far from wm four steps of u1, of u2 and of both lead. */
+static double led_by_steps(const vndf_surface *surface, const vndf_view *view, const stress_point *at,
+                           vndf_vec3 wm)
+{
     double most = 0;
-    for (int i = 0; i < 27; i++) {
-        vndf_vec3 near = {wm.x * step[i % 3], wm.y * step[i / 3 % 3], wm.z * step[i / 9]};
-        most = fmax(most, distance_stretched(surface, returned(view, at, near), back));
+    for (int i = 0; i < 9; i++) {
+        vndf_vec3 there = vndf_sample(view, moved(at->u1, 4 * (i % 3 - 1)), moved(at->u2, 4 * (i / 3 - 1)), NULL);
+        most = fmax(most, distance_stretched(surface, there, wm));
     }
     return most;
 }
@@ -121,19 +116,18 @@ static int is_deep(const vndf_surface *surface, vndf_vec3 wi)
     return wi.z < 0 && !(vndf_projected_area(surface, wi) > 1e-10f * vndf_projected_area(surface, level));
 }
 
-/* 0 where the normal's own rounding moves it as far; within four steps of 2^-24 of the border of the unit square,
- * where the side u2 = 0 is drawn together to one normal and the sides u1 = 0 and 1 come to lie at a right angle
- * to wi, so that all of u2 changes with the last bit of the azimuth; and deep below the horizon. */
+/* 0 where four steps of the numbers lead as far; within four steps of the border of the unit square, where the
+ * side u2 = 0 is drawn together to one normal and the sides u1 = 0 and 1 come to lie at a right angle to wi, so
+ * that all of u2 changes with the last bit of the azimuth; and deep below the horizon. */
 static double lost_by_inversion(const vndf_surface *surface, const vndf_view *view, const stress_point *at,
                                 vndf_vec3 wm)
 {
-    vndf_vec3 back = returned(view, at, wm);
-    double lost = distance_stretched(surface, wm, back);
+    double lost = distance_stretched(surface, wm, returned(view, wm));
     if (isnan(lost) || lost <= 1e-5)
         return lost;
     if (!is_inside(at->u1) || !is_inside(at->u2) || is_deep(surface, at->wi))
         return 0;
-    return lost > moved_by_rounding(surface, view, at, wm, back) * (1 + 1e-3) ? lost : 0;
+    return lost > led_by_steps(surface, view, at, wm) ? lost : 0;
 }
 
 /* Straight from below every normal is turned away: the one view whose samples have density 0. */

@@ -67,16 +67,17 @@ int vndf_number_is_all(const char *text, size_t size, double *value)
 
 const char *vndf_number_print(char out[VNDF_NUMBER_TEXT], double value)
 {
+    char text[VNDF_NUMBER_TEXT]; /* gcc's sanitizers would have it that out may be NULL */
     for (int precision = 15; precision <= 17; precision++) {
-        snprintf(out, VNDF_NUMBER_TEXT, "%.*g", precision, value);
-        if (strtod(out, NULL) == value)
+        snprintf(text, sizeof text, "%.*g", precision, value);
+        if (strtod(text, NULL) == value)
             break;
     }
     const char *mark = localeconv()->decimal_point;
-    char *found = strcmp(mark, ".") ? strstr(out, mark) : NULL;
+    char *found = strcmp(mark, ".") ? strstr(text, mark) : NULL;
     if (found) {
         *found = '.';
         memmove(found + 1, found + strlen(mark), strlen(found + strlen(mark)) + 1);
     }
-    return out;
+    return memcpy(out, text, strlen(text) + 1);
 }

@@ -165,6 +165,12 @@ VNDF_INLINE lanes_f lanes_float(lanes_u x)
     return _mm512_cvtepi32_ps((__m512i)x);
 }
 
+/* gcc's macros, which it has in place of functions where it does not optimise, convert their own mask. */
+#if defined(__GNUC__)
+#  pragma GCC diagnostic push
+#  pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
+
 VNDF_INLINE lanes_f lanes_gather(const float *base, lanes_u index)
 {
     return _mm512_i32gather_ps((__m512i)index, base, 4);
@@ -179,6 +185,10 @@ VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 {
     return (lanes_u)_mm512_i32gather_epi32((__m512i)index, base, 2) & 0xffffu;
 }
+
+#if defined(__GNUC__)
+#  pragma GCC diagnostic pop
+#endif
 
 VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
 {

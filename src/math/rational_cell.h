@@ -47,6 +47,13 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
+/* The same, 0 where 2^-20 or less of mass lies between xi and an end. */
+VNDF_INLINE lanes_f vndf_rational_inner_density(const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_f before = vndf_rational_cdf(cell, xi), least = lanes_least(before, cell->mass - before);
+    return lanes_keep(lanes_less(lanes_set(0x1p-20f), least), vndf_rational_density(cell, xi));
+}
+
 /* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below: quotients that are
  * left to those who have others to form. */
 typedef struct vndf_rational_place {

@@ -57,12 +57,14 @@ VNDF_INLINE int vndf_is_plain(float square)
     return square > 1e-30f && square < 1e30f;
 }
 
-/* v / |v| for a finite v that is not zero; scaled first where squares overflow or vanish. */
+/* v / |v| for a finite v that is not zero; scaled first where squares overflow or vanish: the reciprocal of a
+ * denormal is infinite, and that of what is near FLT_MAX is a denormal, which may count as 0. */
 VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
     float square = vndf_dot(v, v);
     if (!vndf_is_plain(square)) {
-        v = vndf_max_abs(v) < 1e-30f ? vndf_scale(v, 0x1p100f) : v; /* the reciprocal of a denormal is infinite */
+        float largest = vndf_max_abs(v);
+        v = largest < 1e-30f ? vndf_scale(v, 0x1p100f) : largest > 1e30f ? vndf_scale(v, 0x1p-100f) : v;
         v = vndf_scale(v, 1.0f / vndf_max_abs(v));
         square = vndf_dot(v, v);
     }

@@ -68,6 +68,13 @@ VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_
     return lanes_less(20.0f * least * lanes_least(turn, n2), (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * n2);
 }
 
+/* Radians per xi at a place of a cell. */
+VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, lanes_f xi)
+{
+    lanes_f q = cell->q + xi * cell->width, q2 = q * q, c = row->p * (1.0f - q2), s = row->r * 2.0f * q;
+    return 2.0f * row->p * row->r * (1.0f + q2) * cell->width / (c * c + s * s);
+}
+
 /* The azimuth at a place of a cell; not *plain where the density is steep. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
                                          const vndf_rational_place *in, lanes_m *plain)

@@ -68,13 +68,25 @@ void vndf_closed_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u
 
 /* ---- sampling ---- */
 
-/* A normal that rounding has turned away, turned back. Below the horizon z alone is lowered, by its own rounding:
- * a step that is small only beside 1 would leave the lobe of a Beckmann. */
+/* Below the horizon: wm.z is above `highest`, where wi sees nothing, by a few roundings of its own. It is lowered,
+ * or where that would show in the length, what is across raised: a step that is small only beside 1 would leave
+ * the lobe of a Beckmann. */
+static vndf_vec3 turn_below(vndf_vec3 wi, vndf_vec3 wm, double highest)
+{
+    double factor = wm.z / highest * (1.0 + 0x1.8p-23);
+    vndf_vec3 wide = {(float)(wm.x * factor), (float)(wm.y * factor), wm.z};
+    if (wm.z > 0.75f && factor > 1.0 + 0x1.8p-22 && vndf_exact_dot(wi, wide) > 0.0)
+        return wide;
+    wm.z = fminf(wm.z, (float)(highest * (1.0 - 0x1p-23)));
+    return wm;
+}
+
+/* A normal that rounding has turned away, turned back. */
 static vndf_vec3 turn_closed(const vndf_view *unit, vndf_vec3 wm)
 {
     double level = (double)unit->wi.x * wm.x + (double)unit->wi.y * wm.y, highest = level / -(double)unit->wi.z;
     if (unit->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))
-        wm.z = fminf(wm.z, (float)(highest * (1.0 - 0x1p-23)));
+        wm = turn_below(unit->wi, wm, highest);
     return vndf_exact_dot(unit->wi, wm) > 0.0 ? wm : vndf_turn_to_face(unit, wm);
 }
 

@@ -70,6 +70,16 @@ static vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *
     return k < 0.0f && c > 0.0f ? vndf_radial_draw_above(d, c, k, u) : vndf_radial_draw_whole(d, c, k, u);
 }
 
+/* The root is from 1e-18 to 1e18; of its square what is added may be lost among denormals. */
+VNDF_INLINE vndf_vec3 normal_from(const vndf_level *level, float x, float z)
+{
+    float square = x * x * level->square + z * z;
+    if (!vndf_is_plain(square))
+        return vndf_normalize(vndf_vec3_of(x * level->x, x * level->y, z));
+    float per = 1.0f / sqrtf(square);
+    return vndf_vec3_of(x * level->x * per, x * level->y * per, z * per);
+}
+
 /* Any direction and any place: the density is that of the normal as it was rounded, in double. */
 vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
 {
@@ -81,8 +91,7 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
     vndf_radial_drawn r = draw_radius(view, &a, u2);
     vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
     float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
-    float per = 1.0f / sqrtf(x * x * level.square + z * z); /* the root is from 1e-18 to 1e18 */
-    vndf_vec3 wm = vndf_vec3_of(x * level.x * per, x * level.y * per, z * per);
+    vndf_vec3 wm = normal_from(&level, x, z);
     if (!(vndf_exact_dot(view->wi, wm) > 0.0))
         wm = vndf_turn_to_face(view, wm);
     if (pdf)
@@ -188,8 +197,13 @@ static float place_in_row(const vndf_azimuth_row *row, float cos_phi, float sin_
     return vndf_clamp_unit((q - knots[count]) / (knots[count + 1] - knots[count]));
 }
 
-/* Part of the wedge's mass before an azimuth. */
-static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
+/* A part of the mass, and mass per radian where it ends, if 2^-20 at least is on either side. */
+typedef struct portion {
+    float part, rate;
+} portion;
+
+/* Of the wedge's mass before an azimuth. */
+static portion before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
 {
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view),
                                           !vndf_is_below(view) ? view->c : view->s);
@@ -197,26 +211,35 @@ static float before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
     lanes_lines lines = lanes_lines_at(&row.wedge->row_cell->before, 4, row.row * row.wedge->stride + j);
     vndf_azimuth_cell cell = vndf_azimuth_cell_from(&row, j, &lines);
-    return cell.before + vndf_rational_cdf(&cell.cell, xi);
+    portion before = {cell.before + vndf_rational_cdf(&cell.cell, xi),
+                      vndf_rational_inner_density(&cell.cell, xi) / vndf_azimuth_turned(&row, &cell, xi)};
+    return before;
 }
 
-/* Part of a half turn's mass between the side of wi and |a|. */
-static float half_turn(const vndf_view *view, float cos_phi, float sin_phi)
+/* Of a half turn's mass between the side of wi and |a|. */
+static portion half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
     float front = view->front, wedge = view->wedge, total = front + wedge;
-    if (is_front(view, cos_phi))
-        return (front - vndf_front_rest(front_of(view), cos_phi, sin_phi)) / total;
+    if (is_front(view, cos_phi)) {
+        float rest = vndf_front_rest(front_of(view), cos_phi, sin_phi);
+        float rate = rest > 0x1p-20f * total ? vndf_front_density(front_of(view), cos_phi) / total : 0.0f;
+        return (portion){(front - rest) / total, rate};
+    }
     if (!is_wedge(view, cos_phi))
-        return 1.0f;
-    float before = before_in_wedge(view, fabsf(cos_phi), sin_phi);
-    return vndf_is_below(view) ? before : (front + (1.0f - before) * wedge) / total;
+        return (portion){1.0f, 0.0f};
+    portion before = before_in_wedge(view, fabsf(cos_phi), sin_phi);
+    portion behind = {(front + (1.0f - before.part) * wedge) / total, before.rate * wedge / total};
+    return vndf_is_below(view) ? before : behind;
 }
 
-void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
+/* Both numbers are off by less than 8 steps of 2^-24, which moves the normal by up to 2^-20 over the rate of half
+ * a turn, and half of that over the rate of slopes: 5e-6 and 5e-6. */
+int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     place p = place_of(view, normal);
     vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
-    float half = half_turn(view, p.cos_phi, p.sin_phi);
-    *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half;
+    portion half = half_turn(view, p.cos_phi, p.sin_phi);
+    *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half.part;
     *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;
+    return half.rate > 0.2f && vndf_radial_rate(&law, p.at) > 0.1f;
 }

@@ -101,8 +101,10 @@ vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t cell
 double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *piece, uint32_t cell,
                                  double xi, double eta);
 
-/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length. */
-void vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
+/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some
+ * steps of 2^-24: returns whether that is known to move it by no more than 1e-5 (sampler/nearest.h is for where it
+ * is not). */
+int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z);

@@ -24,7 +24,8 @@ typedef struct vndf_ggx_incidence {
 } vndf_ggx_incidence;
 
 /* Near the normal, from q = 1e10 on, products of what is drawn could overflow; so they could where roughness is
- * not plain. Beyond per = 1e36 products here underflow (wi is short); where they overflow, c is 0 or NaN. */
+ * not plain. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
+ * are flushed: below 1e-38 per = 1e-12 that is nothing beside s > 2e-5. Where products overflow, c is 0 or NaN. */
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, length = lanes_root(across2 + wi_z * wi_z);
@@ -33,7 +34,7 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
     vndf_ggx_incidence w = {ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per,
                             spread + spread * c, lanes_all()};
     w.plain = lanes_both(vndf_aim_is_plain(ax, ay, c),
-                         lanes_less(lanes_most(w.q, 1e-26f * per), lanes_set(1e10f)));
+                         lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(1e10f)));
     return w;
 }
 

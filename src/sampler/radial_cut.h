@@ -135,4 +135,15 @@ VNDF_INLINE float vndf_radial_cdf(const vndf_radial_law *law, vndf_radius at)
     return (law->k < 0.0f ? vndf_radial_before(law, &cell) : vndf_radial_before_whole(law, &cell)) + inside;
 }
 
+/* Mass per radian between the normal and z; 0 at the cut and beside it, and where 2^-20 of the mass or less lies
+ * between the place and the next cell, which may be empty. */
+VNDF_INLINE float vndf_radial_rate(const vndf_radial_law *law, vndf_radius at)
+{
+    vndf_radial_piece piece = vndf_radial_piece_of(law, at.cell);
+    vndf_radial_lanes cell = vndf_radial_load(law->table, at.cell);
+    float x = at.eta * cell.x0 + at.xi * cell.x1, z = at.eta * cell.z0 + at.xi * cell.z1;
+    float rate = vndf_rational_inner_density(&piece.cell, at.xi) * (x * x + z * z) / cell.width;
+    return piece.weighted ? 0.0f : rate;
+}
+
 #endif

@@ -5,6 +5,7 @@
 #include "sampler/engine.h"
 #include "sampler/frame.h"
 #include "sampler/given_closed.h"
+#include "sampler/nearest.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
@@ -148,15 +149,26 @@ float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
     return vndf_positive(visible_facing(view, wm));
 }
 
+/* Of a table. Where some steps of 2^-24 matter and wi sees wm, u is what gives it, not what should. */
+static void invert_table(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    int sure = vndf_engine_invert(view, vndf_to_unit(view, wm), u1, u2);
+    *u1 = vndf_clamp_unit(*u1);
+    *u2 = vndf_clamp_unit(*u2);
+    if (!sure && vndf_exact_dot(view->wi, wm) > 0.0)
+        vndf_nearest(view, wm, u1, u2);
+}
+
 void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     *u1 = *u2 = 0.0f;
     if (!view->distribution || !(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return;
-    if (view->distribution->kind == VNDF_KIND_TABLE)
-        vndf_engine_invert(view, vndf_to_unit(view, wm), u1, u2);
-    else
-        vndf_closed_invert(view, wm, u1, u2);
+    if (view->distribution->kind == VNDF_KIND_TABLE) {
+        invert_table(view, wm, u1, u2);
+        return;
+    }
+    vndf_closed_invert(view, wm, u1, u2);
     *u1 = vndf_clamp_unit(*u1);
     *u2 = vndf_clamp_unit(*u2);
 }

@@ -1,5 +1,6 @@
 # A small program in LANGUAGE (C or CXX) builds against vndf and runs: found by WAY = find_package or
-# pkg_config in the copy that the test `install` installed, or added as a subdirectory of its project.
+# pkg_config in the copy that the test `install` installed, or added as a subdirectory of its project: then the
+# library compiles without a warning, not optimised.
 cmake_minimum_required(VERSION 3.16)
 
 if(SANITIZE)
@@ -33,7 +34,7 @@ endfunction()
 function(build_with_cmake)
     file(REMOVE_RECURSE ${OUT})
     run("configuring" ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${OUT} -G ${GENERATOR} -DWAY=${WAY}
-        -DLANGUAGE=${LANGUAGE} -DVNDF_SOURCE=${SOURCE} -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_BUILD_TYPE=Debug
+        -DLANGUAGE=${LANGUAGE} -DVNDF_SOURCE=${SOURCE} -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_BUILD_TYPE=Debug -DVNDF_WERROR=ON
         -DCMAKE_${LANGUAGE}_COMPILER=${${LANGUAGE}_COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
     run("building" ${CMAKE_COMMAND} --build ${OUT} --config Debug)
     foreach(library shared static)

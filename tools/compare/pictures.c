@@ -166,7 +166,7 @@ static int put_film(image *to, int column, const film *f, const crop crops[CROPS
     return 1;
 }
 
-int picture_of_crops(FILE *file, const contest *c, const crop crops[CROPS], float exposure)
+int picture_of_crops(FILE *file, const contest *c, const crop *crops, float exposure)
 {
     image made;
     int factor = crop_factor(&crops[0]), columns = (int)c->count + 1;

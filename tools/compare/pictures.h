@@ -23,8 +23,8 @@ int picture_of_film(FILE *file, const film *f, float exposure);
 /* Relative errors from `low` (black) to `high` (white), by their logarithm. */
 int picture_of_error(FILE *file, const film *of, const film *reference, double low, double high);
 
-/* A row for each crop: the reference, then all ways after equal time. */
-int picture_of_crops(FILE *file, const contest *c, const crop crops[CROPS], float exposure);
+/* A row for each of CROPS crops: the reference, then all ways after equal time. */
+int picture_of_crops(FILE *file, const contest *c, const crop *crops, float exposure);
 
 /* The colours of picture_of_error, for a legend: `part` from 0 to 1. */
 void error_colour(double part, unsigned char rgb[3]);
