@@ -239,7 +239,7 @@ static void test_hole(void)
 {
     unsigned long long state = 7;
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {2048, 0, NULL, NULL};
+    vndf_build_options options = {.max_bytes = 2048};
     vndf_source *source = vndf_source_slope_expression("exp(-r)*step(r-2)", NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     for (size_t i = 0; TEST(table != NULL) && i < 40; i++) {
