@@ -253,7 +253,7 @@ static int judge(vndf_proof *proof, const state *s)
         found = compare(s, miss);
         find_worst(proof, s);
         proof->hidden = s->stray + found;
-        proof->proven = s->stray <= enough(s) && (found <= MISS || s->mass == 0.0);
+        proof->proven = s->mass > 0.0 ? proof->hidden <= STRAY + MISS : s->stray <= NOTHING;
         for (size_t i = 0; found > MISS && i < s->count; i++)
             if (miss[i] > MISS / 2 / (double)s->count) {
                 take_edge(proof, s->piece[i].low);
