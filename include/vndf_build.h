@@ -105,8 +105,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
 /* Zeroed options are the defaults.
  *
  * Narrow features. A formula and a family are bounded between all points by interval arithmetic, a CSV is looked at
- * in every row: together no more than 1e-5 of the mass, or of the area at grazing incidence, can hide from a table of
- * these, however narrow its place - all else is resolved, or refused with the slope where it may be
+ * in every row: from slope 1e-30 to 1e30 no more than 1e-5 of the mass, or of the area at grazing incidence, can hide
+ * from a table of these, in all and however narrow - the rest is resolved, or refused with the slope where it may be
  * (VNDF_ERROR_DISTRIBUTION). What is narrower than the spacing of doubles is no feature. A callback can only be
  * sampled: what is narrower than `finest` of its slope may hide, whole, unless a break is given there. The certificate
  * says which it was (vndf_certificate: hidden, finest). */

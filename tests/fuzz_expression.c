@@ -1,7 +1,7 @@
 /* No text crashes the reader of expressions: it is refused with a message, or it evaluates at any slope
- * without a fault, to a number that may be NaN or infinite. */
+ * without a fault, to a number that may be NaN or infinite, and between slopes to bounds. */
+#include "distribution/source.h"
 #include "fuzz.h"
-#include "vndf_build.h"
 
 typedef vndf_source *read_function(const char *text, const vndf_parameter *parameters, size_t count,
                                    vndf_error *error);
@@ -19,6 +19,10 @@ static void read_and_evaluate(read_function *read, const char *text)
     for (size_t i = 0; source && i < sizeof slopes / sizeof slopes[0]; i++)
         sum += vndf_source_p22(source, slopes[i]);
     fuzz_use(sum);
+    for (size_t i = 2; source && i < sizeof slopes / sizeof slopes[0]; i++) {
+        vndf_reach reach = source->reach(source, slopes[i - 1], slopes[i]);
+        fuzz_require(reach.low <= reach.high && reach.stray >= 0.0, "bounds are in order");
+    }
     fuzz_require(source == NULL || vndf_source_description(source) != NULL, "a source has a description");
     vndf_source_free(source);
 }

@@ -78,7 +78,7 @@ static void test_breaks(double width)
 /* The table says how it was built, and is measured so. */
 static void test_provenance(void)
 {
-    ring g = ring_from(1.2345, 1e-4);
+    ring g = ring_from(1.2345, 1e-6);
     double breaks[] = {1.2345};
     vndf_build_options options = {.max_bytes = 4096, .breaks = breaks, .break_count = 1, .finest = 2e-3};
     vndf_error error = {VNDF_OK, ""};

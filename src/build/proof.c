@@ -90,10 +90,15 @@ static void begin_at_breaks(state *s, double low, double high, size_t panel)
 
 static int meets_breaks(const vndf_source *source, double low, double high)
 {
-    for (size_t i = 0; i < source->break_count; i++)
-        if (source->breaks[i] > low * (1 - BESIDE) && source->breaks[i] < high * (1 + BESIDE))
-            return 1;
-    return 0;
+    size_t first = 0, end = source->break_count;
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        if (source->breaks[middle] > low * (1 - BESIDE))
+            end = middle;
+        else
+            first = middle + 1;
+    }
+    return first < source->break_count && source->breaks[first] < high * (1 + BESIDE);
 }
 
 /* A piece for each panel. */
@@ -248,7 +253,7 @@ static int judge(vndf_proof *proof, const state *s)
         found = compare(s, miss);
         find_worst(proof, s);
         proof->hidden = s->stray + found;
-        proof->proven = s->stray <= enough(s) && (found <= MISS || s->mass == 0.0);
+        proof->proven = s->mass > 0.0 ? proof->hidden <= STRAY + MISS : s->stray <= NOTHING;
         for (size_t i = 0; found > MISS && i < s->count; i++)
             if (miss[i] > MISS / 2 / (double)s->count) {
                 take_edge(proof, s->piece[i].low);

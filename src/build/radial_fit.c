@@ -30,18 +30,10 @@ static const double INSIDE = 1e-3;      /* the cubic stays off 0 when its moment
 
 /* ---- knots ---- */
 
-/* How much P changes so near to r, as a part of the higher side. */
-static double change_at(const vndf_profile *profile, double r, double beside)
-{
-    double here = vndf_profile_p22(profile, r * (1 - beside)), there = vndf_profile_p22(profile, r * (1 + beside));
-    return fmax(here, there) * r * r > JUMP_MASS ? fabs(here - there) / fmax(here, there) : 0.0;
-}
-
-/* A slope that is merely steep changes less where it is seen from nearer. */
 static int jumps_at(const vndf_profile *profile, double r)
 {
-    double change = change_at(profile, r, BESIDE);
-    return change > JUMP_LEAST && change_at(profile, r, BESIDE / 8) > change / 2;
+    double here = vndf_profile_p22(profile, r * (1 - BESIDE)), there = vndf_profile_p22(profile, r * (1 + BESIDE));
+    return fabs(here - there) > JUMP_LEAST * fmax(here, there) && fmax(here, there) * r * r > JUMP_MASS;
 }
 
 int vndf_radial_fit_from(vndf_radial_fit *fit, const vndf_profile *profile)
