@@ -15,7 +15,7 @@ double vndf_side_share(const vndf_side *side, double y)
     double mass = vndf_side_area(side, y).mass;
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
-    return vndf_profile_fade(side->profile, mass / (side->profile->f1 * hypot(y, 1 - y)));
+    return vndf_profile_fade(side->profile, mass / (side->profile->f1 * hypot(y, 1 - y)), side->fade);
 }
 
 double vndf_side_least(const vndf_side *side)

@@ -9,7 +9,8 @@
 
 typedef struct vndf_side {
     const vndf_profile *profile;
-    int below; /* 1: the horizon; 0: above it */
+    int below;   /* 1: the horizon; 0: above it */
+    double fade; /* power of vndf_profile_fade */
 } vndf_side;
 
 /* Mass of the wedge per (s + |c|), with its derivatives by y. */

@@ -4,10 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by as much, areas by
+/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by half of it, since they
+ * cost less than rows and from below the horizon several are seen that are judged one at a time; areas by
  * less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
  * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
-static const double AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
+static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
 enum { PROMISE_BYTES = 8192 };
 
 static double area_error(size_t max_bytes, double error)
@@ -15,6 +16,11 @@ static double area_error(size_t max_bytes, double error)
     double most = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
     return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
 }
+
+/* Few bytes go where most is seen: errors deep below the horizon count for less, a third of their size where 1e-10
+ * of the area is left. */
+enum { SMALL_BYTES = 6000 };
+static const double FADE_OF_SMALL = 0.05;
 
 /* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
 static const double POLE_CELL = 1.0 / 512;
@@ -60,17 +66,19 @@ static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, dou
 /* Cells of an azimuth row: at most a few per cent of the bytes each. */
 static uint32_t most_cells_for(size_t max_bytes)
 {
-    return max_bytes < 6000 ? 12 : 32;
+    return max_bytes < SMALL_BYTES ? 12 : 32;
 }
 
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)
 {
     uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
-    vndf_side above = {profile, 0}, below = {profile, 1};
+    double fade = max_bytes < SMALL_BYTES ? FADE_OF_SMALL : 0.0;
+    vndf_side above = {profile, 0, fade}, below = {profile, 1, fade};
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
     plan->max_bytes = max_bytes;
+    plan->radial_fit.fade = fade;
     plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
         !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
@@ -110,7 +118,7 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
     double area = area_error(plan->max_bytes, error);
     vndf_table_size size;
-    size.radial = vndf_refinement_needed(&plan->radial, 0.5 * error) - 1;
+    size.radial = vndf_refinement_needed(&plan->radial, error / RADIAL_BETTER) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
     size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));

@@ -87,7 +87,7 @@ double vndf_profile_seen(const vndf_profile *profile, double s, double c);
  * distribution is less of the unit problem's; and never less than 1e-14 of that. */
 double vndf_profile_claimed(const vndf_profile *profile);
 
-/* What an error counts where this part is seen: all, down to what is claimed, and then next to nothing. */
-double vndf_profile_fade(const vndf_profile *profile, double seen);
+/* What an error counts where this part is seen: seen^power, down to what is claimed, and then next to nothing. */
+double vndf_profile_fade(const vndf_profile *profile, double seen, double power);
 
 #endif

@@ -229,7 +229,7 @@ double vndf_profile_claimed(const vndf_profile *profile)
     return 1e-10 * fmin(fmax(profile->scale, 1e-4), 1.0);
 }
 
-double vndf_profile_fade(const vndf_profile *profile, double seen)
+double vndf_profile_fade(const vndf_profile *profile, double seen, double power)
 {
-    return fmin(1.0, seen / vndf_profile_claimed(profile));
+    return pow(seen, power) * fmin(1.0, seen / vndf_profile_claimed(profile));
 }

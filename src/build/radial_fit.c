@@ -217,15 +217,16 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
 
 /* What the error of a cell counts for views below the horizon whose cut lies before it: its share of what is seen
  * from one scale of the tail before it, times the number of cells like it that are seen there with it. */
-static double share_of_deep_views(const vndf_profile *profile, double a, double b, vndf_moments m)
+static double share_of_deep_views(const vndf_radial_fit *fit, double a, double b, vndf_moments m)
 {
+    const vndf_profile *profile = fit->profile;
     double least = fmax(a / 2, 1e-30), s = vndf_profile_s(profile, fmax(a, 1e-30));
     double before = fmax(a - (b - a), least), slope = (vndf_profile_s(profile, before) - s) / (a - before);
     double rho = fmax(fmin(before, a - s / slope), least), seen = vndf_profile_s(profile, rho);
     if (!(a > least && slope > 0 && seen > 0))
         return 0.0;
     double share = (m.m1 + (a - rho) * m.m0) / seen * fmax(1.0, (a - rho) / (b - a));
-    return fmin(1.0, share) * vndf_profile_fade(profile, seen / profile->f1) / (1 + a * 1e-8);
+    return fmin(1.0, share) * vndf_profile_fade(profile, seen / profile->f1, fit->fade) / (1 + a * 1e-8);
 }
 
 vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
@@ -241,10 +242,10 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
     double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
     double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
-    double seen = vndf_profile_fade(fit->profile, s / s0) / (1 + a.r * 1e-8);
+    double seen = vndf_profile_fade(fit->profile, s / s0, fit->fade) / (1 + a.r * 1e-8);
     double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
     found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
-    double beyond = share_of_deep_views(fit->profile, a.r, b.r, m);
+    double beyond = share_of_deep_views(fit, a.r, b.r, m);
     found.alone = fmax(fmax(e.cut_inside * below * seen, e.all * beyond), e.cut_outside * outside);
     return found;
 }

@@ -15,6 +15,7 @@ typedef struct vndf_fit_knot {
 
 typedef struct vndf_radial_fit {
     const vndf_profile *profile;
+    double fade;       /* power of vndf_profile_fade */
     double *jump;      /* slopes where P jumps, ascending */
     size_t jump_count;
 } vndf_radial_fit;
