@@ -30,6 +30,9 @@ typedef struct vndf_profile_point {
 /* Where panels are cut: a jump in the middle would be half of either rule, and pass for smooth. */
 #define VNDF_UNEVEN 0.43
 
+/* What a bound (vndf_reach) costs, to a value. */
+#define VNDF_REACH_OPERATIONS 12
+
 /* Below the horizon an error counts by this power of the area that is seen: a quarter where 1e-12 is left. */
 #define VNDF_FADE 0.05
 
