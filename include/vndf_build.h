@@ -135,7 +135,8 @@ VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const v
                                   vndf_certificate *certificate, vndf_error *error);
 
 /* The truth by adaptive quadrature of the source, in double: normalised P22 and the projected area of the unit
- * problem at the angle theta (radians, 0 to pi), to 1e-8 of it where P22 is smooth. An oracle; slow. */
+ * problem at the angle theta (radians, 0 to pi), to 1e-8 of it where P22 is smooth. Narrow features: as a build with
+ * zeroed options. An oracle; slow. */
 typedef struct vndf_truth vndf_truth;
 VNDF_API vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error);
 VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);

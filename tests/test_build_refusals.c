@@ -39,6 +39,7 @@ static const char *const resolved[] = {
     "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "r^100/cosh(r)", /* far out infinity times 0 and over infinity */
     "1e-305*exp(-r*r)", "exp(-((r-1.37)/2e-5)^2)",
     "exp(-r)/sqrt(abs(r^2-2))", /* infinite, but at no double */
+    "(1-cos(r))/r^2*exp(-r)", /* few digits near 0 */
 };
 
 static vndf_distribution *build(const char *slope, vndf_error *error)

@@ -260,7 +260,7 @@ run(2 plot table.vndf --theta 0,1,2,3,4,5,6,7,8 -o none.svg)
 file(GLOB names RELATIVE ${OUT} ${OUT}/*)
 string(REPLACE ";" " " names "${names}")
 expect("there are files that should not be: ${names}"
-    names STREQUAL "a.csv a.f32 b.csv c.csv figure.svg masking.csv stdin.txt table.vndf")
+    names STREQUAL "a.csv a.f32 b.csv breaks.vndf c.csv figure.svg masking.csv stdin.txt table.vndf")
 
 if(failures)
     message(FATAL_ERROR "${failures} failed")

@@ -149,7 +149,7 @@ endfunction()
 
 file(STRINGS ${SOURCE}/tables/manifest.csv rows)
 list(POP_FRONT rows header)
-if(NOT header MATCHES "^file,command,(bytes,crc32,tool,tv,tv_theta,max_weight,weight_bounded,.*)$")
+if(NOT header MATCHES "^file,command,(bytes,crc32,tool,tv,tv_theta,tv_above,tv_above_theta,max_weight,weight_bounded,.*)$")
     message(FATAL_ERROR "tables/manifest.csv begins with '${header}'")
 endif()
 string(REPLACE "," ";" columns "${CMAKE_MATCH_1}")

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "math/ascending.h"
 
-enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_MAX = 40 };
+enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
 static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
@@ -115,6 +115,17 @@ static int stopped(const vndf_profile *profile)
     return profile->rough || vndf_guard_stopped(profile->guard);
 }
 
+/* What rounding inside a formula, as in 1 - cos r, may add to m0: twice what bounds at one slope are apart. */
+static double roughness(const vndf_profile *profile, double u0, double u1)
+{
+    double r = exp((u0 + u1) / 2) * profile->scale;
+    if (!profile->source->reach || !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
+        return 0.0;
+    vndf_reach at = profile->source->reach(profile->source, r, r);
+    double width = profile->normalization * (at.high - at.low) * r * r;
+    return width < HUGE_VAL ? 2 * width * (u1 - u0) : 0.0;
+}
+
 static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least)
 {
     double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
@@ -123,6 +134,8 @@ static void resolve(vndf_profile *profile, double u0, double u1, estimate whole,
     if (stopped(profile))
         return;
     double slack = least + whole.noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    if (depth >= DEPTH_ROUGH)
+        slack += roughness(profile, u0, u1);
     int good = agree(sum.m0, whole.m0, part, slack) && agree(sum.m1, whole.m1, part, slack * gap);
     if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
         push(profile, u0, sum, !good);

@@ -3,8 +3,11 @@
  * The canonical distribution P(R) = normalization scale^2 p22(scale R) + floor has 2 pi integral P R dR = 1 and
  * median R = 1. The floor, 1e-26/(1 + R^2)^2, is too small for any measurement and keeps a density positive on
  * the whole hemisphere. Panels are even in log R, at most an octave wide, cut in two until ten Gauss points
- * agree with twice ten to 1e-10 of the panel, or until that was done forty times: then there is a jump. All
- * integrals below are sums over panels, with relative precision near the pole (E) and in the tail (S). */
+ * agree with twice ten to 1e-10 of the panel, or as far as rounding lets them, or until that was done forty times:
+ * then there is a jump. What lies between the points is looked at in proof.c; where that finds more, panels are made
+ * anew with edges there. All integrals below are sums over panels, with relative precision near the pole (E) and in
+ * the tail (S).
+ */
 #ifndef VNDF_BUILD_PROFILE_H
 #define VNDF_BUILD_PROFILE_H
 
@@ -30,6 +33,9 @@ typedef struct vndf_profile_point {
 /* Where panels are cut: a jump in the middle would be half of either rule, and pass for smooth. */
 #define VNDF_UNEVEN 0.43
 
+/* What a bound (vndf_reach) costs, to a value. */
+#define VNDF_REACH_OPERATIONS 12
+
 typedef struct vndf_profile {
     const vndf_source *source;
     char *description;              /* of the source and of how closely it is looked at; owned */
@@ -45,8 +51,8 @@ typedef struct vndf_profile {
     int unsettled;                  /* two passes found different masses */
     double *edge;                   /* slopes in the source's unit where panels end besides its own breaks, */
     size_t edge_count;              /* ascending */
-    double hidden;                  /* of the mass, or of the area at grazing incidence, that may be missed: at most */
-    double finest;                  /* 0 if that is proven; else the relative width that points were looked at */
+    double hidden;                  /* of the mass, or of the area at grazing incidence, may be missed: at most; 1 if */
+    double finest;                  /* this is not 0 but the relative width down to which the source was sampled */
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:

@@ -12,7 +12,6 @@ static const double STRAY = 5e-6, MISS = 5e-6; /* of all: proven, and found but 
 static const double NOTHING = 1e-200;          /* of a P22 that is nowhere more than this */
 static const double NARROW = 4e-16;            /* of its slope: a piece that cannot be halved */
 static const double BESIDE = 1e-13;            /* pieces end on both sides of a known break */
-static const double REACH_OPERATIONS = 12;     /* of a bound, to one of a value */
 
 /* From slope low to high, in the source's unit: how much of the integral of P22 r^2 du may stray, and what the value
  * in the middle says of that integral. */
@@ -52,7 +51,7 @@ static void look(const state *s, piece *p)
 {
     const vndf_profile *profile = s->profile;
     vndf_reach reach = {0, 0, 0};
-    if (vndf_guard_spend(profile->guard, REACH_OPERATIONS * profile->source->operations))
+    if (vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
         reach = profile->source->reach(profile->source, p->low, p->high);
     int pole = isinf(reach.stray) && is_narrow(p);
     p->stray = pole ? between_doubles(profile, p) : profile->normalization * reach.stray;
