@@ -112,7 +112,7 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * says which it was (vndf_certificate: hidden, finest). */
 typedef struct vndf_build_options {
     size_t max_bytes;         /* size of the file at most, from 2048 to 1 MiB; 0: 16384, or with no max_tv either up
-                               * to 32768 where the total variation would exceed 1e-3: narrow rings, oscillations */
+                               * to 32768 where that brings the total variation below 1e-3: oscillations, say */
     double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
     vndf_progress *progress;  /* may be NULL */
     void *progress_user;

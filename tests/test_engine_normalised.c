@@ -112,7 +112,7 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
     const vndf_wedge *side = vndf_wedge_of(g.table, (double)wi.z);
     vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(g.view.s, g.view.c));
-    g.parts = g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
+    g.parts = g.table->radial_count < 16 ? 24 : g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
     g.s = hypot(x, y);
     g.c = wi.z;
     if (g.s > 0) {

@@ -156,7 +156,7 @@ static void test_table(int subject)
         double want = (double)vndf_ndf(&surface, wm) / (4.0 * i[2]) *
                       (double)vndf_g2(&surface, view.wi, wo, VNDF_G2_HEIGHT_CORRELATED);
         vndf_walk_eval(&walk, &view, wo, 1, value);
-        TEST_NEAR(value[0], want, 1e-4 * want);
+        TEST_NEAR(value[0], want, 1e-4 * want + 1e-21); /* rounding of wm shows in D's far tail */
     }
     walk_subject_free(d);
 }

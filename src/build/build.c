@@ -10,9 +10,13 @@
 
 enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
 
-/* Nobody asked for a size: the first of these whose table has this total variation, or else the last. */
+/* Nobody asked for a size: the first of these whose table has this total variation, or else the first that can be. */
 static const size_t BYTES_TRIED[] = {BYTES_DEFAULT, 24576, 32768};
 static const double TV_DEFAULT = 1e-3;
+
+/* Where the fits err so much, more bytes are what a table needs, and fewer none that works: errors of the parts add
+ * up, and that of all of them is 1 at most. */
+static const double ERROR_MOST = 2.0;
 
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
@@ -41,10 +45,10 @@ static int fits(const vndf_plan *plan, double error, size_t max_bytes)
 /* The least error for which the table is small enough, or 0. */
 static double error_for_bytes(const vndf_plan *plan, size_t max_bytes)
 {
-    double low = log(plan->finest), high = log(0.5);
+    double low = log(plan->finest), high = log(ERROR_MOST);
     if (fits(plan, plan->finest, max_bytes))
         return plan->finest;
-    if (!fits(plan, 0.5, max_bytes))
+    if (!fits(plan, ERROR_MOST, max_bytes))
         return 0.0;
     for (int i = 0; i < 40; i++) {
         double middle = (low + high) / 2;
@@ -88,7 +92,7 @@ static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
 /* The smallest table with a measured TV of at most max_tv, or NULL and what was reached. */
 static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_tv, vndf_error *error)
 {
-    double low = log(best), high = log(fmax(fmin(2 * max_tv, 0.5), best));
+    double low = log(best), high = log(fmax(fmin(2 * max_tv, ERROR_MOST), best));
     vndf_distribution *table = finish(plan, best, error);
     if (table && table->certificate.tv > max_tv) {
         vndf_fail(error, VNDF_ERROR_TARGET,
@@ -122,7 +126,7 @@ static vndf_distribution *cut_table(vndf_plan *plan, size_t max_bytes, double ma
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)max_bytes,
-                  (unsigned long)file_bytes(vndf_plan_size(plan, 0.5), plan->profile->description));
+                  (unsigned long)file_bytes(vndf_plan_size(plan, ERROR_MOST), plan->profile->description));
         return NULL;
     }
     return max_tv > 0.0 ? build_to_tv(plan, best, max_tv, error) : finish(plan, best, error);
@@ -146,11 +150,10 @@ static vndf_distribution *build_default(const vndf_profile *profile, vndf_error 
     vndf_distribution *table = NULL;
     for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
         vndf_distribution *larger = build_within(profile, BYTES_TRIED[i], 0.0, error);
-        if (larger) {
-            vndf_free(table);
-            table = larger;
-        }
-        if (vndf_guard_stopped(profile->guard) || (larger && larger->certificate.tv <= TV_DEFAULT))
+        int good = larger && larger->certificate.tv <= TV_DEFAULT;
+        vndf_free(table && !good ? larger : table);
+        table = table && !good ? table : larger;
+        if (good || vndf_guard_stopped(profile->guard))
             break;
     }
     return table;

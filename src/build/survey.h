@@ -19,9 +19,10 @@ typedef struct vndf_survey_stretch {
     uint32_t cell, first, count; /* points */
 } vndf_survey_stretch;
 
-/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR. */
+/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR; and how far the rounding of a
+ * normal to float moves xi, 0 where that is nothing beside the stretch. */
 typedef struct vndf_survey_node {
-    double xi, weight, r, mass;
+    double xi, weight, r, mass, rounding;
 } vndf_survey_node;
 
 typedef struct vndf_survey {
@@ -34,6 +35,7 @@ typedef struct vndf_survey {
     size_t count, capacity;
     double area;                /* true area of the direction, for s + |c| = 1 */
     double lack;                /* of its drawn mass, for what the samples leave out */
+    double blur;                /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_survey;
 
 typedef struct vndf_finding {
