@@ -179,14 +179,6 @@ static void test_operations(void)
 
 /* ---- what a build asks while it runs ---- */
 
-static int count(double done, const char *what, void *user)
-{
-    (void)done;
-    (void)what;
-    ++*(long *)user;
-    return 0;
-}
-
 /* Between two questions whether to go on, the processor time of the longest silence. */
 typedef struct asked {
     long times;

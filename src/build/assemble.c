@@ -8,7 +8,7 @@
  * cost less than rows and from below the horizon several are seen that are judged one at a time; areas by
  * less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
  * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
-static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 1e-6;
+static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
 enum { PROMISE_BYTES = 8192 };
 
 static double area_error(size_t max_bytes, double error)
