@@ -65,8 +65,8 @@ static double place_of(knots k, double r)
     return inner / (inner + outer);
 }
 
-/* What rounding of its parts to float does to the slope of a normal, relative to it, in the mean; and what of that shows, as a
- * part of a stretch: next to the edge of a compact support so little is seen that it is thousands of floats. */
+/* What rounding of its parts to float does to the slope of a normal, relative to it, in the mean; and from which
+ * part of a stretch on that shows: at the edge of a compact support what is seen is thousands of floats wide. */
 static const double FLOAT_ROUNDING = 2.8e-8, ROUNDING_LEAST = 1e-5;
 
 /* f of a cell changes by more than this: it takes the finer rule. */
@@ -216,7 +216,7 @@ static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s
                 add_node(v, at, &piece, j, v->node + s[n].first + i);
 }
 
-static const double POINT_OPERATIONS = 2;
+static const double POINT_OPERATIONS = 2; /* of a density at a point */
 
 /* Every radial cell that is seen, the one at the cut up to the cut. */
 static void add_azimuth(vndf_survey *v, const ray *at)
@@ -375,7 +375,7 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
         truth += v->samples[i].truth;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);
     }
-    f.tv = (miss + fabs(truth - 1) + v->blur) / 2; /* what the points do not see of the truth is missed, too */
+    f.tv = fmin((miss + fabs(truth - 1) + v->blur) / 2, 1); /* what no point sees of the truth is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
     f.max_weight = weight_of(v);
     return f;
