@@ -142,6 +142,19 @@ static void add_kernel(kernel *sum, kernel more, double weight)
     sum->curve += weight * more.curve;
 }
 
+/* The same for any length, in steps of a ratio at which the rule errs by less than 1e-9: in t a panel of an octave
+ * that begins at k would err by 4e-6 where P falls as exp(-3 R). */
+static kernel near_panels(const vndf_profile *profile, double k, double from, double to, kernel_function *at)
+{
+    const double ratio = 1.15;
+    kernel sum = {0.0, 0.0, 0.0};
+    for (double end; from < to; from = end) {
+        end = ratio * from < to ? ratio * from : to;
+        add_kernel(&sum, near_panel(profile, k, from, end, at), 1.0);
+    }
+    return sum;
+}
+
 /* integral from k outwards. Up to 3 k the root of the kernel is felt, and the panels are integrated anew. */
 static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
 {
@@ -152,7 +165,7 @@ static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
     for (; i < count && profile->panel[i].r < 3 * k; i++) {
         double from = profile->panel[i].r > k ? profile->panel[i].r : k;
         if (profile->panel[i + 1].r > from)
-            add_kernel(&sum, near_panel(profile, k, from, profile->panel[i + 1].r, at), 1.0);
+            add_kernel(&sum, near_panels(profile, k, from, profile->panel[i + 1].r, at), 1.0);
     }
     for (i *= VNDF_GAUSS; i < count * VNDF_GAUSS; i++)
         add_kernel(&sum, at(profile->point[i].r, k), profile->point[i].weight);
