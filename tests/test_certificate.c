@@ -172,7 +172,7 @@ static void test_subject(const struct subject *s, int count)
 static void test_needles(void)
 {
     static const struct { const char *p22; float least, most; } needles[] = {
-        {"exp(-r)+1e5*exp(-((r-1.2345)/1e-6)^2)", 0.12f, 0.14f},
+        {"exp(-r)+1e5*exp(-((r-1.2345)/1e-6)^2)", 0.12f, 0.17f},
         {"exp(-r)+1e6*exp(-((r-1.2345)/1e-7)^2)", 0.165f, 0.185f},
     };
     for (size_t i = 0; i < sizeof needles / sizeof *needles; i++) {
@@ -200,7 +200,7 @@ static void test_edge(void)
         double slope = (double)table->knots.x[j] / (double)table->knots.z[j] * table->scale;
         nearest = fabs(slope - 1) < fabs(nearest) ? slope - 1 : nearest;
     }
-    if (!TEST(nearest >= -1e-12 && nearest < 2e-8))
+    if (!TEST(nearest >= -1e-12 && nearest < 3e-8))
         fprintf(stderr, "  the knot stands %.3g beyond the edge\n", nearest);
     vndf_free(table);
     vndf_source_free(source);
@@ -218,6 +218,7 @@ static void test_horizon(void)
         TEST(table != NULL);
         TEST_NEAR(claim.horizon_power, cases[i].power, 1e-3);
         TEST(claim.weight_bounded == (float)(cases[i].power == 0));
+        TEST(cases[i].power == 0 ? claim.max_weight < 3 : claim.max_weight > 1000); /* 1e-6 is far out there */
         TEST(claim.tv_above <= claim.tv && claim.tv_above > 0 && claim.tv_above_theta <= 90);
         vndf_free(table);
         vndf_source_free(source);

@@ -7,6 +7,8 @@
 
 #include "oracle.h"
 #include "table/table.h"
+#include "sampler/engine.h"
+#include "sampler/frame.h"
 #include "sampler/stretch.h"
 #include "test.h"
 
@@ -25,7 +27,7 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
     double across = x * view->alpha_x, l = hypot(across, z);
     vndf_vec3 wm = {(float)(across * cosine / l), (float)(across * sine / l), (float)(z / l)};
     float u1, u2;
-    vndf_invert(view, wm, &u1, &u2);
+    vndf_engine_invert(view, vndf_to_unit(view, wm), &u1, &u2); /* the law, not the number nearest in floats */
     return u2;
 }
 

@@ -56,6 +56,19 @@ static void test_form(const form *f, double scale)
     vndf_source_free(source);
 }
 
+/* Areas of exp(-r)/(2 pi) down to 1e-8 of that at grazing incidence, by quadrature with 30 digits. */
+static void test_deep_areas(void)
+{
+    static const struct { double theta, area; } deep[] = {
+        {150, 0.073703088805636}, {170, 6.89553179981653e-4}, {176.43, 1.17646841603251e-8}};
+    vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
+    vndf_truth *truth = source ? vndf_truth_from(source, NULL) : NULL;
+    for (size_t i = 0; TEST(truth != NULL) && i < sizeof deep / sizeof *deep; i++)
+        TEST_RELATIVE(vndf_truth_area(truth, deep[i].theta * 3.14159265358979323846 / 180), deep[i].area, 1e-9);
+    vndf_truth_free(truth);
+    vndf_source_free(source);
+}
+
 int main(void)
 {
     static const form forms[] = {{"7*(1+(r/a)^2)^-2", ggx_p22, ggx_area, 170},
@@ -67,5 +80,6 @@ int main(void)
     }
     TEST(vndf_truth_from(NULL, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
     vndf_truth_free(NULL);
+    test_deep_areas();
     return test_done();
 }

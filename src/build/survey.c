@@ -153,16 +153,28 @@ static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *
     return good && add_stretch(v, j, at, to);
 }
 
+/* The last cell has no end: a light tail is over next to where it begins, a heavy one holds some of the mass as far
+ * out as there are doubles, and is drawn there with a density that has a limit. */
+static int add_last(vndf_survey *v, size_t *panel)
+{
+    static const double ends[] = {0,       1.0 / 256, 1.0 / 64, 1.0 / 16,  0.25,     0.5,       0.75,
+                                  0.9375, 1 - 1e-3,  1 - 1e-5, 1 - 1e-7,  1 - 1e-9, 1 - 1e-12, 1};
+    int good = 1;
+    for (size_t i = 0; i + 1 < sizeof ends / sizeof *ends && good; i++)
+        good = add_part(v, v->table->radial_count - 1, ends[i], ends[i + 1], panel);
+    return good;
+}
+
 static int add_stretches(vndf_survey *v)
 {
     uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
     size_t panel = 0;
     int good = 1;
-    for (uint32_t i = 0; i < v->table->radial_count * parts && good; i++) {
+    for (uint32_t i = 0; i < (v->table->radial_count - 1) * parts && good; i++) {
         double part = i % parts;
         good = add_part(v, i / parts, part / parts, (part + 1) / parts, &panel);
     }
-    return good;
+    return good && add_last(v, &panel);
 }
 
 /* ---- one azimuth ---- */
