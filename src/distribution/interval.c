@@ -118,9 +118,26 @@ vndf_interval vndf_interval_negative(vndf_interval a)
     return b;
 }
 
+static int is_number(vndf_interval a, double x)
+{
+    return a.low.m == x && a.high.m == x && a.low.e == 0 && a.high.e == 0;
+}
+
+/* Whole numbers so small that their sum and product are exact: counts, signs, what a function saturates at. Nothing
+ * is widened that was not rounded, so that 1 - tanh(r)^2 is 0 where tanh is 1. */
+static int is_small_whole(vndf_interval a)
+{
+    double x = a.low.m;
+    return is_number(a, x) && fabs(x) < 0x1p26 && floor(x) == x;
+}
+
 vndf_interval vndf_interval_sum(vndf_interval a, vndf_interval b)
 {
     vndf_interval sum;
+    if (is_number(a, 0) || is_number(b, 0))
+        return is_number(a, 0) ? b : a;
+    if (is_small_whole(a) && is_small_whole(b))
+        return vndf_interval_from(a.low.m + b.low.m, a.low.m + b.low.m);
     if (plain(a, b) && widened_plainly(a.low.m + b.low.m, a.high.m + b.high.m, &sum))
         return sum;
     return widened(vndf_wide_plus(a.low, b.low), vndf_wide_plus(a.high, b.high), ROUNDING);
@@ -151,6 +168,10 @@ static vndf_interval product_of_wides(vndf_interval a, vndf_interval b)
 vndf_interval vndf_interval_product(vndf_interval a, vndf_interval b)
 {
     vndf_interval product;
+    if (is_number(a, 1) || is_number(b, 1))
+        return is_number(a, 1) ? b : a;
+    if (is_small_whole(a) && is_small_whole(b))
+        return vndf_interval_from(a.low.m * b.low.m, a.low.m * b.low.m);
     if (!plain(a, b))
         return product_of_wides(a, b);
     double p = a.low.m * b.low.m, q = a.low.m * b.high.m, r = a.high.m * b.low.m, s = a.high.m * b.high.m;
@@ -235,6 +256,8 @@ vndf_interval vndf_interval_log(vndf_interval x)
 static vndf_wide power_end(vndf_wide x, double exponent, int outwards)
 {
     double size = exponent * logarithm(x);
+    if (x.m == 1 && x.e == 0)
+        return x;
     if (x.m <= 0)
         return vndf_wide_from(exponent > 0 ? 0 : HUGE_VAL);
     if (x.e == 0 && fabs(size) < 270)
