@@ -110,9 +110,10 @@ VNDF_API const vndf_distribution *vndf_ggx(void);
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured on a table, after rounding to float, against quadrature of the D it was
- * given, over incident directions from 0 to 180 degrees where the projected area exceeds 1e-10 of its
- * value at grazing incidence; worst where its azimuth rows, its radial cells and the edge of what is seen lie
- * worst, which is where the builder looks. All zero for the closed forms.
+ * given, over incident directions from 0 to 180 degrees where the projected area at alpha = 1 exceeds 1e-10 of
+ * its value at grazing incidence (1e-14 / scale of it for a median slope, vndf_info.scale, below 1e-4). It looks
+ * where errors peak: between azimuth rows, inside radial cells, and at the edge of what is seen. All zero for the
+ * closed forms.
  *
  * hidden and finest say how well the builder knew D. Of a formula it has a proof, of a family and a CSV it knows
  * every scale: finest is 0, and no more than `hidden` of the mass or of the area at grazing incidence can have

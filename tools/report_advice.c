@@ -3,7 +3,8 @@
  * Any table is right with its weight; what it costs is noise, rare bright samples, and, for those who leave the
  * weight out, bias. So the advice is the smallest table that keeps four limits, over all directions from 0 to 180
  * degrees:
- *     the largest weight is at most 2: no sample is brighter by more than it would be by chance;
+ *     the largest weight of the samples tried is at most 2: none is brighter by more than it would be by chance
+ *         (the certificate's is larger: it looks where 1e-10 of the area is left);
  *     the weights add at most 1% to the variance: nobody can see that;
  *     total variation is at most 1e-3: without the weight, what is off stays below half a step of 8 bits;
  *     areas, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not mend them.
@@ -25,7 +26,7 @@ typedef struct verdict {
 static verdict judge(const report_table *t)
 {
     const vndf_certificate *c = &t->info.certificate;
-    verdict v = {{(double)c->max_weight, t->worst.variance, t->tv, (double)c->area_error}, {0, 0, 0, 0}};
+    verdict v = {{t->worst.max_weight, t->worst.variance, t->tv, (double)c->area_error}, {0, 0, 0, 0}};
     const double limit[LIMITS] = {most_weight, most_variance, most_tv, most_area};
     for (int i = 0; i < LIMITS; i++)
         v.kept[i] = v.value[i] <= limit[i];
