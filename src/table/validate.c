@@ -10,10 +10,11 @@ static int in_range(float value, float least, float most)
     return value >= least && value <= most;
 }
 
+/* From 0 to 1, by steps whose inverse is a float, with room for products: the builder's are above 1e-10. */
 static int ascending(const float *values, uint32_t count)
 {
     for (uint32_t i = 0; i + 1 < count; i++)
-        if (!(values[i] < values[i + 1]))
+        if (!(values[i + 1] - values[i] > 1e-12f))
             return 0;
     return values[0] == 0.0f && values[count - 1] == 1.0f;
 }
