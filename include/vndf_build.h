@@ -78,8 +78,8 @@ VNDF_API void vndf_source_free(vndf_source *source);
 /* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they
  * take, not by seconds, so that the same input gives the same result on every machine: an evaluation of P22
  * counts as 8 operations (16 for a mix), for a formula as 4, 8 for each power and function in it but abs, min, max
- * and step, and one for each of these, of the numbers, names and other operators. An operation takes some 4 to 12 ns, so that no formula takes more than
- * minutes; the time of a callback is its own. Memory stays below 512 MiB. */
+ * and step, and one for each of these, of the numbers, names and other operators. An operation takes some 4 to 12
+ * ns, so that no formula takes more than minutes; the time of a callback is its own. Memory stays below 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096,     /* characters */
     VNDF_LIMIT_EXPRESSION_DEPTH = 64,        /* parentheses, calls, signs and powers inside each other */

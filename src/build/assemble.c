@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors: azimuth rows may each miss by `error`, all radial cells together by half of it, since they
- * cost less than rows and from below the horizon several are seen that are judged one at a time; areas by
- * less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
+/* The budget of errors. Azimuth rows may each miss by `error`. All radial cells together may miss by half of it: they
+ * cost less than rows, and a view from below the horizon sees several that are judged one at a time. Areas may miss
+ * by less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
  * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
 static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
 enum { PROMISE_BYTES = 8192 };

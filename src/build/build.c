@@ -10,12 +10,12 @@
 
 enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
 
-/* Nobody asked for a size: the first of these whose table has this total variation, or else the first that can be. */
+/* Where nobody asked for a size, the first of these whose table reaches this total variation; where none does, the
+ * smallest that can be built. */
 static const size_t BYTES_TRIED[] = {BYTES_DEFAULT, 24576, 32768};
 static const double TV_DEFAULT = 1e-3;
 
-/* Where the fits err so much, more bytes are what a table needs, and fewer none that works: errors of the parts add
- * up, and that of all of them is 1 at most. */
+/* The coarsest table that is offered: fits that err by more leave a total variation near 1, its maximum. */
 static const double ERROR_MOST = 2.0;
 
 static const char TOOL[] = "vndf " VNDF_VERSION;
@@ -150,9 +150,9 @@ static vndf_distribution *build_default(const vndf_profile *profile, vndf_error 
     vndf_distribution *table = NULL;
     for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
         vndf_distribution *larger = build_within(profile, BYTES_TRIED[i], 0.0, error);
-        int good = larger && larger->certificate.tv <= TV_DEFAULT;
-        vndf_free(table && !good ? larger : table);
-        table = table && !good ? table : larger;
+        int good = larger && larger->certificate.tv <= TV_DEFAULT, taken = good || !table;
+        vndf_free(taken ? table : larger);
+        table = taken ? larger : table;
         if (good || vndf_guard_stopped(profile->guard))
             break;
     }

@@ -6,8 +6,7 @@
  * agree with twice ten to 1e-10 of the panel, or as far as rounding lets them, or until that was done forty times:
  * then there is a jump. What lies between the points is looked at in proof.c; where that finds more, panels are made
  * anew with edges there. All integrals below are sums over panels, with relative precision near the pole (E) and in
- * the tail (S).
- */
+ * the tail (S). */
 #ifndef VNDF_BUILD_PROFILE_H
 #define VNDF_BUILD_PROFILE_H
 

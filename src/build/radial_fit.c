@@ -215,6 +215,13 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
     return n;
 }
 
+/* What errors at slope r count for a view below the horizon that sees this part of the area at grazing incidence:
+ * nothing where the slope is next to infinite. */
+static double weight_of_view(const vndf_radial_fit *fit, double seen, double r)
+{
+    return vndf_profile_fade(fit->profile, seen, fit->fade) / (1 + r * 1e-8);
+}
+
 /* What the error of a cell counts for views below the horizon whose cut lies before it: its share of what is seen
  * from one scale of the tail before it, times the number of cells like it that are seen there with it. */
 static double share_of_deep_views(const vndf_radial_fit *fit, double a, double b, vndf_moments m)
@@ -226,7 +233,7 @@ static double share_of_deep_views(const vndf_radial_fit *fit, double a, double b
     if (!(a > least && slope > 0 && seen > 0))
         return 0.0;
     double share = (m.m1 + (a - rho) * m.m0) / seen * fmax(1.0, (a - rho) / (b - a));
-    return fmin(1.0, share) * vndf_profile_fade(profile, seen / profile->f1, fit->fade) / (1 + a * 1e-8);
+    return fmin(1.0, share) * weight_of_view(fit, seen / profile->f1, a);
 }
 
 vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
@@ -242,7 +249,7 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);
     double all = m.m0 / fit->profile->f0, grazing = (m.m1 + a.r * m.m0) / s0;
     double s = vndf_profile_s(fit->profile, a.r > 0 ? a.r : 1e-30), below = s > 0 ? m.m1 / s : 0.0;
-    double seen = vndf_profile_fade(fit->profile, s / s0, fit->fade) / (1 + a.r * 1e-8);
+    double seen = weight_of_view(fit, s / s0, a.r);
     double outside = b.z > 0.0f ? ((b.r - a.r) * m.m0 - m.m1) / b.r / fit->profile->f0 : 0.0;
     found.share = fmax(fmax(e.all, e.cubic / 4) * all, e.grazing * grazing);
     double beyond = share_of_deep_views(fit, a.r, b.r, m);

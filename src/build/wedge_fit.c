@@ -94,7 +94,7 @@ static void set_aspect(const vndf_wedge_fit *fit, vndf_row *row)
 
 /* ---- cells of q ---- */
 
-/* Directions by which cells are judged. */
+/* Cells are judged by so many directions, even in y. */
 enum { JUDGE_COUNT = 40 };
 
 typedef struct judge {
@@ -285,8 +285,7 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
     return fmax(by_mass, by_density) / 2;
 }
 
-/* Where a quadratic through both ends and the middle misses most, and where what is seen fades out between
- * them. */
+/* Where a quadratic through both ends and the middle misses most, and on either side of that. */
 static const double PROBES[] = {0.1, 0.22, 0.35, 0.65, 0.78, 0.9};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
