@@ -36,7 +36,7 @@ VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_
 
 /* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
  * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped. Rows
- * are joined by shape-preserving interpolation; see src/distribution/csv.h for the rule of the tail. */
+ * are joined by shape-preserving interpolation; see src/source/csv/csv.h for the rule of the tail. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size,
                                            vndf_error *error);

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "arguments.h"
+#include "cli/arguments.h"
 #include "command.h"
-#include "files.h"
-#include "output.h"
+#include "cli/files.h"
+#include "cli/output.h"
 #include "vndf.h"
 
 typedef struct subcommand {

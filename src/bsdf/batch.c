@@ -1,4 +1,4 @@
-/* The calls of many. Visible normals are drawn in lanes (sampler/batch.c), a block at a time; the rest is done one
+/* The calls of many. Visible normals are drawn in lanes (sampler/batch/sample.c), a block at a time; the rest is done one
  * after the other, with what the call of one does after it has drawn, so the bits are the same. */
 #include "bsdf/routines.h"
 #include "math/vector.h"

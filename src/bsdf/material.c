@@ -1,11 +1,11 @@
 /* A description becomes a material: the one place where effects are looked at. */
 #include "bsdf/material.h"
 
-#include "bsdf/dielectric.h"
-#include "bsdf/fresnel.h"
-#include "bsdf/masking.h"
-#include "bsdf/multiple.h"
-#include "bsdf/rotated.h"
+#include "bsdf/lobes/dielectric.h"
+#include "bsdf/terms/fresnel.h"
+#include "bsdf/terms/masking.h"
+#include "bsdf/walk/multiple.h"
+#include "bsdf/lobes/rotated.h"
 #include "core/error.h"
 #include "math/elementary.h"
 #include "math/half_turn.h"

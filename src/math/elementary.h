@@ -1,5 +1,5 @@
 /* exp, log, log1p, erfc and atan2 from + - * / and sqrt alone, so that closed forms give the same bits with every
- * C library. Relative errors, measured by tests/test_elementary.c against long double: exp and log below 4e-16
+ * C library. Relative errors, measured by tests/core/test_elementary.c against long double: exp and log below 4e-16
  * (exp beyond 700 either way 1e-15), log1p and atan2 below 8e-16, half_erfc below 3e-9.
  *
  *   exp    x = k log 2 + r, |r| <= (log 2)/2: 1 + r + r^2 times a polynomial of degree 9 (error 1.6e-17),

@@ -10,7 +10,7 @@
 #ifndef VNDF_MATH_ERFC_REMAINDER_H
 #define VNDF_MATH_ERFC_REMAINDER_H
 
-#include "math/doubles.h"
+#include "simd/doubles.h"
 
 /* N = above/below, for those who divide by other things too. */
 typedef struct vndf_erfc_quotient {

@@ -8,7 +8,7 @@
 #ifndef VNDF_MATH_HALF_TURN_H
 #define VNDF_MATH_HALF_TURN_H
 
-#include "math/lanes.h"
+#include "simd/lanes.h"
 
 typedef struct vndf_turn {
     lanes_f sine, cosine;

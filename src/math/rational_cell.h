@@ -14,7 +14,7 @@
 #ifndef VNDF_MATH_RATIONAL_CELL_H
 #define VNDF_MATH_RATIONAL_CELL_H
 
-#include "math/lanes.h"
+#include "simd/lanes.h"
 
 typedef struct vndf_rational_cell {
     lanes_f e0, e1, mass;

@@ -1,7 +1,7 @@
 #include "sampler/given_normal.h"
 
-#include "sampler/engine.h"
-#include "sampler/given_closed.h"
+#include "sampler/tabulated/theory.h"
+#include "sampler/analytic/density.h"
 
 static vndf_given given_from(double ax, double ay, vndf_vec3 wi, vndf_normal wm)
 {

@@ -2,8 +2,8 @@
 #include "sampler/surface.h"
 
 #include "math/vector.h"
-#include "sampler/engine.h"
-#include "sampler/given_closed.h"
+#include "sampler/tabulated/theory.h"
+#include "sampler/analytic/density.h"
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {

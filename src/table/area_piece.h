@@ -5,8 +5,8 @@
 #ifndef VNDF_TABLE_AREA_PIECE_H
 #define VNDF_TABLE_AREA_PIECE_H
 
-#include "math/doubles.h"
-#include "math/lanes_lines.h"
+#include "simd/doubles.h"
+#include "simd/lanes_lines.h"
 #include "table/guide.h"
 #include "table/table.h"
 

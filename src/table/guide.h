@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "math/doubles.h"
+#include "simd/doubles.h"
 #include "table/table.h"
 
 /* The bits of a float >= 0 grow with it. */

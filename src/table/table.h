@@ -1,6 +1,6 @@
 /* The table in memory: what a distribution is to the sampler.
  *
- * The unit problem (sampler/engine.h derives it) needs three things, all for the distribution at a
+ * The unit problem (sampler/tabulated/theory.h derives it) needs three things, all for the distribution at a
  * canonical scale (median slope 1; `scale` brings it back):
  *
  * Radial cells. The slope length R = X/Z is cut by knots (X_j, Z_j), X + Z = 1, from (0, 1) to (1, 0);
@@ -58,7 +58,7 @@ typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
     float x0, x1, z0, z1;        /* the knots */
     float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
-    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/radial.h), 2 if
+    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/tabulated/radial.h), 2 if
                                   * those beside it are calm too and D does not jump at its ends */
     float a, b, e, g;            /* e, g: sums once more */
 } vndf_radial_cell;
@@ -95,7 +95,7 @@ typedef struct vndf_row_cell {
 } vndf_row_cell;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
- * the wedge has no mass. Rows of azimuth density in q (sampler/azimuth.h) with aspect (p, r): a row at each of the
+ * the wedge has no mass. Rows of azimuth density in q (sampler/tabulated/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
  * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|)
  * is a quintic spline on knots of its own (table/area_piece.h). */

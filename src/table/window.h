@@ -1,4 +1,4 @@
-/* Windows of the radial search: for a law of the slope length with weights (c, k), c >= 0 (sampler/engine.h),
+/* Windows of the radial search: for a law of the slope length with weights (c, k), c >= 0 (sampler/tabulated/theory.h),
  * and a part u of its mass, where the cell lies in which that part ends: eight successive cells and the one
  * after them, or, where D has many more, eight times eight or eight to the third ..., to be searched in so many
  * steps.

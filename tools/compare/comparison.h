@@ -3,7 +3,7 @@
 #define COMPARE_COMPARISON_H
 
 #include "compare/pictures.h"
-#include "page.h"
+#include "draw/page.h"
 
 typedef struct comparison {
     contest *contest;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "chart.h"
+#include "draw/chart.h"
 
 /* ---- sections ---- */
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "chart.h"
+#include "draw/chart.h"
 
 /* Errors from black to white: of an image, and of what tables change in it. */
 typedef struct map_range {

@@ -6,7 +6,7 @@
  *   comparison.c    what is told of all that; comparison_page.c, comparison_pictures.c
  *   ways.c          the ways, from a scene file
  *   run.c           all of it in order
- *   ../compare.c    the words of the command
+ *   ../commands/compare.c  the words of the command
  *
  * The first way is the measure: all others are rendered as long as it takes (equal time), and with as many samples
  * (equal samples). Time is that of processors, which a machine that is shared disturbs least. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "png.h"
+#include "draw/png.h"
 
 /* ---- whole films ---- */
 

@@ -7,10 +7,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "arguments.h"
-#include "clock.h"
+#include "cli/arguments.h"
+#include "cli/clock.h"
 #include "command.h"
-#include "output.h"
+#include "cli/output.h"
 
 enum { REFERENCE_TIMES = 4 };
 

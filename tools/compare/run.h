@@ -3,7 +3,7 @@
 #define COMPARE_RUN_H
 
 #include "compare/comparison.h"
-#include "folder.h"
+#include "draw/folder.h"
 
 /* Bytes. A fine table is as good as exact, and soon built. */
 enum { COMPARE_TABLES_MAX = WAYS_MAX - 2, COMPARE_FINE_TABLE = 131072, COMPARE_LARGEST_TABLE = 1048576 };

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "arguments.h"
+#include "cli/arguments.h"
 #include "command.h"
 
 static scene *add_scene(under_way *run, const scene_tables *tables)

@@ -12,7 +12,7 @@
 #  include <pthread.h>
 #endif
 
-#include "clock.h"
+#include "cli/clock.h"
 
 enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
 

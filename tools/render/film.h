@@ -2,7 +2,7 @@
 #ifndef RENDER_FILM_H
 #define RENDER_FILM_H
 
-#include "render/path.h"
+#include "render/path/path.h"
 
 typedef struct film {
     int width, height;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "files.h"
+#include "cli/files.h"
 
 static const char *why(void)
 {

@@ -1,0 +1,38 @@
+/* Bare reflection of GGX where direction and roughness are of plain size: what its routines (fast_ggx.c,
+ * fast_ggx_bounded.c) share. The same bits as reflection.c gives. */
+#ifndef VNDF_BSDF_LOBES_FAST_GGX_H
+#define VNDF_BSDF_LOBES_FAST_GGX_H
+
+#include "bsdf/lobes/scatter.h"
+#include "sampler/analytic/view.h"
+
+/* View and area; 0 where the direction is not plain, and nothing is set. */
+VNDF_INLINE int vndf_prepare_plain_ggx(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
+    vndf_ggx_incidence w = vndf_ggx_aim(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
+    if (!w.plain)
+        return 0;
+    vndf_ggx_view_set(&b->view, &surface, wi, &w);
+    b->area = vndf_ggx_area_above(r->alpha_x, r->alpha_y, wi);
+    return 1;
+}
+
+/* cos_i cos_o/G2, height-correlated (masking.h). */
+VNDF_INLINE float vndf_plain_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    float below = vndf_ggx_area_above(b->view.ax, b->view.ay, wo) - wo.z;
+    return wo.z * b->area + b->view.wi.z * lanes_positive(below);
+}
+
+VNDF_INLINE void vndf_set_bare(vndf_scattered *s, vndf_vec3 wo, float weight, float density)
+{
+    s->wo.x = wo.x;
+    s->wo.y = wo.y;
+    s->wo.z = wo.z;
+    s->weight[0] = s->weight[1] = s->weight[2] = weight;
+    s->density = vndf_positive(density);
+    s->lobe = VNDF_LOBE_REFLECTION;
+}
+
+#endif

@@ -1,0 +1,65 @@
+/* Bare reflection of GGX by bounded normals, all of it in one function: what is gained in variance is not to be
+ * lost in time. As fast_ggx.c, but no sample is lost: the weight is kept G2/G1, and the density that of visible
+ * normals over kept. The former is taken of wo as it was rounded, and kept where that rounding does not move it.
+ * Where it does, and where directions are not plain, it is reflection.c. */
+#include "bsdf/lobes/fast_ggx.h"
+#include "bsdf/lobes/reflection.h"
+#include "sampler/bounded/ggx_draw.h"
+
+static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    if (!vndf_prepare_plain_ggx(b, r, wi))
+        return vndf_prepare_bounded(b, r, wi);
+    vndf_outlook o = vndf_outlook_set(&b->view);
+    if (vndf_outlook_is_plain(&b->view, &o))
+        vndf_ggx_law_set(&b->view, &o);
+    else
+        vndf_bounds_ggx_carefully(&b->view, b->bounds);
+    return 1;
+}
+
+static void sample_carefully(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    vndf_routines_bare[VNDF_NORMALS_BOUNDED].sample(b, u, s);
+}
+
+/* How little wo turns when the normal does, beside the roughness: what rounds wo turns the azimuth of the stretched
+ * normal by that much more than what rounds the normal. */
+VNDF_INLINE float reach_of(const vndf_bsdf *b, float facing)
+{
+    float ax = b->view.ax, ay = b->view.ay, reach = 2.5f * facing * (ax < ay ? ax : ay);
+    return reach < 0.5f ? reach : 0.5f;
+}
+
+static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    vndf_outlook o = vndf_outlook_of(&b->view);
+    if (!vndf_outlook_is_plain(&b->view, &o)) {
+        sample_carefully(b, u, s);
+        return;
+    }
+    vndf_ggx_bounded n = vndf_ggx_draw_bounded(&b->view, &o, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]));
+    /* wi.M = |A wi| cos(g), so neither M nor wi.wm has to be made unit */
+    float stretch = 2.0f * b->area - b->view.wi.z, twice = 2.0f * stretch * n.cosine / n.length2;
+    float facing = 0.5f * twice * sqrtf(n.length2);
+    vndf_vec3 wi = b->view.wi, wo = {twice * n.x - wi.x, twice * n.y - wi.y, twice * n.z - wi.z};
+    if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_GGX_LEAST_FACING && wo.z > 0.0f &&
+          vndf_ggx_is_settled(&b->view, &o, &n, reach_of(b, facing)))) {
+        sample_carefully(b, u, s);
+        return;
+    }
+    float weight = wo.z * (b->area * n.kept) / vndf_plain_ggx_unmasked(b, wo);
+    vndf_set_bare(s, wo, weight, vndf_ggx_density_of(b, wo) / n.kept);
+}
+
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+{
+    vndf_routines_bare[VNDF_NORMALS_BOUNDED].eval(b, wo, seed, value);
+}
+
+static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    return vndf_routines_bare[VNDF_NORMALS_BOUNDED].pdf(b, wo);
+}
+
+const vndf_routines vndf_routines_bare_bounded_ggx = {prepare, sample, eval, pdf, NULL};

@@ -1,0 +1,73 @@
+#include "bsdf/lobes/rotated.h"
+
+#include "bsdf/lobes/scatter.h"
+#include "math/vector.h"
+
+static vndf_vec3 to_axes(const vndf_bsdf *b, vndf_vec3 w)
+{
+    float c = b->cos_rotation, s = b->sin_rotation;
+    return vndf_vec3_of(c * w.x + s * w.y, c * w.y - s * w.x, w.z);
+}
+
+static vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
+{
+    float c = b->cos_rotation, s = b->sin_rotation;
+    return vndf_vec3_of(c * w.x - s * w.y, c * w.y + s * w.x, w.z);
+}
+
+static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    b->cos_rotation = r->cos_rotation;
+    b->sin_rotation = r->sin_rotation;
+    return b->material->unrotated->prepare(b, r, to_axes(b, wi));
+}
+
+/* Whether the slope that wo stands for is the one that was drawn (vndf_is_settled), though wo was rounded thrice
+ * more, on the way back and forth. */
+static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
+{
+    vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
+    /* near places where the density of bounded normals jumps nothing is settled: they are not looked for */
+    return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
+           vndf_keeps_reflectance(b, half.event.facing_i) && vndf_is_settled(b, 0.3f * (float)half.event.facing_i);
+}
+
+/* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of
+ * a walk does not depend on wo. */
+static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
+{
+    const vndf_material *m = b->material;
+    float f[VNDF_WAVELENGTHS], density = m->unrotated->pdf(b, wo), below = 1e37f;
+    if (!(density > 0.0f)) {
+        vndf_scatter_nothing(s);
+        return;
+    }
+    s->density = density;
+    if (m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE || !(density > 1e-30f && density < below))
+        return;
+    m->unrotated->eval(b, wo, 0, f);
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        if (f[i] < below)
+            s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
+}
+
+static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    b->material->unrotated->sample(b, u, s);
+    s->wo = from_axes(b, s->wo);
+    vndf_vec3 wo = to_axes(b, s->wo);
+    if ((s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION) && !is_settled(b, s, wo))
+        evaluate(b, wo, s);
+}
+
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+{
+    b->material->unrotated->eval(b, to_axes(b, wo), seed, value);
+}
+
+static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    return b->material->unrotated->pdf(b, to_axes(b, wo));
+}
+
+const vndf_routines vndf_routines_rotated = {prepare, sample, eval, pdf, NULL};

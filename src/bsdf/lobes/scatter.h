@@ -1,0 +1,285 @@
+/* One scattering event, put together from a choice of lobes, of normals and of what the microfacets do to light.
+ * The choices are constants wherever these functions are called (reflection.c, dielectric.c), and what
+ * is not chosen is not compiled.
+ *
+ * With q = D(wm) (wi.wm)/p, p the density of wm, and V = G2/(cos_i cos_o), the weight of a reflection is F V
+ * cos_o q and that of a transmission (1 - F) V cos_o q, over r^2 for radiance: the Jacobians cancel (Walter et
+ * al. 2007, equations 20 and 21),
+ *
+ *     reflection    dwm/dwo = 1/(4 wi.wm),        transmission    dwm/dwo = r^2 |wo.wm|/|wi + r wo|^2.
+ *
+ * |wi + r wo| = (r^2 - 1)/(wi.wm + r |wo.wm|) does not cancel where r is near 1. */
+#ifndef VNDF_BSDF_LOBES_SCATTER_H
+#define VNDF_BSDF_LOBES_SCATTER_H
+
+#include "bsdf/terms/fresnel.h"
+#include "bsdf/terms/normals.h"
+
+VNDF_INLINE vndf_vec3 vndf_vec3_from(vndf_normal n)
+{
+    return vndf_vec3_of((float)n.x, (float)n.y, (float)n.z);
+}
+
+VNDF_INLINE vndf_vec3 vndf_mirrored(vndf_vec3 w, float side)
+{
+    return vndf_vec3_of(w.x, w.y, side * w.z);
+}
+
+VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
+{
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE};
+    *s = none;
+}
+
+VNDF_INLINE void vndf_set_value(float value[VNDF_WAVELENGTHS], double f)
+{
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        value[i] = vndf_density_from(f);
+}
+
+/* ---- a normal and a direction give the other direction ---- */
+
+/* wi mirrored at wm. An error of `facing` or of the length of wm is one of the length of wo: wm stays the half
+ * vector. Where the surface is smooth 2 facing wm.x is small, and so is its rounding. */
+VNDF_INLINE vndf_vec3 vndf_reflected(vndf_vec3 wi, vndf_vec3 wm, float facing)
+{
+    float twice = 2.0f * facing;
+    return vndf_vec3_of(twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z);
+}
+
+/* wi refracted at wm by the index ratio eta: `facing` and `beyond` are the cosines to wm, of a unit length. */
+VNDF_INLINE vndf_vec3 vndf_refracted(vndf_vec3 wi, vndf_vec3 wm, double facing, double beyond, double eta)
+{
+    double along = facing / eta - beyond, per = 1.0 / eta;
+    vndf_normal wo = {along * wm.x - per * wi.x, along * wm.y - per * wi.y, along * wm.z - per * wi.z};
+    double length2 = wo.x * wo.x + wo.y * wo.y + wo.z * wo.z, unit = 1.0 / sqrt(length2);
+    vndf_normal scaled = {wo.x * unit, wo.y * unit, wo.z * unit};
+    return vndf_vec3_from(scaled);
+}
+
+/* ---- two directions give the normal ---- */
+
+/* A microfacet that takes wi to wo; facing_i <= 0 if there is none. wo is turned up. */
+typedef struct vndf_half {
+    vndf_normal wm;
+    vndf_event event;
+    double jacobian; /* dwm/dwo */
+} vndf_half;
+
+VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
+{
+    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
+    vndf_normal n = {w.x * per, w.y * per, w.z * per};
+    return n;
+}
+
+VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
+{
+    double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
+    vndf_normal wm = {x * per, y * per, z * per};
+    return wm;
+}
+
+/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both
+ * graze it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. exact.c has all
+ * samples that are there. */
+VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
+{
+    vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
+    double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    if (facing < 0.04) {
+        i = vndf_unit(wi);
+        wm = vndf_halfway(i, vndf_unit(wo));
+        facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
+    }
+    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
+    vndf_half half = {wm, e, 0.25 / facing};
+    return half;
+}
+
+/* Lengths that are 1 but for rounding count where wi + r wo is small, so they are made 1. */
+VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
+{
+    vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
+    double rise = eta - 1.0, x = rise * o.x + (i.x + o.x), y = rise * o.y + (i.y + o.y), z = rise * o.z + (i.z + o.z);
+    double square = x * x + y * y + z * z, per = copysign(1.0 / sqrt(square), z);
+    vndf_normal wm = {x * per, y * per, z * per};
+    double facing_i = i.x * wm.x + i.y * wm.y + i.z * wm.z, facing_o = -(o.x * wm.x + o.y * wm.y + o.z * wm.z);
+    vndf_event e = {vndf_mirrored(wo, -1.0f), i.z, -o.z, facing_i, facing_o, wm.z};
+    vndf_half half = {wm, e, eta * eta * facing_o / square};
+    return half;
+}
+
+/* ---- densities of two directions ---- */
+
+VNDF_INLINE int vndf_is_refraction(const vndf_half *half)
+{
+    return half->event.facing_i > 0.0 && half->event.facing_o > 0.0;
+}
+
+VNDF_INLINE double vndf_half_density(const vndf_bsdf *b, const vndf_half *half, vndf_normals_drawn normals)
+{
+    return vndf_bsdf_density(b, half->wm, normals) * half->jacobian;
+}
+
+/* ---- samples ---- */
+
+/* The choices of a routine, constants. */
+typedef struct vndf_choice {
+    vndf_normals_drawn normals;
+    int bare; /* no Fresnel term, height-correlated masking, seen from above alone */
+} vndf_choice;
+
+VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VNDF_WAVELENGTHS])
+{
+    b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
+}
+
+/* A sample but for Fresnel's part in it. */
+typedef struct vndf_outcome {
+    vndf_vec3 wo;
+    double facing;
+    float density, weight;
+    int settled;
+} vndf_outcome;
+
+/* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
+VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
+{
+    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > 0.1;
+}
+
+/* Whether the slope that wo stands for is the one that was drawn, to 5e-6 of the roughness: wo is rounded by 3e-8,
+ * and `gain` is how far it turns with the normal. If not, exact.c evaluates the sample at wo as it was rounded. */
+VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
+{
+    float ax = b->view.ax, ay = b->view.ay, least = ax < ay ? ax : ay;
+    return (least < 1.0f ? least : 1.0f) * gain > 0.04f;
+}
+
+/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
+ * is a sum of two floats and so good to a rounding, a = ax ay,
+ *
+ *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
+ *
+ * So it is that of wo as it was rounded, however smooth the surface is; relative error below 2e-6. */
+VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    float ax = b->view.ax, ay = b->view.ay, a = ax * ay;
+    float x = b->view.wi.x + wo.x, y = b->view.wi.y + wo.y, z = b->view.wi.z + wo.z;
+    float p = ay * x, q = ax * y, r = a * z, t = a * (x * x + y * y + z * z) / (p * p + q * q + r * r);
+    return 0.0795774715f * a / b->area * (t * t);
+}
+
+/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi
+ * and wo, which are 1 but for rounding, count. */
+static const float VNDF_GGX_LEAST_FACING = 0.05f;
+
+VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
+{
+    return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
+           facing > VNDF_GGX_LEAST_FACING;
+}
+
+/* Whether the density that was drawn with is taken rather than that: sooner by a tenth, and decided by the
+ * roughness all but always, lest the branch be guessed wrong. */
+VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
+{
+    return (b->view.ax > 0.4f) & (b->view.ay > 0.4f) & vndf_is_settled(b, facing);
+}
+
+/* Away from the border of the unit square. */
+VNDF_INLINE int vndf_is_inside(float u)
+{
+    return fabsf(u - 0.5f) < 0.499f;
+}
+
+/* 0 if no microfacet does that. */
+int vndf_reflect_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
+int vndf_refract_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
+
+/* Bounded normals reflect to above the horizon, but for rounding. */
+VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
+{
+    if (choice.normals == VNDF_NORMALS_BOUNDED && !(wo.z > FLT_MIN))
+        wo.z = FLT_MIN;
+    return wo;
+}
+
+/* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi
+ * and wo is wm, whatever length wm has by rounding. */
+VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice, int settled,
+                             vndf_outcome *out)
+{
+    vndf_vec3 wi = b->view.wi, wo = vndf_lifted(vndf_reflected(wi, n->wm, n->facing), choice);
+    if (!(wo.z > 0.0f)) /* as where facing < 0 */
+        return 0;
+    int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
+    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
+    int plain = settled & (choice.bare | (n->facing > 0.1f)) & (as_drawn | of_wo);
+    if (!plain && vndf_reflect_carefully(b, wo, out))
+        return 1;
+    if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
+        return 0;
+    /* Bounded normals are kept, even where the density of the direction as it was rounded underflows. */
+    float density = !plain ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
+    out->wo = wo;
+    out->facing = n->facing;
+    out->settled = 1;
+    if (choice.bare) {
+        float below = vndf_bsdf_area(b, wo) - wo.z;
+        out->weight = wo.z * n->quotient / (wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f));
+        out->density = density;
+        return 1;
+    }
+    vndf_event e = {wo, wi.z, wo.z, n->facing, n->facing, n->wm.z};
+    out->weight = (float)(b->material->masking->reflection(b, &e) * e.cos_o * n->quotient);
+    out->density = density;
+    return 1;
+}
+
+/* The same for what goes through, `beyond` the cosine to wm there. Unbent, wo does not turn with the normal; near
+ * total reflection 1 - F changes as fast as 1/beyond; and the slope of a normal near the horizon, which is no
+ * longer small beside that of the roughness, as fast as 1/wm.z. */
+VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
+{
+    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
+    double eta = b->eta, rise = eta * eta - 1.0, sum = n->facing + eta * beyond;
+    if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
+        return 0;
+    float gain = 0.4f * (float)(fabs(rise) * beyond);
+    int sound = beyond > 0.1 && n->facing > 0.1f && gain * n->wm.z > 0.16f;
+    if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
+        return vndf_refract_carefully(b, wo, out);
+    vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
+    out->wo = wo;
+    out->facing = n->facing;
+    out->density = vndf_density_from(n->density * (eta * eta * beyond) * (sum * sum) / (rise * rise));
+    out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
+    out->settled = 1;
+    return 1;
+}
+
+/* ---- values ---- */
+
+/* f of a reflection, wo in the frame of the hit; `bare` as above. */
+VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS],
+                                      int bare)
+{
+    double f[VNDF_WAVELENGTHS];
+    vndf_half half = vndf_half_reflected(b->view.wi, wo);
+    if (!(wo.z > 0.0f) || !(half.event.facing_i > 0.0)) {
+        vndf_set_value(value, 0.0);
+        return;
+    }
+    double shape = 0.25 * vndf_bsdf_ndf(b, half.wm) * b->material->masking->reflection(b, &half.event);
+    if (bare) {
+        vndf_set_value(value, shape);
+        return;
+    }
+    vndf_reflectance(b, half.event.facing_i, f);
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        value[i] = vndf_density_from(shape * f[i]);
+}
+
+#endif

@@ -1,0 +1,99 @@
+#include "bsdf/terms/fresnel.h"
+
+/* (n + ik)^2 - sin^2 = (a + ib)^2, hence a^2 - b^2 = t = n^2 - k^2 - sin^2 and a b = n k (Born & Wolf,
+ * "Principles of Optics", 14.2). The smaller of a^2 and b^2 comes from the larger, and a - c from a^2 - c^2 = n^2
+ * - k^2 - 1 + b^2. */
+double vndf_conductor(double cosine, double n, double k)
+{
+    double c = cosine < 1.0 ? cosine : 1.0, c2 = c * c, s2 = 1.0 - c2, nk = n * k;
+    double t = (n * n - k * k) - s2, root = sqrt(t * t + 4.0 * nk * nk), larger = 0.5 * (root + fabs(t));
+    double smaller = larger > 0.0 ? nk * nk / larger : 0.0, a2 = t > 0.0 ? larger : smaller;
+    double b2 = t > 0.0 ? smaller : larger, a = sqrt(a2), sum = a + c;
+    double rise = sum > 0.0 ? ((n - 1.0) * (n + 1.0) - k * k + b2) / sum : 0.0;
+    double less = a * c - s2, more = a * c + s2;
+    double below = sum * sum + b2, under = more * more + b2 * c2;
+    if (!(below > 0.0) || !(under > 0.0))
+        return 1.0; /* at right angles to the normal */
+    double s = (rise * rise + b2) / below, p = s * (less * less + b2 * c2) / under;
+    double mean = 0.5 * (s + p);
+    return mean < 1.0 ? mean : 1.0;
+}
+
+static void set_all(double f[VNDF_WAVELENGTHS], double value)
+{
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        f[i] = value;
+}
+
+static void reflect_schlick(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    (void)eta;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        f[i] = vndf_schlick(cosine, is->f0[i]);
+}
+
+/* The cosine in the thinner medium: reflection is total where that has none. */
+static void reflect_schlick_thin(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    double square = eta < 1.0 ? vndf_refracted_square(cosine, eta) : cosine * cosine;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        f[i] = square > 0.0 ? vndf_schlick(sqrt(square), is->f0[i]) : 1.0;
+}
+
+static void reflect_dielectric(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    (void)is;
+    set_all(f, vndf_dielectric(cosine, eta));
+}
+
+/* From outside alone. */
+static void reflect_conductor(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    (void)eta;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        f[i] = vndf_conductor(cosine, is->conductor_eta[i], is->conductor_k[i]);
+}
+
+static void reflect_all(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    (void)is;
+    (void)cosine;
+    (void)eta;
+    set_all(f, 1.0);
+}
+
+static void reflect_nothing(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    (void)is;
+    set_all(f, vndf_refracted_square(cosine, eta) > 0.0 ? 0.0 : 1.0);
+}
+
+const vndf_fresnel_routine vndf_fresnel_of_schlick = {reflect_schlick};
+const vndf_fresnel_routine vndf_fresnel_of_schlick_thin = {reflect_schlick_thin};
+const vndf_fresnel_routine vndf_fresnel_of_dielectric = {reflect_dielectric};
+const vndf_fresnel_routine vndf_fresnel_of_conductor = {reflect_conductor};
+const vndf_fresnel_routine vndf_fresnel_of_total = {reflect_all};
+const vndf_fresnel_routine vndf_fresnel_of_nothing = {reflect_nothing};
+
+/* ---- public ---- */
+
+static double cosine_of(float cosine)
+{
+    double c = fabs((double)cosine);
+    return c < 1.0 ? c : 1.0;
+}
+
+float vndf_fresnel_dielectric(float cosine, float eta)
+{
+    return eta > 0.0f ? (float)vndf_dielectric(cosine_of(cosine), eta) : 1.0f;
+}
+
+float vndf_fresnel_conductor(float cosine, float eta, float k)
+{
+    return (float)vndf_conductor(cosine_of(cosine), eta, k);
+}
+
+float vndf_fresnel_schlick(float cosine, float f0)
+{
+    return (float)vndf_schlick(cosine_of(cosine), f0);
+}

@@ -1,0 +1,32 @@
+/* Masking and shadowing over both cosines, G2/(cos_i cos_o), in terms of projected areas A = cos (1 + Lambda)
+ * along a direction and B = cos Lambda along its opposite (Heitz 2014, equations 98 and 99):
+ *
+ *     height-correlated    1/(cos_i cos_o (1 + Lambda_i + Lambda_o)) = 1/(cos_o A_i + cos_i B_o)
+ *     separable            1/(A_i A_o)
+ *
+ * which is finite where a cosine vanishes: A does not. */
+#ifndef VNDF_BSDF_TERMS_MASKING_H
+#define VNDF_BSDF_TERMS_MASKING_H
+
+#include "bsdf/routines.h"
+#include "bsdf/terms/area_above.h"
+
+/* A(w), w.z > 0, with the roughness of the hit. */
+VNDF_INLINE float vndf_bsdf_area(const vndf_bsdf *b, vndf_vec3 w)
+{
+    int ready;
+    float area = vndf_area_above(b->view.distribution, b->view.ax, b->view.ay, w, &ready);
+    return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, w);
+}
+
+/* At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
+VNDF_INLINE double vndf_height_correlated(const vndf_bsdf *b, const vndf_event *e)
+{
+    double below = vndf_bsdf_area(b, e->wo) - e->cos_o;
+    return 1.0 / (e->cos_o * b->area + e->cos_i * (below > 0.0 ? below : 0.0));
+}
+
+extern const vndf_masking_routine vndf_masking_height_correlated, vndf_masking_separable, vndf_masking_v_cavities,
+    vndf_masking_none;
+
+#endif

@@ -1,0 +1,142 @@
+/* Microfacet normals as the effects want them drawn: with their density, and with what a weight takes of both. */
+#ifndef VNDF_BSDF_TERMS_NORMALS_H
+#define VNDF_BSDF_TERMS_NORMALS_H
+
+#include "bsdf/terms/masking.h"
+#include "math/vector.h"
+#include "sampler/all_normals/all_normals.h"
+#include "sampler/bounded/bounded.h"
+#include "sampler/given_normal.h"
+#include "sampler/surface.h"
+
+/* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density. */
+typedef struct vndf_bsdf_normal {
+    vndf_vec3 wm;
+    float density, facing, quotient;
+} vndf_bsdf_normal;
+
+VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
+{
+    return vndf_normal_ndf(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
+}
+
+/* ---- what a direction needs ---- */
+
+VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
+    vndf_view_set(&b->view, &surface, wi);
+    if (!b->view.distribution)
+        return 0;
+    if (surface.distribution->kind == VNDF_KIND_TABLE) {
+        float x = b->view.ax * wi.x, y = b->view.ay * wi.y;
+        b->area = b->view.area * (sqrtf(x * x + y * y) + wi.z);
+    } else
+        b->area = vndf_bsdf_area(b, wi);
+    return 1;
+}
+
+VNDF_INLINE int vndf_prepare_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    if (!vndf_prepare_visible(b, r, wi))
+        return 0;
+    vndf_bounds_of(&b->view, b->bounds);
+    return 1;
+}
+
+/* No view: roughness and direction, and the area for masking. */
+VNDF_INLINE int vndf_prepare_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
+    vndf_view *view = &b->view;
+    view->distribution = surface.distribution;
+    view->wi.x = wi.x;
+    view->wi.y = wi.y;
+    view->wi.z = wi.z;
+    if (!vndf_surface_scaled(&surface, &view->alpha_x, &view->alpha_y) || !(vndf_dot(wi, wi) < HUGE_VALF))
+        return 0;
+    view->ax = (float)view->alpha_x;
+    view->ay = (float)view->alpha_y;
+    b->area = vndf_bsdf_area(b, wi);
+    return 1;
+}
+
+/* ---- drawing ---- */
+
+/* D is not quite what a table draws with. */
+VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float facing, float density)
+{
+    return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density)
+{
+    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area};
+    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+        n.quotient = vndf_bsdf_quotient(b, wm, n.facing, density);
+    return n;
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1, float u2)
+{
+    float density;
+    vndf_vec3 wm = vndf_sample(&b->view, u1, u2, &density);
+    return vndf_bsdf_visible(b, wm, density);
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)
+{
+    vndf_bounded drawn = vndf_sample_bounded(&b->view, b->bounds, u1, u2);
+    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.kept};
+    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+        n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
+    return n;
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_all(const vndf_bsdf *b, float u1, float u2)
+{
+    const vndf_view *v = &b->view;
+    vndf_bsdf_normal n;
+    n.wm = vndf_sample_all(v->distribution, v->alpha_x, v->alpha_y, u1, u2, &n.density);
+    n.facing = vndf_dot(v->wi, n.wm);
+    n.quotient = v->distribution->kind == VNDF_KIND_TABLE ? vndf_bsdf_quotient(b, n.wm, n.facing, n.density)
+                                                          : n.facing / n.wm.z;
+    return n;
+}
+
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_v_cavity(const vndf_bsdf *b, float u1, float u2)
+{
+    const vndf_view *v = &b->view;
+    vndf_bsdf_normal n;
+    n.wm = vndf_sample_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, u1, u2, &n.density);
+    n.facing = vndf_dot(v->wi, n.wm);
+    n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
+    return n;
+}
+
+/* `normals` is a constant. */
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw(const vndf_bsdf *b, float u1, float u2, vndf_normals_drawn normals)
+{
+    if (normals == VNDF_NORMALS_BOUNDED)
+        return vndf_bsdf_draw_bounded(b, u1, u2);
+    if (normals == VNDF_NORMALS_ALL)
+        return vndf_bsdf_draw_all(b, u1, u2);
+    if (normals == VNDF_NORMALS_V_CAVITY)
+        return vndf_bsdf_draw_v_cavity(b, u1, u2);
+    return vndf_bsdf_draw_visible(b, u1, u2);
+}
+
+/* The density with which wm is drawn, unit but for rounding, wi.wm > 0. */
+VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, vndf_normals_drawn normals)
+{
+    const vndf_view *v = &b->view;
+    if (normals == VNDF_NORMALS_BOUNDED)
+        return vndf_pdf_bounded(v, b->bounds, wm);
+    if (normals == VNDF_NORMALS_ALL)
+        return vndf_pdf_all(v->distribution, v->alpha_x, v->alpha_y, wm);
+    if (normals == VNDF_NORMALS_V_CAVITY)
+        return vndf_pdf_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, wm);
+    return vndf_normal_pdf(v, wm);
+}
+
+#endif

@@ -1,0 +1,229 @@
+#include "fit/assemble.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The budget of errors. Azimuth rows may each miss by `error`. All radial cells together may miss by half of it: they
+ * cost less than rows, and a view from below the horizon sees several that are judged one at a time. Areas may miss
+ * by less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
+ * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
+static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
+enum { PROMISE_BYTES = 8192 };
+
+static double area_error(size_t max_bytes, double error)
+{
+    double most = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
+    return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
+}
+
+/* Few bytes go where most is seen: errors deep below the horizon count for less, a third of their size where 1e-10
+ * of the area is left. */
+enum { SMALL_BYTES = 6000 };
+static const double FADE_OF_SMALL = 0.05;
+
+/* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
+static const double POLE_CELL = 1.0 / 512;
+
+/* ---- refining ---- */
+
+static int refine_radial(vndf_plan *plan, size_t limit)
+{
+    const vndf_radial_fit *fit = &plan->radial_fit;
+    double *start = malloc((fit->jump_count + 5) * sizeof *start);
+    size_t n = 0;
+    if (!start)
+        return 0;
+    start[n++] = 0.0;
+    if (fit->jump_count == 0 || fit->jump[0] > 2 * POLE_CELL)
+        start[n++] = POLE_CELL;
+    for (size_t i = 0; i < fit->jump_count; i++)
+        start[n++] = fit->jump[i];
+    start[n++] = HUGE_VAL;
+    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_middle, vndf_fit_cell_error,
+                           &plan->radial_fit);
+    free(start);
+    return good;
+}
+
+/* Where all that is seen below the horizon lies beyond this y, rows begin at its edge. */
+static const double ROWS_END = 1.0 / 32;
+
+static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
+{
+    double least = vndf_side_least(&fit->side);
+    const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
+    int ends = least > ROWS_END;
+    return vndf_refine(rows, ends ? seen : whole, ends ? 4 : 3, limit, enough, NULL, vndf_wedge_row_error, fit);
+}
+
+static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, double enough)
+{
+    static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_area_fit_error, side);
+}
+
+/* Cells of an azimuth row: at most a few per cent of the bytes each. */
+static uint32_t most_cells_for(size_t max_bytes)
+{
+    return max_bytes < SMALL_BYTES ? 12 : 32;
+}
+
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)
+{
+    uint32_t row_cells = most_cells_for(max_bytes);
+    size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
+    double fade = max_bytes < SMALL_BYTES ? FADE_OF_SMALL : 0.0;
+    vndf_side above = {profile, 0, fade}, below = {profile, 1, fade};
+    memset(plan, 0, sizeof *plan);
+    plan->profile = profile;
+    plan->max_bytes = max_bytes;
+    plan->radial_fit.fade = fade;
+    plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
+    if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
+        !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
+        !vndf_wedge_fit_from(&plan->below_fit, below, row_cells, 2 * plan->finest))
+        return 0;
+    size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
+    size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
+    double area = area_error(max_bytes, plan->finest);
+    vndf_guard_stage(profile->guard, 0.1, "radial cells");
+    int good = refine_radial(plan, cell_limit);
+    vndf_guard_stage(profile->guard, 0.2, "azimuth rows above the horizon");
+    good = good && refine_rows(&plan->above_rows, &plan->above_fit, row_limit, plan->finest);
+    vndf_guard_stage(profile->guard, 0.4, "azimuth rows below the horizon");
+    good = good && refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest);
+    vndf_guard_stage(profile->guard, 0.6, "projected area");
+    good = good && refine_area(&plan->above_area, &plan->above_fit.side, knot_limit, area) &&
+           refine_area(&plan->below_area, &plan->below_fit.side, knot_limit, area);
+    vndf_guard_stage(profile->guard, 0.8, "certificate");
+    return good && !vndf_guard_stopped(profile->guard);
+}
+
+void vndf_plan_free(vndf_plan *plan)
+{
+    vndf_radial_fit_free(&plan->radial_fit);
+    vndf_wedge_fit_free(&plan->above_fit);
+    vndf_wedge_fit_free(&plan->below_fit);
+    vndf_refinement_free(&plan->radial);
+    vndf_refinement_free(&plan->above_rows);
+    vndf_refinement_free(&plan->below_rows);
+    vndf_refinement_free(&plan->above_area);
+    vndf_refinement_free(&plan->below_area);
+}
+
+/* ---- cutting a table ---- */
+
+vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
+{
+    double area = area_error(plan->max_bytes, error);
+    vndf_table_size size;
+    size.radial = vndf_refinement_needed(&plan->radial, error / RADIAL_BETTER) - 1;
+    size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
+    size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
+    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
+    size.below_rows = vndf_row_count(vndf_refinement_needed(&plan->below_rows, error));
+    size.above_knots = vndf_refinement_needed(&plan->above_area, area);
+    size.below_knots = vndf_refinement_needed(&plan->below_area, area);
+    return size;
+}
+
+static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
+{
+    uint32_t n = table->radial_count;
+    vndf_refinement_knots(&plan->radial, n + 1, knots);
+    vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
+    for (uint32_t j = 0; j < n; j++) {
+        vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
+        table->knots.x[j] = a.x;
+        table->knots.z[j] = a.z;
+        table->cells[j] = vndf_fit_cell(&plan->radial_fit, a, b);
+        a = b;
+    }
+    table->knots.x[n] = a.x;
+    table->knots.z[n] = a.z;
+}
+
+static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
+{
+    wedge->aspect_p[i] = (float)row->p;
+    wedge->aspect_r[i] = (float)row->r;
+    memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, cells * sizeof *row->mass);
+    memcpy(wedge->density + (size_t)i * (cells + 1), row->density, (cells + 1) * sizeof *row->density);
+}
+
+static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
+{
+    uint32_t count = vndf_row_knots(wedge->row_count);
+    vndf_wedge_fit_use(fit, wedge->cell_count);
+    vndf_refinement_knots(rows, count, knots);
+    memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
+    for (uint32_t i = 0; i < count; i++) {
+        const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
+        const vndf_row *next = i + 1 < count ? vndf_wedge_fit_row(fit, knots[i + 1]) : row;
+        vndf_row middle;
+        if (!row || !next)
+            return 0;
+        wedge->row_y[i] = (float)row->y;
+        put_row(wedge, 2 * i, row, fit->cells);
+        if (i + 1 < count) {
+            vndf_wedge_fit_middle(fit, row, next, &middle);
+            put_row(wedge, 2 * i + 1, &middle, fit->cells);
+        }
+    }
+    if (!fit->side.below) /* at the horizon the wedge has no width */
+        wedge->aspect_p[0] = 0.0f;
+    return 1;
+}
+
+/* Knots whose mass is no normal float are left out, but for the first. */
+static uint32_t keep_normal(const vndf_side *side, double *knots, uint32_t count)
+{
+    uint32_t n = 1;
+    for (uint32_t i = 1; i < count; i++)
+        if (vndf_side_area(side, knots[i]).mass >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
+            knots[n++] = knots[i];
+    return n;
+}
+
+static void put_knot(vndf_wedge *wedge, uint32_t i, double y, vndf_area_knot knot)
+{
+    wedge->knot_y[i] = (float)y;
+    wedge->mass[i] = (float)knot.mass;
+    wedge->slope[i] = (float)knot.slope;
+    wedge->curve[i] = (float)knot.curve;
+}
+
+static void fill_area(vndf_wedge *wedge, const vndf_refinement *area, const vndf_side *side, double *knots)
+{
+    vndf_area_knot from, to;
+    vndf_refinement_knots(area, wedge->knot_count, knots);
+    wedge->knot_count = keep_normal(side, knots, wedge->knot_count);
+    for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
+        vndf_area_fit_piece(side, knots[i], knots[i + 1], &from, &to);
+        if (i == 0)
+            put_knot(wedge, 0, knots[0], from);
+        put_knot(wedge, i + 1, knots[i + 1], to);
+    }
+}
+
+vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
+{
+    vndf_distribution *table = vndf_table_allocate(size);
+    size_t most = size.radial + size.above_rows + size.below_rows + size.above_knots + size.below_knots + 8;
+    double *knots = malloc(most * sizeof *knots);
+    int good = table && knots && fill_rows(&table->above, &plan->above_rows, &plan->above_fit, knots) &&
+               fill_rows(&table->below, &plan->below_rows, &plan->below_fit, knots);
+    if (good) {
+        fill_radial(plan, table, knots);
+        fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
+        fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
+        table->normalization = plan->profile->normalization;
+        table->scale = plan->profile->scale;
+    }
+    free(knots);
+    if (good)
+        return table;
+    vndf_free(table);
+    return NULL;
+}

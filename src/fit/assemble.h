@@ -1,0 +1,30 @@
+/* From fits to a table: the fits are refined once, then a table of any size is cut from them. */
+#ifndef VNDF_FIT_ASSEMBLE_H
+#define VNDF_FIT_ASSEMBLE_H
+
+#include "fit/radial_fit.h"
+#include "fit/refine.h"
+#include "fit/wedge_fit.h"
+#include "table/layout.h"
+
+typedef struct vndf_plan {
+    const vndf_profile *profile;
+    vndf_radial_fit radial_fit;
+    vndf_wedge_fit above_fit, below_fit;
+    vndf_refinement radial, above_rows, below_rows, above_area, below_area;
+    size_t max_bytes;
+    double finest;  /* the error down to which the fits were refined */
+} vndf_plan;
+
+/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped
+ * it. */
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
+void vndf_plan_free(vndf_plan *plan);
+
+/* Counts of the table whose parts each stay below `error`. */
+vndf_table_size vndf_plan_size(const vndf_plan *plan, double error);
+
+/* That table, complete but for its certificate and texts; NULL if there is no memory. */
+vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size);
+
+#endif

@@ -1,0 +1,232 @@
+/* What is claimed of a table: the worst over directions, and of D and the area at all of their cells. */
+#include "fit/certificate/certificate.h"
+
+#include <math.h>
+
+#include "fit/certificate/survey.h"
+#include "sampler/tabulated/theory.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Relative error of D at a slope; 0 in either end of the mass. */
+static double ndf_miss(const vndf_survey *v, double r)
+{
+    const vndf_profile *p = v->profile;
+    double z = 1 / (1 + r), truth = vndf_profile_p22(p, r), end = VNDF_SURVEY_LEFT_OUT / 2 * p->f0;
+    if (!(truth * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
+          vndf_profile_moments(p, r, HUGE_VAL).m0 > end))
+        return 0.0;
+    return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / truth - 1);
+}
+
+/* Its largest over the slopes that hold all but VNDF_SURVEY_LEFT_OUT, at even places of every cell. */
+static double ndf_error(const vndf_survey *v)
+{
+    enum { PLACES = 24 };
+    double worst = 0.0;
+    for (uint32_t j = 0; j < v->table->radial_count; j++)
+        for (uint32_t i = 1; i < PLACES; i++)
+            worst = fmax(worst, ndf_miss(v, vndf_survey_slope(v->table, j, i, PLACES)));
+    return worst;
+}
+
+/* ---- directions ----
+ *
+ * Over the angle of incidence the total variation has as many maxima as the table has parts: between the knots of
+ * azimuth rows, where a quadratic misses a cubic; as the cut passes through a radial cell; and where the last of
+ * what is claimed is seen. So that is where it is measured, beside some fixed directions; and then again between
+ * the two neighbours that promise most. */
+
+/* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
+static const double ANGLES[] = {0,    10, 20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9, 90,
+                                90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
+static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
+
+/* Where a quadratic through both ends and the middle of a span misses a cubic most. */
+static const double ROW_PEAKS[] = {0.21, 0.79};
+
+/* What is seen there, as powers of what is claimed: compact supports end within a small part of a degree. */
+static const double LEVELS[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.96, 0.99, 0.999};
+
+enum {
+    ANGLE_COUNT = sizeof ANGLES / sizeof *ANGLES,
+    ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS,
+    PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
+    LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
+    SPANS_MOST = 40, /* of rows on a side, and of radial cells: of more, every second or third ... is looked at */
+    BETWEEN = 60,
+    DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
+                      BETWEEN
+};
+
+typedef struct direction {
+    double angle; /* of incidence at canonical scale, in [0, pi] */
+    vndf_finding found;
+} direction;
+
+typedef struct circle {
+    direction at[DIRECTIONS_MOST]; /* ascending */
+    int count;
+} circle;
+
+static void add_direction(circle *all, vndf_survey *v, double s, double c)
+{
+    double length = hypot(s, c);
+    int i = all->count++;
+    direction made = {atan2(s, c), vndf_survey_direction(v, s / length, c / length)};
+    for (; i > 0 && all->at[i - 1].angle > made.angle; i--)
+        all->at[i] = all->at[i - 1];
+    all->at[i] = made;
+}
+
+static void add_grid(circle *all, vndf_survey *v)
+{
+    for (int i = 0; i < ANGLE_COUNT; i++) {
+        double theta = ANGLES[i] * PI / 180;
+        add_direction(all, v, sin(theta) * v->profile->scale, ANGLES[i] == 90 ? 0 : cos(theta));
+    }
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i++)
+        add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
+}
+
+/* Between the knots of a side's azimuth rows. */
+static void add_rows(circle *all, vndf_survey *v, const vndf_wedge *side)
+{
+    uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
+    for (uint32_t i = 0; i < spans; i += step)
+        for (int n = 0; n < PEAK_COUNT; n++) {
+            double y = side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]);
+            add_direction(all, v, side == &v->table->above ? 1 - y : y, side == &v->table->above ? y : y - 1);
+        }
+}
+
+/* Cuts in the radial cells beyond which something is claimed. */
+static void add_cuts(circle *all, vndf_survey *v)
+{
+    const vndf_distribution *d = v->table;
+    uint32_t last = 0;
+    while (last + 1 < d->radial_count &&
+           vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) >
+               vndf_profile_claimed(v->profile) * v->profile->f1)
+        last++;
+    uint32_t step = last / SPANS_MOST + 1;
+    for (uint32_t j = 0; j <= last; j += step)
+        add_direction(all, v, 1, -vndf_survey_slope(d, j, 1, 3));
+}
+
+/* The area falls from 90 to 180 degrees. */
+static void add_levels(circle *all, vndf_survey *v)
+{
+    for (int i = 0; i < LEVEL_COUNT; i++) {
+        double low = PI / 2, high = PI, level = pow(vndf_profile_claimed(v->profile), LEVELS[i]);
+        for (int step = 0; step < 40 && !vndf_guard_stopped(v->profile->guard); step++) {
+            double angle = (low + high) / 2;
+            if (vndf_profile_seen(v->profile, sin(angle), cos(angle)) > level)
+                low = angle;
+            else
+                high = angle;
+        }
+        add_direction(all, v, sin(low), cos(low));
+    }
+}
+
+/* Between the two neighbours that promise most of the total variation, or of the weight. */
+static void add_between(circle *all, vndf_survey *v, int by_weight)
+{
+    int best = 0;
+    double most = -1.0;
+    for (int i = 0; i + 1 < all->count; i++) {
+        const vndf_finding *a = &all->at[i].found, *b = &all->at[i + 1].found;
+        double size = by_weight ? fmax(a->max_weight, b->max_weight) - 1 : fmax(a->tv, b->tv);
+        double promise = size * sqrt(all->at[i + 1].angle - all->at[i].angle);
+        if (promise > most) {
+            most = promise;
+            best = i;
+        }
+    }
+    double angle = (all->at[best].angle + all->at[best + 1].angle) / 2;
+    add_direction(all, v, sin(angle), cos(angle));
+}
+
+static void take(vndf_certificate *c, vndf_finding f, double theta)
+{
+    if (!f.measured)
+        return;
+    if (f.tv > c->tv) {
+        c->tv = (float)f.tv;
+        c->tv_theta = (float)theta;
+    }
+    if (f.tv > c->tv_above && theta <= 90.0) {
+        c->tv_above = (float)f.tv;
+        c->tv_above_theta = (float)theta;
+    }
+    c->max_weight = fmaxf(c->max_weight, (float)f.max_weight);
+    c->area_error = fmaxf(c->area_error, (float)f.area_error);
+    c->consistency = fmaxf(c->consistency, (float)f.consistency);
+}
+
+/* Largest relative error of the area at places of every piece of the spline below the horizon, from which all
+ * areas come. */
+static double area_error(const vndf_survey *v)
+{
+    static const double places[] = {0.15, 0.35, 0.5, 0.65, 0.85};
+    const vndf_wedge *below = &v->table->below;
+    double worst = 0.0;
+    for (uint32_t i = 0; i + 1 < below->knot_count; i++)
+        for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
+            double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
+            double area = vndf_profile_area(v->profile, y, y - 1);
+            if (vndf_profile_seen(v->profile, y, y - 1) > vndf_profile_claimed(v->profile))
+                worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
+        }
+    return worst;
+}
+
+/* n where P22 is r^-n between two slopes. */
+static double power_between(const vndf_profile *profile, double r0, double r1)
+{
+    return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
+}
+
+/* p where D = P22/cos^4 is cos^p towards the horizon. */
+static double horizon_power(const vndf_profile *profile)
+{
+    double end = profile->panel[profile->count].r, power = power_between(profile, end / 16, end / 4) - 4;
+    return power < -4e-3 ? power : 0.0;
+}
+
+/* D may be unbounded at the pole or at the horizon; a cell is bounded. */
+static int is_bounded(const vndf_profile *profile)
+{
+    double first = profile->panel[0].r;
+    return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
+}
+
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
+{
+    vndf_survey v;
+    vndf_certificate none = {.max_weight = 1};
+    circle all = {.count = 0};
+    int good = vndf_survey_from(&v, table, profile);
+    if (good) {
+        add_grid(&all, &v);
+        add_rows(&all, &v, &table->above);
+        add_rows(&all, &v, &table->below);
+        add_cuts(&all, &v);
+        add_levels(&all, &v);
+        for (int i = 0; i < BETWEEN; i++)
+            add_between(&all, &v, i % 3 == 2);
+        *c = none;
+        for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
+            take(c, all.at[i].found,
+                 atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
+        c->area_error = fmaxf(c->area_error, (float)area_error(&v));
+        c->horizon_power = (float)horizon_power(profile);
+        c->weight_bounded = (float)is_bounded(profile);
+        c->ndf_error = (float)ndf_error(&v);
+        c->hidden = (float)profile->hidden;
+        c->finest = (float)profile->finest;
+    }
+    vndf_survey_free(&v);
+    return good;
+}

@@ -1,0 +1,13 @@
+/* The certificate: what a table is worth, measured with the run time's own densities (those that vndf_pdf rounds
+ * to float), areas and D against the profile of the source. */
+#ifndef VNDF_FIT_CERTIFICATE_CERTIFICATE_H
+#define VNDF_FIT_CERTIFICATE_CERTIFICATE_H
+
+#include "fit/profile/profile.h"
+#include "table/table.h"
+
+/* 0 if there is no memory. */
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
+                             const vndf_profile *profile);
+
+#endif

@@ -1,0 +1,413 @@
+/* The visible normals from one direction are integrated over half a turn of azimuth (both halves are
+ * alike) and over slope, on Gauss points of the cells of either stage, so that every integrand is smooth
+ * between the points; the cells that hold a jump of the mask, c + s cos(a) R = 0, end there. Where the profile has
+ * panels far narrower than a radial cell, the points follow the panels: a feature that the table cannot hold is
+ * missed by the table, not by its measurement. Slopes of the points do not depend on the direction, so that P22 is
+ * evaluated there once. */
+#include "fit/certificate/survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "sampler/tabulated/theory.h"
+#include "sampler/surface.h"
+#include "sampler/tabulated/wedge.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
+enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, AZIMUTHS_LEAST = 512, FRONT_PANELS = 12 };
+
+/* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
+ * that part of the cell's mass. */
+static const double NARROW = 0.25, HEAVY = 0.02;
+
+/* A cell with so small a part of a ray's mass is not looked into. */
+static const double CELL_LEAST = 1e-9;
+
+static uint32_t parts_for(uint32_t cells, uint32_t least)
+{
+    return (least + cells - 1) / cells;
+}
+
+/* In double at the knots too: what is seen beyond a cut may be so narrow that a rounding of its end shows. */
+double vndf_survey_slope(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
+{
+    double xi = (double)part / parts, x0 = d->knots.x[cell], z0 = d->knots.z[cell];
+    double x = part < parts ? x0 + xi * (d->knots.x[cell + 1] - x0) : d->knots.x[cell + 1];
+    double z = part < parts ? z0 + xi * (d->knots.z[cell + 1] - z0) : d->knots.z[cell + 1];
+    return z > 0 ? x / z : HUGE_VAL;
+}
+
+/* The view of the unit problem: isotropic, so that it may be made from s and c alone. */
+static vndf_view view_of(const vndf_distribution *table, double s, double c)
+{
+    vndf_vec3 wi = {(float)s, 0.0f, (float)c};
+    return vndf_view_scaled(table, 1.0, 1.0, wi);
+}
+
+/* ---- slopes ---- */
+
+typedef struct knots {
+    double x0, x1, z0, z1;
+} knots;
+
+static knots knots_of(const vndf_distribution *d, uint32_t j)
+{
+    knots k = {d->knots.x[j], d->knots.x[j + 1], d->knots.z[j], d->knots.z[j + 1]};
+    return k;
+}
+
+/* xi of a slope in a cell. */
+static double place_of(knots k, double r)
+{
+    double inner = r * k.z0 - k.x0, outer = k.x1 - r * k.z1;
+    return inner / (inner + outer);
+}
+
+/* What rounding of its parts to float does to the slope of a normal, relative to it, in the mean; and from which
+ * part of a stretch on that shows: at the edge of a compact support what is seen is thousands of floats wide. */
+static const double FLOAT_ROUNDING = 2.8e-8, ROUNDING_LEAST = 1e-5;
+
+/* f of a cell changes by more than this: it takes the finer rule. */
+static int is_steep(const vndf_radial_cell *cell)
+{
+    const float steep = 1.3f;
+    return cell->f0 > steep * cell->f1 || cell->f1 > steep * cell->f0;
+}
+
+static uint32_t points_in(const vndf_survey *v, uint32_t j, double width)
+{
+    return width < 1.0 || is_steep(&v->table->cells[j]) ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
+}
+
+/* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
+static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, double to, uint32_t count, uint32_t i)
+{
+    int fine = count == VNDF_GAUSS;
+    knots k = knots_of(v->table, j);
+    double xi = from + (to - from) * (fine ? vndf_gauss_node[i] : vndf_gauss_coarse_node[i]);
+    double weight = (to - from) * (fine ? vndf_gauss_weight[i] : vndf_gauss_coarse_weight[i]);
+    double x = (1 - xi) * k.x0 + xi * k.x1, z = (1 - xi) * k.z0 + xi * k.z1, width = k.x1 * k.z0 - k.x0 * k.z1;
+    double rounding = FLOAT_ROUNDING * x * z / width;
+    vndf_survey_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z), 0.0};
+    node.mass *= vndf_profile_p22(v->profile, node.r);
+    node.rounding = rounding > ROUNDING_LEAST * (to - from) ? rounding : 0.0;
+    return node;
+}
+
+static int add_stretch(vndf_survey *v, uint32_t j, double from, double to)
+{
+    uint32_t count = points_in(v, j, to - from);
+    if ((v->stretch_count & (v->stretch_count - 1)) == 0) { /* a power of two: full */
+        size_t room = v->stretch_count ? 2 * v->stretch_count : 1;
+        vndf_survey_stretch *stretch = realloc(v->stretch, room * sizeof *stretch);
+        vndf_survey_node *node = realloc(v->node, room * VNDF_GAUSS * sizeof *node);
+        v->stretch = stretch ? stretch : v->stretch;
+        v->node = node ? node : v->node;
+        if (!stretch || !node)
+            return 0;
+    }
+    vndf_survey_stretch made = {from, to, j, (uint32_t)v->node_count, count};
+    v->stretch[v->stretch_count++] = made;
+    for (uint32_t i = 0; i < count; i++)
+        v->node[v->node_count++] = node_in(v, j, from, to, count, i);
+    return 1;
+}
+
+/* Panels next to each other in a part of a cell. */
+typedef struct panels {
+    double begin, end, mass;
+} panels;
+
+static panels with_panel(panels p, double begin, double end, double mass, double widest)
+{
+    panels alone = {begin, end, mass}, more = {p.begin, end, p.mass + mass};
+    return p.end == begin && end - p.begin < widest ? more : alone;
+}
+
+/* A part of a cell, divided at the panels in it that are features of their own; *panel is the first that ends in
+ * it or beyond. */
+static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *panel)
+{
+    const vndf_profile *p = v->profile;
+    knots k = knots_of(v->table, j);
+    double heavy = HEAVY * vndf_profile_moments(p, vndf_survey_slope(v->table, j, 0, 1),
+                                                vndf_survey_slope(v->table, j, 1, 1)).m0;
+    double at = from, widest = NARROW * (to - from);
+    panels few = {-1, -1, 0};
+    int good = 1;
+    for (; *panel < p->count && good; ++*panel) {
+        double begin = place_of(k, p->panel[*panel].r), end = place_of(k, p->panel[*panel + 1].r);
+        if (!(end < to))
+            break;
+        few = with_panel(few, begin, end, p->panel[*panel].m0, widest);
+        if (!(end > at && end - few.begin < widest && few.mass > heavy))
+            continue;
+        if (few.begin > at)
+            good = add_stretch(v, j, at, few.begin);
+        good = good && add_stretch(v, j, few.begin > at ? few.begin : at, end);
+        at = few.begin = few.end = end;
+        few.mass = 0;
+    }
+    return good && add_stretch(v, j, at, to);
+}
+
+/* The last cell has no end: a light tail is over next to where it begins, a heavy one holds some of the mass as far
+ * out as there are doubles, and is drawn there with a density that has a limit. */
+static int add_last(vndf_survey *v, size_t *panel)
+{
+    static const double ends[] = {0,       1.0 / 256, 1.0 / 64, 1.0 / 16,  0.25,     0.5,       0.75,
+                                  0.9375, 1 - 1e-3,  1 - 1e-5, 1 - 1e-7,  1 - 1e-9, 1 - 1e-12, 1};
+    int good = 1;
+    for (size_t i = 0; i + 1 < sizeof ends / sizeof *ends && good; i++)
+        good = add_part(v, v->table->radial_count - 1, ends[i], ends[i + 1], panel);
+    return good;
+}
+
+static int add_stretches(vndf_survey *v)
+{
+    uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
+    size_t panel = 0;
+    int good = 1;
+    for (uint32_t i = 0; i < (v->table->radial_count - 1) * parts && good; i++) {
+        double part = i % parts;
+        good = add_part(v, i / parts, part / parts, (part + 1) / parts, &panel);
+    }
+    return good && add_last(v, &panel);
+}
+
+/* ---- one azimuth ---- */
+
+/* One azimuth of a direction, with the weight that it has in the sum. */
+typedef struct ray {
+    vndf_engine_ray drawn;
+    double weight;
+} ray;
+
+static void add_node(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, uint32_t j,
+                     const vndf_survey_node *n)
+{
+    double mask = at->drawn.c + at->drawn.k * n->r;
+    if (mask > 0 && v->count < v->capacity) {
+        double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
+        vndf_survey_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
+        v->samples[v->count++] = one;
+        if (n->rounding > 0) {
+            double xi = fmax(fmin(n->xi + (v->count % 2 ? 1 : -1) * n->rounding, 1), 0);
+            double moved = vndf_engine_piece_density(&at->drawn, piece, j, xi, 1 - xi);
+            v->blur += at->weight * n->weight * fabs(moved - drawn);
+        }
+    }
+}
+
+/* The visible part of a stretch in the cell of the cut. */
+static void add_cut(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, const vndf_survey_stretch *s)
+{
+    double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
+    for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
+        vndf_survey_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
+        add_node(v, at, piece, s->cell, &n);
+    }
+}
+
+/* The stretches of a cell, from s on. */
+static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s, uint32_t count)
+{
+    uint32_t j = s->cell;
+    vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
+    if (!(piece.mass > CELL_LEAST * at->drawn.mass)) {
+        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
+        return;
+    }
+    for (uint32_t n = 0; n < count; n++)
+        if (j == at->drawn.cut)
+            add_cut(v, at, &piece, s + n);
+        else
+            for (uint32_t i = 0; i < s[n].count; i++)
+                add_node(v, at, &piece, j, v->node + s[n].first + i);
+}
+
+static const double POINT_OPERATIONS = 2; /* of a density at a point */
+
+/* Every radial cell that is seen, the one at the cut up to the cut. */
+static void add_azimuth(vndf_survey *v, const ray *at)
+{
+    const vndf_engine_ray *r = &at->drawn;
+    int inside = r->c > 0, beyond = r->c < 0;
+    if (!vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->node_count))
+        return;
+    for (size_t i = 0, next; i < v->stretch_count; i = next) {
+        uint32_t j = v->stretch[i].cell;
+        for (next = i + 1; next < v->stretch_count && v->stretch[next].cell == j;)
+            next++;
+        if (r->mass > 0 && !(inside && j > r->cut) && !(beyond && j < r->cut))
+            add_cell(v, at, v->stretch + i, (uint32_t)(next - i));
+    }
+}
+
+/* A quarter turn on the cells of a row with an aspect. */
+typedef struct quarter {
+    const float *node;
+    uint32_t cells;
+    double p, r;
+    int away; /* from wi */
+} quarter;
+
+/* Gauss point g of a part of a cell. */
+static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
+                  uint32_t g)
+{
+    double width = ((double)turn->node[cell + 1] - turn->node[cell]) / parts;
+    double q = turn->node[cell] + width * (part + vndf_gauss_coarse_node[g]), p = turn->p, r = turn->r;
+    double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
+    double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
+    ray at = {vndf_engine_ray_at(view, (turn->away ? -x : x) / n, y / n), weight};
+    return at;
+}
+
+/* What the few rays of add_quarter take the mass of all azimuths for too little: without the radius many more can
+ * be had, and cells of a jump's azimuth are steep. */
+static double azimuth_lack(const vndf_view *view, const quarter *turn, double taken)
+{
+    uint32_t parts = parts_for(turn->cells, AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
+    double mass = 0.0;
+    for (uint32_t i = 0; i < turn->cells * parts; i++) {
+        ray at = ray_in(view, turn, i / parts, i % parts / VNDF_GAUSS_COARSE, parts / VNDF_GAUSS_COARSE,
+                        i % VNDF_GAUSS_COARSE);
+        mass += at.weight * at.drawn.azimuth;
+    }
+    return mass - taken;
+}
+
+static void add_quarter(vndf_survey *v, const vndf_view *view, const quarter *turn)
+{
+    uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST);
+    double taken = 0.0;
+    for (uint32_t i = 0; i < turn->cells * parts * VNDF_GAUSS_COARSE; i++) {
+        uint32_t part = i / VNDF_GAUSS_COARSE;
+        ray at = ray_in(view, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
+        taken += at.weight * at.drawn.azimuth;
+        add_azimuth(v, &at);
+    }
+    v->lack += azimuth_lack(view, turn, taken);
+}
+
+/* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
+static void add_front(vndf_survey *v, const vndf_view *view)
+{
+    float node[FRONT_PANELS + 1];
+    quarter turn = {node, FRONT_PANELS, 1, 1, 0};
+    for (int i = 0; i <= FRONT_PANELS; i++) {
+        double w = (double)i / FRONT_PANELS;
+        node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
+    }
+    add_quarter(v, view, &turn);
+}
+
+static double ratio_of(vndf_survey_point a)
+{
+    return a.drawn > 0 ? a.truth / a.drawn : a.truth > 0 ? HUGE_VAL : 0.0;
+}
+
+/* Moves samples with a ratio of `pivot` or more to the front; their count. */
+static size_t split_at(vndf_survey_point *samples, size_t count, double pivot, double *mass)
+{
+    size_t n = 0;
+    *mass = 0.0;
+    for (size_t i = 0; i < count; i++)
+        if (ratio_of(samples[i]) >= pivot) {
+            vndf_survey_point swap = samples[n];
+            *mass += samples[i].truth;
+            samples[n++] = samples[i];
+            samples[i] = swap;
+        }
+    return n;
+}
+
+static double middle_of_three(double a, double b, double c)
+{
+    return fmax(fmin(a, b), fmin(fmax(a, b), c));
+}
+
+/* Largest truth/drawn when the points with the largest, that together hold VNDF_SURVEY_LEFT_OUT, are left out:
+ * what is left is split until it is one value. */
+static double weight_of(vndf_survey *v)
+{
+    double left = VNDF_SURVEY_LEFT_OUT, mass;
+    vndf_survey_point *from = v->samples;
+    size_t count = v->count;
+    while (count > 0) {
+        double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
+        size_t larger = 0;
+        mass = 0.0;
+        if (pivot < HUGE_VAL)
+            larger = split_at(from, count, nextafter(pivot, HUGE_VAL), &mass);
+        if (mass > left) {
+            count = larger;
+            continue;
+        }
+        left -= mass;
+        from += larger;
+        count -= larger;
+        size_t equal = split_at(from, count, pivot, &mass);
+        if (mass > left)
+            return pivot;
+        left -= mass;
+        from += equal;
+        count -= equal;
+    }
+    return 1.0;
+}
+
+vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
+{
+    vndf_finding f = {0, 0, 0, 0, 0};
+    s = (float)s; /* the direction that the run time is given */
+    c = (float)c;
+    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, truth = 0.0, miss = 0.0;
+    vndf_view view = view_of(v->table, s, c);
+    if (!(vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile)) ||
+        vndf_guard_stopped(v->profile->guard))
+        return f;
+    f.measured = 1;
+    f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
+    v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
+    v->count = 0;
+    v->lack = v->blur = 0.0;
+    if (c >= 0)
+        add_front(v, &view);
+    const vndf_wedge *side = vndf_wedge_of(v->table, c);
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.s, view.c));
+    quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
+    if (view.wedge > 0 && row.p > 0)
+        add_quarter(v, &view, &wedge);
+    for (size_t i = 0; i < v->count; i++) {
+        drawn += v->samples[i].drawn;
+        truth += v->samples[i].truth;
+        miss += fabs(v->samples[i].drawn - v->samples[i].truth);
+    }
+    f.tv = fmin((miss + fabs(truth - 1) + v->blur) / 2, 1); /* what no point sees of the truth is missed, too */
+    f.consistency = fabs(drawn + v->lack - 1);
+    f.max_weight = weight_of(v);
+    return f;
+}
+
+int vndf_survey_from(vndf_survey *v, const vndf_distribution *table, const vndf_profile *profile)
+{
+    size_t parts = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
+    vndf_survey made = {table, profile, NULL, NULL, 0, 0, NULL, 0, 0, 0.0, 0.0, 0.0};
+    *v = made;
+    if (!add_stretches(v))
+        return 0;
+    v->capacity = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
+    v->samples = malloc(v->capacity * sizeof *v->samples);
+    return v->samples != NULL;
+}
+
+void vndf_survey_free(vndf_survey *v)
+{
+    free(v->stretch);
+    free(v->node);
+    free(v->samples);
+}

@@ -1,0 +1,56 @@
+/* One direction of incidence: what a table draws there, against what is true. */
+#ifndef VNDF_FIT_CERTIFICATE_SURVEY_H
+#define VNDF_FIT_CERTIFICATE_SURVEY_H
+
+#include "fit/profile/profile.h"
+#include "table/table.h"
+
+/* Mass that the largest weight and the error of D do without. */
+#define VNDF_SURVEY_LEFT_OUT 1e-6
+
+/* One Gauss point of a direction: density in slope area, times its share of the area, parts of the two masses. */
+typedef struct vndf_survey_point {
+    double truth, drawn;
+} vndf_survey_point;
+
+/* A stretch of a radial cell, in xi, and its Gauss points: of all radial cells, in order. */
+typedef struct vndf_survey_stretch {
+    double from, to;
+    uint32_t cell, first, count; /* points */
+} vndf_survey_stretch;
+
+/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR; and how far the rounding of a
+ * normal to float moves xi, 0 where that is nothing beside the stretch. */
+typedef struct vndf_survey_node {
+    double xi, weight, r, mass, rounding;
+} vndf_survey_node;
+
+typedef struct vndf_survey {
+    const vndf_distribution *table;
+    const vndf_profile *profile;
+    vndf_survey_stretch *stretch;
+    vndf_survey_node *node;
+    size_t stretch_count, node_count;
+    vndf_survey_point *samples; /* of one direction after the other */
+    size_t count, capacity;
+    double area;                /* true area of the direction, for s + |c| = 1 */
+    double lack;                /* of its drawn mass, for what the samples leave out */
+    double blur;                /* by how much rounding of normals to float changes the drawn density, all together */
+} vndf_survey;
+
+typedef struct vndf_finding {
+    double tv, max_weight, consistency, area_error; /* vndf_certificate says what they are */
+    int measured;                                   /* 0 where nothing is claimed */
+} vndf_finding;
+
+/* 0 if there is no memory; to be freed either way. */
+int vndf_survey_from(vndf_survey *survey, const vndf_distribution *table, const vndf_profile *profile);
+void vndf_survey_free(vndf_survey *survey);
+
+/* The direction (s, 0, c) of the unit problem. */
+vndf_finding vndf_survey_direction(vndf_survey *survey, double s, double c);
+
+/* Slope at part/parts of a radial cell in xi. */
+double vndf_survey_slope(const vndf_distribution *table, uint32_t cell, uint32_t part, uint32_t parts);
+
+#endif

@@ -1,0 +1,14 @@
+/* Gauss-Legendre rules on [0, 1]: integral_0^1 f ~ sum weight_i f(node_i), exact for polynomials of degree
+ * 2n - 1. */
+#ifndef VNDF_FIT_PROFILE_GAUSS_H
+#define VNDF_FIT_PROFILE_GAUSS_H
+
+enum { VNDF_GAUSS = 10, VNDF_GAUSS_COARSE = 4 };
+
+extern const double vndf_gauss_node[VNDF_GAUSS], vndf_gauss_weight[VNDF_GAUSS];
+/* The polynomial through values at the nodes is sum w_i f_i/(x - x_i) over sum w_i/(x - x_i): w, but for a factor. */
+extern const double vndf_gauss_barycentric[VNDF_GAUSS];
+
+extern const double vndf_gauss_coarse_node[VNDF_GAUSS_COARSE], vndf_gauss_coarse_weight[VNDF_GAUSS_COARSE];
+
+#endif

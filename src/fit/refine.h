@@ -1,0 +1,39 @@
+/* Knots where the error is: intervals halved one at a time, the worst first, with the error after each
+ * step on record. The order is nested, so one run serves every size of table: the first n knots of the
+ * list are those of a table with n. */
+#ifndef VNDF_FIT_REFINE_H
+#define VNDF_FIT_REFINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Error of what a table would hold between neighbouring knots a < b. */
+typedef struct vndf_interval_miss {
+    double share; /* adds to that of the other intervals */
+    double alone; /* is met without them */
+} vndf_interval_miss;
+typedef vndf_interval_miss vndf_interval_error(double a, double b, void *user);
+
+/* Where an interval is halved; NULL stands for (a + b)/2. */
+typedef double vndf_interval_middle(double a, double b);
+
+typedef struct vndf_refinement {
+    size_t start;      /* knots given at the start, ascending */
+    size_t count;      /* and points added after them, in order of need */
+    double *knot;      /* start + count */
+    double *error;     /* count + 1: sum of the shares plus the largest alone, after n added points */
+} vndf_refinement;
+
+/* Adds points until `limit` or until the error is below `enough`. 0 if there is no memory. */
+int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
+                vndf_interval_middle *middle, vndf_interval_error *error, void *user);
+
+/* How many knots bring the recorded error within bounds, those of the start included; all, if none do. */
+uint32_t vndf_refinement_needed(const vndf_refinement *refinement, double error);
+
+/* The first `count` knots, ascending, into knots[count]; count is no less than `start`. */
+void vndf_refinement_knots(const vndf_refinement *refinement, size_t count, double *knots);
+
+void vndf_refinement_free(vndf_refinement *refinement);
+
+#endif

@@ -1,0 +1,82 @@
+/* Blocks of the closed forms in lanes, for lanes_sample.c. */
+#ifndef VNDF_SAMPLER_BATCH_ANALYTIC_H
+#define VNDF_SAMPLER_BATCH_ANALYTIC_H
+
+#include "sampler/batch/sort.h"
+#include "sampler/analytic/beckmann_draw.h"
+#include "sampler/analytic/ggx_draw.h"
+
+/* ---- GGX ---- */
+
+VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint32_t i)
+{
+    return vndf_ggx_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                        lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
+{
+    vndf_ggx_incidence shared;
+    if (b->view)
+        shared = vndf_ggx_incidence_of(b->view);
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        vndf_ggx_incidence w = b->view ? shared : ggx_incidence_at(b, i);
+        lanes_m plain;
+        vndf_drawn n = vndf_ggx_draw(&w, vndf_block_u(b->u1 + i), vndf_block_u(b->u2 + i), &plain);
+        vndf_block_store(b, i, &n);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            vndf_block_leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+    }
+}
+
+/* ---- Beckmann ---- */
+
+VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_block *b, uint32_t i)
+{
+    return vndf_beckmann_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                             lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+}
+
+/* Step by step over all groups, as for tables. */
+typedef struct beckmann_work {
+    vndf_beckmann_incidence at[VNDF_BLOCK_GROUPS];
+    vndf_beckmann_place first[VNDF_BLOCK_GROUPS];
+    lanes_f u1[VNDF_BLOCK_GROUPS], u2[VNDF_BLOCK_GROUPS], second[VNDF_BLOCK_GROUPS];
+} beckmann_work;
+
+/* `one` is the view of all, or NULL. */
+VNDF_INLINE void draw_slopes(const vndf_sample_block *b, beckmann_work *w, const vndf_beckmann_incidence *one,
+                             uint32_t groups)
+{
+    for (uint32_t g = 0; g < groups; g++) {
+        w->u1[g] = vndf_block_u(b->u1 + g * VNDF_LANES);
+        w->u2[g] = vndf_block_u(b->u2 + g * VNDF_LANES);
+        w->first[g] = vndf_beckmann_first(one ? one : &w->at[g], w->u1[g]);
+        w->second[g] = vndf_beckmann_second(w->u2[g]);
+    }
+    for (uint32_t g = 0; g < groups; g++)
+        w->first[g] = vndf_beckmann_step(one ? one : &w->at[g], w->first[g], w->u1[g]);
+}
+
+static void vndf_draw_beckmann(vndf_sample_block *b)
+{
+    beckmann_work w;
+    uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
+    const vndf_beckmann_incidence *one = b->view ? w.at : NULL;
+    if (b->view)
+        w.at[0] = vndf_beckmann_incidence_of(b->view);
+    for (uint32_t g = 0; g < groups && !b->view; g++)
+        w.at[g] = beckmann_incidence_at(b, g * VNDF_LANES);
+    draw_slopes(b, &w, one, groups);
+    for (uint32_t g = 0; g < groups; g++) {
+        const vndf_beckmann_incidence *at = one ? one : &w.at[g];
+        lanes_m plain;
+        vndf_drawn n = vndf_beckmann_normal(at, &w.first[g], w.second[g],
+                                            vndf_beckmann_middle(w.u1[g], w.u2[g]), &plain);
+        vndf_block_store(b, g * VNDF_LANES, &n);
+        if (lanes_any(lanes_without(lanes_all(), plain)))
+            vndf_block_leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain), g * VNDF_LANES);
+    }
+}
+
+#endif

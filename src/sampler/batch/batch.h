@@ -1,0 +1,62 @@
+/* Elements of a batch, and loops over them. */
+#ifndef VNDF_SAMPLER_BATCH_BATCH_H
+#define VNDF_SAMPLER_BATCH_BATCH_H
+
+#include "math/vector.h"
+#include "vndf.h"
+
+/* Element i of a batch. */
+VNDF_INLINE vndf_surface vndf_batch_surface(const vndf_batch *b, size_t i)
+{
+    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
+    vndf_surface surface = {b->distribution, b->alpha_x[at], b->alpha_y[at]};
+    return surface;
+}
+
+VNDF_INLINE vndf_vec3 vndf_batch_wi(const vndf_batch *b, size_t i)
+{
+    size_t at = b->shared & VNDF_SHARED_WI ? 0 : i;
+    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
+}
+
+VNDF_INLINE vndf_vec3 vndf_batch_normal(vndf_normals wm, size_t i)
+{
+    return vndf_vec3_of(wm.x[i], wm.y[i], wm.z[i]);
+}
+
+/* Whether all elements have one view. */
+VNDF_INLINE int vndf_batch_is_one_view(const vndf_batch *b)
+{
+    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI) && b->count > 0;
+}
+
+VNDF_INLINE vndf_view vndf_batch_view(const vndf_batch *b, size_t i)
+{
+    vndf_surface surface = vndf_batch_surface(b, i);
+    return vndf_view_from(&surface, vndf_batch_wi(b, i));
+}
+
+/* Arrays of a call: normals and two of numbers, read or written as the call has it. */
+typedef struct vndf_batch_call {
+    vndf_normals wm;
+    const float *from1, *from2;
+    float *to1, *to2;
+} vndf_batch_call;
+
+/* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
+VNDF_INLINE void vndf_batch_for_each_view(const vndf_batch *b, const vndf_batch_call *c,
+                               void (*one)(const vndf_view *view, const vndf_batch_call *c, size_t i))
+{
+    if (vndf_batch_is_one_view(b)) {
+        vndf_view view = vndf_batch_view(b, 0);
+        for (size_t i = 0; i < b->count; i++)
+            one(&view, c, i);
+        return;
+    }
+    for (size_t i = 0; i < b->count; i++) {
+        vndf_view view = vndf_batch_view(b, i);
+        one(&view, c, i);
+    }
+}
+
+#endif

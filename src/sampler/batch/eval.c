@@ -1,0 +1,192 @@
+/* Densities, D, areas, Lambda and G1 of many: in lanes of doubles where there are any (lanes_eval.h), else one
+ * after the other. The inverse is always that. */
+#include <string.h>
+
+#include "core/inline.h"
+#include "sampler/batch/batch.h"
+#include "sampler/batch/lanes_sample.h"
+#include "sampler/batch/lanes_eval.h"
+#include "sampler/surface.h"
+
+/* What a call asks of all elements. */
+typedef struct call {
+    const vndf_batch *batch;
+    vndf_question question;
+    vndf_normals wm;
+    float *to;
+} call;
+
+static int is_of_direction(vndf_question question)
+{
+    return question == VNDF_ASK_AREA || question == VNDF_ASK_LAMBDA || question == VNDF_ASK_G1;
+}
+
+/* ---- one by one ---- */
+
+/* Element i, by the call of one. */
+static float answer_of(const call *c, size_t i)
+{
+    vndf_surface surface = vndf_batch_surface(c->batch, i);
+    switch (c->question) {
+    case VNDF_ASK_NDF:
+        return vndf_ndf(&surface, vndf_batch_normal(c->wm, i));
+    case VNDF_ASK_AREA:
+        return vndf_projected_area(&surface, vndf_batch_wi(c->batch, i));
+    case VNDF_ASK_LAMBDA:
+        return vndf_lambda(&surface, vndf_batch_wi(c->batch, i));
+    case VNDF_ASK_G1:
+        return vndf_g1(&surface, vndf_batch_wi(c->batch, i));
+    default:
+        break;
+    }
+    vndf_view view = vndf_view_bare(&surface, vndf_batch_wi(c->batch, i));
+    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
+    return c->question == VNDF_ASK_PDF ? vndf_pdf(&view, wm) : vndf_visible(&view, wm);
+}
+
+static void answer_one_by_one(const call *c)
+{
+    for (size_t i = 0; i < c->batch->count; i++)
+        c->to[i] = answer_of(c, i);
+}
+
+/* ---- in lanes ---- */
+
+#if VNDF_HAS_LANES
+
+/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
+ * lanes would read beyond. */
+typedef struct copies {
+    float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK];
+} copies;
+
+static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
+{
+    if (!is_shared && count == VNDF_EVAL_BLOCK)
+        return from + first;
+    for (uint32_t i = 0; i < VNDF_EVAL_BLOCK && !(is_shared && first > 0); i++)
+        copy[i] = is_shared ? from[0] : i < count ? from[first + i] : 0.0f;
+    return copy;
+}
+
+static void read_block(vndf_eval_block *block, const call *c, size_t first, copies *own)
+{
+    const vndf_batch *b = c->batch;
+    const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
+                                           b->wi_z, c->wm.x, c->wm.y, c->wm.z};
+    int last = is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
+    for (int n = 0; n <= last; n++) {
+        if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
+            continue; /* need not be there */
+        unsigned bit = n <= VNDF_EVAL_ALPHA_Y ? VNDF_SHARED_ALPHA : n <= VNDF_EVAL_WI_Z ? VNDF_SHARED_WI : 0;
+        block->in.of[n] = input_at(from[n], (b->shared & bit) != 0, first, block->count, own->of[n]);
+    }
+}
+
+/* Answers go where the block's numbers may have come from when all are there. */
+static void answer_in_lanes(const call *c)
+{
+    const vndf_batch *b = c->batch;
+    int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
+    vndf_eval_block block;
+    copies own;
+    for (size_t first = 0; first < b->count; first += block.count) {
+        size_t rest = b->count - first;
+        block.count = rest < VNDF_EVAL_BLOCK ? (uint32_t)rest : VNDF_EVAL_BLOCK;
+        read_block(&block, c, first, &own);
+        if (wide)
+            vndf_eval_block_avx512(b->distribution, c->question, &block);
+        else
+            vndf_eval_block_avx2(b->distribution, c->question, &block);
+        for (uint32_t n = 0; n < block.left_count; n++)
+            block.value[block.left[n]] = answer_of(c, first + block.left[n]);
+        memcpy(c->to + first, block.value, block.count * sizeof(float));
+    }
+}
+
+static int has_lanes(const vndf_batch *b)
+{
+    return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
+}
+
+#else
+
+static void answer_in_lanes(const call *c)
+{
+    answer_one_by_one(c);
+}
+
+static int has_lanes(const vndf_batch *b)
+{
+    (void)b;
+    return 0;
+}
+
+#endif
+
+static void answer(const call *c)
+{
+    if (is_of_direction(c->question) && vndf_batch_is_one_view(c->batch)) {
+        float all = answer_of(c, 0);
+        for (size_t i = 0; i < c->batch->count; i++)
+            c->to[i] = all;
+    } else if (has_lanes(c->batch)) {
+        answer_in_lanes(c);
+    } else {
+        answer_one_by_one(c);
+    }
+}
+
+/* ---- the calls ---- */
+
+void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
+{
+    call c = {b, VNDF_ASK_PDF, wm, pdf};
+    answer(&c);
+}
+
+void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
+{
+    call c = {b, VNDF_ASK_VISIBLE, wm, visible};
+    answer(&c);
+}
+
+void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
+{
+    call c = {b, VNDF_ASK_NDF, wm, ndf};
+    answer(&c);
+}
+
+static const vndf_normals no_normals = {NULL, NULL, NULL};
+
+void vndf_projected_area_n(const vndf_batch *b, float *area)
+{
+    call c = {b, VNDF_ASK_AREA, no_normals, area};
+    answer(&c);
+}
+
+void vndf_lambda_n(const vndf_batch *b, float *lambda)
+{
+    call c = {b, VNDF_ASK_LAMBDA, no_normals, lambda};
+    answer(&c);
+}
+
+void vndf_g1_n(const vndf_batch *b, float *g1)
+{
+    call c = {b, VNDF_ASK_G1, no_normals, g1};
+    answer(&c);
+}
+
+VNDF_INLINE void invert_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
+{
+    float u1, u2;
+    vndf_invert(view, vndf_batch_normal(c->wm, i), &u1, &u2);
+    c->to1[i] = u1;
+    c->to2[i] = u2;
+}
+
+void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
+{
+    vndf_batch_call c = {wm, NULL, NULL, u1, u2};
+    vndf_batch_for_each_view(b, &c, invert_one);
+}

@@ -1,0 +1,247 @@
+/* See lanes_eval.h. What the calls of one do (surface.c, view.c, exact.c) from the same sources; lanes past the
+ * end of a block are given numbers that are there and not asked for.
+ *
+ * Densities under a table take three ways: in front of wi, behind it, and below the horizon. Normals are sorted by
+ * them first, and each way is gone for those that take it, gathered. */
+#include "sampler/batch/lanes_eval.h"
+
+#include "sampler/analytic/density.h"
+#include "sampler/tabulated/density_wedge.h"
+#include "sampler/surface.h"
+
+#if VNDF_HAS_LANES && VNDF_LANES > 1
+
+/* ---- what is given ---- */
+
+VNDF_INLINE doubles input(const vndf_eval_inputs *in, int which, uint32_t i)
+{
+    return doubles_load(in->of[which] + i);
+}
+
+VNDF_INLINE vndf_direction direction_at(const vndf_eval_inputs *in, uint32_t i, double scale)
+{
+    vndf_direction w = {input(in, VNDF_EVAL_ALPHA_X, i) * scale, input(in, VNDF_EVAL_ALPHA_Y, i) * scale,
+                        input(in, VNDF_EVAL_WI_X, i), input(in, VNDF_EVAL_WI_Y, i), input(in, VNDF_EVAL_WI_Z, i)};
+    return w;
+}
+
+VNDF_INLINE vndf_given given_at(const vndf_eval_inputs *in, uint32_t i, double scale)
+{
+    vndf_given g = {direction_at(in, i, scale), input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+                    input(in, VNDF_EVAL_Z, i)};
+    return g;
+}
+
+/* What is not in `m` replaced by numbers that can be looked up. */
+VNDF_INLINE vndf_given picked_given(doubles_m m, const vndf_given *g)
+{
+    const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    vndf_given safe = {{doubles_pick(m, g->wi.ax, one), doubles_pick(m, g->wi.ay, one),
+                        doubles_pick(m, g->wi.x, nothing), doubles_pick(m, g->wi.y, nothing),
+                        doubles_pick(m, g->wi.z, one)},
+                       doubles_pick(m, g->x, nothing), doubles_pick(m, g->y, nothing), doubles_pick(m, g->z, one)};
+    return safe;
+}
+
+/* vndf_density_from. */
+VNDF_INLINE doubles_f density_of(doubles density)
+{
+    return doubles_narrow(doubles_between(doubles_positive(density), 0.0, FLT_MAX));
+}
+
+/* vndf_positive of that. */
+VNDF_INLINE doubles_f positive_of(doubles density)
+{
+    const doubles least = doubles_set(FLT_MIN);
+    doubles rounded = doubles_widen(density_of(density));
+    return doubles_narrow(doubles_pick(doubles_less(least, rounded), rounded, least));
+}
+
+/* ---- of a direction ---- */
+
+static void answer_area(const vndf_distribution *d, vndf_eval_block *b)
+{
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        vndf_direction w = direction_at(&b->in, i, scale);
+        doubles_store_f(b->value + i, vndf_area_of(d, &w));
+    }
+}
+
+static void answer_lambda(const vndf_distribution *d, vndf_eval_block *b)
+{
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        vndf_direction w = direction_at(&b->in, i, scale);
+        doubles_store_f(b->value + i, vndf_lambda_of(d, &w));
+    }
+}
+
+static void answer_g1(const vndf_distribution *d, vndf_eval_block *b)
+{
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        vndf_direction w = direction_at(&b->in, i, scale);
+        doubles_store_f(b->value + i, vndf_g1_of(d, &w));
+    }
+}
+
+/* ---- of a normal ---- */
+
+static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
+{
+    const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    const vndf_eval_inputs *in = &b->in;
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        doubles ax = input(in, VNDF_EVAL_ALPHA_X, i) * scale, ay = input(in, VNDF_EVAL_ALPHA_Y, i) * scale;
+        vndf_given g = {{ax, ay, one, one, one}, input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+                        input(in, VNDF_EVAL_Z, i)};
+        doubles_m valid = vndf_normal_is_valid(&g);
+        g = picked_given(valid, &g);
+        doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_ndf_of(d, &g), nothing)));
+    }
+}
+
+/* Whether it is a normal that wi sees. */
+VNDF_INLINE doubles_m is_seen(const vndf_given *g, doubles facing)
+{
+    const doubles nothing = doubles_set(0.0);
+    return doubles_both(vndf_direction_is_valid(&g->wi),
+                        doubles_both(doubles_at_most(nothing, g->z), doubles_less(nothing, facing)));
+}
+
+/* Dv, of closed forms FLT_MIN at least. */
+static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
+{
+    const doubles nothing = doubles_set(0.0);
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        vndf_given g = given_at(&b->in, i, scale);
+        doubles facing = vndf_given_facing(&g);
+        doubles_m seen = is_seen(&g, facing);
+        g = picked_given(seen, &g);
+        doubles visible = vndf_visible_of(d, &g, facing);
+        doubles rounded = doubles_widen(d->kind == VNDF_KIND_TABLE ? density_of(visible) : positive_of(visible));
+        doubles_store_f(b->value + i, doubles_narrow(doubles_pick(seen, rounded, nothing)));
+    }
+}
+
+/* ---- the density under a table ---- */
+
+enum { IN_FRONT, BEHIND, BELOW, WAYS };
+
+/* Indices of those that take each way. */
+typedef struct sorted {
+    uint32_t index[WAYS][VNDF_EVAL_BLOCK], count[WAYS];
+} sorted;
+
+/* What those that take a way are given, side by side, and room for the last group. */
+typedef struct gathered {
+    float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK + VNDF_DOUBLES];
+} gathered;
+
+/* Indices of the lanes in `m`, from `first` on, that are below `end`. */
+VNDF_INLINE void append(sorted *s, int way, doubles_m m, uint32_t first, uint32_t end)
+{
+    uint32_t bits = doubles_mask_bits(m);
+    if (end - first < VNDF_DOUBLES)
+        bits &= (1u << (end - first)) - 1;
+    for (; bits != 0; bits &= bits - 1)
+        s->index[way][s->count[way]++] = first + (uint32_t)__builtin_ctz(bits);
+}
+
+/* What is not seen has the answer 0. */
+static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
+{
+    const doubles nothing = doubles_set(0.0);
+    double scale = vndf_unit_scale(d);
+    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
+        vndf_given g = given_at(&b->in, i, scale);
+        doubles_m seen = is_seen(&g, vndf_given_facing(&g)), below = doubles_less(g.wi.z, nothing);
+        doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_given_along(&g));
+        append(s, IN_FRONT, doubles_both(above, front), i, b->count);
+        append(s, BEHIND, doubles_without(above, front), i, b->count);
+        append(s, BELOW, doubles_both(seen, below), i, b->count);
+        doubles_store_f(b->value + i, doubles_narrow(nothing));
+    }
+}
+
+/* What those of a way are given, put into `own` one after the other: gathers cost more. */
+VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count,
+                                        gathered *own)
+{
+    vndf_eval_inputs made;
+    for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++) {
+        uint32_t from = index[i < count ? i : 0]; /* lanes that are not needed repeat one */
+        for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+            own->of[n][i] = b->in.of[n][from];
+    }
+    for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+        made.of[n] = own->of[n];
+    return made;
+}
+
+/* A group's answers to where its normals were; what is not plain is left. */
+VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density,
+                         doubles_m plain)
+{
+    float value[VNDF_DOUBLES];
+    uint32_t bits = doubles_mask_bits(plain);
+    doubles_store_f(value, positive_of(density));
+    for (uint32_t i = 0; i < VNDF_DOUBLES && i < count; i++) {
+        b->value[index[i]] = value[i];
+        b->left[b->left_count] = index[i];
+        b->left_count += !(bits >> i & 1);
+    }
+}
+
+VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, const sorted *s, int way)
+{
+    double scale = vndf_unit_scale(d);
+    gathered own;
+    if (s->count[way] == 0)
+        return;
+    const vndf_eval_inputs in = gather_way(b, s->index[way], s->count[way], &own);
+    for (uint32_t i = 0; i < s->count[way]; i += VNDF_DOUBLES) {
+        const uint32_t *index = s->index[way] + i;
+        vndf_given g = given_at(&in, i, scale);
+        doubles_m plain = doubles_at_most(g.z, g.z);
+        doubles density = way == IN_FRONT ? vndf_given_in_front(d, &g, &plain)
+                                          : vndf_given_of_wedge(d, &g, way == BELOW, &plain);
+        scatter(b, index, s->count[way] - i, density, plain);
+    }
+}
+
+static void answer_pdf(const vndf_distribution *d, vndf_eval_block *b)
+{
+    sorted s;
+    s.count[IN_FRONT] = s.count[BEHIND] = s.count[BELOW] = 0;
+    sort(d, b, &s);
+    answer_way(d, b, &s, IN_FRONT);
+    answer_way(d, b, &s, BEHIND);
+    answer_way(d, b, &s, BELOW);
+}
+
+#if VNDF_LANES == 16
+void vndf_eval_block_avx512(const vndf_distribution *d, vndf_question question, vndf_eval_block *b)
+#else
+void vndf_eval_block_avx2(const vndf_distribution *d, vndf_question question, vndf_eval_block *b)
+#endif
+{
+    b->left_count = 0;
+    if (question == VNDF_ASK_AREA)
+        answer_area(d, b);
+    else if (question == VNDF_ASK_LAMBDA)
+        answer_lambda(d, b);
+    else if (question == VNDF_ASK_G1)
+        answer_g1(d, b);
+    else if (question == VNDF_ASK_NDF)
+        answer_ndf(d, b);
+    else if (question == VNDF_ASK_PDF && d->kind == VNDF_KIND_TABLE)
+        answer_pdf(d, b);
+    else
+        answer_visible(d, b); /* of closed forms it is the density */
+}
+
+#endif

@@ -1,0 +1,38 @@
+/* Batches of D, densities of given normals, areas, Lambda and G1, in lanes of doubles: one source, lanes_eval.c,
+ * compiled for each instruction set. Densities under a table are left to the call of one where they are not plain
+ * (density.h). */
+#ifndef VNDF_SAMPLER_BATCH_LANES_EVAL_H
+#define VNDF_SAMPLER_BATCH_LANES_EVAL_H
+
+#include <stdint.h>
+
+#include "vndf.h"
+
+enum { VNDF_EVAL_BLOCK = 256 };
+
+typedef enum vndf_question {
+    VNDF_ASK_PDF, VNDF_ASK_VISIBLE, VNDF_ASK_NDF, VNDF_ASK_AREA, VNDF_ASK_LAMBDA, VNDF_ASK_G1
+} vndf_question;
+
+/* What a block is given: members of vndf_given, in their order. */
+enum { VNDF_EVAL_ALPHA_X, VNDF_EVAL_ALPHA_Y, VNDF_EVAL_WI_X, VNDF_EVAL_WI_Y, VNDF_EVAL_WI_Z, VNDF_EVAL_X,
+       VNDF_EVAL_Y, VNDF_EVAL_Z, VNDF_EVAL_INPUTS };
+
+/* Arrays that lanes may read to the end of the last group; those that the question wants. */
+typedef struct vndf_eval_inputs {
+    const float *of[VNDF_EVAL_INPUTS];
+} vndf_eval_inputs;
+
+typedef struct vndf_eval_block {
+    vndf_eval_inputs in;
+    uint32_t count, left_count;
+    uint32_t left[VNDF_EVAL_BLOCK];    /* indices without an answer */
+    float value[VNDF_EVAL_BLOCK];      /* the answers */
+} vndf_eval_block;
+
+#if VNDF_HAS_LANES
+void vndf_eval_block_avx2(const vndf_distribution *d, vndf_question question, vndf_eval_block *block);
+void vndf_eval_block_avx512(const vndf_distribution *d, vndf_question question, vndf_eval_block *block);
+#endif
+
+#endif

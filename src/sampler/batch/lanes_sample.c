@@ -1,0 +1,149 @@
+/* See lanes_sample.h. Lanes past the end of a block are drawn like the others and not written. */
+#include "sampler/batch/lanes_sample.h"
+
+#if VNDF_HAS_LANES && VNDF_LANES > 1
+
+#include "sampler/batch/analytic.h"
+#include "sampler/batch/search.h"
+
+/* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
+ * for each other, groups do not. */
+typedef struct fronts {
+    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_place place[VNDF_BLOCK_GROUPS];
+    lanes_m plain[VNDF_BLOCK_GROUPS];
+    vndf_radial_search radii;
+} fronts;
+
+typedef struct wedges {
+    vndf_row_search azimuths;
+    uint32_t cut[VNDF_BLOCK_SAMPLES];
+    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_radial_law law[VNDF_BLOCK_GROUPS];
+    vndf_place place[VNDF_BLOCK_GROUPS];
+    lanes_m plain[VNDF_BLOCK_GROUPS];
+    vndf_radial_search radii;
+} wedges;
+
+/* ---- in front of wi ---- */
+
+VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from, uint32_t end, fronts *w,
+                             vndf_results *to)
+{
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, i);
+        vndf_sector sector = vndf_sorted_sector(from, i);
+        w->bearing[g] = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + i));
+        vndf_ask_radii(d, &w->radii, i, &w->bearing[g], lanes_load(from->u2 + i));
+    }
+    vndf_find_radii(d, &w->radii, end, 1);
+    for (uint32_t i = 0; i < end; i += VNDF_LANES)
+        vndf_limit_cells(w->radii.cell + i, lanes_set_u(d->radial_count - 1));
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, i);
+        vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
+        w->plain[g] = lanes_all();
+        w->place[g] = vndf_place_front(d, &at, &w->bearing[g], &cell, lanes_load_u(w->radii.cell + i),
+                                       lanes_load(from->u2 + i), &w->plain[g]);
+    }
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
+        vndf_results_keep(to, i, &n, w->plain[g]);
+    }
+}
+
+/* ---- in the wedge ---- */
+
+/* Azimuths, and where their laws of the radius are cut. */
+VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                               wedges *w)
+{
+    const vndf_row_search *s = &w->azimuths;
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_azimuth_cell cell = vndf_azimuth_cell_of(d, from, i, s);
+        w->plain[g] = vndf_wedge_is_plain(&s->rows[g]);
+        vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->plain[g]);
+        vndf_incidence at = vndf_sorted_incidence(from, first + i);
+        vndf_sector sector = vndf_sorted_sector(from, first + i);
+        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &a, lanes_load(from->u2 + first + i));
+    }
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++)
+        lanes_store_u(w->cut + i, vndf_radial_cut(d, w->bearing[g].c, w->bearing[g].k));
+}
+
+VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                            wedges *w)
+{
+    const float *u2 = from->u2 + first;
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_bearing *b = &w->bearing[g];
+        vndf_radial_lanes cell = vndf_load_cells(d, w->cut + i);
+        w->law[g] = vndf_radial_law_cut(d, b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
+        vndf_ask_radii(d, &w->radii, i, b, lanes_load(u2 + i));
+    }
+    vndf_find_radii(d, &w->radii, count, 0);
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        vndf_limit_cells(w->radii.cell + i, lanes_load_u(w->cut + i));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, first + i);
+        vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
+        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
+                                       lanes_load(u2 + i), &w->plain[g]);
+    }
+}
+
+/* Samples from `first` on, `count` of them. */
+VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
+                             wedges *w, vndf_results *to)
+{
+    if (vndf_has_one_row(d, from))
+        vndf_find_in_one_row(d, from, first, count, &w->azimuths);
+    else
+        vndf_find_azimuths(d, from, first, count, &w->azimuths);
+    draw_azimuths(d, from, first, count, w);
+    draw_radii(d, from, first, count, w);
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
+        vndf_results_keep(to, first + i, &n, w->plain[g]);
+    }
+}
+
+/* ---- tables ---- */
+
+VNDF_INLINE uint32_t whole_groups(uint32_t count)
+{
+    return (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+}
+
+/* The last group in front may end among the wedges, and the first of those begin among the fronts: each kind has
+ * results of its own. */
+static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
+{
+    vndf_sorted sorted;
+    vndf_origin from[VNDF_BLOCK_GROUPS];
+    vndf_results front, wedge;
+    fronts in_front;
+    wedges in_wedge;
+    uint32_t end = whole_groups(b->count), border = vndf_sort_block(d, b, &sorted, from);
+    uint32_t count = whole_groups(end - border);
+    draw_fronts(d, &sorted, whole_groups(border), &in_front, &front);
+    draw_wedges(d, &sorted, end - count, count, &in_wedge, &wedge);
+    vndf_unsort_block(b, from, &front, &wedge);
+}
+
+#if VNDF_LANES == 16
+void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
+#else
+void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
+#endif
+{
+    b->left_count = 0;
+    if (d->kind == VNDF_KIND_GGX)
+        vndf_draw_ggx(b);
+    else if (d->kind == VNDF_KIND_BECKMANN)
+        vndf_draw_beckmann(b);
+    else
+        draw_table(d, b);
+}
+
+#endif

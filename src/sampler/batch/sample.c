@@ -1,0 +1,222 @@
+/* Sampling many: in lanes where there are any, else one after the other. */
+#include <stdint.h>
+#include <string.h>
+
+#include "core/inline.h"
+#include "math/vector.h"
+#include "sampler/batch/batch.h"
+#include "sampler/batch/lanes_sample.h"
+#include "sampler/surface.h"
+#include "vndf.h"
+
+#if VNDF_HAS_LANES
+
+static int has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2");
+}
+
+static int has_avx512(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+}
+
+#else
+
+static int has_avx2(void)
+{
+    return 0;
+}
+
+static int has_avx512(void)
+{
+    return 0;
+}
+
+#endif
+
+vndf_instructions vndf_instructions_used(vndf_instructions limit)
+{
+    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX512) && has_avx512())
+        return VNDF_INSTRUCTIONS_AVX512;
+    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX2) && has_avx2())
+        return VNDF_INSTRUCTIONS_AVX2;
+    return VNDF_INSTRUCTIONS_PORTABLE;
+}
+
+/* ---- sample ---- */
+
+VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
+{
+    float density;
+    vndf_vec3 n = vndf_sample(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL);
+    c->wm.x[i] = n.x;
+    c->wm.y[i] = n.y;
+    c->wm.z[i] = n.z;
+    if (c->to1)
+        c->to1[i] = density;
+}
+
+static void sample_one_by_one(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+{
+    vndf_batch_call c = {wm, u1, u2, pdf, NULL};
+    vndf_batch_for_each_view(b, &c, sample_one);
+}
+
+#if VNDF_HAS_LANES
+
+enum { INPUTS = 7, RESULTS = 4 };
+
+/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
+ * lanes would read beyond. Results that do not go where they belong at once: those of the last, and all where what
+ * is read may lie there. */
+typedef struct copies {
+    float of[INPUTS][VNDF_BLOCK_SAMPLES], result[RESULTS][VNDF_BLOCK_SAMPLES];
+} copies;
+
+static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
+{
+    if (is_shared) {
+        for (uint32_t i = 0; first == 0 && i < VNDF_BLOCK_SAMPLES; i++)
+            copy[i] = from[0];
+        return copy;
+    }
+    if (count == VNDF_BLOCK_SAMPLES)
+        return from + first;
+    for (uint32_t i = 0; i < VNDF_BLOCK_SAMPLES; i++)
+        copy[i] = i < count ? from[first + i] : 0.0f;
+    return copy;
+}
+
+static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
+                      const float *u2, copies *c)
+{
+    uint32_t n = block->count;
+    int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
+    block->u1 = input_at(u1, 0, first, n, c->of[0]);
+    block->u2 = input_at(u2, 0, first, n, c->of[1]);
+    if (block->view)
+        return;
+    block->alpha_x = input_at(b->alpha_x, alpha, first, n, c->of[2]);
+    block->alpha_y = input_at(b->alpha_y, alpha, first, n, c->of[3]);
+    block->wi_x = input_at(b->wi_x, wi, first, n, c->of[4]);
+    block->wi_y = input_at(b->wi_y, wi, first, n, c->of[5]);
+    block->wi_z = input_at(b->wi_z, wi, first, n, c->of[6]);
+}
+
+static int overlap(const float *a, const float *b, size_t count)
+{
+    uintptr_t first = (uintptr_t)a, second = (uintptr_t)b, bytes = count * sizeof(float);
+    return first < second + bytes && second < first + bytes;
+}
+
+/* Whether no result lies where a number is read from. */
+static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, const float *pdf)
+{
+    const float *read[INPUTS] = {u1, u2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
+    const float *written[RESULTS] = {wm.x, wm.y, wm.z, pdf};
+    for (int i = 0; i < INPUTS; i++)
+        for (int j = 0; j < RESULTS; j++)
+            if (written[j] && overlap(read[i], written[j], b->count))
+                return 0;
+    return 1;
+}
+
+/* Where the results of a block go first. */
+static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm,
+                          float *pdf)
+{
+    int at_once = apart && block->count == VNDF_BLOCK_SAMPLES;
+    block->x = at_once ? wm.x + first : c->result[0];
+    block->y = at_once ? wm.y + first : c->result[1];
+    block->z = at_once ? wm.z + first : c->result[2];
+    block->density = at_once && pdf ? pdf + first : c->result[3];
+}
+
+/* What lanes have left, before the block's results go where its numbers may have come from. */
+static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
+{
+    for (uint32_t n = 0; n < block->left_count; n++) {
+        uint32_t i = block->left[n] % VNDF_DELICATE;
+        vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
+        vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
+                           ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
+                           : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
+        block->x[i] = wm.x;
+        block->y[i] = wm.y;
+        block->z[i] = wm.z;
+    }
+}
+
+/* Those that are not there yet. */
+static void move_results(const vndf_sample_block *block, size_t first, vndf_normals wm, float *pdf)
+{
+    size_t bytes = block->count * sizeof(float);
+    if (pdf && block->density != pdf + first)
+        memcpy(pdf + first, block->density, bytes);
+    if (block->x == wm.x + first)
+        return;
+    memcpy(wm.x + first, block->x, bytes);
+    memcpy(wm.y + first, block->y, bytes);
+    memcpy(wm.z + first, block->z, bytes);
+}
+
+static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
+{
+    if (wide)
+        vndf_sample_block_avx512(b->distribution, block);
+    else
+        vndf_sample_block_avx2(b->distribution, block);
+}
+
+static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+{
+    int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
+    int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, u1, u2, wm, pdf);
+    vndf_view view;
+    vndf_sample_block block;
+    copies own;
+    block.view = NULL;
+    if (vndf_batch_is_one_view(b)) {
+        view = vndf_batch_view(b, 0);
+        block.view = &view;
+    }
+    if (block.view && !view.plain) { /* lanes would leave all of it */
+        sample_one_by_one(b, u1, u2, wm, pdf);
+        return;
+    }
+    for (size_t first = 0; first < b->count; first += block.count) {
+        size_t left = b->count - first;
+        block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
+        aim_block(&block, b, first, u1, u2, &own);
+        place_results(&block, &own, first, apart, wm, pdf);
+        draw_block(b, &block, wide);
+        sample_left(&block, b, first);
+        move_results(&block, first, wm, pdf);
+    }
+}
+
+/* Whether lanes draw most samples of a batch. */
+static int has_lanes(const vndf_batch *b)
+{
+    return b->count > 1 && b->distribution && vndf_unit_scale_float(b->distribution) > 0.0f &&
+           vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
+}
+
+void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+{
+    if (has_lanes(b))
+        sample_in_lanes(b, u1, u2, wm, pdf);
+    else
+        sample_one_by_one(b, u1, u2, wm, pdf);
+}
+
+#else
+
+void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+{
+    sample_one_by_one(b, u1, u2, wm, pdf);
+}
+
+#endif

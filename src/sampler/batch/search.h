@@ -1,0 +1,166 @@
+/* Searches of lanes for cells, one sample after the other, each in eight knots at once. They go over all samples
+ * of a block when the last has been asked for: what is stored by vectors and loaded by numbers, or the other way
+ * round, is waited for. */
+#ifndef VNDF_SAMPLER_BATCH_SEARCH_H
+#define VNDF_SAMPLER_BATCH_SEARCH_H
+
+#include "sampler/batch/sort.h"
+
+/* ---- cells of radii ---- */
+
+/* Weights and targets; codes of windows, which become cells. */
+typedef struct vndf_radial_search {
+    float c[VNDF_BLOCK_SAMPLES], k[VNDF_BLOCK_SAMPLES], target[VNDF_BLOCK_SAMPLES];
+    uint32_t cell[VNDF_BLOCK_SAMPLES];
+} vndf_radial_search;
+
+/* Of samples from `i` on. Wide windows, which are few, are narrowed at once. */
+VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t i,
+                                const vndf_bearing *b, lanes_f u2)
+{
+    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
+    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(b->code, narrow)));
+    lanes_store(s->c + i, b->c);
+    lanes_store(s->k + i, b->k);
+    lanes_store(s->target + i, u2 * b->total);
+    lanes_store_u(s->cell + i, b->code);
+    for (; wide != 0; wide &= wide - 1) {
+        uint32_t at = i + (uint32_t)__builtin_ctz(wide);
+        vndf_window window = vndf_window_from(s->cell[at]);
+        s->cell[at] = vndf_radial_narrow(&d->knots, window, s->c[at], s->k[at], s->target[at]);
+    }
+}
+
+/* `whole` for c, k >= 0. */
+VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t count, int whole)
+{
+    const vndf_knots knots = d->knots;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t first = s->cell[i];
+        s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
+                                    : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
+    }
+}
+
+VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
+{
+    lanes_store_u(cell, lanes_limit_u(lanes_load_u(cell), most));
+}
+
+/* Cells that have long been found. */
+VNDF_INLINE vndf_radial_lanes vndf_load_cells(const vndf_distribution *d, const uint32_t *cell)
+{
+    lanes_lines lines = lanes_lines_from(&d->cells->f0, sizeof *d->cells / sizeof(float), cell);
+    return vndf_radial_load_lines(&lines);
+}
+
+/* ---- cells of azimuths ---- */
+
+/* The row of a view that all share: its cells, few enough to be looked up in registers. */
+typedef struct vndf_mixed_row {
+    float before[VNDF_FEW], mass[VNDF_FEW], e0[VNDF_FEW], e1[VNDF_FEW], q[VNDF_FEW], width[VNDF_FEW];
+    uint32_t count;
+} vndf_mixed_row;
+
+/* Between which knots of rows a direction is, its row, the part before the azimuth, the cell, and where that is
+ * among those of all rows. */
+typedef struct vndf_row_search {
+    uint32_t span[VNDF_BLOCK_SAMPLES], row[VNDF_BLOCK_SAMPLES], cell[VNDF_BLOCK_SAMPLES], at[VNDF_BLOCK_SAMPLES];
+    float first[VNDF_BLOCK_SAMPLES], middle[VNDF_BLOCK_SAMPLES], last[VNDF_BLOCK_SAMPLES];
+    float part[VNDF_BLOCK_SAMPLES];
+    vndf_azimuth_row rows[VNDF_BLOCK_GROUPS];
+    vndf_mixed_row mixed;
+} vndf_row_search;
+
+/* Whether all samples have one row of few cells. */
+VNDF_INLINE int vndf_has_one_row(const vndf_distribution *d, const vndf_sorted *from)
+{
+    return from->is_shared && d->above.stride <= VNDF_FEW;
+}
+
+VNDF_INLINE float vndf_first_lane(lanes_f x)
+{
+    float all[VNDF_LANES];
+    lanes_store(all, x);
+    return all[0];
+}
+
+/* As vndf_azimuth_cell_from does. */
+VNDF_INLINE void vndf_mix_row(const vndf_azimuth_row *row, vndf_mixed_row *to)
+{
+    const vndf_wedge *wedge = row->wedge;
+    const float u = vndf_first_lane(row->first), v = vndf_first_lane(row->middle), t = vndf_first_lane(row->last);
+    uint32_t first[VNDF_LANES];
+    lanes_store_u(first, row->row);
+    const vndf_row_cell *a = wedge->row_cell + (size_t)first[0] * wedge->stride, *b = a + wedge->stride;
+    const vndf_row_cell *c = b + wedge->stride;
+    to->count = wedge->cell_count;
+    for (uint32_t j = 0; j < wedge->cell_count; j++) {
+        float h = wedge->q[j + 1] - wedge->q[j];
+        to->before[j] = u * a[j].before + v * b[j].before + t * c[j].before;
+        to->mass[j] = u * a[j].mass + v * b[j].mass + t * c[j].mass;
+        to->e0[j] = (u * a[j].begin + v * b[j].begin + t * c[j].begin) * h;
+        to->e1[j] = (u * a[j].end + v * b[j].end + t * c[j].end) * h;
+        to->q[j] = wedge->q[j];
+        to->width[j] = h;
+    }
+}
+
+VNDF_INLINE vndf_azimuth_cell vndf_mixed_cell(const vndf_mixed_row *m, lanes_u j)
+{
+    uint32_t n = m->count;
+    vndf_azimuth_cell cell = {{lanes_few(m->e0, n, j), lanes_few(m->e1, n, j), lanes_few(m->mass, n, j)},
+                              lanes_few(m->before, n, j), lanes_few(m->q, n, j), lanes_few(m->width, n, j)};
+    return cell;
+}
+
+/* Cells where the azimuths are, of that row, of samples from `first` on. */
+VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                      uint32_t count, vndf_row_search *s)
+{
+    const vndf_azimuth_row row = vndf_wedge_row(&d->above, from->shared.c);
+    vndf_mix_row(&row, &s->mixed);
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        vndf_sector sector = vndf_sorted_sector(from, first + i);
+        lanes_f part = vndf_wedge_part(lanes_abs(sector.apart), sector.mass);
+        lanes_store(s->part + i, part);
+        lanes_store_u(s->cell + i, vndf_guide_count(s->mixed.before, s->mixed.count + 1, part));
+        s->rows[g] = row;
+    }
+}
+
+/* Rows of directions, and their cells where the azimuths are. */
+VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                    uint32_t count, vndf_row_search *s)
+{
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(s->span + i, vndf_wedge_span(&d->above, vndf_sorted_incidence(from, first + i).c));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        lanes_lines lines = lanes_lines_from(&d->above.row_span->begin, VNDF_ROW_SPAN_FLOATS, s->span + i);
+        vndf_sector sector = vndf_sorted_sector(from, first + i);
+        s->rows[g] = vndf_wedge_row_from(&d->above, vndf_sorted_incidence(from, first + i).c,
+                                         lanes_load_u(s->span + i), &lines);
+        lanes_store(s->first + i, s->rows[g].first);
+        lanes_store(s->middle + i, s->rows[g].middle);
+        lanes_store(s->last + i, s->rows[g].last);
+        lanes_store(s->part + i, vndf_wedge_part(lanes_abs(sector.apart), sector.mass));
+        lanes_store_u(s->row + i, s->rows[g].row);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        s->cell[i] = vndf_azimuth_find(&d->above, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
+        s->at[i] = s->row[i] * d->above.stride + s->cell[i];
+    }
+}
+
+/* Of samples from `i` on after the first. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, const vndf_sorted *from, uint32_t i,
+                                                   const vndf_row_search *s)
+{
+    lanes_u cell = lanes_load_u(s->cell + i);
+    if (vndf_has_one_row(d, from))
+        return vndf_mixed_cell(&s->mixed, cell);
+    lanes_lines lines = lanes_lines_from(&d->above.row_cell->before, 4, s->at + i);
+    return vndf_azimuth_cell_from(&s->rows[i / VNDF_LANES], cell, &lines);
+}
+
+#endif

@@ -1,0 +1,195 @@
+/* A block of samples sorted into those in front of wi and those in the wedge, which are drawn in other ways, so
+ * that lanes are all of one kind; and the way back. */
+#ifndef VNDF_SAMPLER_BATCH_SORT_H
+#define VNDF_SAMPLER_BATCH_SORT_H
+
+#include "simd/lanes_split.h"
+#include "sampler/batch/lanes_sample.h"
+#include "sampler/tabulated/draw.h"
+#include "sampler/surface.h"
+
+enum { VNDF_BLOCK_GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
+
+/* Samples sorted: those in front of wi from the beginning on, those in the wedge from the end down
+ * (simd/lanes_split.h). What all share stands in `shared` alone. */
+typedef struct vndf_sorted {
+    float ax[VNDF_BLOCK_SAMPLES], ay[VNDF_BLOCK_SAMPLES], s[VNDF_BLOCK_SAMPLES], c[VNDF_BLOCK_SAMPLES];
+    float cos_phi[VNDF_BLOCK_SAMPLES], sin_phi[VNDF_BLOCK_SAMPLES], spread[VNDF_BLOCK_SAMPLES];
+    float mass[VNDF_BLOCK_SAMPLES], apart[VNDF_BLOCK_SAMPLES], u2[VNDF_BLOCK_SAMPLES];
+    vndf_incidence shared;
+    int is_shared;
+} vndf_sorted;
+
+/* What is drawn of them; the density is negative where that is not good enough. */
+typedef struct vndf_results {
+    float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
+} vndf_results;
+
+/* How a group was sorted, which of it can be drawn here, and for which of those that is good enough so far. */
+typedef struct vndf_origin {
+    lanes_split split;
+    lanes_m usable, plain;
+} vndf_origin;
+
+/* ---- a block ---- */
+
+/* Uniform numbers, held to [0, 1]. */
+VNDF_INLINE lanes_f vndf_block_u(const float *from)
+{
+    return lanes_least(lanes_positive(lanes_load(from)), lanes_set(1.0f));
+}
+
+/* Indices of the lanes in `m`, from `first` on, that are below `end`. */
+VNDF_INLINE uint32_t vndf_block_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first, uint32_t end)
+{
+    uint32_t bits = lanes_mask_bits(m);
+    if (end - first < VNDF_LANES)
+        bits &= (1u << (end - first)) - 1;
+    for (; bits != 0; bits &= bits - 1)
+        list[count++] = first + (uint32_t)__builtin_ctz(bits);
+    return count;
+}
+
+/* Those that cannot be drawn here, and those that the call of one would draw and then do carefully. */
+VNDF_INLINE void vndf_block_leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
+{
+    b->left_count = vndf_block_append(b->left, b->left_count, unready, first, b->count);
+    uint32_t from = b->left_count;
+    b->left_count = vndf_block_append(b->left, from, delicate, first, b->count);
+    for (; from < b->left_count; from++)
+        b->left[from] |= VNDF_DELICATE;
+}
+
+VNDF_INLINE void vndf_block_store(vndf_sample_block *b, uint32_t i, const vndf_drawn *n)
+{
+    lanes_store(b->x + i, n->x);
+    lanes_store(b->y + i, n->y);
+    lanes_store(b->z + i, n->z);
+    lanes_store(b->density + i, n->density);
+}
+
+/* ---- sorting ---- */
+
+VNDF_INLINE void vndf_sort_incidence(vndf_sorted *to, const lanes_split *split, const vndf_incidence *w)
+{
+    lanes_split_store(split, to->ax, w->ax);
+    lanes_split_store(split, to->ay, w->ay);
+    lanes_split_store(split, to->s, w->s);
+    lanes_split_store(split, to->c, w->c);
+    lanes_split_store(split, to->cos_phi, w->cos_phi);
+    lanes_split_store(split, to->sin_phi, w->sin_phi);
+    lanes_split_store(split, to->spread, w->spread);
+}
+
+VNDF_INLINE void vndf_sort_sector(vndf_sorted *to, const lanes_split *split, const vndf_sector *sector, lanes_f u2)
+{
+    lanes_split_store(split, to->mass, sector->mass);
+    lanes_split_store(split, to->apart, sector->apart);
+    lanes_split_store(split, to->u2, u2);
+}
+
+/* Directions of a block's samples, and where they are good enough. */
+VNDF_INLINE void vndf_sort_aim(const vndf_distribution *d, const vndf_sample_block *b, float scale, vndf_aim *aim,
+                               vndf_origin *from)
+{
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
+        uint32_t i = g * VNDF_LANES;
+        lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
+        lanes_m ready = lanes_all();
+        aim[g] = vndf_aim_towards(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i),
+                                  lanes_load(b->wi_z + i), &ready);
+        from[g].usable = lanes_both(ready, vndf_aim_is_plain(ax, ay, aim[g].c));
+    }
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
+        vndf_aim_weigh(d, &aim[g], &from[g].usable);
+}
+
+/* Samples from `i` on of a block, between *low and *high. What cannot be drawn goes with the fronts. */
+VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float scale, const vndf_aim *aim,
+                                 vndf_sorted *to, vndf_origin *from, uint32_t *low, uint32_t *high)
+{
+    lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
+    lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
+    vndf_incidence w = vndf_incidence_from(ax, ay, aim);
+    vndf_sector sector = vndf_sector_at(aim->front, aim->wedge, half);
+    from->plain = lanes_both(from->usable, vndf_sector_is_plain(&sector, aim->front, half, u2));
+    lanes_m unusable = lanes_without(lanes_all(), from->usable);
+    from->split = lanes_split_by(lanes_either(sector.in_front, unusable), low, high);
+    vndf_sort_incidence(to, &from->split, &w);
+    vndf_sort_sector(to, &from->split, &sector, u2);
+}
+
+/* The same where all have one view, which is plain. */
+VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_sorted *to, vndf_origin *from,
+                                  uint32_t *low, uint32_t *high)
+{
+    lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
+    lanes_f front = lanes_set(b->view->front);
+    vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->wedge), half);
+    from->usable = lanes_all();
+    from->plain = vndf_sector_is_plain(&sector, front, half, u2);
+    from->split = lanes_split_by(sector.in_front, low, high);
+    vndf_sort_sector(to, &from->split, &sector, u2);
+}
+
+/* All of a block; how many are in front, or cannot be drawn. */
+VNDF_INLINE uint32_t vndf_sort_block(const vndf_distribution *d, const vndf_sample_block *b, vndf_sorted *to,
+                                     vndf_origin *from)
+{
+    uint32_t low = 0, high = (b->count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
+    float scale = vndf_unit_scale_float(d);
+    vndf_aim aim[VNDF_BLOCK_GROUPS];
+    to->is_shared = b->view != NULL;
+    if (b->view)
+        to->shared = vndf_incidence_of(b->view);
+    else
+        vndf_sort_aim(d, b, scale, aim, from);
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
+        if (b->view)
+            vndf_sort_shared(b, g * VNDF_LANES, to, &from[g], &low, &high);
+        else
+            vndf_sort_group(b, g * VNDF_LANES, scale, &aim[g], to, &from[g], &low, &high);
+    return low;
+}
+
+VNDF_INLINE vndf_incidence vndf_sorted_incidence(const vndf_sorted *w, uint32_t i)
+{
+    if (w->is_shared)
+        return w->shared;
+    vndf_incidence at = {lanes_load(w->ax + i), lanes_load(w->ay + i), lanes_load(w->s + i), lanes_load(w->c + i),
+                         lanes_load(w->cos_phi + i), lanes_load(w->sin_phi + i), lanes_load(w->spread + i),
+                         lanes_all()};
+    return at;
+}
+
+VNDF_INLINE vndf_sector vndf_sorted_sector(const vndf_sorted *w, uint32_t i)
+{
+    vndf_sector sector = {lanes_all(), lanes_load(w->mass + i), lanes_load(w->apart + i)};
+    return sector;
+}
+
+/* Results to where their samples were; what is not good enough is left. */
+VNDF_INLINE void vndf_unsort_block(vndf_sample_block *b, const vndf_origin *from, const vndf_results *front,
+                                   const vndf_results *wedge)
+{
+    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
+        const vndf_origin *o = &from[i / VNDF_LANES];
+        vndf_drawn n = {lanes_split_load(&o->split, front->x, wedge->x),
+                        lanes_split_load(&o->split, front->y, wedge->y),
+                        lanes_split_load(&o->split, front->z, wedge->z),
+                        lanes_split_load(&o->split, front->density, wedge->density)};
+        vndf_block_store(b, i, &n);
+        lanes_m good = lanes_both(o->plain, lanes_less(lanes_set(0.0f), n.density));
+        vndf_block_leave(b, lanes_without(lanes_all(), o->usable), lanes_without(o->usable, good), i);
+    }
+}
+
+VNDF_INLINE void vndf_results_keep(vndf_results *to, uint32_t i, const vndf_drawn *n, lanes_m plain)
+{
+    lanes_store(to->x + i, n->x);
+    lanes_store(to->y + i, n->y);
+    lanes_store(to->z + i, n->z);
+    lanes_store(to->density + i, lanes_pick(plain, n->density, lanes_set(-1.0f)));
+}
+
+#endif

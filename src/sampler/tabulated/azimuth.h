@@ -1,0 +1,132 @@
+/* Stage 1 of the engine, in the wedge: an azimuth phi in [0, pi/2] from a mix of three rows of cells.
+ *
+ * The rows' variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
+ * the density:  (cos phi, sin phi) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
+ *               dphi/dq = 2 p r (1 + q^2) / N^2.
+ * With p = r this is the plain half-angle tangent. */
+#ifndef VNDF_SAMPLER_TABULATED_AZIMUTH_H
+#define VNDF_SAMPLER_TABULATED_AZIMUTH_H
+
+#include <stdint.h>
+
+#include "simd/count.h"
+#include "simd/lanes_lines.h"
+#include "math/rational_cell.h"
+#include "table/table.h"
+
+/* The weighted sum of three successive rows of a wedge, cell by cell. */
+typedef struct vndf_azimuth_row {
+    const vndf_wedge *wedge;
+    lanes_u row;                       /* the first */
+    lanes_f first, middle, last, p, r; /* weights; aspect */
+    lanes_f per_width;                 /* one over the distance in y, from this knot of rows to the next */
+} vndf_azimuth_row;
+
+/* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
+typedef struct vndf_azimuth {
+    lanes_f c, s, n, density;
+} vndf_azimuth;
+
+/* A cell of the mix, the mass before it, where it begins in q and how wide it is. */
+typedef struct vndf_azimuth_cell {
+    vndf_rational_cell cell;
+    lanes_f before, q, width;
+} vndf_azimuth_cell;
+
+/* The ends of cell j. */
+VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_u j)
+{
+#if VNDF_LANES > 1
+    if (wedge->stride <= VNDF_FEW) /* q is padded to that */
+        return lanes_few(wedge->q + end, wedge->stride, j);
+#endif
+    return lanes_gather(wedge->q + end, j);
+}
+
+/* Cell j, from where it is to be loaded. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row, lanes_u j,
+                                                     const lanes_lines *lines)
+{
+    const vndf_wedge *w = row->wedge;
+    const size_t stride = 4 * (size_t)w->stride;
+    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, stride);
+    lanes_four c = lanes_load_four(lines, 2 * stride);
+    lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(w, 0, j);
+    lanes_f h = vndf_azimuth_q(w, 1, j) - q;
+    vndf_azimuth_cell cell = {{(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h,
+                               u * a.b + v * b.b + t * c.b}, u * a.a + v * b.a + t * c.a, q, h};
+    return cell;
+}
+
+/* Whether the density of a cell may change by more than a factor e^20 per radian, or per xi, at a place: rounding
+ * moves both by 1e-7 or so. Measured by what bounds its change, |e1 - e0| + 3 |e0 + e1 - 2 mass|, over what it has
+ * there or in the mean; turn/n2 is radians per xi. */
+VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_f xi, lanes_f turn, lanes_f n2)
+{
+    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
+    lanes_f least = lanes_least(cell->e0 + rise * xi, cell->mass);
+    return lanes_less(20.0f * least * lanes_least(turn, n2), (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * n2);
+}
+
+/* Radians per xi at a place of a cell. */
+VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, lanes_f xi)
+{
+    lanes_f q = cell->q + xi * cell->width, q2 = q * q, c = row->p * (1.0f - q2), s = row->r * 2.0f * q;
+    return 2.0f * row->p * row->r * (1.0f + q2) * cell->width / (c * c + s * s);
+}
+
+/* The azimuth at a place of a cell; not *plain where the density is steep. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
+                                         const vndf_rational_place *in, lanes_m *plain)
+{
+    lanes_f q = cell->q + in->xi * cell->width;
+    lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
+    lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
+    vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
+    *plain = lanes_without(*plain, vndf_azimuth_is_steep(&cell->cell, in->xi, turn, n2));
+    return at;
+}
+
+/* How many cells of one lane's row have no more than `target` before them. All are counted through: no step waits
+ * for another. */
+VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, float first, float middle,
+                                        float last, float target)
+{
+    const float *a = wedge->cdf + (size_t)row * wedge->stride, *b = a + wedge->stride, *c = b + wedge->stride;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < wedge->stride; i += VNDF_PADDING)
+        count += vndf_count_three(a + i, b + i, c + i, first, middle, last, target);
+    return count;
+}
+
+/* The cell of one lane's row in which the mass `target` ends. */
+VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, float first, float middle,
+                                       float last, float target)
+{
+    uint32_t count = vndf_azimuth_count(wedge, row, first, middle, last, target);
+    return count > 0 ? count - 1 : 0;
+}
+
+/* The azimuth with mass `target` before it, in that cell. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
+                                           lanes_f target, lanes_m *plain)
+{
+    vndf_rational_place in = vndf_rational_invert(&cell->cell, target - cell->before);
+    return vndf_azimuth_at(row, cell, &in, plain);
+}
+
+#if VNDF_LANES == 1
+
+/* The azimuth of a row with the mass `target` before it. */
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *plain)
+{
+    const vndf_wedge *wedge = row->wedge;
+    uint32_t j = vndf_azimuth_find(wedge, row->row, row->first, row->middle, row->last, target);
+    lanes_lines lines = lanes_lines_at(&wedge->row_cell->before, 4, row->row * wedge->stride + j);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_from(row, j, &lines);
+    return vndf_azimuth_draw(row, &cell, target, plain);
+}
+
+#endif
+
+#endif

@@ -1,0 +1,196 @@
+/* The density of a given normal in a wedge (density.h): behind wi above the horizon, towards it below.
+ *
+ * The azimuth's density is that of the mixed row (wedge.h) at q = s(n + s)/h and 1 - q = c(n + s + c)/h,
+ * h = (c + n)(n + s), for (c, s) ~ (r |cos a|, p |sin a|) of any length n. Shares of the rows are not divided by
+ * the distance of their knots either. In the cell of the cut, sampler/tabulated/radial.h, the part h of xi is visible. */
+#ifndef VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
+#define VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
+
+#include "sampler/tabulated/density.h"
+
+/* ---- azimuth ---- */
+
+/* Three rows of a wedge, their shares times `square`, and the aspect times that. */
+typedef struct vndf_shares {
+    doubles_u row;
+    doubles first, middle, last, square, p, r;
+} vndf_shares;
+
+VNDF_INLINE doubles vndf_shares_mix(const vndf_shares *s, const float *array)
+{
+    return s->first * doubles_gather(array, s->row) + s->middle * doubles_gather(array + 1, s->row) +
+           s->last * doubles_gather(array + 2, s->row);
+}
+
+VNDF_INLINE vndf_shares vndf_shares_from(doubles_u i, doubles y, doubles from, doubles to)
+{
+    doubles m = y - from, rest = to - y, width = to - from;
+    vndf_shares s = {i * 2u, rest * rest, 2.0 * rest * m, m * m, width * width, m, m};
+    return s;
+}
+
+#if VNDF_DOUBLES == 8
+
+/* Where there are no more than VNDF_FEW knots of rows: all is found and read in registers. */
+VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
+{
+    doubles_u i = doubles_set_u(0);
+    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
+        i = doubles_pick_u(doubles_at_most(doubles_few_f(w->few_y, i + step), y), i + step, i);
+    i = doubles_least_u(i, doubles_set_u(w->row_count / 2 - 1)); /* at the last knot, too, there are three */
+    vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->few_y, i), doubles_few_f(w->few_y + 1, i));
+    const float *p = w->few_aspects[0], *pm = w->few_aspects[1], *r = w->few_aspects[2], *rm = w->few_aspects[3];
+    s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(pm, i) + s.last * doubles_few_f(p + 1, i);
+    s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(rm, i) + s.last * doubles_few_f(r + 1, i);
+    return s;
+}
+
+#endif
+
+/* The guide finds the knot but for the rounding of y. */
+VNDF_INLINE vndf_shares vndf_shares_at(const vndf_wedge *w, doubles y)
+{
+#if VNDF_DOUBLES == 8
+    if (w->row_count / 2 < VNDF_FEW)
+        return vndf_shares_few(w, y);
+#endif
+    const doubles_u one = doubles_set_u(1), none = doubles_set_u(0);
+    doubles_u i = vndf_guide_doubles(&w->row_guide, doubles_narrow(y));
+    doubles_m early = doubles_both(doubles_less(y, doubles_gather(w->row_y, i)), doubles_at_most_u(one, i));
+    i -= doubles_pick_u(early, one, none);
+    vndf_shares s = vndf_shares_from(i, y, doubles_gather(w->row_y, i), doubles_gather(w->row_y + 1, i));
+    s.p = vndf_shares_mix(&s, w->aspect_p);
+    s.r = vndf_shares_mix(&s, w->aspect_r);
+    return s;
+}
+
+/* A cell of the mix: its mass and the densities at its ends, times `square`. */
+typedef struct vndf_mixed_cell {
+    doubles mass, begin, end;
+} vndf_mixed_cell;
+
+VNDF_INLINE vndf_mixed_cell vndf_shares_cell(const vndf_wedge *w, const vndf_shares *s, doubles_u j)
+{
+    const size_t stride = 4 * (size_t)w->stride;
+    doubles_lines lines = doubles_lines_at(&w->row_cell->before, 4, s->row * w->stride + j);
+    doubles_four a = doubles_load_four(&lines, 0), b = doubles_load_four(&lines, stride);
+    doubles_four c = doubles_load_four(&lines, 2 * stride);
+    vndf_mixed_cell cell = {s->first * a.b + s->middle * b.b + s->last * c.b,
+                            s->first * a.c + s->middle * b.c + s->last * c.c,
+                            s->first * a.d + s->middle * b.d + s->last * c.d};
+    return cell;
+}
+
+/* The last knot of q at or below. */
+VNDF_INLINE doubles_u vndf_cell_of_q(const vndf_wedge *w, doubles q)
+{
+    doubles_u j = doubles_set_u(0);
+    for (uint32_t i = 1; i < w->cell_count; i++)
+        j += doubles_pick_u(doubles_at_most(doubles_set((double)w->q[i]), q), doubles_set_u(1), doubles_set_u(0));
+    return j;
+}
+
+/* The ends of cell j of q. */
+VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j)
+{
+#if VNDF_DOUBLES == 8
+    if (w->stride <= VNDF_FEW) /* q is padded to that */
+        return doubles_few_f(w->q + end, j);
+#endif
+    return doubles_gather(w->q + end, j);
+}
+
+/* Mass per radian of the row, times `square`, as above/below; cosine and sine >= 0 and of any length. */
+VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, doubles cosine, doubles sine)
+{
+    doubles along = s->r * cosine, aside = s->p * sine, n = doubles_root(along * along + aside * aside);
+    doubles reach = n + aside, per = 1.0 / ((along + n) * reach);
+    doubles q = aside * reach * per, rest = along * (reach + along) * per;
+    doubles_u j = vndf_cell_of_q(w, q);
+    vndf_mixed_cell cell = vndf_shares_cell(w, s, j);
+    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j), h = to - from;
+    doubles a = q - from, b = rest - (1.0 - to), ab = a * b;
+    doubles twice = 2.0 * cell.mass, e0 = cell.begin * h, e1 = cell.end * h;
+    doubles over = e1 * (a * a) + twice * ab + e0 * (b * b), under = cell.mass * (h * h) + (e0 + e1 - twice) * ab;
+    doubles x = s->p * rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
+    vndf_quotient density = {over * (mass * mass) * (h * (x * x + y * y)),
+                             under * under * (2.0 * s->p * s->r * (1.0 + q * q))};
+    return density;
+}
+
+/* ---- radius ---- */
+
+/* integral_0^1 f(h t) (1 - t) dt of the cubic from f0 to f1 with a bump (sampler/tabulated/radial.h). */
+VNDF_INLINE doubles vndf_bump_part(doubles f0, doubles f1, vndf_bump bump, doubles h)
+{
+    const double sixth = 1.0 / 6.0, twelfth = 1.0 / 12.0;
+    doubles slope = f1 - f0, bend = twelfth * (bump.b - bump.a) - h * (0.05 * bump.b);
+    doubles whole = 0.5 * f0 + h * (sixth * (slope + bump.a) + h * bend);
+    doubles least = 1e-3 * (0.5 * f0 + h * (sixth * slope));
+    return doubles_pick(doubles_less(least, whole), whole, least);
+}
+
+/* The law of the radius: its mass, and the cell of its cut. */
+typedef struct vndf_cut_law {
+    doubles mass;
+    doubles_u cut;
+} vndf_cut_law;
+
+/* The part of a cell that is visible: w at the end that is, `end` at the other. */
+VNDF_INLINE doubles vndf_visible_part(doubles w, doubles end)
+{
+    return doubles_pick(doubles_less(end, doubles_set(0.0)), w / (w - end), doubles_set(1.0));
+}
+
+/* c > 0 > k. */
+VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles c, doubles k)
+{
+    vndf_spot at = vndf_spot_at(d, c, -k);
+    doubles_four f = doubles_load_four(&at.line, 0), sums = doubles_load_four(&at.line, 12);
+    doubles w = doubles_positive(c * at.z0 + k * at.x0), h = vndf_visible_part(w, c * at.z1 + k * at.x1);
+    doubles part = w * h * vndf_bump_part(f.a, f.b, vndf_bump_of(f), h);
+    vndf_cut_law law = {c * sums.c + w * sums.d + part, at.cell};
+    return law;
+}
+
+/* c < 0 < k. */
+VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles c, doubles k)
+{
+    vndf_spot at = vndf_spot_at(d, -c, k);
+    doubles_four f = doubles_load_four(&at.line, 0);
+    doubles w = doubles_positive(c * at.z1 + k * at.x1), h = vndf_visible_part(w, c * at.z0 + k * at.x0);
+    vndf_bump bump = vndf_bump_of(f), turned = {bump.a + bump.b, -bump.b};
+    doubles part = w * h * vndf_bump_part(f.b, f.a, turned, h);
+    doubles s = doubles_gather(d->knots.s + 1, at.cell), t = doubles_gather(d->knots.t + 1, at.cell);
+    vndf_cut_law law = {k * s + w * t + part, at.cell};
+    return law;
+}
+
+/* ---- both ---- */
+
+/* The normal's azimuth and radius. */
+VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_given *g, int below,
+                                        doubles_m *plain)
+{
+    const vndf_wedge *w = below ? &d->below : &d->above;
+    doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;
+    vndf_bare n = vndf_bare_of(g);
+    doubles k = vndf_given_level(g) * n.product, c = (below ? -up : up) * n.across;
+    doubles_m leans = doubles_less(doubles_set(0.0), across);
+    doubles cosine = doubles_abs(doubles_pick(leans, k, n.x));
+    doubles sine = doubles_abs(doubles_pick(leans, g->wi.ax * g->wi.x * n.y - g->wi.ay * g->wi.y * n.x, n.y));
+    vndf_shares shares = vndf_shares_at(w, (below ? across : up) / sum);
+    vndf_quotient azimuth = vndf_row_density(w, &shares, cosine, sine);
+    vndf_cut_law law = below ? vndf_cut_law_below(d, c, k) : vndf_cut_law_above(d, c, k);
+    vndf_spot at = vndf_spot_at(d, n.across, n.z);
+    vndf_quotient q = below ? vndf_given_in_weighted_cell(&at, &n, c, k) : vndf_given_in_cell(&at, &n, c, k);
+    *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
+                                        : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
+    doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);
+    if (below) /* the wedge is all there is */
+        return vndf_given_density(0.5 * above, under, plain);
+    doubles wedge = vndf_given_wedge(d, across, up), total = 2.0 * (vndf_given_front(d, across, up) + wedge);
+    return vndf_given_density(above * wedge, under * total, plain);
+}
+
+#endif

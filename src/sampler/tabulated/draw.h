@@ -1,0 +1,219 @@
+/* What a sample is put together from once its azimuth and radius are drawn (sampler/tabulated/theory.h), for one or for
+ * lanes: the normal, its density in float, and where that is good enough. */
+#ifndef VNDF_SAMPLER_TABULATED_DRAW_H
+#define VNDF_SAMPLER_TABULATED_DRAW_H
+
+#include "sampler/tabulated/aim.h"
+#include "sampler/tabulated/radial.h"
+
+/* The horizontal unit vector at an azimuth of the turned frame, stretched back; and its square. */
+typedef struct vndf_level {
+    lanes_f x, y, square;
+} vndf_level;
+
+/* `half` has the sign of the azimuth. */
+VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, lanes_f sin_phi, lanes_f cosine,
+                                     lanes_f sine, lanes_f half)
+{
+    sine = lanes_sign(sine, half);
+    vndf_level level = {ax * (cos_phi * cosine - sin_phi * sine), ay * (sin_phi * cosine + cos_phi * sine),
+                        cosine};
+    level.square = level.x * level.x + level.y * level.y;
+    return level;
+}
+
+/* ---- where the density of the place is that of the normal, as it was rounded ---- */
+
+/* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
+ * azimuth, a part of `across`, does to it. Rounding must not take the azimuth from the front to the wedge or back
+ * either, as the wedge's density is the table's. */
+static const float VNDF_PLAIN_SIDE = 1e-6f;
+
+VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
+{
+    lanes_f across = s * x, along = across * cosine, up = c * z;
+    lanes_m unscaled = lanes_at_most(lanes_set(VNDF_RADIAL_MASS_PLAIN), total);
+    return lanes_both(lanes_both(unscaled, lanes_less(lanes_set(VNDF_PLAIN_SIDE), cosine)),
+                      lanes_less(0.05f * across, along + up));
+}
+
+VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
+{
+    lanes_f across = s * x, along = across * cosine, up = c * z;
+    return lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
+                      lanes_less(0.05f * (across + up), along + up));
+}
+
+/* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
+ * wi most cells are known to be so. */
+VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(vndf_radial_is_steep(at, cell, xi), beside));
+}
+
+VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
+    if (!lanes_any(lanes_without(lanes_all(), smooth)))
+        return lanes_all();
+    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), lanes_less(lanes_set(0.0f), at->calm));
+    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    return lanes_without(lanes_all(), lanes_either(rough, beside));
+}
+
+/* ---- the normal ---- */
+
+typedef struct vndf_drawn {
+    lanes_f x, y, z, density;
+} vndf_drawn;
+
+/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for
+ * dwm = ax ay X Z^2 dR da over the third power of the length. */
+typedef struct vndf_place {
+    lanes_f x, z, per, above, below;
+} vndf_place;
+
+/* `per` is nowhere on the way to the normal, and there is one division. Good where *plain stays: nothing has
+ * underflowed, and a table that is none of ours may have numbers that overflow. */
+VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *plain)
+{
+    lanes_f square = at->x * at->x * level->square + at->z * at->z, root = lanes_root(square);
+    lanes_f product = root * at->below, both = 1.0f / product, per = at->below * both, length = root * at->per;
+    lanes_f density = at->above * (length * length) * (length * (root * both));
+    vndf_drawn n = {at->x * level->x * per, at->x * level->y * per, at->z * per, density};
+    lanes_m precise = lanes_both(lanes_less(lanes_set(1e-34f), square), lanes_less(lanes_set(1e-36f), product));
+    lanes_m finite = lanes_both(lanes_less(lanes_set(1e-37f), density), lanes_less(density, lanes_set(1e38f)));
+    *plain = lanes_both(*plain, lanes_both(precise, finite));
+    return n;
+}
+
+/* ---- all of it, where it is plain ---- */
+
+/* Surface and direction of a sample. */
+typedef struct vndf_incidence {
+    lanes_f ax, ay, s, c, cos_phi, sin_phi, spread;
+    lanes_m plain;
+} vndf_incidence;
+
+VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
+{
+    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->area * (ax * ay),
+                        vndf_aim_is_plain(ax, ay, aim->c)};
+    return w;
+}
+
+/* Of a view, the same in all lanes. */
+VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
+{
+    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
+                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->spread),
+                        v->plain ? lanes_all() : lanes_none()};
+    return w;
+}
+
+/* Where an azimuth is drawn: in front of wi or in the wedge, the mass of that, and the part of it from the side of
+ * wi, where both begin, to the azimuth, with the sign of the azimuth. */
+typedef struct vndf_sector {
+    lanes_m in_front;
+    lanes_f mass, apart;
+} vndf_sector;
+
+/* |half| is the part of a half turn's mass between straight ahead and the azimuth; `half` = 2 u1 - 1. */
+VNDF_INLINE vndf_sector vndf_sector_at(lanes_f front, lanes_f wedge, lanes_f half)
+{
+    lanes_f target = lanes_abs(half) * (front + wedge);
+    lanes_m in_front = lanes_less(target, front);
+    vndf_sector sector = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(target - front, half)};
+    return sector;
+}
+
+/* Away from the border of the unit square, and not in a wedge whose mass is so small that the rounding of the
+ * direction would show. */
+VNDF_INLINE lanes_m vndf_sector_is_plain(const vndf_sector *sector, lanes_f front, lanes_f half, lanes_f u2)
+{
+    lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
+                                lanes_less(lanes_abs(half), lanes_set(0.9999f)));
+    return lanes_both(inside, lanes_less(0.01f * front, sector->mass));
+}
+
+/* A sample whose azimuth is drawn: what its radius and its normal take. */
+typedef struct vndf_bearing {
+    vndf_level level;
+    lanes_f cosine, c, k;    /* of the azimuth; weights of the law of the radius */
+    lanes_f total, density;  /* the law's mass; mass per radian of the azimuth, in the wedge */
+    lanes_u code;            /* of the window where the radius is */
+} vndf_bearing;
+
+/* ---- in front of wi ---- */
+
+VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_sector *sector, lanes_f u2)
+{
+    lanes_f near, k;
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(sector->apart), sector->mass, &near);
+    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
+    k = w->s * a.c;
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, sector->apart), a.c, w->c, k,
+                      vndf_radial_total(d, w->c, k), a.c, code};
+    return b;
+}
+
+/* X and Z at a place in a cell. */
+VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_rational_place *in)
+{
+    lanes_f rest = in->under - in->over;
+    vndf_place at = {rest * cell->x0 + in->over * cell->x1, rest * cell->z0 + in->over * cell->z1, in->per_under,
+                     in->root, in->below};
+    return at;
+}
+
+/* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
+ * (radial_cut.h). */
+VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
+                                        const vndf_radial_lanes *cell, lanes_u j, lanes_f u2, lanes_m *plain)
+{
+    vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before_whole(&law, cell);
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
+    vndf_place at = vndf_place_in(cell, &in);
+    *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
+    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
+    at.above = in.root;
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
+    return at;
+}
+
+/* ---- in the wedge above the horizon ---- */
+
+/* The weights (c, k) of the law of the radius, times n, at an azimuth of the wedge counted from the far side. */
+VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                         const vndf_sector *sector, const vndf_azimuth *a, lanes_f u2)
+{
+    lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, sector->apart),
+                      cosine, c, k, c, a->density * sector->mass, vndf_window_of(d, c, k, u2)};
+    return b;
+}
+
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bearing *b,
+                                        const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
+                                        lanes_f u2, lanes_m *plain)
+{
+    vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
+    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    lanes_f before = vndf_radial_before(&law, cell);
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
+    vndf_place at = vndf_place_in(cell, &in);
+    *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
+    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_radial_is_away(&law, j));
+    at.above = b->density * in.root;
+    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
+    return at;
+}
+
+#endif

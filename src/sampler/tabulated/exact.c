@@ -1,0 +1,400 @@
+/* The density of a given normal, and D, in double from the very numbers that came in. In float three things would
+ * cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell, which is narrow where D
+ * is steep; and the distance to a right angle from wi, where the azimuth's density ends below the horizon. None of
+ * them has to be formed in the turned frame:
+ *
+ *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
+ *
+ * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
+ * stretched direction before per_length brings it to s + |c| = 1. Cells are those of math/rational_cell.h,
+ * math/weighted_cell.h and sampler/tabulated/radial.h, which draws from them. This is for every normal, and for those who
+ * build tables; what most normals take, lanes too, stands in density.h and density_wedge.h. Relative
+ * error below 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test
+ * float_accuracy). */
+#include <math.h>
+
+#include "math/vector.h"
+#include "sampler/tabulated/theory.h"
+#include "sampler/tabulated/density_wedge.h"
+#include "sampler/stretch.h"
+#include "sampler/tabulated/wedge.h"
+#include "table/moment_cubic.h"
+
+/* ---- cells ---- */
+
+/* Mass per xi; eta = 1 - xi, exact where it is small. */
+static double rational_density(double e0, double e1, double mass, double xi, double eta)
+{
+    double w = xi * eta, q = 1.0 + ((e0 + e1) / mass - 2.0) * w;
+    return (e1 * xi * xi + 2.0 * mass * w + e0 * eta * eta) / (q * q);
+}
+
+/* The same over xi where e0 = 0. */
+static double rational_density_over(double e1, double mass, double xi, double eta)
+{
+    double q = 1.0 + (e1 / mass - 2.0) * (xi * eta);
+    return (e1 * xi + 2.0 * mass * eta) / (q * q);
+}
+
+/* ---- azimuth ---- */
+
+/* Rows of cells and their shares. */
+typedef struct mixed_row {
+    const float *mass[3], *density[3], *q;
+    double share[3], p, r;
+    uint32_t cells;
+} mixed_row;
+
+static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
+{
+    return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
+}
+
+/* The last of ascending knots at or below y: the guide finds it but for the rounding of y. */
+static uint32_t knot_before(const vndf_guide *guide, const float *knots, double y)
+{
+    uint32_t i = vndf_guide_find(guide, (float)y);
+    return i - (i > 0 && y < knots[i]);
+}
+
+static mixed_row wedge_row(const vndf_wedge *w, double y)
+{
+    uint32_t i = knot_before(&w->row_guide, w->row_y, y);
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
+    size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
+    const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;
+    mixed_row row = {{mass, mass + cells, mass + 2 * cells}, {density, density + ends, density + 2 * ends}, w->q,
+                     {rest * rest, 2.0 * rest * m, m * m}, 0.0, 0.0, w->cell_count};
+    for (size_t n = 0; n < 3; n++) {
+        row.p += row.share[n] * w->aspect_p[first + n];
+        row.r += row.share[n] * w->aspect_r[first + n];
+    }
+    return row;
+}
+
+/* Mass per radian at an azimuth, cos >= 0; 1 - q is formed without a difference. */
+static double row_density(const mixed_row *row, double cosine, double sine)
+{
+    double c = row->r * cosine, s = row->p * sine, n = sqrt(c * c + s * s);
+    if (!(n > 0.0))
+        return 0.0;
+    double q = s / (c + n), rest = (c + c * (c / (n + s))) / (c + n);
+    uint32_t j = 0;
+    for (uint32_t i = 1; i < row->cells; i++)
+        j += row->q[i] <= q;
+    double from = row->q[j], to = row->q[j + 1], h = to - from;
+    double xi = (q - from) / h, eta = (rest - (1.0 - to)) / h;
+    double per_q = rational_density(mixed(row, row->density, j) * h, mixed(row, row->density, j + 1) * h,
+                                    mixed(row, row->mass, j), xi, eta) / h;
+    double x = row->p * rest * (1.0 + q), y = 2.0 * row->r * q;
+    return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
+}
+
+static const double QUARTER_TURN = 1.57079632679489662;
+
+/* Per radian, of mass 1 in a whole turn. */
+static double azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine)
+{
+    int toward = cosine >= 0.0, above = w->c >= 0.0;
+    const vndf_wedge *side = vndf_wedge_of(d, w->c);
+    /* below it may underflow */
+    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
+    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0;
+    double per = 0.5 / (front + mass);
+    if (above && toward)
+        return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
+    if (above == toward || !(w->s > 0.0 || above))
+        return 0.0;
+    mixed_row row = wedge_row(side, y);
+    return row.p > 0.0 ? per * mass * row_density(&row, fabs(cosine), sine) : 0.0;
+}
+
+/* ---- radius ---- */
+
+/* A place in the table: xi and eta from both knots, each exact where it is small. */
+typedef struct place {
+    uint32_t cell;
+    double xi, eta;
+} place;
+
+/* The guide finds the cell but for the rounding of the slope. */
+static place place_of(const vndf_distribution *d, double x, double z)
+{
+    const float *kx = d->knots.x, *kz = d->knots.z;
+    uint32_t j = vndf_guide_find(&d->slope_guide, z > 0.0 ? (float)(x / z) : HUGE_VALF);
+    if (j > 0 && x * kz[j] < z * kx[j])
+        j--;
+    if (j + 1 < d->radial_count && x * kz[j + 1] >= z * kx[j + 1])
+        j++;
+    double inner = x * kz[j] - z * kx[j], outer = z * kx[j + 1] - x * kz[j + 1];
+    place at = {j, inner / (inner + outer), outer / (inner + outer)};
+    return at;
+}
+
+/* X + Z at a place: the knots have 1 but for their rounding. What is per X + Z = 1 of the normal becomes per
+ * that. */
+static double sum_at(const vndf_distribution *d, place at)
+{
+    const float *x = d->knots.x + at.cell, *z = d->knots.z + at.cell;
+    return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
+}
+
+/* The cell's cubic, from its moments: rounded to float its bump would show where f nearly vanishes. */
+static vndf_moment_cubic bump_of(const vndf_radial_cell *cell)
+{
+    return vndf_moment_cubic_from(cell->f0, cell->f1, cell->mu0, cell->mu1);
+}
+
+static double cubic(const vndf_radial_cell *cell, double xi, double eta)
+{
+    vndf_moment_cubic bend = bump_of(cell);
+    double f = cell->f0 * eta + cell->f1 * xi + xi * eta * (bend.a + bend.b * xi);
+    return f > 0.0 ? f : 0.0;
+}
+
+/* vndf_radial_part (radial.h). */
+static double part_integral(double f0, double f1, double a, double b, double h)
+{
+    double slope = f1 - f0;
+    double whole = 0.5 * f0 + h * ((slope + a) / 6.0 + h * ((b - a) / 12.0 - h * b / 20.0));
+    double least = 1e-3 * (0.5 * f0 + h * slope / 6.0);
+    return whole > least ? whole : least;
+}
+
+static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
+{
+    double w = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    return w > 0.0 ? w : 0.0;
+}
+
+/* The cell j of the cut; c > 0 > k, then c < 0 < k. */
+static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
+{
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    const vndf_knots *k = &ray->table->knots;
+    double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
+    double h = end < 0.0 ? w / (w - end) : 1.0;
+    vndf_moment_cubic bend = bump_of(cell);
+    double half = 0.5 * w * h, mass = w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h);
+    vndf_engine_piece p = {cell->f0 * half, cubic(cell, h, 1.0 - h) * half, mass, w, 0.0, 0.0, h, 1};
+    return p;
+}
+
+static vndf_engine_piece piece_below(const vndf_engine_ray *ray, uint32_t j)
+{
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    double h = end < 0.0 ? w / (w - end) : 1.0;
+    vndf_moment_cubic bend = bump_of(cell);
+    double half = 0.5 * w * h, mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
+    vndf_engine_piece p = {cubic(cell, 1.0 - h, h) * half, cell->f1 * half, mass, 0.0, w, 1.0 - h, h, 1};
+    return p;
+}
+
+static double over(double w, double v)
+{
+    return v > 0.0 ? w / v : 1.0; /* what vanishes does so together */
+}
+
+/* Beyond the cut V is W; of the second cell inside it see radial.h. */
+vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t j)
+{
+    if (j == ray->cut)
+        return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
+    const vndf_radial_cell *cell = &ray->table->cells[j];
+    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
+    vndf_engine_piece p = {cell->f0 * w0, cell->f1 * w1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, 0.0, 1.0, 0};
+    if (j + 2 < ray->cut)
+        return p;
+    p.weighted = 1;
+    if (j + 2 == ray->cut)
+        p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
+    double half = 0.5 * (p.v0 + p.v1);
+    p.e0 = cell->f0 * over(w0, p.v0) * half;
+    p.e1 = cell->f1 * over(w1, p.v1) * half;
+    return p;
+}
+
+/* A place in the rational cell of a piece: zeta and 1 - zeta, zeta over xi, and (dzeta/dxi) over the weight. */
+typedef struct inner {
+    double zeta, rest, ratio, per;
+} inner;
+
+/* Where the normal has the weight w. */
+static inner inner_of(const vndf_engine_piece *p, place at, double w)
+{
+    double xi = at.xi, eta = at.eta;
+    if (p->length < 1.0) {
+        xi /= p->length;
+        eta /= p->length;
+        xi = p->begin > 0.0 ? (eta < 1.0 ? 1.0 - eta : 0.0) : xi;
+        eta = p->begin > 0.0 ? eta : (xi < 1.0 ? 1.0 - xi : 0.0);
+    }
+    inner in = {xi, eta, 1.0, 1.0};
+    if (p->weighted) {
+        double per = 1.0 / (p->v0 + p->v1), v = p->v0 * eta + p->v1 * xi;
+        in.ratio = (p->v0 + v) * per;
+        in.zeta = xi * in.ratio;
+        in.rest = eta * ((v + p->v1) * per);
+        in.per = 2.0 * (p->length < 1.0 ? w : v) * per;
+    }
+    return in;
+}
+
+/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
+ * X does. */
+static double density_over_x(const vndf_engine_ray *ray, const vndf_engine_piece *p, place at, double w)
+{
+    const vndf_knots *k = &ray->table->knots;
+    inner in = inner_of(p, at, w);
+    double per = in.per / p->length;
+    if (at.cell == 0 && p->e0 == 0.0)
+        return per * in.ratio * rational_density_over(p->e1, p->mass, in.zeta, in.rest) / (p->length * k->x[1]);
+    double x = at.eta * k->x[at.cell] + at.xi * k->x[at.cell + 1];
+    return per * rational_density(p->e0, p->e1, p->mass, in.zeta, in.rest) / x;
+}
+
+/* The law of the radius for one azimuth: its cut, and all of its mass. */
+static void find_law(vndf_engine_ray *ray)
+{
+    const vndf_distribution *d = ray->table;
+    double c = ray->c, k = ray->k;
+    ray->cut = d->radial_count;
+    ray->part = ray->mass = 0.0;
+    if (c >= 0.0 && k >= 0.0) {
+        ray->mass = c * d->f0_total + k * d->f1_total;
+        return;
+    }
+    if (!(c > 0.0) && !(k > 0.0))
+        return;
+    uint32_t j = ray->cut = place_of(d, fabs(c), fabs(k)).cell;
+    vndf_engine_piece p = vndf_engine_piece_of(ray, j);
+    ray->part = p.length;
+    if (c > 0.0)
+        ray->mass = c * d->knots.e[j] + p.v0 * d->knots.g[j] + p.mass;
+    else
+        ray->mass = k * d->knots.s[j + 1] + p.v1 * d->knots.t[j + 1] + p.mass;
+}
+
+/* ---- both ---- */
+
+static vndf_engine_ray ray_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
+                                double k)
+{
+    const vndf_distribution *d = view->distribution;
+    vndf_engine_ray ray = {d, w->c, k, azimuth_density(d, w, cosine, sine), 0.0, 0.0, 0};
+    find_law(&ray);
+    return ray;
+}
+
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine)
+{
+    vndf_stretched w = vndf_stretched_of(view);
+    return ray_from(view, &w, cosine, sine, w.s * cosine);
+}
+
+double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w)
+{
+    place at = place_of(ray->table, x, z);
+    int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
+    if (!(ray->mass > 0.0) || !(ray->azimuth > 0.0))
+        return 0.0;
+    vndf_engine_piece p = vndf_engine_piece_of(ray, hidden ? ray->cut : at.cell);
+    if (!(p.length > 0.0))
+        return 0.0;
+    if (hidden) { /* by rounding alone, since w > 0: the place is the cut */
+        place end = {ray->cut, ray->c > 0.0 ? p.length : p.begin, ray->c > 0.0 ? 1.0 - p.length : p.length};
+        at = end;
+    }
+    double sum = sum_at(ray->table, at), density = density_over_x(ray, &p, at, w * sum) * (sum * sum * sum);
+    return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
+}
+
+double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *p, uint32_t j, double xi,
+                                 double eta)
+{
+    const vndf_knots *k = &ray->table->knots;
+    place at = {j, xi, eta};
+    double x = eta * k->x[j] + xi * k->x[j + 1], w = ray->k * x + ray->c * (eta * k->z[j] + xi * k->z[j + 1]);
+    return w > 0.0 && p->length > 0.0 && ray->mass > 0.0
+               ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass : 0.0;
+}
+
+/* Mass of the law before knot j, c >= 0. */
+static double mass_before(const vndf_engine_ray *ray, uint32_t j)
+{
+    const vndf_knots *knots = &ray->table->knots;
+    return ray->k < 0.0 ? ray->c * knots->e[j] + knot_weight(ray, j) * knots->g[j]
+                        : ray->c * knots->f0[j] + ray->k * knots->f1[j];
+}
+
+double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z)
+{
+    place at = place_of(ray->table, x, z);
+    if (!(ray->mass > 0.0) || at.cell > ray->cut)
+        return 1.0;
+    vndf_engine_piece p = vndf_engine_piece_of(ray, at.cell);
+    if (!(p.length > 0.0) || !(p.mass > 0.0))
+        return mass_before(ray, at.cell) / ray->mass;
+    inner in = inner_of(&p, at, 0.0);
+    double w = in.zeta * in.rest;
+    double inside = (p.mass * in.zeta * in.zeta + p.e0 * w) / (1.0 + ((p.e0 + p.e1) / p.mass - 2.0) * w);
+    double part = (mass_before(ray, at.cell) + inside) / ray->mass;
+    return part < 1.0 ? part : 1.0;
+}
+
+vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm)
+{
+    double mx = wm.x / view->alpha_x, my = wm.y / view->alpha_y, x = sqrt(mx * mx + my * my);
+    double level = view->wi.x * wm.x + view->wi.y * wm.y, cosine = 1.0, sine = 0.0;
+    vndf_stretched w = vndf_stretched_of(view);
+    if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
+        double per = w.s > 0.0 ? w.per_length / (w.s * x) : 1.0 / x;
+        cosine = per * (w.s > 0.0 ? level : mx);
+        sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
+    }
+    return ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
+}
+
+double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing)
+{
+    double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
+    double scale = 1.0 / (x + wm.z), per_length = vndf_stretched_of(view).per_length;
+    double density = vndf_engine_ray_density(ray, x * scale, wm.z * scale, facing * per_length * scale);
+    return density * scale * scale * scale / (ax * ay);
+}
+
+/* Any normal that faces wi. */
+VNDF_RARE double density_carefully(const vndf_view *view, const vndf_given *g)
+{
+    vndf_normal wm = {g->x, g->y, g->z};
+    vndf_engine_ray ray = vndf_engine_ray_of(view, wm);
+    return vndf_engine_density_on(view, &ray, wm, vndf_given_facing(g));
+}
+
+/* The cases of density.h and density_wedge.h first. */
+double vndf_engine_density(const vndf_view *view, const vndf_given *g)
+{
+    const vndf_distribution *d = view->distribution;
+    int toward = vndf_given_along(g) >= 0.0;
+    doubles_m plain = 1;
+    double density = vndf_is_below(view) ? vndf_given_of_wedge(d, g, 1, &plain)
+                     : toward            ? vndf_given_in_front(d, g, &plain)
+                                         : vndf_given_of_wedge(d, g, 0, &plain);
+    return plain ? density : density_carefully(view, g);
+}
+
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_positive(vndf_density_from(vndf_engine_density(view, &g)));
+}
+
+/* ---- D ---- */
+
+double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
+{
+    vndf_spot at = vndf_spot_at(d, x, z);
+    vndf_quotient p22 = vndf_spot_p22(&at);
+    return p22.above > 0.0 ? p22.above / p22.below : 0.0;
+}

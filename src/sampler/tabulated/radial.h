@@ -1,0 +1,239 @@
+/* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
+ * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the
+ * horizon, and cells away from the cut; the rest is in radial_cut.h, drawing in radial_draw.h.
+ *
+ * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
+ * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that
+ * holds the cut W = 0, in all cells beyond it and in the two inside it, by a weighted one (math/weighted_cell.h),
+ * with a weight V that is W. The cell at the cut is used on its visible part alone, with its mass and its value at
+ * the cut from the cubic.
+ *
+ * Below the horizon all that is seen lies beyond the cut, so that no law jumps as the cut moves. Above it most
+ * cells lie far inside the cut, where a constant V saves a root; the second cell inside leads from one to the
+ * other. Its V depends on the visible part h of the cell at the cut: it is W at h = 0, where the cut leaves the
+ * first, and from h = 1/16 constant. V is W at the knot away from the cut, and 16 h of the way from W there to
+ * that value at the knot towards it. W and a constant follow a law f W equally well, what is between them less
+ * so, by 1e-3 of the cell's mass where W doubles in it. Above the horizon such a cell holds little; below it would
+ * hold up to three quarters of all that is seen, and raise the TV from 6e-5 to 4.5e-4 wherever the cut is
+ * about to pass a knot. */
+#ifndef VNDF_SAMPLER_TABULATED_RADIAL_H
+#define VNDF_SAMPLER_TABULATED_RADIAL_H
+
+#include "simd/count.h"
+#include "simd/lanes_lines.h"
+#include "math/rational_cell.h"
+#include "table/guide.h"
+#include "table/table.h"
+#include "table/window.h"
+
+/* The law of R: everything that does not depend on the uniform number. Above the horizon the weights are scaled so
+ * that its mass is 1, where it may be small: no square of a mass vanishes where next to nothing is visible. Below
+ * it they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied
+ * by `gain`. */
+typedef struct vndf_radial_law {
+    const vndf_distribution *table;
+    lanes_f c, k;               /* weights of Z and X */
+    lanes_f scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
+    lanes_f gain;               /* factor of all masses: 1 above the horizon */
+    lanes_u cut;                /* the cell that holds the cut; radial_count if there is none */
+    lanes_f part;               /* length of that cell's visible part in xi; without a cut 0 */
+    lanes_f part_mass;          /* its mass, less the gain */
+    lanes_f part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
+    lanes_f part_w0, part_w1;   /* W there */
+} vndf_radial_law;
+
+/* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
+typedef struct vndf_radial_lanes {
+    lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, calm, a, b, e, g;
+} vndf_radial_lanes;
+
+/* What is not used of it is not loaded. */
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *lines)
+{
+    lanes_four f = lanes_load_four(lines, 0), knots = lanes_load_four(lines, 4);
+    lanes_four whole = lanes_load_four(lines, 8), cut = lanes_load_four(lines, 12);
+    vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
+                              whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
+    return cell;
+}
+
+VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+{
+    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
+    return vndf_radial_load_lines(&lines);
+}
+
+/* f at xi from the cubic. */
+VNDF_INLINE lanes_f vndf_radial_f(const vndf_radial_lanes *cell, lanes_f xi)
+{
+    lanes_f eta = 1.0f - xi, f = cell->f0 * eta + cell->f1 * xi + xi * eta * (cell->a + cell->b * xi);
+    return lanes_positive(f); /* where it touches 0, rounding */
+}
+
+/* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t); a thousandth of
+ * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
+VNDF_INLINE lanes_f vndf_radial_part(lanes_f f0, lanes_f f1, lanes_f a, lanes_f b, lanes_f h)
+{
+    const float sixth = 1.0f / 6.0f;
+    lanes_f slope = f1 - f0;
+    lanes_f cubic = 0.5f * f0 + h * (sixth * (slope + a) + h * (0.5f * sixth * (b - a) - h * (0.05f * b)));
+    lanes_f least = 1e-3f * (0.5f * f0 + h * (sixth * slope));
+    return lanes_pick(lanes_less(least, cubic), cubic, least);
+}
+
+/* Mass from the pole to the cell (c > 0). Rounding may bring a weight at the cut below 0. */
+VNDF_INLINE lanes_f vndf_radial_before(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+{
+    return law->c * cell->e + lanes_positive(law->c * cell->z0 + law->k * cell->x0) * cell->g;
+}
+
+/* The same where c, k >= 0. */
+VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+{
+    return law->c * cell->before0 + law->k * cell->before1;
+}
+
+/* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
+VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
+{
+    lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
+    law.c *= scale;
+    law.k *= scale;
+    law.scale = scale;
+    law.part_mass *= scale;
+    law.part_w0 *= scale;
+    law.part_w1 *= scale;
+    return law;
+}
+
+/* Mass of the law with weights c, k >= 0. */
+VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lanes_f k)
+{
+    return c * d->f0_total + k * d->f1_total;
+}
+
+/* From this mass on the law of c, k >= 0 is not scaled, which takes a division: in front of wi it is the
+ * density of the azimuth, and drops out of that of the normal. */
+static const float VNDF_RADIAL_MASS_PLAIN = 1e-3f;
+
+/* c, k >= 0. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
+{
+    lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
+    vndf_radial_law law = {d, c, k, one, one, lanes_set_u(d->radial_count), zero, zero, zero, zero, zero, zero};
+    return law;
+}
+
+/* c > 0 > k: the cell of the cut. */
+VNDF_INLINE lanes_u vndf_radial_cut(const vndf_distribution *d, lanes_f c, lanes_f k)
+{
+    return vndf_guide_lanes(&d->slope_guide, c / -k);
+}
+
+/* The law with its cut in that cell; not scaled yet, *total is its mass. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_u j,
+                                                const vndf_radial_lanes *at, lanes_f *total)
+{
+    const vndf_radial_lanes cell = *at;
+    lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
+    vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
+    lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
+    law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
+    law.part_mass = w0 * law.part * vndf_radial_part(cell.f0, cell.f1, cell.a, cell.b, law.part);
+    law.part_f0 = cell.f0 * law.part;
+    law.part_f1 = vndf_radial_f(&cell, law.part) * law.part;
+    law.part_w0 = w0;
+    *total = vndf_radial_before(&law, &cell) + law.part_mass;
+    return law;
+}
+
+VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f *total)
+{
+    lanes_u j = vndf_radial_cut(d, c, k);
+    vndf_radial_lanes cell = vndf_radial_load(d, j);
+    return vndf_radial_law_cut(d, c, k, j, &cell, total);
+}
+
+/* A cell away from the cut, where W > 0 without a guard. */
+VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+{
+    lanes_f g0 = law->gain * (law->c * cell->z0 + law->k * cell->x0);
+    lanes_f g1 = law->gain * (law->c * cell->z1 + law->k * cell->x1);
+    vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
+    return plain;
+}
+
+/* Whether a cell inside the cut is drawn like that: the second from the cell at the cut where h is above 1/16,
+ * any further away (c > 0 > k). */
+VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
+{
+    return lanes_at_most_u(lanes_count(j + 2u, lanes_less(law->part, lanes_set(0.0626f))), law->cut);
+}
+
+/* ---- search, one lane at a time ---- */
+
+/* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
+VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k,
+                                             float target)
+{
+    return vndf_count_positive(knots->z + from, knots->x + from, knots->e + from, knots->g + from, c, k, target);
+}
+
+/* The same for c, k >= 0. */
+VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t from, float c, float k,
+                                             float target)
+{
+    return vndf_count_two(knots->f0 + from, knots->f1 + from, c, k, target);
+}
+
+/* A wide window narrowed to eight cells: of its knots every step-th is looked at. */
+VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, float c, float k, float target)
+{
+    for (; w.step > 1; w.step /= VNDF_WINDOW) {
+        uint32_t count = 0;
+        for (uint32_t i = 1; i < VNDF_WINDOW; i++) {
+            uint32_t at = w.first + i * w.step, j = at < knots->count ? at : knots->count - 1;
+            float weight = c * knots->z[j] + k * knots->x[j];
+            count += (k < 0.0f ? c * knots->e[j] + (weight > 0.0f ? weight : 0.0f) * knots->g[j]
+                               : c * knots->f0[j] + k * knots->f1[j]) <= target;
+        }
+        w.first += count * w.step;
+    }
+    const uint32_t most = knots->count - VNDF_WINDOW - 1; /* lanes of no use may have sums that do not ascend */
+    return w.first < most ? w.first : most;
+}
+
+/* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */
+VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k,
+                                          float target, int whole)
+{
+    vndf_window w = vndf_window_from(code);
+    if (w.step > 1)
+        w.first = vndf_radial_narrow(&d->knots, w, c, k, target);
+    return w.first + (whole ? vndf_radial_count_whole(&d->knots, w.first + 1, c, k, target)
+                            : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
+}
+
+/* ---- where the density of a place is that of its rounded normal ---- */
+
+/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
+ * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
+ * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
+ * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
+ * rounding of its ends shows in its mass, the second rules. */
+VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+{
+    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
+    lanes_f reach = at->x1 * at->z0, here = cell->e0 + rise * xi;
+    lanes_f least = lanes_least(here, cell->mass);
+    return lanes_either(lanes_less((float)VNDF_NARROW * at->width, reach),
+                        lanes_less(10.0f * least * at->width, (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * reach));
+}
+
+/* Beside a knot, which may be a jump of D. */
+VNDF_INLINE lanes_m vndf_radial_is_beside_knot(lanes_f xi)
+{
+    return lanes_less(lanes_set(0.499f), lanes_abs(xi - 0.5f));
+}
+
+#endif

@@ -1,0 +1,110 @@
+/* A place in the radial table, found from the slope of a given normal, in double, for one or for lanes; and D
+ * there. X and Z, both >= 0, are of any length: with
+ *
+ *     inner = X z0 - Z x0,   outer = Z x1 - X z1        for the knots (x0, z0), (x1, z1) of the cell
+ *
+ * xi = inner/(inner + outer) and eta = outer/(inner + outer) are each exact where they are small. Knots have
+ * x + z = 1 but for their rounding; x + z at the place tells what is for the normal from what is for the table. */
+#ifndef VNDF_SAMPLER_TABULATED_SPOT_H
+#define VNDF_SAMPLER_TABULATED_SPOT_H
+
+#include "simd/doubles.h"
+#include "table/guide.h"
+#include "table/table.h"
+
+enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
+
+typedef struct vndf_spot {
+    doubles_u cell;
+    doubles_lines line;     /* the cell's members */
+    doubles inner, outer;
+    doubles x0, x1, z0, z1; /* the knots */
+} vndf_spot;
+
+/* Those of a distance from the inner knot below 0, and from the outer one. Neither is both. */
+VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles outer, uint32_t count)
+{
+    const doubles nothing = doubles_set(0.0);
+    const doubles_u one = doubles_set_u(1), zero = doubles_set_u(0);
+    doubles_m in = doubles_both(doubles_less(inner, nothing), doubles_at_most_u(one, cell));
+    doubles_m more = doubles_at_most_u(cell + 2u, doubles_set_u(count));
+    doubles_m out = doubles_both(doubles_at_most(outer, nothing), more);
+    return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
+}
+
+/* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
+ * way. */
+VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, doubles z)
+{
+    const doubles_u none = doubles_set_u(0);
+    vndf_spot at;
+    at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z));
+    for (;;) {
+        at.line = doubles_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, at.cell);
+        doubles_four knots = doubles_load_four(&at.line, 4);
+        doubles inner = x * knots.c - z * knots.a, outer = z * knots.b - x * knots.d;
+        doubles_u step = vndf_spot_step(at.cell, inner, outer, d->radial_count);
+        if (doubles_differ_u(step, none)) {
+            at.cell += step;
+            continue;
+        }
+        at.inner = inner;
+        at.outer = outer;
+        at.x0 = knots.a;
+        at.x1 = knots.b;
+        at.z0 = knots.c;
+        at.z1 = knots.d;
+        return at;
+    }
+}
+
+/* Of numbers at the inner and at the outer knot, that at the place, times inner + outer. */
+VNDF_INLINE doubles vndf_spot_between(const vndf_spot *at, doubles in, doubles out)
+{
+    return at->outer * in + at->inner * out;
+}
+
+/* The length of the cell: R = X/Z grows by width/Z^2 as xi grows. */
+VNDF_INLINE doubles vndf_spot_width(const vndf_spot *at)
+{
+    return at->x1 * at->z0 - at->x0 * at->z1;
+}
+
+/* Whether it is the cell where X begins. */
+VNDF_INLINE doubles_m vndf_spot_is_first(const vndf_spot *at)
+{
+    return doubles_at_most_u(at->cell, doubles_set_u(0));
+}
+
+/* The bump of a cell's cubic (table/moment_cubic.h), from its moments: rounded to float it would show where f
+ * nearly vanishes. */
+typedef struct vndf_bump {
+    doubles a, b;
+} vndf_bump;
+
+VNDF_INLINE vndf_bump vndf_bump_of(doubles_four f)
+{
+    vndf_bump bump = {36.0 * f.c - 24.0 * f.d - (8.0 * f.a - 2.0 * f.b), 60.0 * (f.d - f.c) + 10.0 * (f.a - f.b)};
+    return bump;
+}
+
+/* P22/Z^4 at X + Z = 1 as above/below; above may be less than 0. f begins at 0 as X does. */
+typedef struct vndf_quotient {
+    doubles above, below;
+} vndf_quotient;
+
+VNDF_INLINE vndf_quotient vndf_spot_p22(const vndf_spot *at)
+{
+    doubles_four f = doubles_load_four(&at->line, 0);
+    vndf_bump bump = vndf_bump_of(f);
+    doubles per = 1.0 / (at->inner + at->outer), xi = at->inner * per, eta = at->outer * per;
+    doubles rise = f.b + eta * (bump.a + bump.b * xi);
+    doubles sum = eta * (at->x0 + at->z0) + xi * (at->x1 + at->z1), square = sum * sum;
+    doubles_m first = vndf_spot_is_first(at);
+    doubles above = doubles_pick(first, rise, f.a * eta + xi * rise);
+    doubles x = doubles_pick(first, at->x1, at->x0 * eta + at->x1 * xi);
+    vndf_quotient p22 = {above * (square * square), x * vndf_spot_width(at)};
+    return p22;
+}
+
+#endif

@@ -1,0 +1,112 @@
+/* The engine: azimuth first, radius second.
+ *
+ * After stretching and turning about z the incident direction is (s, 0, c), s >= 0, c of either sign, and
+ * normals are (X cos a, X sin a, Z) with slope length R = X/Z. The visible density is
+ *
+ *     P22(R) R (c + s cos(a) R) dR da        where c + s cos(a) R > 0.                               (1)
+ *
+ * For a given azimuth a the law of R depends on the direction through two numbers only, c and k = s cos a:
+ * mass up to R is  c F0(R) + k F1(R),  F_n(R) = integral_0^R P22 r^(n+1) dr. So two 1D tables of D give
+ * the law of R exactly for every direction of the sphere, whatever D is: rings, jumps, peaks and tails cost
+ * cells where they are and nothing else. The cut at rho = -c/k falls into one cell, which is shortened.
+ *
+ * The density of the azimuth is the total of that law,
+ *     a front half (c >= 0, cos a >= 0):   c F0(inf) + s cos(a) F1(inf)                               (2)
+ *     the wedge above (c > 0, cos a < 0):  c (F0(rho) - F1(rho)/rho),   rho = c/(s |cos a|)           (3)
+ *     the wedge below (c < 0, cos a > 0):  k (T1(rho) - rho T0(rho)),   T_n = F_n(inf) - F_n          (4)
+ * u1 goes round from behind wi (0) through its side (1/2) and back (1): |2 u1 - 1| is the part of a half turn's
+ * mass between the side of wi and |a|. Above the horizon the front comes first and then the wedge, by their two
+ * masses; below it the wedge is all there is.
+ *
+ * The front. (2) needs two numbers of D and no table; its integral is Kepler's equation, solved to float
+ * precision by one step from a closed start (front.h).
+ *
+ * The wedge. (3) and (4) are integrals of D over a half plane's strip, twice smoother than D. Their masses over
+ * the angle of incidence are quintic splines (table/area_piece.h); the one below also gives areas, Lambda and
+ * G1, since A(w) - A(-w) = c. For what is inside a wedge, here and only here, a 2D table stands (vndf_wedge):
+ * rows over the angle of incidence of mass and density on cells of a half-angle tangent q (azimuth.h), three of
+ * which a direction mixes by quadratic Bezier weights (wedge.h). Linear mixing left twice the error at 64 KiB;
+ * higher orders may leave the positive numbers.
+ *
+ * The wedges and the radius (radial.h) are drawn from piecewise densities that are *defined* by the numbers of
+ * the table (cells of math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same
+ * cells: the density is known whatever the size of the table, only its distance to (1) shrinks with it.
+ *
+ * Drawing is in float: a place that is off by a rounding is as good as the one asked for, and where the density
+ * changes little from a normal to its rounded self, that of the place comes for nothing (sample.c). The density
+ * of a *given* normal has no such freedom: its place has to be found from the normal, and in float W at the
+ * cut, the slope in a narrow cell and the angle to a right angle from wi are differences that may lose every
+ * digit where the density is steep or ends. So it is computed in double from wi, wm and the roughness as they
+ * were given (exact.c), by the same cells; and where rounding would show, that is also the density that a
+ * sample comes with.
+ *
+ * Why this and not the other orders, both measured on prototypes of 16 KiB: slope x first, then y given x, needs a
+ * 2D table of D itself and leaves a total variation of 5e-2 on a ring and 1e-1 on a disc; radius first needs
+ * a kernel of angle and radius approximated by sums of powers, which stops at 1e-3 below the horizon, whatever
+ * the size, and takes twice the time. */
+#ifndef VNDF_SAMPLER_TABULATED_THEORY_H
+#define VNDF_SAMPLER_TABULATED_THEORY_H
+
+#include <stdint.h>
+
+#include "sampler/closed.h"
+#include "vndf.h"
+
+/* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
+double vndf_unit_area(const vndf_distribution *d, double s, double c);
+
+/* What follows is for tables, whose views have s + |c| = 1: drawing in sample.c, densities and D in exact.c. */
+
+/* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
+
+/* The same where densities in float are known not to do. */
+vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+
+struct vndf_given; /* sampler/tabulated/density.h */
+double vndf_engine_density(const vndf_view *view, const struct vndf_given *given);
+float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
+
+/* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
+typedef struct vndf_engine_ray {
+    const vndf_distribution *table;
+    double c, k;        /* k = s cos a */
+    double azimuth;     /* density of the azimuth, per radian */
+    double mass, part;  /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
+    uint32_t cut;       /* that cell; radial_count if there is none */
+} vndf_engine_ray;
+vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
+
+/* That of a normal, of any length. */
+vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm);
+
+/* The density of that normal per steradian, its length 1 but for rounding and facing = wi.wm > 0. */
+double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing);
+
+/* The part of the law with slopes up to X/Z; c >= 0. */
+double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
+
+/* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
+double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);
+
+/* A cell of the law as far as it is visible, from `begin` on, `length` long in xi: its mass and the densities at
+ * its ends per xi of the part or, if weighted, per zeta of V (math/weighted_cell.h), and V there. */
+typedef struct vndf_engine_piece {
+    double e0, e1, mass, v0, v1, begin, length;
+    int weighted;
+} vndf_engine_piece;
+vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t cell);
+
+/* Per dxi da at a visible place of that cell, xi and eta from its knots. */
+double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *piece, uint32_t cell,
+                                 double xi, double eta);
+
+/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some
+ * steps of 2^-24: returns whether that is known to move it by no more than 1e-5 (sampler/nearest.h is for where it
+ * is not). */
+int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
+
+/* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */
+double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z);
+
+#endif

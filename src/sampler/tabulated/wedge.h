@@ -1,0 +1,122 @@
+/* The wedge, the part of the circle that the horizon of wi cuts: its mass, and its row for a direction. */
+#ifndef VNDF_SAMPLER_TABULATED_WEDGE_H
+#define VNDF_SAMPLER_TABULATED_WEDGE_H
+
+#include "sampler/tabulated/azimuth.h"
+#include "table/area_piece.h"
+#include "table/guide.h"
+
+VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c)
+{
+    return c >= 0.0 ? &d->above : &d->below;
+}
+
+#if VNDF_DOUBLES == 8
+
+/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
+VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
+{
+    const double(*few)[VNDF_FEW] = wedge->few_exact;
+    doubles_u i = doubles_set_u(0);
+    doubles b[VNDF_AREA_ORDER];
+    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
+        i = doubles_pick_u(doubles_at_most(doubles_few(few[VNDF_AREA_ORDER], i + step), y), i + step, i);
+    for (int n = 0; n < VNDF_AREA_ORDER; n++)
+        b[n] = doubles_few(few[n], i);
+    doubles begin = doubles_few(few[VNDF_AREA_ORDER], i), per_width = doubles_few(few[VNDF_AREA_ORDER + 1], i);
+    return vndf_area_piece_at(b, (y - begin) * per_width);
+}
+
+#endif
+
+/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
+ * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
+VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
+{
+#if VNDF_DOUBLES == 8
+    if (wedge->knot_count <= VNDF_FEW + 1)
+        return vndf_wedge_mass_few(wedge, y);
+#endif
+    doubles_u i = vndf_guide_doubles(&wedge->knot_guide, doubles_narrow(y)), one = doubles_set_u(1);
+    for (;;) {
+        doubles_long_lines lines = doubles_long_lines_at(wedge->piece->coefficient, VNDF_AREA_SPAN, i);
+        doubles_two place = doubles_load_two(&lines, VNDF_AREA_ORDER); /* begin, per_width */
+        doubles_m early = doubles_both(doubles_less(y, place.a), doubles_at_most_u(one, i));
+        if (doubles_any(early)) {
+            i -= doubles_pick_u(early, one, doubles_set_u(0));
+            continue;
+        }
+        doubles_two b0 = doubles_load_two(&lines, 0), b2 = doubles_load_two(&lines, 2);
+        doubles_two b4 = doubles_load_two(&lines, 4);
+        const doubles b[VNDF_AREA_ORDER] = {b0.a, b0.b, b2.a, b2.b, b4.a, b4.b};
+        return vndf_area_piece_at(b, (y - place.a) * place.b);
+    }
+}
+
+/* The same in float, where that is good enough: for drawing, and for densities where it is no small part and
+ * *per_width, one over the width of its piece, is not above VNDF_QUICK_PER_WIDTH. */
+static const float VNDF_QUICK_PER_WIDTH = 500.0f;
+
+VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f *per_width)
+{
+#if VNDF_LANES > 1
+    if (wedge->knot_count <= VNDF_FEW + 1)
+        return vndf_area_few_at(wedge->few, wedge->knot_count, y, per_width);
+#endif
+    return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y, per_width);
+}
+
+/* The wedge's coordinate of a direction with s + |c| = 1. */
+VNDF_INLINE double vndf_wedge_y(double s, double c)
+{
+    return c >= 0.0 ? c : s;
+}
+
+/* Between which knots of rows y is. */
+VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
+{
+#if VNDF_LANES > 1
+    if (wedge->row_count <= 4 * VNDF_FEW)
+        return vndf_guide_count(wedge->row_y, (wedge->row_count + 1) / 2, y);
+#endif
+    return vndf_guide_lanes(&wedge->row_guide, y);
+}
+
+/* The row for the coordinate y in span i, from where it is to be loaded. Its mass is 1. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
+                                                 const lanes_lines *lines)
+{
+    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, 4); /* begin, per_width, p, r */
+    lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
+    lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
+    lanes_f p = u * a.c + v * a.d + t * b.a, r = u * b.b + v * b.c + t * b.d;
+    vndf_azimuth_row made = {wedge, i * 2u, u, v, t, p, r, a.b};
+    return made;
+}
+
+enum { VNDF_ROW_SPAN_FLOATS = sizeof(vndf_row_span) / sizeof(float) };
+
+/* Not part of the view, since most samples are in front. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
+{
+    lanes_u i = vndf_wedge_span(wedge, y);
+    lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, VNDF_ROW_SPAN_FLOATS, i);
+    return vndf_wedge_row_from(wedge, y, i, &lines);
+}
+
+/* Whether rows are not so close that a rounding of y changes their shares: lobes hundreds of times apart have
+ * such, and such pieces of areas. */
+VNDF_INLINE lanes_m vndf_wedge_is_plain(const vndf_azimuth_row *row)
+{
+    return lanes_less(row->per_width, lanes_set(250.0f));
+}
+
+/* Part of the wedge's mass between the far side, a = pi, and the azimuth with the mass `apart` between the side of
+ * wi and it. */
+VNDF_INLINE lanes_f vndf_wedge_part(lanes_f apart, lanes_f mass)
+{
+    lanes_f rest = apart / mass;
+    return lanes_keep(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest);
+}
+
+#endif

@@ -1,0 +1,71 @@
+/* How many of eight neighbours in tables satisfy a condition: the inner loop of searches, for one lane.
+ * Compilers that see it written out with AVX2 count lane by lane. */
+#ifndef VNDF_SIMD_COUNT_H
+#define VNDF_SIMD_COUNT_H
+
+#include "simd/lanes.h"
+
+#if VNDF_LANES == 1
+
+/* a x[i] + b y[i] <= most. */
+VNDF_INLINE uint32_t vndf_count_two(const float *x, const float *y, float a, float b, float most)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 8; i++)
+        count += a * x[i] + b * y[i] <= most;
+    return count;
+}
+
+/* a x[i] + b y[i] + c z[i] <= most. */
+VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, float a, float b, float c,
+                                      float most)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 8; i++)
+        count += a * x[i] + b * y[i] + c * z[i] <= most;
+    return count;
+}
+
+/* a e[i] + max(a z[i] + b x[i], 0) g[i] <= most. */
+VNDF_INLINE uint32_t vndf_count_positive(const float *z, const float *x, const float *e, const float *g, float a,
+                                         float b, float most)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 8; i++) {
+        float w = a * z[i] + b * x[i];
+        count += a * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= most;
+    }
+    return count;
+}
+
+#else
+
+VNDF_INLINE uint32_t vndf_count_at_most(__m256 x, float most)
+{
+    __m256 yes = _mm256_cmp_ps(x, _mm256_set1_ps(most), _CMP_LE_OQ);
+    return (uint32_t)__builtin_popcount((unsigned)_mm256_movemask_ps(yes));
+}
+
+VNDF_INLINE uint32_t vndf_count_two(const float *x, const float *y, float a, float b, float most)
+{
+    __m256 first = _mm256_set1_ps(a) * _mm256_loadu_ps(x);
+    return vndf_count_at_most(first + _mm256_set1_ps(b) * _mm256_loadu_ps(y), most);
+}
+
+VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, float a, float b, float c,
+                                      float most)
+{
+    __m256 two = _mm256_set1_ps(a) * _mm256_loadu_ps(x) + _mm256_set1_ps(b) * _mm256_loadu_ps(y);
+    return vndf_count_at_most(two + _mm256_set1_ps(c) * _mm256_loadu_ps(z), most);
+}
+
+VNDF_INLINE uint32_t vndf_count_positive(const float *z, const float *x, const float *e, const float *g, float a,
+                                         float b, float most)
+{
+    __m256 w = _mm256_set1_ps(a) * _mm256_loadu_ps(z) + _mm256_set1_ps(b) * _mm256_loadu_ps(x);
+    __m256 seen = _mm256_max_ps(w, _mm256_setzero_ps()); /* 0 for NaN, as above */
+    return vndf_count_at_most(_mm256_set1_ps(a) * _mm256_loadu_ps(e) + seen * _mm256_loadu_ps(g), most);
+}
+
+#endif
+#endif

@@ -1,0 +1,38 @@
+/* Measured curves: D or P22 against angle or slope, as CSV.
+ *
+ * The first line that is neither blank nor a comment (#) names two columns: theta_deg, theta (radians) or
+ * slope (= tan theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0
+ * or above, the second finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
+ *
+ * Between the rows: a shape-preserving cubic (curve.h). What is interpolated is the logarithm of the second
+ * column if all its values are positive, so that a curve over many decades keeps its shape in each; if there
+ * are zeros, the column itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic
+ * beyond. s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost
+ * as they stand (s >= last x), rows that double are joined in log x. s is kept within 1e-12 and 1e3 of the last x.
+ *
+ * Below the first row: the second column keeps its first value.
+ *
+ * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
+ * D is constant: finite at 90 degrees. (k = 4 too if the last two rows do not tell: P22 rises, or the last but
+ * one is at slope 0.) If the last value is 0, P22 is 0 beyond it. */
+#ifndef VNDF_SOURCE_CSV_CSV_H
+#define VNDF_SOURCE_CSV_CSV_H
+
+#include "vndf_build.h"
+
+typedef enum vndf_csv_first { VNDF_CSV_THETA_DEG, VNDF_CSV_THETA, VNDF_CSV_SLOPE } vndf_csv_first;
+typedef enum vndf_csv_second { VNDF_CSV_NDF, VNDF_CSV_P22 } vndf_csv_second;
+
+/* The numbers of a file that has been checked: at least two rows. Angles are in radians; the last may be pi/2. */
+typedef struct vndf_csv_rows {
+    vndf_csv_first first;
+    vndf_csv_second second;
+    double *x, *value; /* owned */
+    size_t count;
+} vndf_csv_rows;
+
+/* Reads and checks text. VNDF_ERROR_SYNTAX with the line (from 1). On failure *rows needs no freeing. */
+vndf_status vndf_csv_read(const char *text, size_t size, vndf_csv_rows *rows, vndf_error *error);
+void vndf_csv_rows_free(vndf_csv_rows *rows);
+
+#endif

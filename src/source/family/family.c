@@ -1,0 +1,289 @@
+/* Distributions given by name. A specification is FAMILY[:PARAMETER,...], FAMILY:MATERIAL, or
+ *
+ *     mix:(W1,S1,FAMILY1)+(W2,S2,FAMILY2)
+ *
+ * for two lobes: each P22 is divided by its mass and its slopes are multiplied by S, so that the weights
+ * are shares of the surface's projected area:  P22(r) = sum of W/(S^2 mass) P22_i(r/S).
+ * A family alone is one lobe with the factor and the scale 1. */
+#include "source/family/family.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "source/formula/expression_bound.h"
+#include "source/family/materials.h"
+#include "source/number.h"
+#include "source/source.h"
+#include "source/words.h"
+
+enum { OPERATIONS = 8 }; /* of a lobe */
+
+static const char mix_usage[] = "mix:(W,S,FAMILY)+(W,S,FAMILY), as in mix:(0.8,0.1,ggx)+(0.2,0.5,student-t:2)";
+
+typedef struct lobe {
+    const vndf_family_form *form;
+    double parameter[VNDF_FAMILY_PARAMETERS];
+    double factor, scale; /* factor * P22(r/scale) */
+    vndf_expression formula; /* owned; of P22 */
+} lobe;
+
+typedef struct family_source {
+    vndf_source base; /* first: a vndf_source* is cast back to this */
+    lobe lobes[2];
+    size_t count;
+} family_source;
+
+/* A part of the specification; column is that of its first character, from 1. */
+typedef struct part {
+    const char *text;
+    size_t size, column;
+} part;
+
+/* At 1e75 every form is below 1e-220; squares of slopes overflow from there on. */
+static double p22(const vndf_source *self, double r)
+{
+    const family_source *source = (const family_source *)self;
+    double sum = 0;
+    for (size_t i = 0; i < source->count; i++) {
+        const lobe *l = &source->lobes[i];
+        double unit = r / l->scale;
+        sum += unit > 1e75 ? 0 : l->factor * l->form->p22(l->parameter, unit);
+    }
+    return sum;
+}
+
+static vndf_reach reach(const vndf_source *self, double low, double high)
+{
+    const family_source *source = (const family_source *)self;
+    vndf_jet r = vndf_jet_of_slope(low, high), sum = vndf_jet_number(0);
+    for (size_t i = 0; i < source->count; i++) {
+        const lobe *l = &source->lobes[i];
+        vndf_jet factor = vndf_jet_number(l->factor), scale = vndf_jet_number(l->scale);
+        vndf_jet unit = vndf_jet_quotient(&r, &scale), p22_of_unit = vndf_expression_jet(&l->formula, &unit);
+        vndf_jet product = vndf_jet_product(&factor, &p22_of_unit);
+        sum = vndf_jet_sum(&sum, &product);
+    }
+    return vndf_reach_from(&sum, &r, low, high);
+}
+
+static void destroy(vndf_source *self)
+{
+    family_source *source = (family_source *)self;
+    for (size_t i = 0; i < source->count; i++)
+        vndf_expression_free(&source->lobes[i].formula);
+    free(self->description);
+    free(self);
+}
+
+/* ---- parts ------------------------------------------------------------------------------------ */
+
+/* Cuts the text before the first separator off rest; without one all of it, and rest is empty. */
+static part cut(part *rest, char separator)
+{
+    const char *end = memchr(rest->text, separator, rest->size);
+    part head = { rest->text, end ? (size_t)(end - rest->text) : rest->size, rest->column };
+    size_t used = head.size + (end != NULL);
+    *rest = (part){ rest->text + used, rest->size - used, rest->column + used };
+    return head;
+}
+
+static vndf_status read_number(part p, const char *usage, double *value, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    if (vndf_number_is_all(p.text, p.size, value))
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: '%s' is no number; right would be %s", p.column,
+                     vndf_excerpt(excerpt, p.text, p.size), usage);
+}
+
+static vndf_status check_range(const vndf_family_range *range, double value, const char *what, const char *reason,
+                               vndf_error *error)
+{
+    char text[VNDF_NUMBER_TEXT];
+    if (value <= range->high && (range->open ? value > range->low : value >= range->low))
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "%s: %s is %s; it must be %s %g and at most %g%s%s", what,
+                     range->name, vndf_number_print(text, value), range->open ? "above" : "at least",
+                     range->low, range->high, reason[0] ? ": " : "", reason);
+}
+
+/* ---- one lobe --------------------------------------------------------------------------------- */
+
+static vndf_status unknown_family(part name, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT], known[160] = "";
+    size_t used = 0;
+    const vndf_family_form *form;
+    if (name.size >= 3 && memcmp(name.text, "mix", 3) == 0)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: a mix is %s, of families that are no mix",
+                         name.column, mix_usage);
+    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL && used < sizeof known; i++)
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", form->name);
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown family '%s'; known are %smix", name.column,
+                     vndf_excerpt(excerpt, name.text, name.size), known);
+}
+
+static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
+{
+    const vndf_family_form *form = l->form;
+    size_t given = 0;
+    if (rest.size > 0 && rest.text[rest.size - 1] == ',')
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: nothing follows the comma; right would be %s",
+                         rest.column + rest.size, form->usage);
+    while (rest.size > 0) {
+        if (given == form->count)
+            return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: too many parameters; right would be %s",
+                             rest.column, form->usage);
+        vndf_status status = read_number(cut(&rest, ','), form->usage, &l->parameter[given], error);
+        if (status == VNDF_OK)
+            status = check_range(&form->range[given], l->parameter[given], form->name, form->reason, error);
+        if (status != VNDF_OK)
+            return status;
+        given++;
+    }
+    if (given < form->required)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: %s is missing; right would be %s", rest.column,
+                         form->range[given].name, form->usage);
+    for (; given < form->count; given++)
+        l->parameter[given] = form->range[given].standard;
+    return VNDF_OK;
+}
+
+/* whole is "sgd:alum-bronze/r", which is how materials are listed. */
+static vndf_status read_material(part whole, lobe *l, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIAL_NEAREST];
+    const vndf_material *material = vndf_material_find(whole.text, whole.size);
+    if (!material)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
+                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
+                         vndf_material_nearest(nearest, whole.text, whole.size));
+    memcpy(l->parameter, material->parameter, sizeof l->parameter);
+    return VNDF_OK;
+}
+
+/* Only these families have materials; a name of one starts with a letter, a number does not. */
+static int is_material(const vndf_family_form *form, part rest)
+{
+    char first = rest.size > 0 ? rest.text[0] : '\0';
+    int letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+    return letter && (strcmp(form->name, "sgd") == 0 || strcmp(form->name, "abc") == 0);
+}
+
+static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
+{
+    part rest = whole, name = cut(&rest, ':');
+    *l = (lobe){ vndf_family_form_find(name.text, name.size), { 0, 0 }, 1, 1, { NULL, 0 } };
+    if (!l->form)
+        return unknown_family(name, error);
+    return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
+}
+
+/* ---- mix -------------------------------------------------------------------------------------- */
+
+static vndf_status bad_mix(part at, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    if (at.size == 0)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: something is missing; right would be %s",
+                         at.column, mix_usage);
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; right would be %s", at.column,
+                     vndf_excerpt(excerpt, at.text, at.size), mix_usage);
+}
+
+/* "(W,S,FAMILY)" at the start of rest, which is moved behind it. */
+static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
+{
+    static const vndf_family_range weights = { "the weight W", 0, 1e12, 1, 0 };
+    static const vndf_family_range scales = { "the scale S", 1e-9, 1e9, 0, 0 };
+    double weight = 0, scale = 0;
+    part open = cut(rest, '(');
+    if (open.size > 0 || rest->size == 0 || !memchr(rest->text, ')', rest->size))
+        return bad_mix(open.size > 0 ? open : *rest, error);
+    part inside = cut(rest, ')'), first = cut(&inside, ','), second = cut(&inside, ',');
+    vndf_status status = read_number(first, mix_usage, &weight, error);
+    if (status == VNDF_OK)
+        status = read_number(second, mix_usage, &scale, error);
+    if (status == VNDF_OK)
+        status = check_range(&weights, weight, "mix", "", error);
+    if (status == VNDF_OK)
+        status = check_range(&scales, scale, "mix", "", error);
+    if (status == VNDF_OK)
+        status = read_lobe(inside, l, error);
+    if (status != VNDF_OK)
+        return status;
+    l->scale = scale;
+    l->factor = weight / (l->form->mass(l->parameter) * scale * scale);
+    return VNDF_OK;
+}
+
+static vndf_status read_mix(part rest, family_source *source, vndf_error *error)
+{
+    vndf_status status = read_component(&rest, &source->lobes[0], error);
+    if (status != VNDF_OK)
+        return status;
+    part plus = rest;
+    if (cut(&rest, '+').size > 0)
+        return bad_mix(plus, error);
+    status = read_component(&rest, &source->lobes[1], error);
+    if (status == VNDF_OK && rest.size > 0)
+        return bad_mix(rest, error);
+    source->count = 2;
+    return status;
+}
+
+/* ---- the whole -------------------------------------------------------------------------------- */
+
+static vndf_status read_specification(const char *specification, family_source *source, vndf_error *error)
+{
+    part whole = { specification, strlen(specification), 1 };
+    if (whole.size > VNDF_LIMIT_FAMILY_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %zu characters; at most %d are possible",
+                         whole.size, VNDF_LIMIT_FAMILY_LENGTH);
+    part rest = whole, name = cut(&rest, ':');
+    if (name.size == 3 && memcmp(name.text, "mix", 3) == 0)
+        return read_mix(rest, source, error);
+    source->count = 1;
+    return read_lobe(whole, &source->lobes[0], error);
+}
+
+static vndf_status compile(lobe *l, vndf_error *error)
+{
+    static const char *const variables[] = { "r" };
+    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = { { "a", l->parameter[0] }, { "b", l->parameter[1] } };
+    vndf_names names = { variables, 1, parameters, VNDF_FAMILY_PARAMETERS };
+    return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
+}
+
+static vndf_status compile_all(family_source *source, vndf_error *error)
+{
+    vndf_status status = VNDF_OK;
+    for (size_t i = 0; i < source->count && status == VNDF_OK; i++)
+        status = compile(&source->lobes[i], error);
+    return status;
+}
+
+vndf_source *vndf_source_family(const char *specification, vndf_error *error)
+{
+    vndf_text words = { NULL, 0, 0, 0 };
+    family_source *source = calloc(1, sizeof *source);
+    if (!specification || !source) {
+        free(source);
+        vndf_fail(error, specification ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT, "%s",
+                  specification ? "no memory for a source" : "the family's name is NULL");
+        return NULL;
+    }
+    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .rebuildable = 1, .reach = reach };
+    if (read_specification(specification, source, error) == VNDF_OK && compile_all(source, error) == VNDF_OK) {
+        vndf_text_add_word(&words, "--family");
+        vndf_text_add_word(&words, specification);
+        source->base.description = vndf_text_finish(&words, error);
+        source->base.operations = OPERATIONS * (double)source->count;
+    }
+    if (source->base.description)
+        return &source->base;
+    destroy(&source->base);
+    return NULL;
+}

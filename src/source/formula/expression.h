@@ -1,0 +1,94 @@
+/* Formulas: text -> a postfix program -> a double.
+ *
+ *     sum     = product { (+ | -) product }
+ *     product = sign { (* | /) sign }
+ *     sign    = (- | +) sign | power
+ *     power   = primary [ ^ sign ]          so -r^2 = -(r^2), 2^3^2 = 2^(3^2), and 2^-3 is legal
+ *     primary = number | name | function ( sum [, sum] ) | ( sum )
+ *
+ * Names stand for the variables of the formula, for pi and for the caller's parameters; functions are
+ * known by the parenthesis behind them, so that a parameter may be called gamma. Blanks separate.
+ * expression_parse.c reads, expression.c evaluates, expression_breaks.c finds kinks and jumps, expression_bound.c
+ * bounds what lies between points, and expression_source.c makes a distribution of it. */
+#ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
+#define VNDF_SOURCE_FORMULA_EXPRESSION_H
+
+#include "source/interval/jet.h"
+#include "vndf_build.h"
+
+enum {
+    VNDF_EXPRESSION_STACK = 320      /* operands that wait: at most 4 for each level of depth, see the grammar */
+};
+
+/* Where a function is not smooth: nowhere that is found, where its argument changes sign, or where its
+ * two arguments are equal. */
+typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
+
+/* A function of one argument or of two; the other pointers are NULL. */
+typedef struct vndf_function {
+    const char *name;
+    double (*one)(double);
+    double (*two)(double, double);
+    vndf_kink kink;
+    vndf_jet (*jet_one)(const vndf_jet *);
+    vndf_jet (*jet_two)(const vndf_jet *, const vndf_jet *);
+} vndf_function;
+
+typedef enum vndf_operation {
+    VNDF_PUSH_NUMBER,
+    VNDF_PUSH_VARIABLE,
+    VNDF_NEGATE,
+    VNDF_ADD,
+    VNDF_SUBTRACT,
+    VNDF_MULTIPLY,
+    VNDF_DIVIDE,
+    VNDF_POWER,
+    VNDF_CALL
+} vndf_operation;
+
+typedef struct vndf_instruction {
+    vndf_operation operation;
+    unsigned variable;             /* of PUSH_VARIABLE */
+    double number;                 /* of PUSH_NUMBER */
+    const vndf_function *function; /* of CALL */
+} vndf_instruction;
+
+/* A program whose stack ends with one value and never exceeds VNDF_EXPRESSION_STACK. */
+typedef struct vndf_expression {
+    vndf_instruction *program; /* owned */
+    size_t count;
+} vndf_expression;
+
+/* What the names in a formula may mean. */
+typedef struct vndf_names {
+    const char *const *variables;
+    size_t variable_count;
+    const vndf_parameter *parameters;
+    size_t parameter_count;
+} vndf_names;
+
+/* Compiles text; parameters become constants. VNDF_ERROR_SYNTAX with the column (from 1) and what would
+ * be right; VNDF_ERROR_ARGUMENT for a bad parameter. On failure *expression needs no freeing. */
+vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
+                                  vndf_error *error);
+void vndf_expression_free(vndf_expression *expression);
+
+/* Runs the first count instructions and returns the value on top of the stack; *below, if not NULL,
+ * receives the one under it (0 if there is none). All instructions: the value of the formula. */
+double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables,
+                           double *below);
+
+/* The function of this name, NULL if there is none; the names of all, separated by blanks. */
+const vndf_function *vndf_function_find(const char *name, size_t size);
+const char *vndf_function_names(void);
+
+/* The slopes where an argument of step, abs, min or max changes sides, ascending, each the last double before
+ * the change: found by bisection between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
+ * the breaks of the inner ones. variables(r) fills the variables. The search is given up, and what it has found
+ * is kept, where it becomes too long. Writes at most limit of them to breaks and their number to *count; 0 if
+ * there is no memory. */
+typedef void vndf_variables_of_slope(double r, double *variables);
+int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
+                           size_t limit, size_t *count);
+
+#endif

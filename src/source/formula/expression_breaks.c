@@ -1,0 +1,104 @@
+/* Where a formula is not smooth. Each call of step, abs, min or max has a quantity that changes sign
+ * where the call has its kink or jump, and that quantity is the value of a prefix of the program. So each
+ * call's prefix is run over a grid of slopes and every change of sign is bisected down to two
+ * neighbouring doubles. The grid of a call holds the breaks of the calls before it, hence of all calls inside
+ * it: step(w - abs(r - r0)) is found however small w is. */
+#include "source/formula/expression.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRID = 2048 };            /* grid points per call: 2% apart */
+static const size_t work = 10000000; /* instructions that all scans together may cost: about 0.1 s */
+
+static const double grid_first = 1e-9, grid_last = 1e9;
+
+/* One call: the program up to it, and how its arguments tell the side. */
+typedef struct call {
+    const vndf_expression *expression;
+    vndf_variables_of_slope *variables;
+    size_t prefix;
+    vndf_kink kink;
+    size_t *done; /* instructions that were run for all calls */
+} call;
+
+static int side(const call *c, double r)
+{
+    double variables[3], below, top;
+    *c->done += c->prefix;
+    c->variables(r, variables);
+    top = vndf_expression_run(c->expression, c->prefix, variables, &below);
+    return c->kink == VNDF_KINK_EQUAL ? below >= top : top >= 0;
+}
+
+/* The last double of (low, high) that is on the side of low. */
+static double bisect(const call *c, double low, double high)
+{
+    int before = side(c, low);
+    for (;;) {
+        double middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high))
+            return low;
+        if (side(c, middle) == before)
+            low = middle;
+        else
+            high = middle;
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void fill_grid(double *grid)
+{
+    for (int i = 0; i < GRID; i++)
+        grid[i] = grid_first * exp(log(grid_last / grid_first) * i / (GRID - 1));
+}
+
+/* Sorts, and drops what differs by rounding alone: min and step of the same argument break together. */
+static size_t sort_and_thin(double *breaks, size_t count)
+{
+    size_t kept = 0;
+    qsort(breaks, count, sizeof *breaks, compare);
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || breaks[i] > breaks[kept - 1] * (1 + 1e-14))
+            breaks[kept++] = breaks[i];
+    return kept;
+}
+
+/* Adds the breaks of one call. points has room for the grid and for two points beside each break. */
+static size_t scan(const call *c, double *points, double *breaks, size_t count, size_t limit)
+{
+    size_t total = GRID, found = count;
+    fill_grid(points);
+    for (size_t i = 0; i < count; i++) {
+        points[total++] = breaks[i];
+        points[total++] = nextafter(breaks[i], INFINITY);
+    }
+    qsort(points, total, sizeof *points, compare);
+    for (size_t i = 1; i < total && found < limit && *c->done < work; i++)
+        if (side(c, points[i - 1]) != side(c, points[i]))
+            breaks[found++] = bisect(c, points[i - 1], points[i]);
+    return sort_and_thin(breaks, found);
+}
+
+int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
+                           size_t limit, size_t *count)
+{
+    double *points = malloc((GRID + 2 * limit) * sizeof *points);
+    size_t done = 0;
+    *count = 0;
+    for (size_t i = 0; points && i < expression->count && done < work; i++) {
+        const vndf_instruction *at = &expression->program[i];
+        if (at->operation != VNDF_CALL || at->function->kink == VNDF_KINK_NONE)
+            continue;
+        call c = { expression, variables, i, at->function->kink, &done };
+        *count = scan(&c, points, breaks, *count, limit);
+    }
+    free(points);
+    return points != NULL;
+}

@@ -1,0 +1,325 @@
+/* The parser of formulas: one function for each rule of the grammar in expression.h, each emitting its
+ * operands and then its operation. A rule returns 0 once an error has been reported; all callers pass it on. */
+#include "source/formula/expression.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "source/number.h"
+#include "source/words.h"
+
+typedef struct parser {
+    const char *text;
+    size_t length, at; /* at: the first character that has not been read */
+    size_t depth;      /* rules that wait for an inner one */
+    size_t stack;      /* operands on the stack of the program so far */
+    const vndf_names *names;
+    vndf_expression *expression;
+    vndf_error *error;
+} parser;
+
+static int sum(parser *p);
+static int sign(parser *p);
+
+/* ---- text ------------------------------------------------------------------------------------- */
+
+static char peek(parser *p)
+{
+    while (p->at < p->length && strchr(" \t\r\n", p->text[p->at]))
+        p->at++;
+    return p->at < p->length ? p->text[p->at] : '\0';
+}
+
+static int is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+static int is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static size_t name_length(const char *text, size_t size)
+{
+    size_t count = 0;
+    while (count < size && (is_letter(text[count]) || (count > 0 && is_digit(text[count]))))
+        count++;
+    return count;
+}
+
+/* "column 7: 'x' ..." or "column 7: the end ..." */
+static int unexpected(parser *p, const char *wanted)
+{
+    char excerpt[VNDF_EXCERPT];
+    char c = peek(p);
+    if (c == '\0')
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the expression ends here; %s", p->at + 1, wanted);
+    else
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s", p->at + 1,
+                  vndf_excerpt(excerpt, &p->text[p->at], 1), wanted);
+    return 0;
+}
+
+/* ---- output ----------------------------------------------------------------------------------- */
+
+/* Every instruction comes from a character of its own, so the program cannot outgrow the text. */
+static int emit(parser *p, vndf_instruction instruction, int change)
+{
+    p->stack = (size_t)((long)p->stack + change);
+    if (p->stack > VNDF_EXPRESSION_STACK) {
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: too many operands wait here; nest less", p->at + 1);
+        return 0;
+    }
+    p->expression->program[p->expression->count++] = instruction;
+    return 1;
+}
+
+static int emit_operation(parser *p, vndf_operation operation, int change)
+{
+    return emit(p, (vndf_instruction){ operation, 0, 0, NULL }, change);
+}
+
+static int emit_number(parser *p, double value)
+{
+    return emit(p, (vndf_instruction){ VNDF_PUSH_NUMBER, 0, value, NULL }, 1);
+}
+
+static int enter(parser *p)
+{
+    if (++p->depth <= VNDF_LIMIT_EXPRESSION_DEPTH)
+        return 1;
+    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+              "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
+              VNDF_LIMIT_EXPRESSION_DEPTH);
+    return 0;
+}
+
+/* ---- the grammar ------------------------------------------------------------------------------ */
+
+static int number(parser *p)
+{
+    double value;
+    size_t size = vndf_number_read(p->text + p->at, p->length - p->at, &value);
+    if (size == 0)
+        return unexpected(p, "a number has digits, like 0.5 or 1e-3");
+    if (isinf(value)) {
+        char excerpt[VNDF_EXCERPT];
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double", p->at + 1,
+                  vndf_excerpt(excerpt, p->text + p->at, size));
+        return 0;
+    }
+    p->at += size;
+    return emit_number(p, value);
+}
+
+static int unknown_name(parser *p, size_t size)
+{
+    char excerpt[VNDF_EXCERPT], known[320] = "";
+    size_t used = 0;
+    const vndf_names *n = p->names;
+    for (size_t i = 0; i < n->variable_count + n->parameter_count && used < sizeof known; i++) {
+        const char *name = i < n->variable_count ? n->variables[i] : n->parameters[i - n->variable_count].name;
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", name);
+    }
+    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+              "column %zu: unknown name '%s'; known are %spi, and with parentheses %s", p->at + 1,
+              vndf_excerpt(excerpt, p->text + p->at, size), known, vndf_function_names());
+    return 0;
+}
+
+static int name(parser *p, size_t size)
+{
+    const char *text = p->text + p->at;
+    const vndf_names *n = p->names;
+    for (size_t i = 0; i < n->variable_count; i++)
+        if (strlen(n->variables[i]) == size && memcmp(n->variables[i], text, size) == 0) {
+            p->at += size;
+            return emit(p, (vndf_instruction){ VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL }, 1);
+        }
+    for (size_t i = 0; i < n->parameter_count; i++)
+        if (strlen(n->parameters[i].name) == size && memcmp(n->parameters[i].name, text, size) == 0) {
+            p->at += size;
+            return emit_number(p, n->parameters[i].value);
+        }
+    if (size == 2 && memcmp(text, "pi", 2) == 0) {
+        p->at += size;
+        return emit_number(p, 3.14159265358979323846);
+    }
+    if (!vndf_function_find(text, size))
+        return unknown_name(p, size);
+    p->at += size;
+    return unexpected(p, "the function before it needs its argument in parentheses");
+}
+
+static int close_parenthesis(parser *p, size_t opened)
+{
+    char wanted[80];
+    snprintf(wanted, sizeof wanted, "an operator, or ')' for the '(' of column %zu, would be right", opened + 1);
+    if (peek(p) != ')')
+        return unexpected(p, wanted);
+    p->at++;
+    p->depth--;
+    return 1;
+}
+
+/* At a name with a parenthesis behind it, which is at open. */
+static int call(parser *p, size_t size, size_t open)
+{
+    size_t start = p->at;
+    const vndf_function *function = vndf_function_find(p->text + start, size);
+    if (!function)
+        return name(p, size) && unexpected(p, "the name before it is no function; a product is written with *");
+    p->at = open + 1;
+    if (!enter(p) || !sum(p))
+        return 0;
+    if (function->two) {
+        if (peek(p) != ',')
+            return unexpected(p, "min, max and pow take two arguments, separated by a comma");
+        p->at++;
+        if (!sum(p))
+            return 0;
+    } else if (peek(p) == ',') {
+        return unexpected(p, "this function takes one argument");
+    }
+    return close_parenthesis(p, open) &&
+           emit(p, (vndf_instruction){ VNDF_CALL, 0, 0, function }, function->two ? -1 : 0);
+}
+
+static int name_or_call(parser *p)
+{
+    size_t start = p->at, size = name_length(p->text + p->at, p->length - p->at);
+    p->at += size;
+    char next = peek(p);
+    size_t open = p->at;
+    p->at = start;
+    return next == '(' ? call(p, size, open) : name(p, size);
+}
+
+static int primary(parser *p)
+{
+    char c = peek(p);
+    size_t opened = p->at;
+    if (is_digit(c) || c == '.')
+        return number(p);
+    if (is_letter(c))
+        return name_or_call(p);
+    if (c != '(')
+        return unexpected(p, "a number, a name or '(' would be right");
+    p->at++;
+    return enter(p) && sum(p) && close_parenthesis(p, opened);
+}
+
+static int power(parser *p)
+{
+    if (!primary(p))
+        return 0;
+    if (peek(p) != '^')
+        return 1;
+    p->at++;
+    if (!enter(p) || !sign(p))
+        return 0;
+    p->depth--;
+    return emit_operation(p, VNDF_POWER, -1);
+}
+
+static int sign(parser *p)
+{
+    char c = peek(p);
+    if (c != '-' && c != '+')
+        return power(p);
+    p->at++;
+    if (!enter(p) || !sign(p))
+        return 0;
+    p->depth--;
+    return c == '+' || emit_operation(p, VNDF_NEGATE, 0);
+}
+
+static int product(parser *p)
+{
+    if (!sign(p))
+        return 0;
+    for (char c; (c = peek(p)) == '*' || c == '/';) {
+        p->at++;
+        if (!sign(p) || !emit_operation(p, c == '*' ? VNDF_MULTIPLY : VNDF_DIVIDE, -1))
+            return 0;
+    }
+    return 1;
+}
+
+static int sum(parser *p)
+{
+    if (!product(p))
+        return 0;
+    for (char c; (c = peek(p)) == '+' || c == '-';) {
+        p->at++;
+        if (!product(p) || !emit_operation(p, c == '+' ? VNDF_ADD : VNDF_SUBTRACT, -1))
+            return 0;
+    }
+    return 1;
+}
+
+/* ---- the whole -------------------------------------------------------------------------------- */
+
+static int is_known(const vndf_names *names, size_t parameter)
+{
+    const char *text = names->parameters[parameter].name;
+    for (size_t i = 0; i < names->variable_count; i++)
+        if (strcmp(text, names->variables[i]) == 0)
+            return 1;
+    for (size_t i = 0; i < parameter; i++)
+        if (strcmp(text, names->parameters[i].name) == 0)
+            return 1;
+    return strcmp(text, "pi") == 0;
+}
+
+static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    if (names->parameter_count > VNDF_LIMIT_PARAMETERS)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu parameters; at most %d are possible",
+                         names->parameter_count, VNDF_LIMIT_PARAMETERS);
+    if (names->parameter_count > 0 && !names->parameters)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameters is NULL but their count is not 0");
+    for (size_t i = 0; i < names->parameter_count; i++) {
+        const char *text = names->parameters[i].name ? names->parameters[i].name : "";
+        size_t size = strlen(text);
+        vndf_excerpt(excerpt, text, size);
+        if (size == 0 || size > VNDF_LIMIT_PARAMETER_NAME || name_length(text, size) != size)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                             "parameter '%s': a name is a letter or _, then letters, digits or _; at most %d",
+                             excerpt, VNDF_LIMIT_PARAMETER_NAME);
+        if (is_known(names, i))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
+                             excerpt);
+        if (!isfinite(names->parameters[i].value))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s' is %g; a finite number is needed",
+                             excerpt, names->parameters[i].value);
+    }
+    return VNDF_OK;
+}
+
+vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
+                                  vndf_error *error)
+{
+    parser p = { text, text ? strlen(text) : 0, 0, 0, 0, names, expression, error };
+    *expression = (vndf_expression){ NULL, 0 };
+    if (!text)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");
+    if (p.length > VNDF_LIMIT_EXPRESSION_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the expression has %zu characters; at most %d are possible",
+                         p.length, VNDF_LIMIT_EXPRESSION_LENGTH);
+    vndf_status status = check_parameters(names, error);
+    if (status != VNDF_OK)
+        return status;
+    expression->program = malloc((p.length + 1) * sizeof *expression->program);
+    if (!expression->program)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for an expression of %zu characters", p.length);
+    if (sum(&p) && (peek(&p) == '\0' || unexpected(&p, "an operator (+ - * / ^) or the end would be right")))
+        return VNDF_OK;
+    vndf_expression_free(expression);
+    return VNDF_ERROR_SYNTAX;
+}

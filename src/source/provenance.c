@@ -1,0 +1,96 @@
+/* Provenance read back. Descriptions come out of table files, so they are not trusted: every word is checked. */
+#include "source/provenance.h"
+
+#include <string.h>
+
+#include "core/error.h"
+#include "source/formula/expression.h"
+#include "source/number.h"
+#include "source/resolution.h"
+#include "source/words.h"
+
+static const char *const options[] = { "--ndf", "--slope", "--family" };
+
+/* "a=0.3" -> name and value; the '=' becomes the end of the name. */
+static vndf_status read_setting(char *word, vndf_parameter *parameter, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    char *equals = strchr(word, '=');
+    if (!equals || !vndf_number_is_all(equals + 1, strlen(equals + 1), &parameter->value))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "--set '%s': right would be NAME=NUMBER, as in a=0.3",
+                         vndf_excerpt(excerpt, word, strlen(word)));
+    *equals = '\0';
+    parameter->name = word;
+    return VNDF_OK;
+}
+
+static vndf_status read_settings(const vndf_words *words, size_t first, vndf_parameter *parameters, size_t *count,
+                                 vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    vndf_status status = VNDF_OK;
+    for (size_t i = first; i < words->count && status == VNDF_OK; i += 2) {
+        const char *word = words->word[i];
+        if (strcmp(word, "--set") != 0 || i + 1 >= words->count)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                             "'%s' in a table's source: right would be --set NAME=NUMBER",
+                             vndf_excerpt(excerpt, word, strlen(word)));
+        if (*count >= VNDF_LIMIT_PARAMETERS)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "more than %d parameters", VNDF_LIMIT_PARAMETERS);
+        status = read_setting(words->word[i + 1], &parameters[(*count)++], error);
+    }
+    return status;
+}
+
+static vndf_source *make(const vndf_words *words, vndf_error *error)
+{
+    vndf_parameter parameters[VNDF_LIMIT_PARAMETERS];
+    size_t count = 0;
+    const char *option = words->word[0], *text = words->word[1];
+    if (read_settings(words, 2, parameters, &count, error) != VNDF_OK)
+        return NULL;
+    if (strcmp(option, "--slope") == 0)
+        return vndf_source_slope_expression(text, parameters, count, error);
+    if (strcmp(option, "--ndf") == 0)
+        return vndf_source_ndf_expression(text, parameters, count, error);
+    if (count == 0)
+        return vndf_source_family(text, error);
+    vndf_fail(error, VNDF_ERROR_ARGUMENT, "--family takes no --set");
+    return NULL;
+}
+
+static int is_rebuildable(const vndf_words *words)
+{
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
+        if (words->count >= 2 && strcmp(words->word[0], options[i]) == 0)
+            return 1;
+    return 0;
+}
+
+vndf_source *vndf_source_from_description(const char *description, vndf_error *error)
+{
+    vndf_words words;
+    vndf_source *source = NULL;
+    char excerpt[VNDF_EXCERPT];
+    if (vndf_words_split(description, &words, error) != VNDF_OK)
+        return NULL;
+    words.count = vndf_resolution_start(&words);
+    if (is_rebuildable(&words))
+        source = make(&words, error);
+    else
+        vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                  "the source was '%s', and a table keeps only its name, not the file or function; "
+                  "sources by --ndf, --slope and --family can be made again, for others bring the source itself",
+                  vndf_excerpt(excerpt, description, strlen(description)));
+    vndf_words_free(&words);
+    return source;
+}
+
+vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error)
+{
+    const char *description = distribution ? vndf_distribution_info(distribution).source : NULL;
+    if (description)
+        return vndf_source_from_description(description, error);
+    vndf_fail(error, VNDF_ERROR_ARGUMENT, "the distribution is NULL or does not say what it was built from");
+    return NULL;
+}

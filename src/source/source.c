@@ -1,0 +1,18 @@
+/* What all kinds of source have in common, seen from outside. */
+#include "source/source.h"
+
+double vndf_source_p22(const vndf_source *source, double r)
+{
+    return source->p22(source, r);
+}
+
+const char *vndf_source_description(const vndf_source *source)
+{
+    return source->description;
+}
+
+void vndf_source_free(vndf_source *source)
+{
+    if (source)
+        source->destroy(source);
+}

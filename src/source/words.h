@@ -1,0 +1,39 @@
+/* The words of a command line as one text: growing text, quoting as a shell wants it, and its undoing;
+ * and short printable excerpts of input for error messages. */
+#ifndef VNDF_SOURCE_WORDS_H
+#define VNDF_SOURCE_WORDS_H
+
+#include "vndf.h"
+
+/* Text that grows; zeroed is empty. A failure to allocate is remembered until vndf_text_finish. */
+typedef struct vndf_text {
+    char *bytes;
+    size_t length, capacity;
+    int failed;
+} vndf_text;
+
+void vndf_text_add(vndf_text *text, const char *string);
+
+/* Adds a space unless the text is empty, then the word: as it is if a shell leaves it alone, otherwise
+ * in single quotes. Control characters become spaces, so that the text stays one line. */
+void vndf_text_add_word(vndf_text *text, const char *word);
+
+/* The text, to be freed by the caller; NULL and VNDF_ERROR_MEMORY if it could not grow. */
+char *vndf_text_finish(vndf_text *text, vndf_error *error);
+
+/* A line split into words. */
+typedef struct vndf_words {
+    char *bytes; /* owned: the words, each ended by NUL */
+    char **word; /* owned */
+    size_t count;
+} vndf_words;
+
+/* Splits at blanks; '...' and backslash quote. On failure words is empty and needs no freeing. */
+vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *error);
+void vndf_words_free(vndf_words *words);
+
+/* The first characters of text, fit for a message: unprintable ones as '?', "..." where it is cut. */
+enum { VNDF_EXCERPT = 48 };
+const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
+
+#endif

@@ -1,0 +1,100 @@
+# `vndf bench`: the rows that are asked for and no others, CSV and Markdown of one shape, refusals. Times
+# themselves are not judged; --seconds 0.1 makes as few turns as there may be.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+macro(run expected)
+    execute_process(COMMAND ${VNDF} bench ${ARGN} WORKING_DIRECTORY ${OUT}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT status STREQUAL "${expected}")
+        math(EXPR failures "${failures} + 1")
+        message("FAILED: vndf bench ${ARGN}\nexit status ${status}, expected ${expected}\n${output}${errors}")
+    endif()
+endmacro()
+
+# ---- refusals -----------------------------------------------------------------------------------
+
+run(2 --seconds 0)
+has(errors "--seconds")
+run(2 --only no-such-method)
+has(errors "vndf bench: no method, distribution or instruction set has 'no-such-method' in its name")
+run(2 --family ggx --slope "exp(-r)")
+has(errors "more than one of --ndf, --slope, --csv-data and --family")
+run(2 --family nonsense --seconds 0.1)
+has(errors "vndf bench: ")
+run(2 --family ggx --set a=3)
+has(errors "--set is for --ndf and --slope")
+run(2 --csv-data missing.csv)
+has(errors "missing.csv")
+run(2 ggx)
+run(2 --csv a.txt --markdown a.txt)
+has(errors "both name 'a.txt'")
+run(2 --only ggx --seconds 0.1 --csv no-folder/a.csv)
+has(errors "no-folder/a.csv")
+file(GLOB left ${OUT}/*)
+expect("refusals left ${left}" NOT left)
+file(WRITE ${OUT}/mine.csv "theta_deg,ndf\n0,1\n60,0.1\n") # a D of the user's, that --csv is not to replace
+run(2 --only ggx --seconds 0.1 --csv mine.csv)
+has(errors "is kept; a D is read by --csv-data")
+file(READ ${OUT}/mine.csv mine)
+expect("mine.csv is '${mine}'" mine STREQUAL "theta_deg,ndf\n0,1\n60,0.1\n")
+file(REMOVE ${OUT}/mine.csv)
+
+# ---- the closed forms ---------------------------------------------------------------------------
+
+run(0 --only ggx --seconds 0.1 --csv rows.csv --markdown -)
+expect("progress without a terminal: '${errors}'" NOT errors MATCHES ".")
+split("${output}" lines)
+list(LENGTH lines line_count)
+file(READ ${OUT}/rows.csv csv)
+split("${csv}" rows)
+list(LENGTH rows row_count)
+list(GET rows 0 head)
+expect("head of the CSV: ${head}" head STREQUAL "method,distribution,instructions,kind,bytes,wrong,ns,\
+ns_low,ns_high,shared_ns,latency_ns,ratio,tv,tv_theta,max_weight,\
+efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85")
+list(REMOVE_AT rows 0)
+set(numbers "(,(-?[0-9.e+-]+|inf)?)+")
+set(sets "scalar|portable|avx2|avx512")
+foreach(row IN LISTS rows)
+    expect("shape of ${row}" row MATCHES "^\"[^\"]+\",\"ggx\",(${sets}),(published|closed),0,0${numbers}$")
+    string(REGEX REPLACE "\"[^\"]*\"" "text" plain "${row}")
+    string(REGEX MATCHALL "," commas "${plain}")
+    list(LENGTH commas comma_count)
+    expect("${row} has ${comma_count} commas, not 19" comma_count EQUAL 19)
+endforeach()
+list(GET rows 0 caps)
+expect("the yardstick's ratio to itself: ${caps}" caps MATCHES
+    "^\"spherical caps .2023.\",\"ggx\",scalar,published,0,0,([^,]*,)([^,]*,)([^,]*,)([^,]*,)([^,]*,)1,")
+foreach(line IN LISTS lines)
+    if(line MATCHES "^[|]")
+        string(REGEX MATCHALL "[|]" bars "${line}")
+        list(LENGTH bars bar_count)
+        expect("${line} has ${bar_count} bars, not 16" bar_count EQUAL 16)
+    endif()
+endforeach()
+foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"
+        "GGX disc (2018) | scalar" "all normals (2007) | scalar"
+        "closed form | scalar" "closed form, batch | portable")
+    has(output "| ggx | ${method} |")
+endforeach()
+
+# ---- a distribution of one's own ----------------------------------------------------------------
+
+run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB" --seconds 0.1 --csv -)
+split("${output}" rows)
+foreach(instructions scalar portable)
+    has(output "\"--slope 'exp(-a*r)' --set a=3\",${instructions},table,20")
+endforeach()
+expect("rows that were not asked for: ${output}" NOT output MATCHES "16 KiB|caps|all normals")
+run(0 --only beckmann --seconds 0.1)
+has(output "Newton on erf (2014)")
+has(output "latency")
+expect("rows that were not asked for: ${output}" NOT output MATCHES "student|GGX")
+file(GLOB left RELATIVE ${OUT} ${OUT}/*)
+expect("left: ${left}" left STREQUAL "rows.csv")
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

@@ -1,0 +1,132 @@
+# `vndf bench effects`: the rows that are asked for and no others, CSV and Markdown of one shape, refusals, and
+# the worker that counts instructions. Times themselves are not judged; --seconds 0.01 makes as few turns as
+# there may be.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+macro(run expected)
+    execute_process(COMMAND ${VNDF} bench effects ${ARGN} WORKING_DIRECTORY ${OUT}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT status STREQUAL "${expected}")
+        math(EXPR failures "${failures} + 1")
+        message("FAILED: vndf bench effects ${ARGN}\nexit status ${status}, expected ${expected}")
+        message("${output}${errors}")
+    endif()
+endmacro()
+
+# ---- refusals -----------------------------------------------------------------------------------
+
+run(2 --seconds 0)
+has(errors "--seconds")
+run(2 --theta 90)
+has(errors "--theta")
+run(2 --alpha 0.5,nonsense)
+has(errors "--alpha")
+run(2 --distribution ggx --only no-such-effect)
+has(errors "vndf bench effects: no set of effects or distribution has 'no-such-effect' in its name")
+run(2 --distribution missing.vndf)
+has(errors "missing.vndf")
+run(2 ggx)
+has(errors "'ggx' is not expected")
+run(2 --csv a.txt --markdown a.txt)
+has(errors "both name 'a.txt'")
+run(2 --distribution ggx --csv no-folder/a.csv)
+has(errors "no-folder/a.csv")
+file(WRITE ${OUT}/mine.csv "theta_deg,ndf\n0,1\n60,0.1\n") # a D of the user's, that --csv is not to replace
+run(2 --distribution ggx --seconds 0.01 --csv mine.csv)
+has(errors "--csv mine.csv: the file is no earlier result of this command and is kept")
+file(READ ${OUT}/mine.csv mine)
+expect("mine.csv is '${mine}'" mine STREQUAL "theta_deg,ndf\n0,1\n60,0.1\n")
+file(REMOVE ${OUT}/mine.csv)
+run(2 --passes 3)
+has(errors "--passes is for --run")
+run(2 --run "no such set")
+has(errors "--run 'no such set' is no set of effects")
+run(2 --run "bare reflection" --passes 0.5)
+has(errors "--passes '0.5' is not a whole number")
+run(2 --run "by hand, without the library" --distribution beckmann)
+has(errors "is of ggx alone")
+run(2 --run "bare reflection" --distribution ggx --distribution beckmann)
+has(errors "--run takes one --distribution, not 2")
+file(GLOB left ${OUT}/*)
+expect("refusals left ${left}" NOT left)
+
+# ---- the worker ---------------------------------------------------------------------------------
+
+run(0 --run "walk, both lobes" --passes 2 --alpha 0.3,0.1)
+expect("the worker prints '${output}${errors}'" NOT "${output}${errors}" MATCHES ".")
+
+# ---- costs --------------------------------------------------------------------------------------
+
+run(0 --help)
+has(output "example: vndf bench effects")
+run(0 --distribution ggx --only masking --seconds 0.01)
+foreach(set "separable masking" "V-cavity masking" "no masking")
+    has(output "  ${set} ")
+endforeach()
+expect("rows that were not asked for: ${output}" NOT output MATCHES "\n  bare reflection|walk|both lobes")
+expect("progress without a terminal: '${errors}'" NOT errors MATCHES ".")
+
+run(0 --distribution ggx --distribution beckmann --seconds 0.01 --csv rows.csv --markdown -)
+split("${output}" lines)
+file(READ ${OUT}/rows.csv csv)
+split("${csv}" rows)
+list(GET rows 0 head)
+expect("head of the CSV: ${head}" head STREQUAL "set,distribution,alpha_x,alpha_y,directions_theta,weight_theta,\
+wrong,ns,ns_low,ns_high,to_bare,shared_ns,eval_ns,pdf_ns,instructions,mean,noise,lost,max_weight,variance,\
+efficiency")
+list(REMOVE_AT rows 0)
+list(LENGTH rows row_count)
+expect("${row_count} rows, not 91: 22 sets of GGX, 21 of Beckmann, 24 of variance each" row_count EQUAL 91)
+set(number "[-+.e0-9]+")
+foreach(row IN LISTS rows)
+    string(REGEX REPLACE "\"[^\"]*\"" "text" plain "${row}")
+    expect("${row} has a time that is none, or is wrong" plain MATCHES
+        "^text,text,${number},${number},(${number})?,${number},0,${number},${number},${number},")
+    string(REGEX MATCHALL "," commas "${plain}")
+    list(LENGTH commas comma_count)
+    expect("${row} has ${comma_count} commas, not 20" comma_count EQUAL 20)
+endforeach()
+expect("bare reflection costs more than itself: ${csv}" csv MATCHES
+    "\n\"bare reflection\",\"ggx\",0.5,0.5,,60,0,${number},${number},${number},0,")
+foreach(line IN LISTS lines)
+    string(REGEX MATCHALL "[|]" bars "${line}")
+    list(LENGTH bars bar_count)
+    if(line MATCHES "^[|] distribution") # the second table
+        set(variance_begun 1)
+    endif()
+    if(line MATCHES "^[|]" AND variance_begun)
+        expect("${line} has ${bar_count} bars, not 11" bar_count EQUAL 11)
+    elseif(line MATCHES "^[|]")
+        expect("${line} has ${bar_count} bars, not 15" bar_count EQUAL 15)
+    endif()
+endforeach()
+has(output "| by hand, without the library |")
+has(output "| walk, both lobes |")
+has(output "| beckmann | 1 | 85 |")
+file(GLOB left RELATIVE ${OUT} ${OUT}/*)
+expect("left: ${left}" left STREQUAL "rows.csv")
+
+# ---- instructions -------------------------------------------------------------------------------
+
+# The same set counted twice gives the same number; where there is no valgrind a line says so.
+run(0 --distribution ggx --only "bare reflection" --seconds 0.01 --instructions --csv -)
+if(errors)
+    has(errors "instructions are not counted: valgrind")
+else()
+    set(first "${output}")
+    run(0 --distribution ggx --only "bare reflection" --seconds 0.01 --instructions --csv -)
+    foreach(text IN ITEMS "${first}" "${output}")
+        expect("no instructions: ${text}" text MATCHES
+            "\n\"bare reflection\",\"ggx\",0.5,0.5,,60,0(,[^,]*)(,[^,]*)(,[^,]*),0,([^,]*,)([^,]*,)([^,]*,)([0-9.]+),")
+        list(APPEND counted "${CMAKE_MATCH_7}")
+    endforeach()
+    list(REMOVE_DUPLICATES counted)
+    list(LENGTH counted differing)
+    expect("instructions differ: ${counted}" differing EQUAL 1)
+endif()
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

@@ -1,0 +1,326 @@
+/* The methods that the benchmark sets ours against are what they are said to be: the exact ones draw the visible
+ * normals of GGX and Beckmann (chi-square and Kolmogorov-Smirnov, fixed seeds, chance of a false alarm 1e-6 for
+ * each), those for any D tell the density with which they draw, and tables of inverse CDFs are biased. */
+#include <stdlib.h>
+
+#include "bench/parts.h"
+#include "measure/bins.h"
+#include "cli/distribution.h"
+#include "oracle/oracle.h"
+#include "cli/random.h"
+#include "measure/statistics.h"
+#include "harness/test.h"
+
+static const double level = 1e-6;
+
+enum { BLOCKS = 100, QUICK_BLOCKS = 10, POOL = 5 };
+
+static size_t blocks(void)
+{
+    return oracle_quick() ? QUICK_BLOCKS : BLOCKS;
+}
+
+/* ---- chi-square of visible normals ------------------------------------------------------------- */
+
+static void fill_uniform(bench_block *b, uint64_t seed)
+{
+    random_stream stream = random_from(seed);
+    for (size_t i = 0; i < BENCH_BLOCK; i++) {
+        b->u1[i] = random_float(&stream);
+        b->u2[i] = random_float(&stream);
+    }
+}
+
+static void count_samples(const method *m, bench_block *b, const bin_map *map, double *count)
+{
+    method_outputs out = bench_block_outputs(b);
+    for (size_t block = 0; block < blocks(); block++) {
+        fill_uniform(b, 31 + block);
+        method_inputs in = bench_block_inputs(b);
+        m->each(m, &in, &out);
+        for (size_t i = 0; i < BENCH_BLOCK; i++)
+            count[bins_place(map, (vndf_vec3){b->x[i], b->y[i], b->z[i]})] += 1;
+    }
+}
+
+/* Neighbours of few expected samples are pooled; the last, incomplete pool goes with the one before. */
+static double p_value(const double *count, const double *probability, double samples)
+{
+    double statistic = 0, expected = 0, observed = 0;
+    size_t classes = 0;
+    for (size_t i = 0; i < BINS_COUNT; i++) {
+        expected += samples * probability[i];
+        observed += count[i];
+        if (expected >= POOL) {
+            statistic += (observed - expected) * (observed - expected) / expected;
+            expected = observed = 0;
+            classes++;
+        }
+    }
+    return statistics_chi_square_p(statistic, classes - 1);
+}
+
+static double chi_square_of(const method *m, const vndf_distribution *d, double theta, float alpha)
+{
+    static double count[BINS_COUNT], probability[BINS_COUNT];
+    vndf_surface surface = {d, alpha, alpha};
+    vndf_vec3 wi = direction_from(theta, 25);
+    vndf_view view = vndf_view_from(&surface, wi);
+    bin_map map = bins_for(&surface, wi, 3);
+    bench_block *b = calloc(1, sizeof *b);
+    bins_integrate(&map, &view, probability);
+    for (size_t i = 0; i < BINS_COUNT; i++)
+        count[i] = 0;
+    if (TEST(b != NULL)) {
+        bench_block_aim(b, wi, alpha);
+        count_samples(m, b, &map, count);
+    }
+    free(b);
+    return p_value(count, probability, (double)blocks() * BENCH_BLOCK);
+}
+
+static void test_visible(method m, const vndf_distribution *d)
+{
+    static const double thetas[] = {5, 60, 88};
+    for (size_t i = 0; m.each && i < 3; i++) {
+        double p = chi_square_of(&m, d, thetas[i], i == 1 ? 0.1f : 0.7f);
+        if (!TEST(p > level))
+            fprintf(stderr, "  %s, %s: p = %g at %g degrees\n", m.name, m.instructions, p, thetas[i]);
+    }
+}
+
+/* It notices: the normals of one distribution are not those of another, nor all normals the visible ones. */
+static void test_notices(void)
+{
+    method caps = method_ggx_caps(), normals = method_ggx_all_normals();
+    TEST(chi_square_of(&caps, vndf_beckmann(), 60, 0.5f) < level);
+    TEST(chi_square_of(&normals, vndf_ggx(), 60, 0.5f) < level);
+}
+
+/* ---- all normals ------------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double law_of_ggx(double slope2)
+{
+    return slope2 / (1 + slope2);
+}
+
+static double law_of_beckmann(double slope2)
+{
+    return 1 - exp(-slope2);
+}
+
+/* Kolmogorov-Smirnov of one block's slopes; the density told is that of D cos, within the tolerance. */
+static void test_all_normals(method m, const vndf_surface *surface, double law(double), double density_tolerance)
+{
+    static double value[BENCH_BLOCK];
+    bench_block *b = calloc(1, sizeof *b);
+    if (!TEST(b != NULL && m.each != NULL))
+        return;
+    bench_block_aim(b, (vndf_vec3){0, 0, 1}, surface->alpha_x);
+    fill_uniform(b, 5);
+    method_inputs in = bench_block_inputs(b);
+    method_outputs out = bench_block_outputs(b);
+    m.each(&m, &in, &out);
+    double mean = 0, worst = 0, distance = 0;
+    for (size_t i = 0; i < BENCH_BLOCK; i++) {
+        vndf_vec3 wm = {b->x[i], b->y[i], b->z[i]};
+        double z = (double)wm.z, ratio = (double)vndf_ndf(surface, wm) * z / (double)b->pdf[i];
+        double alpha = (double)surface->alpha_x, slope2 = (1 - z * z) / (z * z * alpha * alpha);
+        value[i] = law(slope2);
+        mean += ratio / BENCH_BLOCK;
+        worst = fmax(worst, fabs(ratio - 1));
+    }
+    qsort(value, BENCH_BLOCK, sizeof *value, ascending);
+    for (size_t i = 0; i < BENCH_BLOCK; i++)
+        distance = fmax(distance, fabs(value[i] - ((double)i + 0.5) / BENCH_BLOCK));
+    TEST(statistics_kolmogorov_p(distance, BENCH_BLOCK) > level);
+    TEST(worst < density_tolerance);
+    TEST_NEAR(mean, 1, 0.02);
+    free(b);
+}
+
+/* ---- any D ------------------------------------------------------------------------------------- */
+
+static bench_findings findings_of(const method *m, const method_truth *truth, double theta, size_t replicates)
+{
+    bench_findings f = {0};
+    TEST(bench_integrate(m, truth, theta, replicates, &f));
+    return f;
+}
+
+static int albedo_agrees(const bench_findings *a, const bench_findings *b)
+{
+    double noise = sqrt(a->albedo_noise * a->albedo_noise + b->albedo_noise * b->albedo_noise);
+    return fabs(a->albedo - b->albedo) <= 6 * noise + 1e-6;
+}
+
+static void release(method *m)
+{
+    if (m->release && m->state)
+        m->release((void *)m->state);
+}
+
+/* Unbiased: the albedo is the truth's within the noise at 60 and 85 degrees, and the noise is small. */
+static void test_unbiased(method m, const method_truth *truth)
+{
+    method ours = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
+    for (double theta = 60; TEST(m.each != NULL) && theta < 90; theta += 25) {
+        bench_findings f = findings_of(&m, truth, theta, 64), t = findings_of(&ours, truth, theta, 64);
+        if (!(TEST(albedo_agrees(&f, &t)) & TEST(f.albedo_noise < 0.02 * f.albedo) & TEST(t.albedo_noise < 1e-3)))
+            fprintf(stderr, "  %s at %g: %g +- %g, not %g\n", m.name, theta, f.albedo, f.albedo_noise, t.albedo);
+    }
+    release(&m);
+}
+
+/* The inverse CDFs are seen to be biased at 85 degrees, the smaller tables farther off. */
+static void test_biased(const method_truth *truth)
+{
+    method ours = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
+    bench_findings t = findings_of(&ours, truth, 85, 64);
+    double tv[2];
+    for (size_t i = 0; i < 2; i++) {
+        method m = method_inverse_tables(truth, i ? 256 : 64);
+        if (!TEST(m.each != NULL))
+            return;
+        bench_findings f = findings_of(&m, truth, 85, 64);
+        tv[i] = f.tv;
+        TEST(!albedo_agrees(&f, &t));
+        TEST(f.max_weight > 1.1);
+        release(&m);
+    }
+    TEST(tv[0] > tv[1] && tv[1] > 0.01 && tv[0] < 0.2);
+}
+
+/* ---- how error is measured --------------------------------------------------------------------- */
+
+/* Histograms of an exact method floor at 0.01; densities at float precision. */
+static void test_floor(void)
+{
+    method_truth truth = {{vndf_ggx(), 1, 1}, 1};
+    method m = method_ggx_caps();
+    for (double theta = 0; theta < 90; theta += 40) {
+        m.biased = 1;
+        TEST(findings_of(&m, &truth, theta, 64).tv < 0.01);
+        m.biased = 0;
+        TEST(findings_of(&m, &truth, theta, 16).tv < 1e-6);
+    }
+}
+
+/* The samples of a small table show the error that its certificate states, and no more. */
+static void test_small_table(const method_truth *truth, const vndf_distribution *small)
+{
+    float claimed = vndf_distribution_info(small).certificate.tv;
+    method m = method_ours(small, "small", VNDF_INSTRUCTIONS_BEST);
+    double worst = 0;
+    for (double theta = 0; theta < 90; theta += 15)
+        worst = fmax(worst, findings_of(&m, truth, theta, 16).tv);
+    TEST(worst <= 1.02 * (double)claimed && worst > 0.02 * (double)claimed);
+}
+
+static void test_fresnel(void)
+{
+    TEST_NEAR(bench_fresnel(1, 0.43, 2.455), (0.57 * 0.57 + 2.455 * 2.455) / (1.43 * 1.43 + 2.455 * 2.455), 1e-14);
+    TEST_NEAR(bench_fresnel(0, 0.43, 2.455), 1, 1e-14);
+    double brewster = 1 / sqrt(1 + 2.25), across = 1.25 / 3.25;
+    TEST_NEAR(bench_fresnel(brewster, 1.5, 0), 0.5 * across * across, 1e-14);
+}
+
+/* ---- verification ------------------------------------------------------------------------------ */
+
+static void each_long(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    method ours = method_ours(m->state, "", VNDF_INSTRUCTIONS_BEST);
+    ours.each(&ours, in, out);
+    out->x[5] *= 1.0001f;
+}
+
+static void each_other_bits(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    method ours = method_ours(m->state, "", VNDF_INSTRUCTIONS_BEST);
+    ours.each(&ours, in, out);
+    out->pdf[5] = nextafterf(out->pdf[5], 0);
+}
+
+static void each_away(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    method normals = method_ggx_all_normals();
+    (void)m;
+    normals.each(&normals, in, out);
+}
+
+/* What is wrong is noticed: a length, a bit of a batch, normals that face away. */
+static void test_verify(void)
+{
+    method_truth truth = {{vndf_ggx(), 1, 1}, 1};
+    method scalar = method_ours(vndf_ggx(), "", VNDF_INSTRUCTIONS_BEST), m = scalar;
+    method batch = method_ours(vndf_ggx(), "", VNDF_INSTRUCTIONS_PORTABLE);
+    bench_block *b = malloc(sizeof *b);
+    TEST(b && bench_verify(&m, &truth, b, 1) && bench_verify(&batch, &truth, b, 1));
+    m.each = each_long;
+    TEST(b && !bench_verify(&m, &truth, b, 1));
+    m.each = each_away;
+    TEST(b && !bench_verify(&m, &truth, b, 1));
+    m.each = each_other_bits;
+    TEST(b && bench_verify(&m, &truth, b, 1)); /* nobody to compare with */
+    m.same_bits = scalar.each;
+    TEST(b && !bench_verify(&m, &truth, b, 1));
+    free(b);
+}
+
+static vndf_distribution *table_of(const vndf_source *source, size_t bytes)
+{
+    vndf_build_options options = {.max_bytes = bytes};
+    return vndf_build(source, &options, NULL, NULL);
+}
+
+static method_truth truth_of(const vndf_distribution *d)
+{
+    float scale = (float)vndf_distribution_info(d).scale;
+    return (method_truth){{d, 1 / scale, 1 / scale}, scale};
+}
+
+static void test_any(void)
+{
+    vndf_source *source = vndf_source_family("student-t:2.5", NULL), *ggx = vndf_source_family("ggx", NULL);
+    vndf_distribution *fine = table_of(source, 16384), *small = table_of(source, 2048);
+    vndf_distribution *same = table_of(ggx, 16384);
+    if (TEST(fine && small && same)) {
+        method_truth truth = truth_of(fine), truth_ggx = truth_of(same);
+        method normals = method_any_all_normals(&truth_ggx);
+        test_all_normals(normals, &(vndf_surface){same, 0.5f, 0.5f}, law_of_ggx, 0.5);
+        release(&normals);
+        test_unbiased(method_any_all_normals(&truth), &truth);
+        test_unbiased(method_warp(&truth, 32), &truth);
+        test_biased(&truth);
+        test_small_table(&truth, small);
+    }
+    vndf_free(fine);
+    vndf_free(small);
+    vndf_free(same);
+    vndf_source_free(source);
+    vndf_source_free(ggx);
+}
+
+int main(void)
+{
+    test_fresnel();
+    test_verify();
+    test_notices();
+    test_visible(method_ggx_caps(), vndf_ggx());
+    test_visible(method_ggx_2018(), vndf_ggx());
+    test_visible(method_beckmann_newton(), vndf_beckmann());
+    for (vndf_instructions set = VNDF_INSTRUCTIONS_PORTABLE; set <= VNDF_INSTRUCTIONS_AVX512; set++)
+        test_visible(method_ggx_caps_batch(set), vndf_ggx());
+    test_all_normals(method_ggx_all_normals(), &(vndf_surface){vndf_ggx(), 0.3f, 0.3f}, law_of_ggx, 1e-3);
+    test_all_normals(method_beckmann_all_normals(), &(vndf_surface){vndf_beckmann(), 0.3f, 0.3f}, law_of_beckmann,
+                     1e-3);
+    test_floor();
+    test_any();
+    return test_done();
+}

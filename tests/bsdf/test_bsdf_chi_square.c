@@ -1,0 +1,76 @@
+/* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for
+ * every choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned,
+ * steep and grazing, from both sides and for all index ratios; level 1e-3 for all together. With the mean weight
+ * it makes the estimator: the weight is f cos/pdf (test_bsdf_weight), and that pdf is the one of the samples. */
+#include "bsdf/bsdf_chi_square.h"
+
+typedef struct setting {
+    float alpha_x, alpha_y, z, phi, eta;
+} setting;
+
+static const setting SETTINGS[] = {{0.3f, 0.3f, 0.8f, 0.4f, 1.5f},    {1, 1, -0.5f, 2, 1.33f},
+                                   {0.5f, 0.15f, 0.1f, 1, 2.4f},      {0.1f, 0.1f, 1, 0, 1 / 1.5f},
+                                   {1, 0.4f, -0.05f, 4, 1 / 2.4f},    {0.7f, 0.7f, 0.6f, 5, 1.001f},
+                                   {0.05f, 0.05f, 0.5f, 3, 1 / 1.33f}};
+enum { SETTING_COUNT = 7, KIND_COUNT = 3 };
+
+/* Lobes and normals; Fresnel and masking do not change what is drawn but for the choice of the lobe. */
+static int is_tried(const vndf_effects *e)
+{
+    int turned = e->axes == VNDF_AXES_ROTATED;
+    vndf_fresnel fresnel = e->lobes == VNDF_LOBES_BOTH || (e->lobes == VNDF_LOBES_REFLECTION && turned)
+                               ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
+    vndf_masking masking = e->normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES
+                                                               : VNDF_MASKING_HEIGHT_CORRELATED;
+    return oracle_effects_sensible(e) && e->scattering == VNDF_SCATTERING_SINGLE && e->fresnel == fresnel &&
+           e->masking == masking && e->transport == VNDF_TRANSPORT_RADIANCE;
+}
+
+static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const setting *at, unsigned long long seed,
+                     size_t samples, double level)
+{
+    unsigned long long state = seed * 2654435761u + 99;
+    vndf_description is = {.distribution = ndf->distribution, .effects = *effects, .alpha_x = at->alpha_x,
+                           .alpha_y = at->alpha_y, .rotation = 0.7f, .eta = at->eta};
+    vndf_vec3 wi = oracle_toward((double)at->z, (double)at->phi);
+    vndf_material material;
+    vndf_bsdf bsdf;
+    sphere_result r = {0, 0, 0, 0};
+    if (!oracle_bsdf_two_sided(effects))
+        wi.z = fabsf(wi.z);
+    TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK && vndf_bsdf_at(&bsdf, &material, wi));
+    TEST(sphere_test(&bsdf, wi, samples, &state, &r));
+    double noise = 5 * sqrt(r.lost * (1 - r.lost) / (double)samples) + 2e-4;
+    if (TEST(r.p > level) & TEST_NEAR(r.mass, 1 - r.lost, noise))
+        return;
+    bsdf_describe(&is, ndf->name, wi, wi);
+    fprintf(stderr, "    p %.3g, %lu classes, mass %.7g, lost %.7g\n", r.p, (unsigned long)r.classes, r.mass, r.lost);
+}
+
+int main(int arguments, char **argument)
+{
+    static const char *const names[KIND_COUNT] = {"ggx", "beckmann", "student-t-2.5"};
+    int quick = oracle_quick();
+    size_t every = arguments > 2 ? 1 : quick ? 5 : 3; /* of the settings */
+    size_t samples = arguments > 2 ? (size_t)strtoul(argument[2], NULL, 10) : quick ? 30000 : 200000, sets = 0, done = 0;
+    for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
+        vndf_effects e = oracle_effects(i);
+        sets += (size_t)is_tried(&e);
+    }
+    double level = statistics_sidak(1e-3, KIND_COUNT * sets * SETTING_COUNT);
+    for (size_t n = 0; n < KIND_COUNT; n++) {
+        oracle_ndf ndf;
+        if (!oracle_wanted(arguments, argument, n, names[n]) || !TEST(oracle_ndf_open(&ndf, names[n])))
+            continue;
+        for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
+            vndf_effects effects = oracle_effects(i);
+            for (size_t k = 0; k < SETTING_COUNT && is_tried(&effects); k++)
+                if ((i + k + n) % every == 0) {
+                    test_one(&ndf, &effects, &SETTINGS[k], ++done + 1000 * n, samples, level);
+                }
+        }
+        oracle_ndf_close(&ndf);
+    }
+    printf("%lu tests, %lu sets of lobes, normals and axes\n", (unsigned long)done, (unsigned long)sets);
+    return test_done();
+}

@@ -1,0 +1,187 @@
+/* Every set of effects is taken if it makes sense and refused if not, by a message that names what is wrong; so
+ * is every number out of its range, and NaN. What is not asked for is not read. A material that was refused is
+ * safe: it scatters nothing. The error is the caller's, may be NULL and is left alone where nothing is wrong. */
+#include <stddef.h>
+
+#include "bsdf/bsdf_case.h"
+
+static vndf_description good(vndf_effects effects)
+{
+    vndf_description is = {.distribution = vndf_ggx(), .effects = effects, .alpha_x = 0.3f, .alpha_y = 0.2f, .eta = 1.5f,
+                           .f0 = {0.04f, 0.04f, 0.04f}, .conductor_eta = {0.2f, 0.9f, 1.1f},
+                           .conductor_k = {3.9f, 2.4f, 2.2f}};
+    return is;
+}
+
+static void check_nothing(const vndf_material *material)
+{
+    const vndf_vec3 wi = {0.6f, 0, 0.8f}, wo = {-0.6f, 0, 0.8f};
+    const float u[3] = {0.3f, 0.4f, 0.5f};
+    vndf_roughness roughness = {0.1f, 0.1f, 1, 0};
+    float f[VNDF_WAVELENGTHS] = {1, 1, 1};
+    vndf_scattered s;
+    vndf_bsdf bsdf;
+    TEST(!vndf_bsdf_rough(&bsdf, material, &roughness, wi) && !vndf_bsdf_at(&bsdf, material, wi));
+    vndf_bsdf_sample(&bsdf, u, &s);
+    vndf_bsdf_eval(&bsdf, wo, 1, f);
+    TEST(s.lobe == VNDF_LOBE_NONE && s.density == 0 && s.weight[0] == 0 && s.weight[1] == 0 && s.weight[2] == 0);
+    TEST(f[0] == 0 && f[1] == 0 && f[2] == 0 && vndf_bsdf_pdf(&bsdf, wo) == 0);
+}
+
+static void test_sets(void)
+{
+    size_t taken = 0;
+    for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
+        vndf_effects effects = oracle_effects(i);
+        vndf_description is = good(effects);
+        vndf_material material;
+        vndf_error error = {VNDF_OK, "untouched"};
+        char text[ORACLE_EFFECTS_TEXT];
+        int sensible = oracle_effects_sensible(&effects);
+        vndf_status status = vndf_material_resolve(&is, &material, &error);
+        oracle_effects_name(&effects, text);
+        if (!TEST(status == (sensible ? VNDF_OK : VNDF_ERROR_ARGUMENT)))
+            fprintf(stderr, "  %s\n", text);
+        TEST(error.status == status && (strcmp(error.message, "untouched") == 0) == sensible);
+        taken += status == VNDF_OK;
+        if (status != VNDF_OK) {
+            TEST_HAS(error.message, "effects: ");
+            check_nothing(&material);
+            TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_ERROR_ARGUMENT);
+        }
+    }
+    printf("%lu of %lu sets of effects make sense\n", (unsigned long)taken, (unsigned long)ORACLE_EFFECT_SETS);
+}
+
+static void refuse(const vndf_description *is, const char *name)
+{
+    vndf_material material;
+    vndf_error error = {VNDF_OK, ""};
+    TEST(vndf_material_resolve(is, &material, &error) == VNDF_ERROR_ARGUMENT);
+    TEST(error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, name);
+    check_nothing(&material);
+}
+
+/* What each combination is refused for. */
+static void test_names(void)
+{
+    const struct {
+        vndf_effects effects;
+        const char *names[2];
+    } cases[] = {
+        {{.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_CONDUCTOR}, {"CONDUCTOR", "LOBES_REFLECTION"}},
+        {{.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_CONDUCTOR}, {"CONDUCTOR", "LOBES_REFLECTION"}},
+        {{.lobes = VNDF_LOBES_BOTH}, {"LOBES_BOTH", "FRESNEL_NONE"}},
+        {{.lobes = VNDF_LOBES_TRANSMISSION, .normals = VNDF_NORMALS_BOUNDED}, {"NORMALS_BOUNDED", "LOBES_REFLECTION"}},
+        {{.normals = VNDF_NORMALS_V_CAVITY}, {"NORMALS_V_CAVITY", "MASKING_V_CAVITIES"}},
+        {{.scattering = VNDF_SCATTERING_MULTIPLE, .masking = VNDF_MASKING_SEPARABLE},
+         {"SCATTERING_MULTIPLE", "MASKING_HEIGHT_CORRELATED"}},
+        {{.scattering = VNDF_SCATTERING_MULTIPLE, .normals = VNDF_NORMALS_ALL},
+         {"SCATTERING_MULTIPLE", "NORMALS_VISIBLE"}},
+        {{.scattering = VNDF_SCATTERING_MULTIPLE, .lobes = VNDF_LOBES_TRANSMISSION},
+         {"SCATTERING_MULTIPLE", "LOBES_BOTH"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        vndf_description is = good(cases[i].effects);
+        refuse(&is, cases[i].names[0]);
+        refuse(&is, cases[i].names[1]);
+    }
+}
+
+static void test_choices(void)
+{
+    const char *names[] = {"lobes", "fresnel", "masking", "normals", "scattering", "transport", "axes"};
+    for (int i = 0; i < 7; i++)
+        for (int wrong = -1; wrong < 100; wrong += 50) {
+            vndf_effects e = {.lobes = VNDF_LOBES_REFLECTION};
+            e.lobes = (vndf_lobes)(i == 0 ? wrong : 0);
+            e.fresnel = (vndf_fresnel)(i == 1 ? wrong : 0);
+            e.masking = (vndf_masking)(i == 2 ? wrong : 0);
+            e.normals = (vndf_normals_drawn)(i == 3 ? wrong : 0);
+            e.scattering = (vndf_scattering)(i == 4 ? wrong : 0);
+            e.transport = (vndf_transport)(i == 5 ? wrong : 0);
+            e.axes = (vndf_axes)(i == 6 ? wrong : 0);
+            vndf_description is = good(e);
+            refuse(&is, names[i]);
+        }
+}
+
+/* ---- numbers ---- */
+
+/* A number of a description that `effects` asks for, and its range. */
+typedef struct number {
+    const char *name;
+    size_t offset;
+    vndf_effects effects;
+    double least, most;
+} number;
+
+static const number NUMBERS[] = {
+    {"rotation", offsetof(vndf_description, rotation), {.axes = VNDF_AXES_ROTATED}, -1e4, 1e4},
+    {"eta", offsetof(vndf_description, eta), {.fresnel = VNDF_FRESNEL_DIELECTRIC}, 0.01, 100},
+    {"eta", offsetof(vndf_description, eta), {.lobes = VNDF_LOBES_TRANSMISSION}, 0.01, 100},
+    {"eta", offsetof(vndf_description, eta), {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_SCHLICK}, 0.01, 100},
+    {"f0", offsetof(vndf_description, f0), {.fresnel = VNDF_FRESNEL_SCHLICK}, 0, 1},
+    {"f0", offsetof(vndf_description, f0) + 2 * sizeof(float), {.fresnel = VNDF_FRESNEL_SCHLICK}, 0, 1},
+    {"conductor_eta", offsetof(vndf_description, conductor_eta), {.fresnel = VNDF_FRESNEL_CONDUCTOR}, 0, 1000},
+    {"conductor_k", offsetof(vndf_description, conductor_k), {.fresnel = VNDF_FRESNEL_CONDUCTOR}, 0, 1000},
+    {"conductor_k", offsetof(vndf_description, conductor_k) + 2 * sizeof(float), {.fresnel = VNDF_FRESNEL_CONDUCTOR},
+     0, 1000},
+};
+
+static vndf_description with(vndf_effects effects, size_t offset, float value)
+{
+    vndf_description is = good(effects);
+    memcpy((char *)&is + offset, &value, sizeof value);
+    return is;
+}
+
+static void test_numbers(void)
+{
+    for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
+        const number *n = &NUMBERS[i];
+        const vndf_effects bare = {.lobes = VNDF_LOBES_REFLECTION};
+        const float below = nextafterf((float)n->least, -INFINITY), above = nextafterf((float)n->most, INFINITY);
+        const float wrong[] = {below, above, NAN, INFINITY, -INFINITY};
+        const float right[] = {(float)n->least, (float)n->most};
+        vndf_material material;
+        for (size_t k = 0; k < 5; k++) {
+            vndf_description is = with(n->effects, n->offset, wrong[k]), unread = with(bare, n->offset, wrong[k]);
+            refuse(&is, n->name);
+            TEST(vndf_material_resolve(&unread, &material, NULL) == VNDF_OK);
+        }
+        for (size_t k = 0; k < 2; k++) {
+            vndf_description is = with(n->effects, n->offset, right[k]);
+            TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK);
+        }
+    }
+}
+
+static void test_rest(void)
+{
+    const vndf_effects bare = {.lobes = VNDF_LOBES_REFLECTION}, metal = {.fresnel = VNDF_FRESNEL_CONDUCTOR};
+    const float alphas[] = {0, -1, NAN, INFINITY, 1e-19f, 1e19f};
+    vndf_description is = good(metal);
+    is.conductor_eta[1] = is.conductor_k[1] = 0;
+    refuse(&is, "conductor_eta[1]");
+    is = good(bare);
+    is.distribution = NULL;
+    refuse(&is, "distribution");
+    for (size_t i = 0; i < sizeof alphas / sizeof *alphas; i++) {
+        is = with(bare, offsetof(vndf_description, alpha_x), alphas[i]);
+        refuse(&is, "alpha_x");
+        is = with(bare, offsetof(vndf_description, alpha_y), alphas[i]);
+        refuse(&is, "alpha_y");
+    }
+}
+
+int main(void)
+{
+    test_sets();
+    test_names();
+    test_choices();
+    test_numbers();
+    test_rest();
+    return test_done();
+}

@@ -1,0 +1,174 @@
+/* What the tests of the random walk share: distributions, reflectances written out once more, directions, and the
+ * comparison of two estimated histograms. */
+#ifndef TESTS_BSDF_WALK_WALK_CASE_H
+#define TESTS_BSDF_WALK_WALK_CASE_H
+
+#include <stdlib.h>
+
+#include "bsdf/walk/walk.h"
+#include "measure/statistics.h"
+#include "harness/test.h"
+
+static const double walk_pi = 3.14159265358979323846;
+
+/* ---- distributions ---- */
+
+/* The closed forms and all shipped tables; the first of them are as different as they come. */
+enum { WALK_SUBJECTS = 17, WALK_FEW = 8 };
+
+static inline const char *walk_subject_name(int i)
+{
+    static const char *const names[WALK_SUBJECTS] = {
+        "ggx", "beckmann", "student-t-1.8", "hazy", "epd-0.6", "abc-two-layer-gold", "sgd-nickel-g",
+        "student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "student-t-6", "gtr-1.5", "example",
+        "sgd-alum-bronze-r", "sgd-blue-metallic-paint-b", "sgd-red-fabric-r", "sgd-specular-black-phenolic-g"};
+    return names[i];
+}
+
+/* Freed at the end of the process: vndf_free of a closed form does nothing. */
+static inline const vndf_distribution *walk_subject(int i)
+{
+    char path[512];
+    vndf_error error = {VNDF_OK, ""};
+    if (i < 2)
+        return i ? vndf_beckmann() : vndf_ggx();
+    snprintf(path, sizeof path, "%s/tables/%s.vndf", VNDF_SOURCE_DIR, walk_subject_name(i));
+    vndf_distribution *d = vndf_load(path, &error);
+    if (!TEST(d != NULL))
+        fprintf(stderr, "%s\n", error.message);
+    return d;
+}
+
+static inline void walk_subject_free(const vndf_distribution *d)
+{
+    vndf_free((vndf_distribution *)(size_t)d);
+}
+
+/* ---- optics ---- */
+
+static inline void walk_mirror(const vndf_description *is, double cosine, double eta, double f[3])
+{
+    (void)is, (void)cosine, (void)eta;
+    f[0] = f[1] = f[2] = 1.0;
+}
+
+static inline void walk_constant(const vndf_description *is, double cosine, double eta, double f[3])
+{
+    (void)cosine, (void)eta;
+    for (int i = 0; i < 3; i++)
+        f[i] = is->f0[i];
+}
+
+static inline void walk_schlick(const vndf_description *is, double cosine, double eta, double f[3])
+{
+    (void)eta;
+    for (int i = 0; i < 3; i++)
+        f[i] = is->f0[i] + (1.0 - is->f0[i]) * pow(1.0 - cosine, 5.0);
+}
+
+static inline double walk_dielectric_at(double c, double eta)
+{
+    double t2 = 1.0 - (1.0 - c * c) / (eta * eta), t = t2 > 0.0 ? sqrt(t2) : 0.0;
+    double s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + t);
+    return t2 > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
+}
+
+static inline void walk_dielectric(const vndf_description *is, double cosine, double eta, double f[3])
+{
+    (void)is;
+    f[0] = f[1] = f[2] = walk_dielectric_at(cosine, eta);
+}
+
+static const vndf_description walk_gold = {.f0 = {0.95f, 0.6f, 0.25f}};
+
+static inline vndf_walk walk_of_mirror(void)
+{
+    vndf_walk walk = {walk_mirror, &walk_gold, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 64};
+    return walk;
+}
+
+static inline vndf_walk walk_of_glass(float eta)
+{
+    vndf_walk walk = {walk_dielectric, &walk_gold, eta, 1, VNDF_TRANSPORT_IMPORTANCE, 64};
+    return walk;
+}
+
+/* ---- directions ---- */
+
+/* gcc 12 at -O3 leaves out a rounding to float and back when it joins x and y to a vector. */
+static inline float walk_rounded(double x)
+{
+    volatile float rounded = (float)x;
+    return rounded;
+}
+
+static inline vndf_vec3 walk_direction(double cosine, double phi)
+{
+    double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    vndf_vec3 w = {walk_rounded(sine * cos(phi)), walk_rounded(sine * sin(phi)), walk_rounded(cosine)};
+    return w;
+}
+
+static inline vndf_view walk_view(const vndf_distribution *d, float ax, float ay, double cosine, double phi)
+{
+    vndf_surface surface = {d, ax, ay};
+    return vndf_view_from(&surface, walk_direction(cosine, phi));
+}
+
+static inline void walk_numbers(unsigned long long *state, float u[3])
+{
+    for (int i = 0; i < 3; i++)
+        u[i] = test_uniform(state);
+}
+
+static inline size_t walk_count(size_t usual)
+{
+    return getenv("VNDF_TEST_QUICK") ? usual / 5 : usual;
+}
+
+/* ---- means and their errors ---- */
+
+typedef struct walk_mean {
+    double sum, squares, count, largest;
+} walk_mean;
+
+static inline void walk_add(walk_mean *m, double x)
+{
+    m->sum += x;
+    m->squares += x * x;
+    m->largest = x > m->largest ? x : m->largest;
+}
+
+static inline double walk_value(const walk_mean *m)
+{
+    return m->sum / m->count;
+}
+
+/* Variance of the value. */
+static inline double walk_variance(const walk_mean *m)
+{
+    double mean = walk_value(m), variance = m->squares / m->count - mean * mean;
+    return variance > 0.0 ? variance / m->count : 0.0;
+}
+
+/* Whether two means agree within `sigmas` of their errors and `slack`. */
+static inline int walk_agree(const walk_mean *a, const walk_mean *b, double sigmas, double slack)
+{
+    double difference = fabs(walk_value(a) - walk_value(b));
+    return difference <= sigmas * sqrt(walk_variance(a) + walk_variance(b)) + slack;
+}
+
+/* ---- bins of the sphere: equal areas ---- */
+
+enum { WALK_HEIGHTS = 12, WALK_TURNS = 8, WALK_BINS = WALK_HEIGHTS * WALK_TURNS };
+
+static inline int walk_bin(vndf_vec3 w)
+{
+    int height = (int)((w.z + 1.0) * 0.5 * WALK_HEIGHTS);
+    int turn = (int)((atan2((double)w.y, (double)w.x) + walk_pi) / (2.0 * walk_pi) * WALK_TURNS);
+    height = height < 0 ? 0 : height >= WALK_HEIGHTS ? WALK_HEIGHTS - 1 : height;
+    turn = turn < 0 ? 0 : turn >= WALK_TURNS ? WALK_TURNS - 1 : turn;
+    return height * WALK_TURNS + turn;
+}
+
+#endif

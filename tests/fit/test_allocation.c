@@ -1,0 +1,272 @@
+/* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing
+ * leaks: every operation is tried with its first allocation failing, then its second, until it succeeds with
+ * none that failed.
+ *
+ * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as
+ * here. */
+#include <stdlib.h>
+
+#include "oracle/oracle.h"
+#include "table/file.h"
+#include "harness/test.h"
+
+#ifdef VNDF_TEST_WRAP
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *block, size_t size);
+void __real_free(void *block);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *block, size_t size);
+void __wrap_free(void *block);
+
+/* Allocations that succeed before one fails, blocks that are live, failures so far. */
+static long left = -1, live, failed;
+
+static int fails(void)
+{
+    if (left < 0 || left-- > 0)
+        return 0;
+    failed++;
+    return 1;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    void *block = fails() ? NULL : __real_malloc(size);
+    live += block != NULL;
+    return block;
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    void *block = fails() ? NULL : __real_calloc(count, size);
+    live += block != NULL;
+    return block;
+}
+
+void *__wrap_realloc(void *block, size_t size)
+{
+    void *grown = fails() ? NULL : __real_realloc(block, size);
+    live += !block && grown;
+    return grown;
+}
+
+void __wrap_free(void *block)
+{
+    live -= block != NULL;
+    __real_free(block);
+}
+
+/* ---- operations: each frees what it made ---- */
+
+static const char shipped[] = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
+static const char csv[] = "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n";
+static const char saved[] = "allocation.vndf";
+
+static double laplace(double r, void *user)
+{
+    (void)user;
+    return exp(-r);
+}
+
+typedef vndf_source *make_source(vndf_error *error);
+
+static vndf_source *from_slope(vndf_error *error)
+{
+    static const vndf_parameter parameters[] = {{"k", 3}};
+    return vndf_source_slope_expression("exp(-k*r)*step(2-r)", parameters, 1, error);
+}
+
+static vndf_source *from_ndf(vndf_error *error)
+{
+    return vndf_source_ndf_expression("c^20*(1+theta)", NULL, 0, error);
+}
+
+static vndf_source *from_csv_text(vndf_error *error)
+{
+    return vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error);
+}
+
+static vndf_source *from_csv_file(vndf_error *error)
+{
+    return vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/example.csv", error);
+}
+
+static vndf_source *from_family(vndf_error *error)
+{
+    return vndf_source_family("student-t:2.5", error);
+}
+
+static vndf_source *from_mix(vndf_error *error)
+{
+    return vndf_source_family("mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)", error);
+}
+
+static vndf_source *from_material(vndf_error *error)
+{
+    return vndf_source_family("sgd:alum-bronze/r", error);
+}
+
+static vndf_source *from_callback(vndf_error *error)
+{
+    return vndf_source_slope_callback(laplace, NULL, "laplace", error);
+}
+
+typedef struct subject {
+    const char *name;
+    make_source *make;
+    double max_tv;
+} subject;
+
+static const subject sources[] = {
+    {"slope expression", from_slope, 0}, {"ndf expression", from_ndf, 0}, {"CSV text", from_csv_text, 0},
+    {"CSV file", from_csv_file, 0},      {"family", from_family, 0},      {"mix", from_mix, 0},
+    {"material", from_material, 0},      {"callback", from_callback, 0},
+};
+
+static const subject to_target = {"family, to a target", from_family, 0.5};
+
+typedef int operation(const subject *of, vndf_error *error);
+
+static int make_alone(const subject *of, vndf_error *error)
+{
+    vndf_source *source = of->make(error);
+    vndf_source_free(source);
+    return source != NULL;
+}
+
+/* The failures of the source were the subject of make_alone. */
+static int build(const subject *of, vndf_error *error)
+{
+    vndf_build_options options = {.max_bytes = 2048, .max_tv = of->max_tv};
+    long after = left;
+    left = -1;
+    vndf_source *source = of->make(error);
+    left = after;
+    vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
+    vndf_free(table);
+    vndf_source_free(source);
+    return table != NULL;
+}
+
+static int load(const subject *of, vndf_error *error)
+{
+    vndf_distribution *table = vndf_load(of->name, error);
+    vndf_free(table);
+    return table != NULL;
+}
+
+static int load_memory(const subject *of, vndf_error *error)
+{
+    unsigned char bytes[2048];
+    FILE *file = fopen(of->name, "rb");
+    size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+    if (file)
+        fclose(file);
+    vndf_distribution *table = vndf_load_memory(bytes, size, error);
+    vndf_free(table);
+    return table != NULL;
+}
+
+/* Loaded without a failure, saved with. */
+static int save(const subject *of, vndf_error *error)
+{
+    long after = left;
+    left = -1;
+    vndf_distribution *table = vndf_load(of->name, error);
+    left = after;
+    vndf_status status = table ? vndf_save(table, saved, error) : VNDF_ERROR_IO;
+    vndf_free(table);
+    return status == VNDF_OK;
+}
+
+static int remake_and_certify(const subject *of, vndf_error *error)
+{
+    vndf_certificate certificate;
+    long after = left;
+    left = -1;
+    vndf_distribution *table = vndf_load(of->name, error);
+    left = after;
+    vndf_source *source = table ? vndf_source_of(table, error) : NULL;
+    int good = source && vndf_certify(table, source, &certificate, error) == VNDF_OK;
+    vndf_source_free(source);
+    vndf_free(table);
+    return good;
+}
+
+static int truth(const subject *of, vndf_error *error)
+{
+    vndf_source *source = of->make(error);
+    vndf_truth *made = source ? vndf_truth_from(source, error) : NULL;
+    vndf_truth_free(made);
+    vndf_source_free(source);
+    return made != NULL;
+}
+
+/* ---- the trial ---- */
+
+static int try_with(operation *run, const subject *of, long after)
+{
+    vndf_error error = {VNDF_OK, ""};
+    long before = live;
+    left = after;
+    failed = 0;
+    int good = run(of, &error);
+    left = -1;
+    int clean = TEST(live == before) & TEST(good == !failed);
+    if (failed)
+        clean &= TEST(error.status == VNDF_ERROR_MEMORY) & TEST(strstr(error.message, "no memory") != NULL);
+    else
+        clean &= TEST(error.status == VNDF_OK);
+    if (!clean)
+        fprintf(stderr, "  %s, allocation %ld: status %d, '%s', %ld blocks more\n", of->name, after,
+                (int)error.status, error.message, live - before);
+    return failed != 0;
+}
+
+/* The first `every` allocations, and each step-th of those after them: there they are rows of azimuths, all
+ * alike. */
+static void try_all(const char *what, operation *run, const subject *of, long every, long step)
+{
+    long n = 0, tries = 0;
+    while (try_with(run, of, n)) {
+        n += n < every ? 1 : step;
+        tries++;
+    }
+    TEST(n > 0);
+    fprintf(stderr, "%-12s %-22s: some %ld allocations, %ld of them failed in turn\n", what,
+            of->make ? of->name : "shipped table", n, tries);
+}
+
+/* With any argument every allocation of every build fails, else all of the first kind of source and some of the
+ * others. */
+int main(int count, char **arguments)
+{
+    const subject table = {shipped, NULL, 0};
+    int quick = oracle_quick(), all = count > 1 && arguments[1][0];
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
+        try_all("source", make_alone, &sources[i], 1000, 1);
+        try_all("truth", truth, &sources[i], 1000, 1);
+        int whole = all || (i == 0 && !quick);
+        try_all("build", build, &sources[i], whole ? 1000 : 25, whole ? 1 : quick ? 97 : 13);
+    }
+    try_all("build", build, &to_target, all ? 1000 : 25, all ? 1 : quick ? 97 : 23);
+    try_all("load", load, &table, 1000, 1);
+    try_all("load_memory", load_memory, &table, 1000, 1);
+    try_all("save", save, &table, 1000, 1);
+    try_all("certify", remake_and_certify, &table, 1000, 1);
+    remove(saved);
+    return test_done();
+}
+
+#else
+
+int main(void)
+{
+    puts("SKIPPED: the linker has no --wrap here, allocations cannot be made to fail");
+    return 0;
+}
+
+#endif

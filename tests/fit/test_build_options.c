@@ -1,0 +1,173 @@
+/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes and one that
+ * takes exactly that many is made, max_tv is met or refused with what was reached, options out of range are
+ * refused, and progress may stop a build. */
+#include "core/checksum.h"
+#include "oracle/oracle.h"
+#include "table/file.h"
+#include "harness/test.h"
+
+static unsigned char bytes[1 << 20];
+
+static uint32_t checksum_of(const vndf_distribution *table)
+{
+    return vndf_crc32(0, bytes, vndf_table_encode(table, bytes, sizeof bytes));
+}
+
+static void test_sizes(void)
+{
+    const size_t sizes[] = {2048, 4096, 10000, 16384, 65536, 1048576};
+    oracle o = oracle_get(ORACLE_GGX);
+    double last = 1;
+    for (int i = 0; i < (oracle_quick() ? 2 : 6); i++) {
+        vndf_certificate claim = {0};
+        vndf_distribution *table = oracle_build(&o, sizes[i], &claim);
+        vndf_certificate held = vndf_distribution_info(table).certificate;
+        TEST(table && vndf_distribution_info(table).bytes <= sizes[i]);
+        TEST(vndf_table_encode(table, NULL, 0) == vndf_distribution_info(table).bytes);
+        TEST(memcmp(&held, &claim, sizeof claim) == 0);
+        TEST(claim.tv <= last * 1.05); /* more bytes, no worse */
+        last = claim.tv;
+        vndf_free(table);
+    }
+}
+
+static void test_same_bytes(void)
+{
+    for (size_t i = 0; i < ORACLE_COUNT; i += 3) {
+        oracle o = oracle_get(i);
+        vndf_distribution *a = oracle_build(&o, 8192, NULL), *b = oracle_build(&o, 8192, NULL);
+        TEST(a && b && checksum_of(a) == checksum_of(b));
+        vndf_free(a);
+        vndf_free(b);
+    }
+}
+
+static vndf_distribution *build(size_t max_bytes, double max_tv, vndf_certificate *claim, vndf_error *error)
+{
+    oracle o = oracle_get(ORACLE_GGX);
+    vndf_source *source = oracle_source(&o);
+    vndf_build_options options = {.max_bytes = max_bytes, .max_tv = max_tv};
+    vndf_distribution *table = vndf_build(source, &options, claim, error);
+    vndf_source_free(source);
+    return table;
+}
+
+static void test_target(void)
+{
+    const double targets[] = {0.1, 0.01, 1e-3, 3e-4};
+    size_t last = 0;
+    for (int i = 0; i < (oracle_quick() ? 2 : 4); i++) {
+        vndf_certificate claim = {.tv = 1};
+        vndf_error error = {VNDF_OK, ""};
+        vndf_distribution *table = build(0, targets[i], &claim, &error);
+        TEST(table != NULL && claim.tv <= targets[i]);
+        size_t size = table ? vndf_distribution_info(table).bytes : 0;
+        TEST(size >= last && size <= 16384);
+        last = size;
+        vndf_free(table);
+    }
+    vndf_error error = {VNDF_OK, ""};
+    TEST(!build(2048, 1e-5, NULL, &error));
+    TEST(error.status == VNDF_ERROR_TARGET);
+    TEST_HAS(error.message, "1e-05");
+    TEST_HAS(error.message, "reach");
+}
+
+static void test_bad_options(void)
+{
+    const size_t sizes[] = {1, 2047, (1 << 20) + 1, (size_t)-1};
+    const double targets[] = {-1, 1, 2, NAN, INFINITY};
+    for (int i = 0; i < 4; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        TEST(!build(sizes[i], 0, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+        TEST_HAS(error.message, "max_bytes");
+    }
+    for (int i = 0; i < 5; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        TEST(!build(0, targets[i], NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+        TEST_HAS(error.message, "max_tv");
+    }
+    vndf_error error = {VNDF_OK, ""};
+    TEST(!vndf_build(NULL, NULL, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST(!vndf_build(NULL, NULL, NULL, NULL));
+}
+
+/* What progress was told: `user` points to one. */
+typedef struct told {
+    double last;
+    int calls, stop_after, in_order;
+} told;
+
+static int note(double done, const char *what, void *user)
+{
+    told *t = user;
+    t->in_order &= done >= t->last && done <= 1 && what != NULL;
+    t->last = done;
+    return ++t->calls >= t->stop_after;
+}
+
+static void test_progress(void)
+{
+    oracle o = oracle_get(ORACLE_GGX);
+    vndf_source *source = oracle_source(&o);
+    told all = {0, 0, 1 << 30, 1}, some = {0, 0, 2, 1};
+    vndf_build_options options = {.progress = note, .progress_user = &all};
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    TEST(table && all.calls > 1 && all.in_order);
+    vndf_free(table);
+    options.progress_user = &some;
+    TEST(!vndf_build(source, &options, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, "interrupted");
+    vndf_source_free(source);
+}
+
+static double laplace(double r, void *user)
+{
+    (void)user;
+    return exp(-r);
+}
+
+/* The bytes of the smallest table that 2048 allow, with a name of `length` letters in it; 0: none fits. */
+static size_t bytes_with_name(size_t length)
+{
+    static char name[2048];
+    const vndf_build_options options = {.max_bytes = 2048};
+    vndf_error error = {VNDF_OK, ""};
+    memset(name, 'n', length);
+    name[length] = '\0';
+    vndf_source *source = vndf_source_slope_callback(laplace, NULL, name, &error);
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    size_t size = table ? vndf_distribution_info(table).bytes : 0;
+    TEST(size ? size <= 2048 : error.status == VNDF_ERROR_TARGET);
+    vndf_free(table);
+    vndf_source_free(source);
+    return size;
+}
+
+/* The name stands in the table, so that a letter is a byte. Near the longest name with which a table fits it
+ * is the coarsest, whose size is known then; the name that fills it to the last byte has to fit, and no longer
+ * one. */
+static void test_exact_size(void)
+{
+    size_t fits = 1, large = 2000, size = 0;
+    while (large - fits > 8) { /* a knot of an area takes 16 bytes */
+        size_t middle = (fits + large) / 2, found = bytes_with_name(middle);
+        size = found ? found : size;
+        fits = found ? middle : fits;
+        large = found ? large : middle;
+    }
+    fits += 2048 - size;
+    TEST(size > 0 && bytes_with_name(fits) == 2048 && bytes_with_name(fits + 1) == 0);
+}
+
+int main(void)
+{
+    test_sizes();
+    test_exact_size();
+    test_same_bytes();
+    test_target();
+    test_bad_options();
+    test_progress();
+    return test_done();
+}

@@ -1,0 +1,132 @@
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is
+ * not. */
+#include "harness/test.h"
+#include "vndf_build.h"
+
+typedef struct refusal {
+    const char *slope, *reason;
+} refusal;
+
+static const refusal refusals[] = {
+    {"1-r", "negative"},                        /* negative beyond slope 1 */
+    {"exp(-r)-0.001", "negative"},
+    {"exp(-r)*sqrt(3-r)", "not a number"},
+    {"exp(-r)/abs(r-1)", "infinite at slope 1"},
+    {"0", "zero"},
+    {"step(-1-r)", "zero"},
+    {"1", "infinite projected area"},
+    {"1/(1+r^3)", "infinite projected area"},   /* r^-3: the first moment diverges like a logarithm */
+    {"(1+r*r)^-1", "infinite projected area"},
+    {"r^-2*exp(-r)", "at the pole"},
+    {"r^-3*exp(-r)", "at the pole"},
+    {"(1+r*r)^-1.52", "tail"},                  /* integrable, but in slopes that no float normal has */
+    {"r^-1.9*exp(-r)", "below slope 1e-30"},    /* the same at the pole */
+    {"1e-320*exp(-r*r)", "too small for doubles"},
+    {"exp(-r)+step(r-1)*step(1.001-r)*sqrt(1.0001-r)", "not a number"},
+    {"exp(-r)*(1+cos(1e12*r))", "too rough"},
+    {"exp(-r)*(1+5e13*exp(-((r-1.37)/1e-15)^2))", "cannot be resolved at slope 1.3"},
+};
+
+static const char *const accepted[] = {
+    "r^-1.7*exp(-r)", "(1+r*r)^-1.65", "step(1-r)", "exp(-((r-1)/0.02)^2)", "step(r-1)*exp(-r)",
+        "exp(-r*r)+1e4*exp(-1e4*r*r)",
+    "1e-30*exp(-r*r)", "1e30*exp(-r*r)",
+    "exp(-((r-1)/1e-5)^2)", "exp(-((r-1.37)/5e-5)^2)", /* all mass in a narrow ring */
+};
+
+/* The same without a table. */
+static const char *const resolved[] = {
+    "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "r^100/cosh(r)", /* far out infinity times 0 and over infinity */
+    "1-pow(tanh(r),2)", "2*step(0.4-r)+1-step(r-1)", /* far out exactly 0, where bounds must not be rounded away */
+    "1e-305*exp(-r*r)", "exp(-((r-1.37)/2e-5)^2)",
+    "exp(-r)/sqrt(abs(r^2-2))", /* infinite, but at no double */
+    "(1-cos(r))/r^2*exp(-r)", /* few digits near 0 */
+};
+
+static vndf_distribution *build(const char *slope, vndf_error *error)
+{
+    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
+    vndf_build_options options = {.max_bytes = 4096};
+    vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
+    vndf_source_free(source);
+    return table;
+}
+
+static void test_refusals(void)
+{
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        vndf_distribution *table = build(refusals[i].slope, &error);
+        if (!(TEST(!table) & TEST(error.status == VNDF_ERROR_DISTRIBUTION) &
+              TEST_HAS(error.message, refusals[i].reason)))
+            fprintf(stderr, "  %s: %s\n", refusals[i].slope, error.message);
+        vndf_free(table);
+    }
+}
+
+static void test_accepted(const char *slope)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *table = build(slope, &error);
+    if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
+        fprintf(stderr, "  %s: %s\n", slope, error.message);
+    vndf_free(table);
+}
+
+static void test_resolved(const char *slope)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, &error);
+    vndf_truth *truth = vndf_truth_from(source, &error);
+    if (!TEST(truth != NULL))
+        fprintf(stderr, "  %s: %s\n", slope, error.message);
+    vndf_truth_free(truth);
+    vndf_source_free(source);
+}
+
+/* A staircase. */
+static void test_steps(void)
+{
+    enum { STEPS = 40 };
+    char text[1024] = "0";
+    for (int i = 1; i <= STEPS; i++)
+        sprintf(text + strlen(text), "+step(%g-r)", 0.05 * i);
+    test_accepted(text);
+}
+
+static double bad_callback(double r, void *user)
+{
+    const double *value = user;
+    return r < 2 ? exp(-r * r) : *value;
+}
+
+/* The place is named: the slope of the first bad value. */
+static void test_where(void)
+{
+    const double values[] = {-1, NAN, INFINITY};
+    const char *const words[] = {"negative", "not a number", "infinite"};
+    for (int i = 0; i < 3; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        double value = values[i];
+        vndf_source *source = vndf_source_slope_callback(bad_callback, &value, "bad", &error);
+        TEST(source && !vndf_build(source, NULL, NULL, &error));
+        TEST(error.status == VNDF_ERROR_DISTRIBUTION);
+        TEST_HAS(error.message, words[i]);
+        const char *at = strstr(error.message, "slope ");
+        double slope = 0;
+        TEST(at && sscanf(at, "slope %lf", &slope) == 1 && slope >= 2 && slope < 2.2);
+        vndf_source_free(source);
+    }
+}
+
+int main(void)
+{
+    test_refusals();
+    for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++)
+        test_accepted(accepted[i]);
+    for (size_t i = 0; i < sizeof resolved / sizeof *resolved; i++)
+        test_resolved(resolved[i]);
+    test_steps();
+    test_where();
+    return test_done();
+}

@@ -1,0 +1,255 @@
+/* Every limit that the headers state is where they state it: what is at the limit is taken, what is one beyond
+ * is refused with an error that names the limit. (Length and depth of expressions, lines of a CSV:
+ * test_expression, test_csv.) */
+#include <stdlib.h>
+#include <time.h>
+
+#include "fit/guard.h"
+#include "oracle/oracle.h"
+#include "table/file.h"
+#include "harness/test.h"
+
+enum { ROW = 16 };
+
+/* ---- texts ---- */
+
+static int takes_parameters(size_t count, size_t name_length, vndf_error *error)
+{
+    static char names[VNDF_LIMIT_PARAMETERS + 1][VNDF_LIMIT_PARAMETER_NAME + 2];
+    vndf_parameter parameters[VNDF_LIMIT_PARAMETERS + 1];
+    for (size_t i = 0; i < count; i++) {
+        memset(names[i], 'a', name_length);
+        names[i][name_length] = '\0';
+        names[i][0] = (char)('A' + i % 26);
+        names[i][1] = (char)('a' + i / 26);
+        parameters[i] = (vndf_parameter){names[i], 1.0};
+    }
+    vndf_source *source = vndf_source_slope_expression("exp(-r)", parameters, count, error);
+    vndf_source_free(source);
+    return source != NULL;
+}
+
+static void test_parameters(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    TEST(takes_parameters(VNDF_LIMIT_PARAMETERS, VNDF_LIMIT_PARAMETER_NAME, &error));
+    TEST(!takes_parameters(VNDF_LIMIT_PARAMETERS + 1, 4, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, "at most 64");
+    TEST(!takes_parameters(1, VNDF_LIMIT_PARAMETER_NAME + 1, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, "at most 64");
+}
+
+static double laplace(double r, void *user)
+{
+    (void)user;
+    return exp(-r);
+}
+
+/* The worst name that is allowed takes four characters for each of its own, and still comes back from a table. */
+static void test_names(void)
+{
+    static char name[VNDF_LIMIT_NAME_LENGTH + 2];
+    vndf_error error = {VNDF_OK, ""};
+    vndf_build_options options = {.max_bytes = 65536};
+    memset(name, '\'', VNDF_LIMIT_NAME_LENGTH);
+    vndf_source *source = vndf_source_slope_callback(laplace, NULL, name, &error);
+    vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
+    TEST(table && strlen(vndf_distribution_info(table).source) > 4 * VNDF_LIMIT_NAME_LENGTH);
+    vndf_free(table);
+    vndf_source_free(source);
+    name[VNDF_LIMIT_NAME_LENGTH] = 'a';
+    TEST(!vndf_source_slope_callback(laplace, NULL, name, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, "at most 4096");
+    error.message[0] = '\0';
+    TEST(!vndf_source_csv_text(name, "slope,p22\n0,1\n1,0\n", 18, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST_HAS(error.message, "at most 4096");
+    TEST(!vndf_source_family(name, &error) && error.status == VNDF_ERROR_SYNTAX);
+    TEST_HAS(error.message, "at most 4096");
+}
+
+/* ---- CSV ---- */
+
+/* "slope,p22", then count rows. */
+static vndf_source *csv_of(size_t count, vndf_error *error)
+{
+    char *text = malloc(ROW * (count + 1)), *at = text;
+    if (!text)
+        return NULL;
+    at += sprintf(at, "slope,p22\n");
+    for (size_t i = 0; i < count; i++)
+        at += sprintf(at, "%lu,1\n", (unsigned long)i);
+    vndf_source *source = vndf_source_csv_text("many", text, (size_t)(at - text), error);
+    free(text);
+    return source;
+}
+
+static void test_rows(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = csv_of(VNDF_LIMIT_CSV_ROWS, &error);
+    TEST(source && vndf_source_p22(source, 999.5) == 1);
+    vndf_source_free(source);
+    TEST(!csv_of(VNDF_LIMIT_CSV_ROWS + 1, &error) && error.status == VNDF_ERROR_SYNTAX);
+    TEST_HAS(error.message, "line 1000002: more than 1000000 rows");
+}
+
+/* ---- files ---- */
+
+/* A file that begins with these bytes and ends `gigabytes` further: a hole, which takes no room on most disks. */
+static int make_long(const char *path, const unsigned char *bytes, size_t size, long gigabytes)
+{
+    FILE *file = fopen(path, "wb");
+    int good = file && fwrite(bytes, 1, size, file) == size;
+    for (long i = 0; good && i < gigabytes; i++)
+        good = fseek(file, 1L << 30, SEEK_CUR) == 0;
+    good = good && fputc(0, file) != EOF;
+    return file && fclose(file) == 0 && good;
+}
+
+static void test_long_files(void)
+{
+    unsigned char bytes[4096];
+    const char *path = "limits.tmp";
+    vndf_error error = {VNDF_OK, ""};
+    FILE *shipped = fopen(VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf", "rb");
+    size_t size = shipped ? fread(bytes, 1, sizeof bytes, shipped) : 0;
+    if (shipped)
+        fclose(shipped);
+    if (make_long(path, bytes, size, 10)) {
+        TEST(!vndf_load(path, &error) && error.status == VNDF_ERROR_TABLE);
+        TEST_HAS(error.message, "more follow");
+        TEST(!vndf_source_csv_file(path, &error));
+        TEST_HAS(error.message, "more than 67108864 bytes");
+    } else
+        fprintf(stderr, "no file of 10 GiB can be made here\n");
+    remove(path);
+}
+
+static void state_size(unsigned char *bytes, unsigned size)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[12 + i] = (unsigned char)(size >> (8 * i) & 0xffu);
+}
+
+/* The size that a table states bounds what is read and allocated, whatever follows; the largest that is possible
+ * fails for what follows alone. */
+static void test_stated_size(void)
+{
+    unsigned char bytes[64] = "VNDFtab\n";
+    vndf_error error = {VNDF_OK, ""};
+    bytes[8] = 3; /* the version */
+    state_size(bytes, VNDF_LIMIT_TABLE_BYTES);
+    TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && !strstr(error.message, "are possible"));
+    state_size(bytes, VNDF_LIMIT_TABLE_BYTES + 1u);
+    TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && error.status == VNDF_ERROR_TABLE);
+    TEST_HAS(error.message, "from 64 to 8388608 are possible");
+    TEST(make_long("limits.tmp", bytes, sizeof bytes, 0));
+    TEST(!vndf_load("limits.tmp", &error) && error.status == VNDF_ERROR_TABLE);
+    TEST_HAS(error.message, "limits.tmp: the table says that it has 8388609 bytes");
+    remove("limits.tmp");
+}
+
+/* ---- builds ---- */
+
+static vndf_distribution *build_slope(const char *slope, vndf_error *error)
+{
+    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
+    vndf_distribution *table = source ? vndf_build(source, NULL, NULL, error) : NULL;
+    vndf_source_free(source);
+    return table;
+}
+
+static void test_panels(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    TEST(!build_slope("step(sin(1e3*r))*exp(-r)", &error) && error.status == VNDF_ERROR_DISTRIBUTION);
+    TEST_HAS(error.message, "not resolved by 60000 panels");
+}
+
+/* The count itself; test_long_limits tries builds that reach it. */
+static void test_operations(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_guard guard = vndf_guard_from(NULL, NULL);
+    TEST(vndf_guard_spend(&guard, VNDF_LIMIT_BUILD_OPERATIONS) && vndf_guard_status(&guard, &error) == VNDF_OK);
+    TEST(!vndf_guard_spend(&guard, 1e6) && vndf_guard_status(&guard, &error) == VNDF_ERROR_DISTRIBUTION);
+    TEST_HAS(error.message, "too costly");
+    TEST_HAS(error.message, "1e+10 operations");
+}
+
+/* ---- what a build asks while it runs ---- */
+
+/* Between two questions whether to go on, the processor time of the longest silence. */
+typedef struct asked {
+    long times;
+    clock_t last, longest;
+} asked;
+
+static int note_time(double done, const char *what, void *user)
+{
+    asked *a = user;
+    clock_t now = clock(), silence = now - a->last;
+    (void)done;
+    (void)what;
+    a->longest = silence > a->longest ? silence : a->longest;
+    a->last = now;
+    a->times++;
+    return 0;
+}
+
+/* Some 1e8 operations: asked every 2^18 of them, milliseconds each; one of a certificate's directions that forgot
+ * to count took a third of a second. */
+static void test_asked_often(void)
+{
+    asked a = {0, clock(), 0};
+    vndf_build_options options = {.progress = note_time, .progress_user = &a};
+    vndf_source *source = vndf_source_family("ggx", NULL);
+    vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
+    double longest = (double)a.longest / CLOCKS_PER_SEC;
+    TEST(table && a.times > 100);
+    TEST(getenv("VNDF_TEST_QUICK") || longest < 0.06);
+    fprintf(stderr, "a default build asked %ld times, with silences of %.3g s at most\n", a.times, longest);
+    vndf_free(table);
+    vndf_source_free(source);
+}
+
+/* A density that turns into something else after some calls. */
+typedef struct turncoat {
+    long left;
+    double value;
+} turncoat;
+
+static double turn(double r, void *user)
+{
+    turncoat *t = user;
+    return t->left-- > 0 ? exp(-r * r) : t->value;
+}
+
+static void test_late_values(void)
+{
+    static const double values[] = {-1, NAN, INFINITY};
+    static const char *const words[] = {"negative", "not a number", "infinite"};
+    static const long calls[] = {0, 1000, 100000, 500000, 2000000};
+    for (int i = 0; i < 15; i++) {
+        turncoat t = {calls[i / 3], values[i % 3]};
+        vndf_error error = {VNDF_OK, ""};
+        vndf_source *source = vndf_source_slope_callback(turn, &t, "turncoat", &error);
+        TEST(!vndf_build(source, NULL, NULL, &error) && error.status == VNDF_ERROR_DISTRIBUTION);
+        TEST_HAS(error.message, words[i % 3]);
+        vndf_source_free(source);
+    }
+}
+
+int main(void)
+{
+    test_parameters();
+    test_names();
+    test_rows();
+    test_long_files();
+    test_stated_size();
+    test_panels();
+    test_operations();
+    test_asked_often();
+    test_late_values();
+    return test_done();
+}

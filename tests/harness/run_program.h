@@ -1,0 +1,147 @@
+/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout. For tests
+ * whose property is about processes and files; POSIX. */
+#ifndef TESTS_HARNESS_RUN_PROGRAM_H
+#define TESTS_HARNESS_RUN_PROGRAM_H
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/test.h"
+
+enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
+
+typedef struct run_setting {
+    unsigned closed;     /* a bit for each of the descriptors 0 to 2 */
+    const char *in;      /* what stdin is opened from; NULL: /dev/null */
+    const char *append;  /* what stdout is appended to; NULL: `text` of the outcome, as stderr */
+    const char *left;    /* a file for which a temporary of the same process number is there already */
+} run_setting;
+
+static const run_setting run_plain = {.closed = 0};
+
+typedef struct run_outcome {
+    int status;          /* of exit; -1: another end */
+    char text[RUN_TEXT]; /* stdout and stderr, their first bytes */
+} run_outcome;
+
+/* What a crash of this very process would have left: it holds "left". */
+static inline int run_leave(const char *name)
+{
+    char temporary[320];
+    snprintf(temporary, sizeof temporary, "%s.%ld.tmp", name, (long)getpid());
+    int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
+}
+
+/* In the child; `said` is the pipe. */
+static inline void run_become(const run_setting *s, int said)
+{
+    int in = open(s->in ? s->in : "/dev/null", O_RDONLY);
+    int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : said;
+    if (s->left && !run_leave(s->left))
+        _exit(RUN_NOT_RUN);
+    if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
+        _exit(RUN_NOT_RUN);
+    for (int i = 3; i < 64; i++)
+        close(i);
+    for (int i = 0; i < 3; i++)
+        if (s->closed >> i & 1u)
+            close(i);
+}
+
+static inline void run_read(int from, run_outcome *o)
+{
+    char more[4096];
+    size_t used = 0;
+    ssize_t got;
+    while ((got = read(from, o->text + used, sizeof o->text - 1 - used)) > 0)
+        used += (size_t)got;
+    o->text[used] = '\0';
+    while (read(from, more, sizeof more) > 0) /* what does not fit */
+        continue;
+}
+
+/* words: ended by NULL. The outcome stays until the next run. */
+static inline const run_outcome *run_program(const run_setting *s, const char *const *words)
+{
+    static run_outcome o;
+    int ends[2], status = 0;
+    char *argv[RUN_WORDS + 2] = {(char *)(size_t)(const void *)VNDF_PROGRAM};
+    for (int i = 0; i < RUN_WORDS && words[i]; i++)
+        argv[i + 1] = (char *)(size_t)(const void *)words[i];
+    o = (run_outcome){-1, ""};
+    if (!TEST(pipe(ends) == 0))
+        return &o;
+    pid_t pid = fork();
+    if (pid == 0) {
+        run_become(s, ends[1]);
+        execv(VNDF_PROGRAM, argv);
+        _exit(RUN_NOT_RUN);
+    }
+    close(ends[1]);
+    run_read(ends[0], &o);
+    close(ends[0]);
+    waitpid(pid, &status, 0);
+    o.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return &o;
+}
+
+/* ---- files ---- */
+
+/* The whole file, to be freed, with its size; NULL if it is not there. */
+static inline char *run_file(const char *name, size_t *size)
+{
+    struct stat is;
+    FILE *file = fopen(name, "rb");
+    char *text = file && fstat(fileno(file), &is) == 0 ? calloc(1, (size_t)is.st_size + 1) : NULL;
+    *size = text ? fread(text, 1, (size_t)is.st_size, file) : 0;
+    if (file)
+        fclose(file);
+    return text;
+}
+
+static inline int run_put(const char *name, const char *text)
+{
+    FILE *file = fopen(name, "wb");
+    int good = file && fputs(text, file) >= 0;
+    return file && fclose(file) == 0 && good;
+}
+
+/* Whether a file has exactly this text. */
+static inline int run_has(const char *name, const char *text)
+{
+    size_t size;
+    char *found = run_file(name, &size);
+    int same = found && size == strlen(text) && memcmp(found, text, size) == 0;
+    free(found);
+    return same;
+}
+
+static inline int run_same(const char *a, const char *b)
+{
+    size_t size_of_a, size_of_b;
+    char *in_a = run_file(a, &size_of_a), *in_b = run_file(b, &size_of_b);
+    int same = in_a && in_b && size_of_a == size_of_b && memcmp(in_a, in_b, size_of_a) == 0;
+    free(in_a);
+    free(in_b);
+    return same;
+}
+
+/* A scene of a ball, small and quick. */
+static const char run_scene[] = "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+                                "material gold conductor of gold distribution ggx alpha 0.2\n"
+                                "sphere centre 0 0 0 radius 1 material gold\n";
+
+/* The words of a failed check. */
+static inline void run_tell(const char *const *words, const run_outcome *o)
+{
+    fputs("  vndf", stderr);
+    for (int i = 0; i < RUN_WORDS && words[i]; i++)
+        fprintf(stderr, " %s", words[i]);
+    fprintf(stderr, ": status %d\n%.300s\n", o->status, o->text);
+}
+
+#endif

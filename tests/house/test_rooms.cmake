@@ -1,0 +1,173 @@
+# The order of the house, which src/README.md draws: a room includes rooms below it, a sub-room its own room and
+# the sub-rooms that are listed before it, and no header comes back to itself. The run time (core to bsdf) does not
+# know vndf_build.h, tools/ know src/ through include/ alone, and src/ takes from the system the headers of the C
+# library, but for what is stated below. A folder holds no more than 20 sources and headers.
+cmake_minimum_required(VERSION 3.16)
+
+# ---- the order ----------------------------------------------------------------------------------
+
+set(rooms_src core simd math table sampler bsdf source fit)
+set(below_core "")
+set(below_simd core)
+set(below_math core simd)
+set(below_table core simd math)
+set(below_sampler core simd math table)
+set(below_bsdf core simd math table sampler)
+set(below_source core simd math)
+# The certificate is measured with the run time itself, hence the sampler.
+set(below_fit core simd math source table sampler)
+set(run_time core simd math table sampler bsdf)
+
+set(subs_sampler tabulated all_normals analytic bounded batch)
+set(subs_bsdf terms lobes walk)
+set(subs_source interval csv formula family)
+set(subs_fit profile certificate)
+
+set(rooms_tools cli draw measure bench report render compare commands)
+set(below_cli "")
+set(below_draw cli)
+set(below_measure cli)
+set(below_bench cli draw measure)
+set(below_report cli draw measure bench)
+set(below_render cli draw)
+set(below_compare cli draw render)
+set(below_commands cli draw measure bench report render compare)
+
+set(subs_bench methods effects)
+set(subs_render image geometry scene perfect path)
+
+set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
+    stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)
+# Saving a table keeps modes and links and flushes to the disk, which the C library has no calls for.
+set(system_fit fcntl sys/stat unistd)
+# Lanes are the processor's own.
+set(system_simd immintrin)
+
+set(most_files 20)
+
+# ---- one include --------------------------------------------------------------------------------
+
+file(GLOB public RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h)
+
+# room_of(NAME ROOM SUB): of "room/x.h" or "room/sub/x.h"; SUB is empty for the room itself.
+macro(room_of name room sub)
+    set(${room} "")
+    set(${sub} "")
+    if("${name}" MATCHES "^([a-z_]+)/(([a-z_]+)/)?[^/]+$")
+        set(${room} ${CMAKE_MATCH_1})
+        set(${sub} "${CMAKE_MATCH_3}")
+    endif()
+endmacro()
+
+# NAME between quotes, included by FILE ("room/sub/x.c") of the tower src or tools.
+function(check_quoted tower file name where)
+    room_of(${file} room sub)
+    room_of("${name}" its_room its_sub)
+    if(name IN_LIST public)
+        if(name STREQUAL "vndf_build.h" AND tower STREQUAL src AND room IN_LIST run_time)
+            message(SEND_ERROR "${where}: src/${room} belongs to the run time and must not include vndf_build.h")
+        endif()
+        return()
+    endif()
+    if(NOT EXISTS ${SOURCE}/${tower}/${name})
+        message(SEND_ERROR "${where}: there is no ${tower}/${name}; a name carries its room, as in \"core/error.h\", "
+            "and tools/ know src/ through include/ alone")
+    elseif(NOT its_room STREQUAL "" AND NOT room STREQUAL "" AND NOT its_room STREQUAL room
+            AND NOT its_room IN_LIST below_${room})
+        list(JOIN below_${room} ", " below)
+        message(SEND_ERROR "${where}: ${tower}/${room} must not include \"${name}\"; "
+            "it may use its own headers, include/ and the rooms {${below}}")
+    elseif(its_room STREQUAL room AND NOT sub STREQUAL "" AND NOT its_sub STREQUAL "")
+        list(FIND subs_${room} ${sub} mine)
+        list(FIND subs_${room} ${its_sub} its)
+        if(its GREATER mine)
+            message(SEND_ERROR "${where}: ${room}/${sub} must not include \"${name}\", which stands above it in "
+                "{${subs_${room}}}")
+        endif()
+    endif()
+endfunction()
+
+function(check_angled file name where)
+    room_of(${file} room sub)
+    string(REGEX REPLACE "\\.h$" "" stem "${name}")
+    if(NOT stem IN_LIST c_library AND NOT stem IN_LIST system_${room})
+        message(SEND_ERROR "${where}: <${name}> is not a header of the C library")
+    endif()
+endfunction()
+
+# Checks every #include of FILE, and notes which headers a header includes.
+function(check_file tower file)
+    file(STRINGS ${SOURCE}/${tower}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+    set(headers "")
+    foreach(line IN LISTS lines)
+        if(line MATCHES "include[ \t]*\"([^\"]+)\"")
+            set(name ${CMAKE_MATCH_1})
+            check_quoted(${tower} ${file} ${name} ${tower}/${file})
+            list(APPEND headers ${name})
+        elseif(tower STREQUAL src AND line MATCHES "include[ \t]*<([^>]+)>")
+            check_angled(${file} ${CMAKE_MATCH_1} ${tower}/${file})
+        endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY "includes ${tower}/${file}" "${headers}")
+endfunction()
+
+# ---- all files ----------------------------------------------------------------------------------
+
+# No header comes back to itself: those that include none of the rest are taken away until none is left.
+function(check_circles tower headers)
+    list(LENGTH headers left)
+    while(left GREATER 0)
+        set(rest "")
+        foreach(header IN LISTS headers)
+            get_property(included GLOBAL PROPERTY "includes ${tower}/${header}")
+            foreach(name IN LISTS included)
+                if(name IN_LIST headers)
+                    list(APPEND rest ${header})
+                    break()
+                endif()
+            endforeach()
+        endforeach()
+        list(LENGTH rest now)
+        if(now EQUAL left)
+            list(JOIN rest "\n  " names)
+            message(SEND_ERROR "headers of ${tower}/ that include one another in a circle, or lead to one:\n  ${names}")
+            return()
+        endif()
+        set(headers "${rest}")
+        set(left ${now})
+    endwhile()
+endfunction()
+
+foreach(tower src tools)
+    file(GLOB_RECURSE files RELATIVE ${SOURCE}/${tower} ${SOURCE}/${tower}/*.c ${SOURCE}/${tower}/*.h)
+    list(LENGTH files count)
+    if(count LESS 100)
+        message(FATAL_ERROR "${count} sources under ${SOURCE}/${tower}")
+    endif()
+    set(headers "")
+    set(folders "")
+    foreach(file IN LISTS files)
+        room_of(${file} room sub)
+        if(NOT "${tower}/${file}" MATCHES "^tools/(main\\.c|command\\.h)$"
+                AND (NOT room IN_LIST rooms_${tower} OR NOT (sub STREQUAL "" OR sub IN_LIST subs_${room})))
+            message(SEND_ERROR "${tower}/${file}: not in a room; tests/house/test_rooms.cmake states the rooms and "
+                "sub-rooms and what each may include")
+        endif()
+        check_file(${tower} ${file})
+        if(file MATCHES "\\.h$")
+            list(APPEND headers ${file})
+        endif()
+        get_filename_component(folder ${file} DIRECTORY)
+        list(APPEND folders "${folder}")
+        list(APPEND "in ${folder}" ${file})
+    endforeach()
+    check_circles(${tower} "${headers}")
+    list(REMOVE_DUPLICATES folders)
+    foreach(folder IN LISTS folders)
+        list(LENGTH "in ${folder}" flat)
+        if(flat GREATER most_files)
+            message(SEND_ERROR "${tower}/${folder} holds ${flat} files, more than ${most_files}: sub-rooms show the architecture")
+        endif()
+    endforeach()
+    message("${tower}/: ${count} files in order")
+endforeach()

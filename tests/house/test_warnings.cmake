@@ -1,0 +1,31 @@
+# The compiler of the build warns of nothing in the library, the program and the tests where it does not optimise:
+# it then has macros in place of functions, of which it says other things than of those that everyone compiles. It
+# reads all sources, without making code. (Those of instruction sets are compiled like that by
+# consumer_subdirectory_CXX; .ci/run builds all with another compiler, and with sanitizers.)
+cmake_minimum_required(VERSION 3.16)
+
+if(NOT WARNINGS)
+    message("SKIPPED: ${C_COMPILER} has warnings of its own")
+    return()
+endif()
+separate_arguments(warnings UNIX_COMMAND "${WARNINGS}")
+separate_arguments(arithmetic UNIX_COMMAND "${ARITHMETIC}")
+
+# warn_not(WHAT SOURCES [FLAG...])
+function(warn_not what sources)
+    list(LENGTH sources count)
+    execute_process(COMMAND ${C_COMPILER} -std=c11 -O0 -fsyntax-only -Werror ${warnings} ${ARGN}
+            -I${SOURCE}/include -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests ${sources}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT status EQUAL 0 OR count LESS 50)
+        message(SEND_ERROR "${what}, ${count} files:\n${output}")
+    endif()
+endfunction()
+
+file(GLOB_RECURSE library ${SOURCE}/src/*.c)
+file(GLOB_RECURSE program ${SOURCE}/tools/*.c)
+file(GLOB_RECURSE tests ${SOURCE}/tests/*.c)
+list(FILTER program EXCLUDE REGEX "/caps_avx[0-9]+\\.c$") # not without their instructions
+warn_not("the library" "${library}" ${arithmetic})
+warn_not("the program" "${program}")
+warn_not("the tests" "${tests}" -DVNDF_SOURCE_DIR="" -DVNDF_PROGRAM="")

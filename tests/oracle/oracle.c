@@ -1,0 +1,216 @@
+#include "oracle/oracle.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- the distributions ---- */
+
+static double ggx(double r)
+{
+    return pow(1 + r * r, -2);
+}
+
+static double beckmann(double r)
+{
+    return exp(-r * r);
+}
+
+static double student(double r) /* gamma 1.8 */
+{
+    return pow(1 + r * r / 0.8, -1.8);
+}
+
+static double laplace(double r)
+{
+    return exp(-r);
+}
+
+/* Shifted gamma (Bagher et al. 2012), the published fit of nickel, red: alpha 0.00556292, p 0.171288. */
+static double measured(double r)
+{
+    double alpha = 0.00556292, x = alpha + r * r / alpha;
+    return exp(-x) * pow(x / alpha, -0.171288);
+}
+
+/* Seven tenths Beckmann and three of a GGX a hundred times narrower, each of mass 1. */
+static double haze(double r)
+{
+    return 0.7 * exp(-r * r) + 0.3e4 * pow(1 + 1e4 * r * r, -2);
+}
+
+static double ring(double r)
+{
+    return exp(-pow((r - 1) / 0.2, 2));
+}
+
+static double disc(double r)
+{
+    return r <= 1 ? 1 : 0;
+}
+
+static const oracle oracles[ORACLE_COUNT] = {
+    {"ggx", NULL, ggx, {0, 0}, 1e-6, 1e12, 0, 0},
+    {"beckmann", NULL, beckmann, {0, 0}, 1e-6, 6, 0, 0},
+    {"student-t:1.8", NULL, student, {0, 0}, 1e-6, 1e20, 0, 0},
+    {NULL, "exp(-r)", laplace, {0, 0}, 1e-6, 40, 0, 0},
+    {"sgd:nickel/r", NULL, measured, {0, 0}, 5e-9, 0.5, 0, 0},
+    {"mix:(0.7,1,beckmann)+(0.3,0.01,ggx)", NULL, haze, {0, 0}, 1e-8, 1e10, 0, 0},
+    {NULL, "exp(-((r-1)/0.2)^2)", ring, {0, 0}, 1e-6, 2.4, 1, 0},
+    {NULL, "step(1-r)", disc, {1, 0}, 1e-6, 1, 1, 0},
+};
+
+const char *oracle_name(const oracle *o)
+{
+    return o->family ? o->family : o->slope;
+}
+
+/* ---- quadrature ---- */
+
+/* sum over the abscissae k h, k = first, first + step, ... of both signs; x = middle + half tanh(pi/2 sinh t). The
+ * distance to the nearer end is formed without a difference, for integrands that begin like a root there. */
+static double tanh_sinh_sum(oracle_function *f, const void *user, double a, double b, double h, int first,
+                            int step)
+{
+    double half = (b - a) / 2, sum = first == 0 ? PI / 2 * f((a + b) / 2, user) : 0;
+    for (int k = first == 0 ? step : first; k * h < 4.0; k += step) {
+        double t = k * h, q = exp(-PI * sinh(t)), from_end = 2 * half * q / (1 + q);
+        double weight = PI / 2 * cosh(t) * 4 * q / ((1 + q) * (1 + q));
+        sum += weight * (f(a + from_end, user) + f(b - from_end, user));
+    }
+    return sum * half;
+}
+
+double oracle_integrate(oracle_function *f, const void *user, double a, double b)
+{
+    double h = 0.5, sum = tanh_sinh_sum(f, user, a, b, h, 0, 1), last = sum * h;
+    for (int level = 0; level < 6; level++) {
+        h /= 2;
+        sum += tanh_sinh_sum(f, user, a, b, h, 1, 2);
+        if (level > 1 && fabs(sum * h - last) <= 1e-12 * fabs(sum * h))
+            break;
+        last = sum * h;
+    }
+    return sum * h;
+}
+
+/* ---- normalisation and area ---- */
+
+typedef struct direction {
+    const oracle *o;
+    double s, c;
+} direction;
+
+/* integral over the circle of slopes r of max(0, c + s r cos a), seen for |a| < e, cos e = -c/(s r). */
+static double circle(const direction *d, double r)
+{
+    double s = d->s * r, c = d->c, e;
+    if (s <= fabs(c))
+        return c > 0 ? 2 * PI * c : 0;
+    e = acos(-c / s);
+    if (c < 0) /* s (sin e - e cos e) loses digits for small e: e from a half angle, then the series */
+        e = 2 * atan2(sqrt(s + c), sqrt(s - c));
+    if (e > 0.3)
+        return 2 * (c * e + s * sin(e));
+    double e2 = e * e, series = 1 - e2 / 10 * (1 - e2 / 28 * (1 - e2 / 54 * (1 - e2 / 88)));
+    return 2 * s * e * e2 / 3 * series;
+}
+
+/* In u = log r. */
+static double seen_at(double u, const void *user)
+{
+    const direction *d = user;
+    double r = exp(u);
+    return d->o->shape(r) * r * r * circle(d, r);
+}
+
+/* From r0 to r1 in panels of at most half an octave of slope, narrower where the shape falls steeply. */
+static double seen_between(const direction *d, double r0, double r1)
+{
+    double sum = 0, u = log(r0), end = log(r1);
+    while (u < end) {
+        double r = exp(u), here = d->o->shape(r), there = d->o->shape(r * 1.001);
+        double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0,
+            next = u + 0.35 / (1 + 0.1 * steep);
+        next = next < end ? next : end;
+        sum += oracle_integrate(seen_at, d, u, next);
+        u = next;
+    }
+    return sum;
+}
+
+double oracle_area(const oracle *o, double s, double c)
+{
+    direction d = {o, s, c};
+    double edge[5] = {o->peak, o->reach, 0, 0, 0}, sum = 0;
+    double cut = s > 0 ? fabs(c) / s : HUGE_VAL;
+    int n = 1;
+    if (o->breaks[0] > o->peak && o->breaks[0] < o->reach)
+        edge[n++] = o->breaks[0];
+    if (cut > o->peak && cut < o->reach)
+        edge[n++] = cut;
+    if (n == 3 && edge[1] > edge[2]) {
+        double swap = edge[1];
+        edge[1] = edge[2];
+        edge[2] = swap;
+    }
+    edge[n] = o->reach;
+    if (c < 0 && cut > edge[n]) /* a tail that is nothing beside the mass may be all that is seen */
+        edge[0] = cut, edge[n = 1] = 1e3 * cut;
+    for (int i = 0; i < n; i++)
+        sum += edge[i] < edge[i + 1] ? seen_between(&d, edge[i], edge[i + 1]) : 0;
+    return o->norm * sum;
+}
+
+double oracle_p22(const oracle *o, double r)
+{
+    return o->norm * o->shape(r);
+}
+
+/* ---- making ---- */
+
+oracle oracle_get(size_t index)
+{
+    oracle o = oracles[index];
+    o.norm = 1;
+    o.norm = 1 / oracle_area(&o, 0, 1); /* seen from above, every slope counts its own area */
+    return o;
+}
+
+vndf_source *oracle_source(const oracle *o)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = o->family ? vndf_source_family(o->family, &error)
+                                    : vndf_source_slope_expression(o->slope, NULL, 0, &error);
+    if (!source)
+        fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
+    return source;
+}
+
+vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_build_options options = {.max_bytes = max_bytes};
+    vndf_source *source = oracle_source(o);
+    vndf_distribution *table = source ? vndf_build(source, &options, certificate, &error) : NULL;
+    if (source && !table)
+        fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
+    vndf_source_free(source);
+    return table;
+}
+
+int oracle_wanted(int arguments, char **argument, size_t index, const char *name)
+{
+    char number[24];
+    snprintf(number, sizeof number, "%lu", (unsigned long)index);
+    return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
+}
+
+int oracle_quick(void)
+{
+    const char *quick = getenv("VNDF_TEST_QUICK");
+    return quick && *quick;
+}

@@ -1,0 +1,322 @@
+/* Every family is its published formula, its mass is the integral of its P22, every parameter in its range and
+ * every measured material gives finite values at all slopes, and whatever is out of range is refused. */
+#include "harness/test.h"
+
+#include <stdlib.h>
+
+#include "source/family/family.h"
+#include "source/family/materials.h"
+#include "source/provenance.h"
+#include "source/source.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* At ends and in the middle of all ranges. */
+static const char *const all[] = {
+    "ggx", "beckmann", "student-t:1.5000001", "student-t:1.6", "student-t:4", "student-t:1e9", "gtr:1e-9",
+    "gtr:0.5", "gtr:1", "gtr:1,1", "gtr:2,1e-9", "gtr:3.5,0.2", "gtr:1000,0.5", "gtr:1000,1e-9", "gtr:0.3,1e-9",
+    "epd:0.05", "epd:0.5", "epd:1", "epd:3", "epd:1000", "abc:1e-300,1", "abc:48.57,1.7", "abc:1e15,0.1",
+    "abc:1e15,1000", "abc:1,1e-300", "sgd:1e-9,0", "sgd:1e-9,1000", "sgd:1.6e-5,0.4", "sgd:0.5,1.2", "sgd:1e6,0",
+    "sgd:1e6,1000", "hyper-cauchy:1.5000001", "hyper-cauchy:1e9", "hyper-cauchy:2.2,1e-9", "hyper-cauchy:2,1e9",
+    "phong:0", "phong:50", "phong:1e9", "mix:(1,1e-9,sgd:1e-9,1000)+(1e12,1e9,epd:0.05)",
+    "mix:(0.8,0.01,ggx)+(0.2,1,student-t:2)", "mix:(1,1,sgd:alum-bronze/r)+(2,0.5,abc:two-layer-gold)",
+};
+
+static vndf_source *family(const char *specification)
+{
+    vndf_error error = { VNDF_OK, "" };
+    vndf_source *source = vndf_source_family(specification, &error);
+    if (!TEST(source != NULL))
+        fprintf(stderr, "  %s: %s\n", specification, error.message);
+    return source;
+}
+
+static void test_finite(const char *specification)
+{
+    vndf_source *source = family(specification);
+    int good = source != NULL && vndf_source_p22(source, 0) > 0 && isfinite(vndf_source_p22(source, 0));
+    double before = good ? vndf_source_p22(source, 0) : 0;
+    for (double r = 1e-30; good && r <= 1.1e30; r *= 1.5) {
+        double value = vndf_source_p22(source, r);
+        good = isfinite(value) && value >= 0 && value <= before * (1 + 1e-9); /* and all of them fall */
+        before = value;
+    }
+    good = good && vndf_source_p22(source, 1e200) >= 0 && vndf_source_p22(source, INFINITY) >= 0;
+    if (!TEST(good))
+        fprintf(stderr, "  %s\n", specification);
+    vndf_source_free(source);
+}
+
+static void test_all_finite(void)
+{
+    size_t materials = 0;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        test_finite(all[i]);
+    for (; vndf_family_material(materials); materials++)
+        test_finite(vndf_family_material(materials));
+    TEST(materials == 312);
+}
+
+/* The ratio to the value at 0 against the formula in its plain form, at slopes where that keeps its digits. */
+static void test_formula(const char *specification, double (*formula)(double r))
+{
+    static const double slopes[] = { 0.01, 0.1, 0.5, 1, 2, 5 };
+    vndf_source *source = family(specification);
+    for (size_t i = 0; source && i < 6; i++) {
+        double ratio = vndf_source_p22(source, slopes[i]) / vndf_source_p22(source, 0);
+        if (!TEST_RELATIVE(ratio, formula(slopes[i]) / formula(0), 1e-12))
+            fprintf(stderr, "  %s at %g\n", specification, slopes[i]);
+    }
+    vndf_source_free(source);
+}
+
+static double cosine(double r)
+{
+    return cos(atan(r));
+}
+
+static double ggx(double r) { return pow(1 + r * r, -2); }
+static double beckmann(double r) { return exp(-r * r); }
+static double student(double r) { return pow(1 + r * r / 1.5, -2.5); }
+static double hyper_cauchy(double r) { return pow(2 + r * r / 0.25, -1.7); }
+static double epd(double r) { return exp(-pow(r, 1.4)); }
+static double phong(double r) { return pow(cosine(r), 34); }
+static double abc(double r) { return pow(1 + 50 * (1 - cosine(r)), -1.7) * pow(cosine(r), 4); }
+
+static double gtr(double r)
+{
+    double c = cosine(r), s = sin(atan(r));
+    return pow(0.04 * c * c + s * s, -1.5) * pow(c, 4);
+}
+
+static double sgd(double r)
+{
+    double x = 0.2 + r * r / 0.2;
+    return exp(-x) * pow(x, -0.7);
+}
+
+static void test_formulas(void)
+{
+    test_formula("ggx", ggx);
+    test_formula("beckmann", beckmann);
+    test_formula("student-t:2.5", student);
+    test_formula("hyper-cauchy:1.7,0.5", hyper_cauchy);
+    test_formula("epd:0.7", epd);
+    test_formula("phong:30", phong);
+    test_formula("abc:50,1.7", abc);
+    test_formula("gtr:1.5,0.2", gtr);
+    test_formula("sgd:0.2,0.7", sgd);
+}
+
+/* Relations between families: GTR 2 is GGX of that roughness, EPD 1 is Beckmann, a hyper-Cauchy a Student-T. */
+static void test_relations(void)
+{
+    static const char *const pairs[][2] = {
+        { "mix:(1,1,gtr:2,0.1)+(1,1,gtr:2,0.1)", "mix:(1,0.1,ggx)+(1,0.1,ggx)" },
+        { "mix:(1,1,epd:1)+(1,1,epd:1)", "mix:(1,1,beckmann)+(1,1,beckmann)" },
+        { "mix:(1,1,student-t:3)+(1,1,ggx)", "mix:(1,1,hyper-cauchy:3,1)+(1,1,student-t:2)" },
+        { "mix:(1,1,phong:0)+(1,1,gtr:1,1)", "mix:(1,1,gtr:7,1)+(1,1,ggx)" },
+        { "gtr:1.5", "gtr:1.5,0.1" },
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        vndf_source *a = family(pairs[i][0]), *b = family(pairs[i][1]);
+        for (double r = 1e-6; r < 1e6; r *= 3)
+            TEST_RELATIVE(vndf_source_p22(a, r), vndf_source_p22(b, r), 1e-12);
+        vndf_source_free(a);
+        vndf_source_free(b);
+    }
+}
+
+/* 2 pi integral P22 r dr by Simpson's rule in log r, between breaks so that steps can be fine there. */
+static double mass(const vndf_source *source, double low, double high)
+{
+    int steps = 200000;
+    double h = log(high / low) / steps, sum = 0;
+    for (int i = 0; i <= steps; i++) {
+        double r = low * exp(i * h);
+        sum += vndf_source_p22(source, r) * r * r * (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2);
+    }
+    return 2 * pi * sum * h / 3;
+}
+
+/* Weights are shares of the projected area, whatever the families and scales. */
+static void test_mass(const char *specification, double tolerance)
+{
+    char text[128];
+    snprintf(text, sizeof text, "mix:(2.5,0.3,%s)+(0.5,1,beckmann)", specification);
+    vndf_source *source = family(text);
+    if (source && !TEST_NEAR(mass(source, 1e-16, 1e16), 3, tolerance))
+        fprintf(stderr, "  %s\n", specification);
+    vndf_source_free(source);
+}
+
+static void test_masses(void)
+{
+    static const char *const smooth[] = {
+        "ggx", "beckmann", "student-t:1.8", "student-t:50", "gtr:0.01", "gtr:0.5,0.001", "gtr:1,0.3", "gtr:1,1",
+        "gtr:1.0000001,0.3", "gtr:6,0.01", "gtr:200,0.9", "epd:0.2", "epd:1", "epd:4", "abc:50,1.7", "abc:1e6,0.2",
+        "abc:0.1,5", "sgd:0.2,0.7", "sgd:1e-5,0.4", "sgd:0.7,1.8", "hyper-cauchy:1.8,0.3", "hyper-cauchy:9",
+        "phong:0", "phong:1e5",
+    };
+    for (size_t i = 0; i < sizeof smooth / sizeof smooth[0]; i++)
+        test_mass(smooth[i], 1e-10);
+    test_mass("epd:1000", 3e-6); /* all but a jump, which Simpson's rule does not like */
+}
+
+/* Closed forms of the two masses that the library integrates: incomplete gamma, and powers. */
+static void test_closed_masses(void)
+{
+    const vndf_family_form *forms[] = { vndf_family_form_find("sgd", 3), vndf_family_form_find("abc", 3) };
+    for (double a = 1e-4; a < 1; a *= 2.3) {
+        double half[] = { a, 0.5 }, none[] = { a, 0 }, B = 1 / a;
+        /* p = 1/2: pi alpha e^alpha alpha^p Gamma(1/2, alpha) */
+        TEST_RELATIVE(forms[0]->mass(half), pi * a * exp(a) * sqrt(a) * sqrt(pi) * erfc(sqrt(a)), 1e-13);
+        TEST_RELATIVE(forms[0]->mass(none), pi * a, 1e-13);
+        /* C = 3: 2 pi integral (1 + B v)^-3 (1 - v) dv over [0, 1] = pi / (1 + B) */
+        TEST_RELATIVE(forms[1]->mass((double[]){ B, 3 }), pi / (1 + B), 1e-13);
+    }
+}
+
+static void test_error(const char *specification, const char *message)
+{
+    vndf_error error = { VNDF_OK, "" };
+    vndf_source *source = vndf_source_family(specification, &error);
+    if (!(TEST(source == NULL) & TEST(error.status == VNDF_ERROR_SYNTAX) & TEST_HAS(error.message, message)))
+        fprintf(stderr, "  %s: %s\n", specification, error.message);
+    vndf_source_free(source);
+}
+
+static void test_errors(void)
+{
+    vndf_error error = { VNDF_OK, "" };
+    test_error("", "column 1: unknown family ''; known are ggx, beckmann, student-t, gtr, epd, abc, sgd, "
+                   "hyper-cauchy, phong, mix");
+    test_error("GGX", "column 1: unknown family 'GGX'");
+    test_error("ggx:1", "column 5: too many parameters; right would be ggx");
+    test_error("student-t", "column 10: GAMMA is missing; right would be student-t:GAMMA");
+    test_error("student-t:", "column 11: GAMMA is missing");
+    test_error("student-t:x", "column 11: 'x' is no number");
+    test_error("student-t: 2", "column 11: ' 2' is no number");
+    test_error("student-t:2,3", "column 13: too many parameters");
+    test_error("student-t:1.5", "GAMMA is 1.5; it must be above 1.5 and at most 1e+09: P22 falls as");
+    test_error("gtr:2,", "column 7: nothing follows the comma; right would be gtr:GAMMA[,ALPHA]");
+    test_error("abc:,2", "column 5: '' is no number");
+    test_error("gtr:2,1.1", "gtr: ALPHA is 1.1; it must be at least 1e-09 and at most 1");
+    test_error("gtr:0", "gtr: GAMMA is 0; it must be above 0");
+    test_error("epd:0.04", "epd: P is 0.04; it must be at least 0.05 and at most 1000");
+    test_error("epd:1e999", "epd: P is inf;");
+    test_error("abc:-1,1", "abc: B is -1; it must be above 0");
+    test_error("abc:1", "column 6: C is missing; right would be abc:B,C or abc:MATERIAL");
+    test_error("sgd:1,-1", "sgd: P is -1; it must be at least 0");
+    test_error("sgd:alum-bronz/r", "unknown material 'sgd:alum-bronz/r'; the nearest are sgd:alum-bronze/r, ");
+    test_error("sgd:alum-bronze", "sgd:alum-bronze/");
+    test_error("abc:gold", "unknown material 'abc:gold'; the nearest are ");
+    test_error("hyper-cauchy:1.5", "hyper-cauchy: Q is 1.5; it must be above 1.5");
+    test_error("phong:-1", "phong: N is -1; it must be at least 0");
+    TEST(vndf_source_family(NULL, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
+}
+
+static void test_mix_errors(void)
+{
+    test_error("mix", "column 4: something is missing; right would be mix:(W,S,FAMILY)+(W,S,FAMILY)");
+    test_error("mix:", "column 5: something is missing");
+    test_error("mix:ggx", "column 5: unexpected 'ggx'");
+    test_error("mix:(1,1,ggx)", "column 14: something is missing");
+    test_error("mix:(1,1,ggx)(1,1,ggx)", "column 14: unexpected '(1,1,ggx)'");
+    test_error("mix:(1,1,ggx)+", "column 15: something is missing");
+    test_error("mix:(1,1,ggx)+(1,1,ggx)+(1,1,ggx)", "column 24: unexpected '+(1,1,ggx)'");
+    test_error("mix:(1,1,ggx)+(1,1,ggx", "column 16: unexpected '1,1,ggx'");
+    test_error("mix:(1,1,gggx)+(1,1,ggx)", "column 10: unknown family 'gggx'");
+    test_error("mix:(1,1,ggx)+(1,x,ggx)", "column 18: 'x' is no number");
+    test_error("mix:(1,1,mix:(1,1,ggx)+(1,1,ggx))+(1,1,ggx)", "column 10: a mix is");
+    test_error("mix:(0,1,ggx)+(1,1,ggx)", "mix: the weight W is 0; it must be above 0 and at most 1e+12");
+    test_error("mix:(1,0,ggx)+(1,1,ggx)", "mix: the scale S is 0; it must be at least 1e-09 and at most 1e+09");
+    test_error("mix:(1,1,student-t:1)+(1,1,ggx)", "student-t: GAMMA is 1;");
+}
+
+static void test_descriptions(void)
+{
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        vndf_source *source = family(all[i]), *again;
+        TEST(strncmp(vndf_source_description(source), "--family ", 9) == 0 && source->rebuildable);
+        again = vndf_source_from_description(vndf_source_description(source), NULL);
+        TEST(again && strcmp(vndf_source_description(again), vndf_source_description(source)) == 0);
+        TEST(again && vndf_source_p22(again, 0.3) == vndf_source_p22(source, 0.3));
+        vndf_source_free(source);
+        vndf_source_free(again);
+    }
+}
+
+/* The help names each family with its usage and its limits. */
+static void test_help(void)
+{
+    const vndf_family_form *form;
+    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL; i++) {
+        char start[80], limit[80];
+        size_t usage = strcspn(form->usage, " "); /* the first of two ways */
+        snprintf(start, sizeof start, "%.*s ", (int)usage, form->usage);
+        const char *line = strstr(vndf_family_help(), start);
+        if (!TEST(line != NULL))
+            continue;
+        for (size_t k = 0; k < form->count; k++) {
+            const vndf_family_range *range = &form->range[k];
+            double low = 0, high = 0;
+            snprintf(limit, sizeof limit, range->open ? " < %s <= " : " <= %s <= ", range->name);
+            const char *found = strstr(line, limit);
+            if (!TEST(found != NULL))
+                continue;
+            high = strtod(found + strlen(limit), NULL);
+            while (found > line && found[-1] != ' ')
+                found--;
+            low = strtod(found, NULL);
+            TEST(low == range->low && high == range->high);
+        }
+    }
+    TEST_HAS(vndf_family_help(), "mix:(W,S,FAMILY)+(W,S,FAMILY)");
+}
+
+/* The materials are those of the tables that are shipped, in their order. */
+static size_t compare_table(const char *path, int channels, size_t index)
+{
+    char line[256];
+    FILE *file = fopen(path, "r");
+    if (!TEST(file != NULL))
+        return index;
+    while (fgets(line, sizeof line, file)) {
+        char material[64] = "", channel[8] = "", name[128];
+        double a = 0, b = 0;
+        int fields = channels ? sscanf(line, "%63[^,],%7[^,],%lf,%lf", material, channel, &a, &b)
+                              : sscanf(line, "%63[^,],%lf,%lf", material, &a, &b);
+        if (line[0] == '#' || fields < (channels ? 4 : 3))
+            continue;
+        snprintf(name, sizeof name, channels ? "sgd:%s/%s" : "abc:%s", material, channel);
+        const vndf_material *found = vndf_material_find(name, strlen(name));
+        TEST(found == &vndf_materials[index] && found->parameter[0] == a && found->parameter[1] == b);
+        index++;
+    }
+    fclose(file);
+    return index;
+}
+
+static void test_tables(void)
+{
+    size_t count = compare_table(VNDF_SOURCE_DIR "/tables/merl_sgd.csv", 1, 0);
+    TEST(count == 300);
+    TEST(compare_table(VNDF_SOURCE_DIR "/tables/merl_abc.csv", 0, count) == 312);
+    TEST(vndf_family_material(312) == NULL && vndf_family_material((size_t)-1) == NULL);
+}
+
+int main(void)
+{
+    test_all_finite();
+    test_formulas();
+    test_relations();
+    test_masses();
+    test_closed_masses();
+    test_errors();
+    test_mix_errors();
+    test_descriptions();
+    test_help();
+    test_tables();
+    return test_done();
+}

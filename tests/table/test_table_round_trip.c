@@ -1,0 +1,111 @@
+/* Saved and loaded, a table is the same: the same bits of sample, pdf, invert, area and certificate. What cannot
+ * be saved or loaded gives its status and leaves nothing behind. */
+#include <stdlib.h>
+
+#include "oracle/oracle.h"
+#include "table/file.h"
+#include "harness/test.h"
+
+#ifndef VNDF_SOURCE_DIR
+#define VNDF_SOURCE_DIR "."
+#endif
+
+static int same(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+/* Everything that a view gives, for comparison of bits. */
+typedef struct answer {
+    vndf_vec3 wm;
+    float pdf, again, visible, u1, u2, area, lambda, g1;
+} answer;
+
+static answer answer_of(const vndf_surface *surface, vndf_vec3 wi, float u1, float u2)
+{
+    answer a;
+    vndf_view view = vndf_view_from(surface, wi);
+    memset(&a, 0, sizeof a);
+    a.wm = vndf_sample(&view, u1, u2, &a.pdf);
+    a.again = vndf_pdf(&view, a.wm);
+    a.visible = vndf_visible(&view, a.wm);
+    vndf_invert(&view, a.wm, &a.u1, &a.u2);
+    a.area = vndf_projected_area(surface, wi);
+    a.lambda = vndf_lambda(surface, wi);
+    a.g1 = vndf_g1(surface, wi);
+    return a;
+}
+
+static void test_equal(const vndf_distribution *a, const vndf_distribution *b)
+{
+    unsigned long long state = 17;
+    vndf_info ia = vndf_distribution_info(a), ib = vndf_distribution_info(b);
+    int differ = 0;
+    for (int i = 0; i < 20000; i++) {
+        float z = 2 * test_uniform(&state) - 1, s = sqrtf(1 - z * z), u1 = test_uniform(&state),
+            u2 = test_uniform(&state);
+        vndf_vec3 wi = {0.6f * s, -0.8f * s, z};
+        vndf_surface sa = {a, 0.3f, 0.7f}, sb = {b, 0.3f, 0.7f};
+        answer x = answer_of(&sa, wi, u1, u2), y = answer_of(&sb, wi, u1, u2);
+        differ += !same(&x, &y, sizeof x);
+    }
+    TEST(differ == 0);
+    TEST(strcmp(ia.source, ib.source) == 0 && strcmp(ia.tool, ib.tool) == 0);
+    TEST(same(&ia.certificate, &ib.certificate, sizeof ia.certificate));
+    TEST(ia.bytes == ib.bytes && ia.normalization == ib.normalization && ia.scale == ib.scale);
+}
+
+static void test_round_trip(const oracle *o, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *table = oracle_build(o, 4096, NULL);
+    TEST(table && vndf_save(table, path, &error) == VNDF_OK);
+    vndf_distribution *loaded = vndf_load(path, &error);
+    if (TEST(loaded != NULL))
+        test_equal(table, loaded);
+    vndf_free(table);
+    vndf_free(loaded);
+    remove(path);
+}
+
+static int exists(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    if (file)
+        fclose(file);
+    return file != NULL;
+}
+
+static void test_errors(void)
+{
+    oracle o = oracle_get(ORACLE_GGX);
+    vndf_distribution *table = oracle_build(&o, 2048, NULL);
+    vndf_error error = {VNDF_OK, ""};
+    TEST(vndf_save(table, "no-such-folder/table.vndf", &error) == VNDF_ERROR_IO && error.status == VNDF_ERROR_IO);
+    TEST_HAS(error.message, "no-such-folder");
+    TEST(!exists("no-such-folder/table.vndf"));
+    TEST(vndf_save(table, "no-such-folder/table.vndf", NULL) == VNDF_ERROR_IO);
+    TEST(vndf_save(NULL, "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !exists("x.vndf"));
+    TEST(vndf_save(vndf_ggx(), "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !exists("x.vndf"));
+    TEST(vndf_save(table, NULL, &error) == VNDF_ERROR_ARGUMENT);
+    TEST(!vndf_load("no-such-file.vndf", &error) && error.status == VNDF_ERROR_IO);
+    TEST_HAS(error.message, "no-such-file.vndf");
+    TEST(!vndf_load(NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST(!vndf_load(VNDF_SOURCE_DIR "/README.md", &error) && error.status != VNDF_OK);
+    TEST(!vndf_load_memory(NULL, 100, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST(!vndf_load_memory("VNDFtab\n", 8, &error) && error.status == VNDF_ERROR_TABLE);
+    TEST(!vndf_load_memory("", 0, NULL));
+    vndf_free(NULL);
+    vndf_free(table);
+}
+
+int main(void)
+{
+    const size_t kinds[] = {ORACLE_GGX, ORACLE_MEASURED, ORACLE_RING};
+    for (int i = 0; i < 3; i++) {
+        oracle o = oracle_get(kinds[i]);
+        test_round_trip(&o, "test_table_round_trip.vndf");
+    }
+    test_errors();
+    return test_done();
+}

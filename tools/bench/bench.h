@@ -1,0 +1,63 @@
+/* What a visible normal costs, method by method: rows that `vndf bench` prints and `vndf report` draws.
+ *
+ * Three distributions are sampled: GGX and Beckmann by their closed forms, and one that the caller brings by
+ * tables and by the other ways there are for any D. All methods run in one process and take turns; each is
+ * verified before its time counts. What is measured, and how, stands with bench_row. */
+#ifndef TOOLS_BENCH_BENCH_H
+#define TOOLS_BENCH_BENCH_H
+
+#include <stddef.h>
+
+#include "vndf_build.h"
+
+typedef enum bench_kind {
+    BENCH_PUBLISHED, /* others' methods, written from the publications */
+    BENCH_CLOSED,    /* our closed forms */
+    BENCH_TABLE,     /* our tables */
+    BENCH_CALL,      /* other calls of a table of ours (pdf, invert, ndf, lambda): times alone, the rest is NaN */
+    BENCH_MOVE       /* moving the bytes of a batch: times alone */
+} bench_kind;
+
+/* NaN is what does not apply or was not measured. */
+typedef struct bench_row {
+    char method[64];            /* "GGX spherical caps (2023)", "table 16 KiB" ... */
+    char distribution[64];      /* what it samples: "ggx", "beckmann", the caller's name for the source */
+    char instructions[16];      /* "scalar", "portable", "avx2", "avx512" */
+    bench_kind kind;
+    size_t bytes;               /* of its tables; 0 for closed forms */
+    int wrong;                  /* 1: its results failed verification, so nothing was timed */
+    double ns, ns_low, ns_high; /* per sample, a direction each (view, sample, density): median and quartiles */
+    double shared_ns;           /* many samples for one direction; NaN if the method has no such use */
+    double latency_ns;          /* each sample's input depends on the last one's output; NaN for batches */
+    double ratio;               /* ns over that of scalar spherical caps of the same run */
+    double tv, tv_theta;        /* largest total variation to the true visible normals, and the angle, degrees */
+    double max_weight;          /* largest true/drawn density that was met; infinity where there are holes */
+    double efficiency[2];       /* 1/(variance time) over that of all normals of the same distribution: albedo of
+                                   a conductor at 60 and 85 degrees */
+    double efficiency_light;    /* the same of the radiance reflected from a small light */
+    double bias[2];             /* relative error of the albedo at 60 and 85 degrees; 0 if within its noise */
+} bench_row;
+
+typedef struct bench_rows {
+    bench_row *row;
+    size_t count;
+} bench_rows;
+
+typedef struct bench_plan {
+    const vndf_source *source; /* what the tables are of */
+    const char *name;          /* what to call it */
+    double seconds;            /* to spend in all, roughly; building the tables may take longer */
+    const char *only;          /* NULL, or a part of the method, distribution or instructions of the rows wanted */
+    const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others then */
+    const size_t *ready_limits;            /* the max_bytes of each, ascending */
+    size_t ready_count;                    /* 0: they are built here */
+    vndf_progress *progress;   /* may be NULL; asked every few milliseconds */
+    void *progress_user;
+} bench_plan;
+
+/* Runs the plan. VNDF_OK and rows that the caller frees, or the status and error that stopped it
+ * (VNDF_ERROR_ARGUMENT "interrupted" where the progress said so; *rows is empty then). */
+vndf_status bench_run(const bench_plan *plan, bench_rows *rows, vndf_error *error);
+void bench_rows_free(bench_rows *rows);
+
+#endif

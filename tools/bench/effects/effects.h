@@ -1,0 +1,187 @@
+/* What each effect of vndf_bsdf.h costs and what it is worth: the inside of `vndf bench effects`.
+ *
+ *     effects.c               the command: words, output, exit status
+ *     open.c          distributions
+ *     set.c           the sets of effects, and what each is made into
+ *     run.c           the loops that are timed, with the library
+ *     hand.c          bare reflection by hand, what a user would write over vndf.h
+ *     caps.c          the same for GGX without the library
+ *     list.c          which sets of which distributions
+ *     block.c         inputs
+ *     worth.c         verification; mean, lost samples, largest weight and variance
+ *     time.c          time, in turns
+ *     instructions.c  instructions, by valgrind
+ *     print.c         tables for people, csv.c all numbers */
+#ifndef TOOLS_BENCH_EFFECTS_EFFECTS_H
+#define TOOLS_BENCH_EFFECTS_EFFECTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "vndf_bsdf.h"
+
+/* ---- sets --------------------------------------------------------------------------------------- */
+
+typedef enum effects_kind {
+    EFFECTS_LIBRARY,   /* vndf_bsdf_at */
+    EFFECTS_ROUGH,     /* vndf_bsdf_rough, a roughness for each hit */
+    EFFECTS_BY_HAND,   /* bare reflection written over vndf.h */
+    EFFECTS_BY_CAPS,   /* bare reflection of GGX written without the library */
+    EFFECTS_KINDS
+} effects_kind;
+
+typedef struct effects_set {
+    const char *name;
+    effects_kind kind;
+    vndf_effects effects;
+    int stretched;        /* alpha_y is a quarter of alpha_x */
+    int inside;           /* wi comes from below */
+    const char *visible;  /* the set with visible normals that efficiency is compared with; NULL: none */
+} effects_set;
+
+extern const effects_set effects_sets[];
+extern const size_t effects_set_count;
+
+/* NULL if there is none of that name. */
+const effects_set *effects_find(const char *name);
+
+/* ---- what is run ------------------------------------------------------------------------------- */
+
+enum { EFFECTS_BLOCK = 1024, EFFECTS_SHARE = 256 };
+
+/* wo is for evaluation. Whole inputs, as renderers have them, and not arrays of floats: see method.h. */
+typedef struct effects_input {
+    vndf_vec3 wi, wo;
+    float u[3];
+} effects_input;
+
+typedef struct effects_loops effects_loops;
+
+/* What a set is of one distribution and roughness. A plain value that stays where it is, as the material in it.
+ * */
+typedef struct effects_subject {
+    const effects_set *set;
+    const effects_loops *loops;
+    vndf_surface surface;
+    vndf_material material;
+    const vndf_roughness *roughness; /* of the hits of a block, for EFFECTS_ROUGH */
+} effects_subject;
+
+typedef struct effects_job {
+    const effects_subject *of;
+    const effects_input *in;
+    vndf_scattered *out;   /* eval leaves its values in weight, pdf in density */
+    size_t count;
+} effects_job;
+
+typedef void effects_loop(const effects_job *job);
+
+/* A hit for each sample; and the hit of the first input for all samples, values and densities. */
+struct effects_loops {
+    effects_loop *each, *shared, *eval, *pdf;
+};
+
+extern const effects_loops effects_loops_library, effects_loops_rough;
+extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
+
+/* VNDF_OK, or why the set cannot be. */
+vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
+                                 vndf_error *error);
+
+/* Index ratio of what transmits. */
+extern const float effects_eta;
+
+/* ---- inputs ------------------------------------------------------------------------------------- */
+
+typedef struct effects_block {
+    effects_input in[EFFECTS_BLOCK];
+    vndf_scattered out[EFFECTS_BLOCK];
+    vndf_roughness roughness[EFFECTS_BLOCK];
+} effects_block;
+
+/* Inputs of stream `seed`, the same for all sets but for the side that wi and wo are on: directions wo uniform
+ * over the hemisphere, and so wi if theta is NaN, else at that angle, in degrees. Roughness between 0.5 and 1.5
+ * times that of the subject, of which it becomes that of the block. */
+void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed);
+
+/* One direction for all, that angle from the normal. */
+void effects_aim(effects_block *block, const effects_set *set, double theta);
+
+/* The whole block. */
+effects_job effects_job_of(effects_block *block, const effects_subject *subject);
+
+/* ---- rows --------------------------------------------------------------------------------------- */
+
+/* NaN is what does not apply or was not measured. */
+typedef struct effects_row {
+    int wrong;                  /* 1: its results failed verification, so nothing was timed */
+    double ns, ns_low, ns_high; /* vndf_bsdf_at and vndf_bsdf_sample: median and quartiles of the turns */
+    double to_bare;             /* ns more than bare reflection: median over the turns of the difference */
+    double shared_ns, eval_ns, pdf_ns; /* where EFFECTS_SHARE samples, values or densities share a hit */
+    double instructions;        /* for a sample, with its hit */
+    double mean, noise;         /* of the weight, of the first wavelength, and its standard error */
+    double lost;                /* part of samples */
+    double max_weight, variance;
+    double efficiency;          /* 1/(variance ns) over that of visible normals */
+} effects_row;
+
+enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 48 * EFFECTS_DISTRIBUTIONS_MAX };
+
+typedef struct effects_entry {
+    effects_subject subject;
+    const char *distribution;
+    double theta;               /* of the directions that are timed; NaN: all over the hemisphere */
+    double worth_theta;         /* of the direction that variance is measured for */
+    int of_variance;            /* belongs to the second table */
+    int shown, needed;          /* what is not shown may be needed as a yardstick */
+    int bare, visible;          /* entries that to_bare and efficiency refer to, or EFFECTS_NONE */
+    effects_row row;
+} effects_entry;
+
+typedef struct effects_list {
+    effects_entry *entry;
+    size_t count;
+} effects_list;
+
+typedef struct effects_named {
+    const char *name;
+    const char *path;           /* what another process opens: "ggx", "beckmann", a file; NULL: there is none */
+    const vndf_distribution *distribution;
+} effects_named;
+
+typedef struct effects_plan {
+    effects_named of[EFFECTS_DISTRIBUTIONS_MAX];
+    size_t count;
+    float alpha_x, alpha_y;
+    double theta;               /* of the direction that variance is measured for */
+    const char *only;           /* NULL, or a part of the name of a set or distribution, or "variance" */
+    double seconds;
+    int (*go_on)(double done, const char *what, void *user); /* 0 stops */
+    void *user;
+} effects_plan;
+
+/* An empty list and an error if `only` fits nothing or a set cannot be. */
+vndf_status effects_list_make(effects_list *list, const effects_plan *plan, vndf_error *error);
+void effects_list_free(effects_list *list);
+
+/* Whether samples, values and densities are what they have to be and agree; row.wrong if not. */
+void effects_verify(effects_entry *entry, effects_block *block);
+
+/* Fills mean, noise, lost, max_weight and variance from twice `blocks` blocks; row.wrong if two halves
+ * disagree. */
+void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
+
+/* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT: stopped. */
+vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_block *block);
+
+/* Fills the instructions of the entries shown. Where valgrind is not to be had, one line in `why`, else "". */
+vndf_status effects_count(effects_list *list, const effects_plan *plan, char *why, size_t size);
+
+/* ---- printing ----------------------------------------------------------------------------------- */
+
+void effects_print_text(FILE *file, const effects_list *list);
+void effects_print_markdown(FILE *file, const effects_list *list);
+void effects_print_csv(FILE *file, const effects_list *list);
+
+#endif

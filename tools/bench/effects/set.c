@@ -1,0 +1,88 @@
+/* The sets of effects that are measured, from bare reflection upward: what differs from bare stands in its
+ * line. */
+#include <string.h>
+
+#include "bench/effects/effects.h"
+
+const float effects_eta = 1.5f;
+
+static const char bare[] = "bare reflection";
+
+/* Light of a conductor, gold at 650, 550 and 450 nm, and of a dielectric under Schlick's approximation. */
+static const float gold_eta[VNDF_WAVELENGTHS] = {0.16f, 0.42f, 1.35f};
+static const float gold_k[VNDF_WAVELENGTHS] = {3.5f, 2.35f, 1.9f};
+static const float schlick_f0[VNDF_WAVELENGTHS] = {0.04f, 0.04f, 0.04f};
+
+const effects_set effects_sets[] = {
+    {.name = "by hand, without the library", .kind = EFFECTS_BY_CAPS},
+    {.name = "by hand, over vndf.h", .kind = EFFECTS_BY_HAND},
+    {.name = bare},
+    {.name = "separable masking", .effects = {.masking = VNDF_MASKING_SEPARABLE}},
+    {.name = "V-cavity masking", .effects = {.masking = VNDF_MASKING_V_CAVITIES}},
+    {.name = "no masking", .effects = {.masking = VNDF_MASKING_NONE}},
+    {.name = "Schlick", .effects = {.fresnel = VNDF_FRESNEL_SCHLICK}},
+    {.name = "dielectric Fresnel", .effects = {.fresnel = VNDF_FRESNEL_DIELECTRIC}},
+    {.name = "conductor Fresnel", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
+    {.name = "bounded normals", .effects = {.normals = VNDF_NORMALS_BOUNDED}, .visible = bare},
+    {.name = "all normals", .effects = {.normals = VNDF_NORMALS_ALL}, .visible = bare},
+    {.name = "V-cavity normals",
+     .effects = {.masking = VNDF_MASKING_V_CAVITIES, .normals = VNDF_NORMALS_V_CAVITY},
+     .visible = "V-cavity masking"},
+    {.name = "two roughnesses", .stretched = 1},
+    {.name = "roughness per hit", .kind = EFFECTS_ROUGH},
+    {.name = "rotated axes", .effects = {.axes = VNDF_AXES_ROTATED}, .stretched = 1},
+    {.name = "transmission alone",
+     .effects = {.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
+    {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
+    {.name = "both lobes, separable",
+     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC,
+                 .masking = VNDF_MASKING_SEPARABLE}},
+    {.name = "both lobes, from inside",
+     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}, .inside = 1},
+    {.name = "walk", .effects = {.scattering = VNDF_SCATTERING_MULTIPLE}},
+    {.name = "walk on a conductor",
+     .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR, .scattering = VNDF_SCATTERING_MULTIPLE}},
+    {.name = "walk, both lobes",
+     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC,
+                 .scattering = VNDF_SCATTERING_MULTIPLE}},
+};
+
+const size_t effects_set_count = sizeof effects_sets / sizeof effects_sets[0];
+
+const effects_set *effects_find(const char *name)
+{
+    for (size_t i = 0; i < effects_set_count; i++)
+        if (strcmp(effects_sets[i].name, name) == 0)
+            return &effects_sets[i];
+    return NULL;
+}
+
+static const effects_loops *loops_of(const effects_set *set)
+{
+    static const effects_loops *const of[EFFECTS_KINDS] = {
+        [EFFECTS_LIBRARY] = &effects_loops_library,
+        [EFFECTS_ROUGH] = &effects_loops_rough,
+        [EFFECTS_BY_HAND] = &effects_loops_by_hand,
+        [EFFECTS_BY_CAPS] = &effects_loops_by_caps,
+    };
+    return of[set->kind];
+}
+
+vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
+                                 vndf_error *error)
+{
+    vndf_description is = {.distribution = surface->distribution, .effects = set->effects, .eta = effects_eta};
+    memset(subject, 0, sizeof *subject);
+    subject->set = set;
+    subject->loops = loops_of(set);
+    subject->surface = *surface;
+    if (set->stretched)
+        subject->surface.alpha_y = subject->surface.alpha_x / 4;
+    is.alpha_x = subject->surface.alpha_x;
+    is.alpha_y = subject->surface.alpha_y;
+    is.rotation = 0.5f;
+    memcpy(is.f0, schlick_f0, sizeof schlick_f0);
+    memcpy(is.conductor_eta, gold_eta, sizeof gold_eta);
+    memcpy(is.conductor_k, gold_k, sizeof gold_k);
+    return vndf_material_resolve(&is, &subject->material, error);
+}

@@ -1,0 +1,275 @@
+/* Which methods the benchmark has, each of them made ready if the plan wants it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench/parts.h"
+
+static const char closed_name[] = "closed form";
+
+static const struct {
+    size_t bytes;
+    const char *name;
+} tables[BENCH_TABLES] = {{2048, "table 2 KiB"},   {4096, "table 4 KiB"},     {16384, "table 16 KiB"},
+                          {65536, "table 64 KiB"}, {262144, "table 256 KiB"}, {1048576, "table 1 MiB"}};
+
+enum { DEFAULT_TABLE = 2, FINE_TABLE = 3 };
+
+/* The first stands for the scalar calls. */
+static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
+                                         VNDF_INSTRUCTIONS_AVX2, VNDF_INSTRUCTIONS_AVX512};
+enum { SETS = sizeof sets / sizeof *sets };
+
+/* ---- entries ----------------------------------------------------------------------------------- */
+
+static int wanted(const bench_plan *plan, const char *method_name, const char *subject, const char *instructions)
+{
+    return !plan->only || strstr(method_name, plan->only) || strstr(subject, plan->only) ||
+           strstr(instructions, plan->only);
+}
+
+static const char *distribution_name(const bench_list *list, bench_subject subject, const method *m)
+{
+    return m->kind == BENCH_MOVE ? "-" : list->name[subject];
+}
+
+static void describe(bench_entry *e, const char *distribution)
+{
+    bench_row *row = &e->row;
+    *row = (bench_row){.kind = e->m.kind, .bytes = e->m.bytes};
+    row->ns = row->ns_low = row->ns_high = row->shared_ns = row->latency_ns = row->ratio = NAN;
+    row->tv = row->tv_theta = row->max_weight = row->efficiency_light = NAN;
+    row->efficiency[0] = row->efficiency[1] = row->bias[0] = row->bias[1] = NAN;
+    snprintf(row->method, sizeof row->method, "%s", e->m.name);
+    snprintf(row->distribution, sizeof row->distribution, "%s", distribution);
+    snprintf(row->instructions, sizeof row->instructions, "%s", e->m.instructions);
+}
+
+/* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
+static void add(bench_list *list, const bench_plan *plan, bench_subject subject, method m, int yardstick)
+{
+    const char *distribution = distribution_name(list, subject, &m);
+    int shown = wanted(plan, m.name, distribution, m.instructions);
+    if (!m.each || !(shown || yardstick) || list->count == BENCH_ENTRIES_MAX) {
+        if (m.release && m.state)
+            m.release((void *)m.state);
+        return;
+    }
+    bench_entry *e = &list->entry[list->count++];
+    *e = (bench_entry){.m = m, .subject = subject, .shown = shown};
+    describe(e, distribution);
+}
+
+static void add_ours(bench_list *list, const bench_plan *plan, bench_subject subject, const vndf_distribution *d,
+                     const char *name)
+{
+    for (size_t i = 0; i < SETS; i++)
+        add(list, plan, subject, method_ours(d, name, sets[i]), 0);
+}
+
+static void add_ggx(bench_list *list, const bench_plan *plan)
+{
+    add(list, plan, BENCH_GGX, method_ggx_caps(), 1);
+    for (size_t i = 1; i < SETS; i++)
+        add(list, plan, BENCH_GGX, method_ggx_caps_batch(sets[i]), 0);
+    add(list, plan, BENCH_GGX, method_ggx_2018(), 0);
+    add(list, plan, BENCH_GGX, method_ggx_all_normals(), 1);
+    add_ours(list, plan, BENCH_GGX, vndf_ggx(), closed_name);
+    for (size_t i = 1; i < SETS; i++)
+        add(list, plan, BENCH_GGX, method_move(sets[i]), 0);
+}
+
+static void add_beckmann(bench_list *list, const bench_plan *plan)
+{
+    add(list, plan, BENCH_BECKMANN, method_beckmann_newton(), 0);
+    add(list, plan, BENCH_BECKMANN, method_beckmann_all_normals(), 1);
+    add_ours(list, plan, BENCH_BECKMANN, vndf_beckmann(), closed_name);
+}
+
+static void add_any(bench_list *list, const bench_plan *plan)
+{
+    const method_truth *truth = &list->truth[BENCH_USER];
+    static const size_t sides[] = {64, 256, 1024}, warp_sides[] = {32, 128};
+    add(list, plan, BENCH_USER, method_any_all_normals(truth), 1);
+    for (size_t i = 0; i < 3; i++)
+        add(list, plan, BENCH_USER, method_inverse_tables(truth, sides[i]), 0);
+    for (size_t i = 0; i < 2; i++)
+        add(list, plan, BENCH_USER, method_warp(truth, warp_sides[i]), 0);
+}
+
+static void add_calls(bench_list *list, const bench_plan *plan, const vndf_distribution *d)
+{
+    for (method_call call = 0; call < METHOD_CALLS; call++)
+        for (size_t i = 0; i < SETS; i++)
+            add(list, plan, BENCH_USER, method_ours_call(d, tables[DEFAULT_TABLE].name, call, sets[i]), 0);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------ */
+
+static int build_progress(double done, const char *what, void *user)
+{
+    (void)done;
+    return !bench_go_on(user, what);
+}
+
+static vndf_distribution *build(const bench_clock *at, size_t bytes, vndf_error *error)
+{
+    bench_clock clock = *at;
+    vndf_build_options options = {.max_bytes = bytes, .progress = build_progress, .progress_user = &clock};
+    return vndf_build(at->plan->source, &options, NULL, error);
+}
+
+/* Whether any row of a table, by whatever set of instructions, is asked for. */
+static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i)
+{
+    const char *instructions = "scalar portable avx2 avx512";
+    char name[64];
+    snprintf(name, sizeof name, "%s, batch%s", tables[i].name,
+             i == DEFAULT_TABLE ? ": pdf: invert: ndf: lambda" : "");
+    return wanted(plan, name, list->name[BENCH_USER], instructions);
+}
+
+/* That which the caller has built under this limit; NULL if there is none. */
+static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
+{
+    for (size_t i = 0; i < plan->ready_count; i++)
+        if (plan->ready_limits[i] == bytes)
+            return plan->ready[i];
+    return NULL;
+}
+
+static vndf_status table_at(const bench_list *list, const bench_clock *at, size_t i,
+                            const vndf_distribution **table, vndf_error *error)
+{
+    *table = list->borrowed ? find_ready(at->plan, tables[i].bytes) : build(at, tables[i].bytes, error);
+    return *table || list->borrowed ? VNDF_OK : error->status;
+}
+
+/* A larger limit that bought nothing: the table before once more. */
+static int repeats(const bench_list *list, const vndf_distribution *table)
+{
+    const vndf_distribution *last = list->table_count ? list->table[list->table_count - 1] : NULL;
+    return last && vndf_distribution_info(last).bytes == vndf_distribution_info(table).bytes;
+}
+
+static void keep(bench_list *list, const bench_plan *plan, const vndf_distribution *table, size_t i)
+{
+    if (repeats(list, table)) {
+        if (!list->borrowed)
+            vndf_free((vndf_distribution *)table);
+        return;
+    }
+    list->table[list->table_count++] = table;
+    add_ours(list, plan, BENCH_USER, table, tables[i].name);
+    if (i == DEFAULT_TABLE)
+        add_calls(list, plan, table);
+}
+
+/* Those that are wanted, and that which is to be the truth. */
+static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
+{
+    for (size_t i = 0; i < BENCH_TABLES; i++) {
+        const vndf_distribution *table = NULL;
+        vndf_status status = VNDF_OK;
+        if (i == fine || table_wanted(list, at->plan, i))
+            status = table_at(list, at, i, &table, error);
+        if (status != VNDF_OK)
+            return status;
+        if (table)
+            keep(list, at->plan, table, i);
+    }
+    if (list->table_count)
+        return VNDF_OK;
+    snprintf(error->message, sizeof error->message, "none of the tables that are ready has a size that is timed");
+    return error->status = VNDF_ERROR_ARGUMENT;
+}
+
+/* ---- all of it --------------------------------------------------------------------------------- */
+
+static method_truth truth_of(const vndf_distribution *d, double scale)
+{
+    float alpha = (float)(1 / scale);
+    return (method_truth){{d, alpha, alpha}, (float)scale};
+}
+
+/* The largest table is the truth; in a hurry, or where few rows are asked for, one of 16 KiB has to do. */
+static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error *error)
+{
+    size_t fine = at->plan->seconds < 10 ? DEFAULT_TABLE : FINE_TABLE;
+    vndf_status status = add_tables(list, at, fine, error);
+    if (status != VNDF_OK)
+        return status;
+    const vndf_distribution *finest = list->table[list->table_count - 1];
+    list->truth[BENCH_USER] = truth_of(finest, vndf_distribution_info(finest).scale);
+    add_any(list, at->plan);
+    return VNDF_OK;
+}
+
+static int any_shown(const bench_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (list->entry[i].shown)
+            return 1;
+    return 0;
+}
+
+/* Names that any row of the user's distribution may have: without one of them, no table is built. */
+static int user_wanted(const bench_list *list, const bench_plan *plan)
+{
+    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|"
+                        "inverse CDFs (2014), 2 x 256^2|"
+                        "inverse CDFs (2014), 2 x 1024^2|bilinear warps, 8 x 32^2|bilinear warps, 8 x 128^2";
+    for (size_t i = 0; i < BENCH_TABLES; i++)
+        if (table_wanted(list, plan, i))
+            return 1;
+    return wanted(plan, names, list->name[BENCH_USER], "scalar");
+}
+
+static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
+{
+    bench_list_free(list);
+    error->status = VNDF_ERROR_ARGUMENT;
+    snprintf(error->message, sizeof error->message,
+             "no method, distribution or instruction set has '%s' in its name", only);
+    return VNDF_ERROR_ARGUMENT;
+}
+
+vndf_status bench_list_make(bench_list *list, const bench_clock *at, vndf_error *error)
+{
+    *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}, .borrowed = at->plan->ready_count > 0};
+    list->truth[BENCH_GGX] = truth_of(vndf_ggx(), 1);
+    list->truth[BENCH_BECKMANN] = truth_of(vndf_beckmann(), 1);
+    add_ggx(list, at->plan);
+    add_beckmann(list, at->plan);
+    if (user_wanted(list, at->plan)) {
+        vndf_status status = add_user(list, at, error);
+        if (status != VNDF_OK) {
+            bench_list_free(list);
+            return status;
+        }
+    }
+    return any_shown(list) ? VNDF_OK : refuse(list, error, at->plan->only);
+}
+
+void bench_list_free(bench_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (list->entry[i].m.release && list->entry[i].m.state)
+            list->entry[i].m.release((void *)list->entry[i].m.state);
+    for (size_t i = 0; i < list->table_count && !list->borrowed; i++)
+        vndf_free((vndf_distribution *)list->table[i]);
+    list->count = list->table_count = 0;
+}
+
+const bench_entry *bench_list_find(const bench_list *list, bench_subject subject, const char *name,
+                                   const char *instructions)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const bench_entry *e = &list->entry[i];
+        if (e->subject == subject && strncmp(e->m.name, name, strlen(name)) == 0 &&
+            strcmp(e->m.instructions, instructions) == 0)
+            return e;
+    }
+    return NULL;
+}

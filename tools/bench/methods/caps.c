@@ -1,0 +1,66 @@
+/* Visible normals of GGX by spherical caps: J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with Spherical
+ * Caps", HPG 2023. wi is stretched to the unit problem; mirrored directions are uniform on the cap z > -wi.z; the
+ * normal is half way between, and is stretched back.
+ *
+ * Its density is Dv = wi.wm D/A, A = (wi.z + |stretched wi|)/2. Nothing is guarded, as published: at normal
+ * incidence u2 = 1 is a NaN. This is the yardstick: others' times are given as multiples of its. */
+#include "bench/methods/vector.h"
+
+typedef struct caps_view {
+    vndf_vec3 wi, w; /* w: of the unit problem */
+    float alpha, per_area;
+} caps_view;
+
+static inline caps_view view_from(vndf_vec3 wi, float alpha)
+{
+    float x = alpha * wi.x, y = alpha * wi.y, length = sqrtf(x * x + y * y + wi.z * wi.z);
+    caps_view v = {wi, {x / length, y / length, wi.z / length}, alpha, 2.0f / (wi.z + length)};
+    return v;
+}
+
+static inline vndf_vec3 draw(const caps_view *v, float u1, float u2, float *pdf)
+{
+    float phi = 2 * method_pi * u1, z = (1.0f - u2) * (1.0f + v->w.z) - v->w.z, a = v->alpha;
+    float s = sqrtf(fmaxf(0.0f, 1.0f - z * z));
+    vndf_vec3 m = method_unit(a * (s * cosf(phi) + v->w.x), a * (s * sinf(phi) + v->w.y), z + v->w.z);
+    float across = (m.x * m.x + m.y * m.y) / (a * a) + m.z * m.z;
+    *pdf = fmaxf(0.0f, method_dot(v->wi, m)) * v->per_area / (method_pi * a * a * across * across);
+    return m;
+}
+
+static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
+{
+    (void)m;
+    caps_view v = view_from(in->wi, in->alpha);
+    return draw(&v, in->u1, in->u2, pdf);
+}
+
+static void each(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    (void)m;
+    for (size_t i = 0; i < in->count; i++) {
+        const method_input *at = &in->at[i];
+        caps_view v = view_from(at->wi, at->alpha);
+        float pdf;
+        vndf_vec3 wm = draw(&v, at->u1, at->u2, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
+static void shared(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    (void)m;
+    const method_input *first = &in->at[0];
+    caps_view v = view_from(first->wi, first->alpha);
+    for (size_t i = 0; i < in->count; i++) {
+        float pdf;
+        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
+method method_ggx_caps(void)
+{
+    return (method){.name = "spherical caps (2023)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
+                    .one = one, .each = each, .shared = shared};
+}

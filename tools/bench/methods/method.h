@@ -1,0 +1,90 @@
+/* A method of drawing normals, as `vndf bench` measures it: direction and roughness in, a normal and its density
+ * out. Whatever depends on the distribution alone is prepared before; whatever depends on the direction is part of
+ * each draw, or of the head of `shared`.
+ *
+ * Scalar methods have `one`, for latency, and `each`, a loop of their own so that the compiler may take the body
+ * in; method_*.c are compiled without vector loops. Batches have `each` alone. */
+#ifndef TOOLS_BENCH_METHODS_METHOD_H
+#define TOOLS_BENCH_METHODS_METHOD_H
+
+#include <stddef.h>
+
+#include "bench/bench.h"
+#include "vndf.h"
+
+typedef struct method_input {
+    vndf_vec3 wi;
+    float alpha, u1, u2;
+} method_input;
+
+/* The same inputs twice: for batches a structure of arrays, for scalar calls whole ones, as renderers have them.
+ * (A vndf_vec3 that is put together from three arrays and passed on costs some 40 ns with gcc 12, which stores it
+ * by fours and loads it by eights.) alpha is that of both axes. A `shared` call reads the first of alpha and
+ * wi. */
+typedef struct method_inputs {
+    size_t count;
+    const float *alpha, *wi_x, *wi_y, *wi_z, *u1, *u2;
+    const float *wm_x, *wm_y, *wm_z; /* for calls that are given a normal */
+    const method_input *at;
+    const vndf_vec3 *wm;
+} method_inputs;
+
+typedef struct method_outputs {
+    float *x, *y, *z, *pdf;
+} method_outputs;
+
+typedef struct method method;
+typedef vndf_vec3 method_one(const method *m, const method_input *in, float *pdf);
+typedef void method_run(const method *m, const method_inputs *in, const method_outputs *out);
+
+struct method {
+    char name[64];
+    const char *instructions;
+    bench_kind kind;
+    size_t bytes;
+    const void *state;              /* what was prepared */
+    void (*release)(void *state);   /* NULL: somebody else's */
+    vndf_instructions limit;        /* for batches of ours */
+    method_one *one;                /* NULL: a batch */
+    method_run *each, *shared;      /* shared may be NULL */
+    method_run *same_bits;          /* what `each` must equal to the bit, or NULL */
+    int biased;                     /* the density that it tells is not that with which it draws */
+    int turned;                     /* some normals face away from wi */
+};
+
+/* What any-D methods are prepared from: a table so fine that it stands for the truth, and the scale that brings
+ * its median slope to 1. */
+typedef struct method_truth {
+    vndf_surface canonical; /* its roughness is 1/scale */
+    float scale;
+} method_truth;
+
+/* Each fills a method whose `each` is NULL where this machine or a lack of memory does not allow it. */
+
+/* GGX and Beckmann, from the publications. */
+method method_ggx_caps(void);
+method method_ggx_2018(void);
+method method_ggx_all_normals(void);
+method method_beckmann_newton(void);
+method method_beckmann_all_normals(void);
+
+/* GGX by caps, and no more than moving the bytes, on vectors; one of the three instruction sets of vndf.h. */
+method method_ggx_caps_batch(vndf_instructions set);
+method method_move(vndf_instructions set);
+
+/* Any D, from the publications. */
+method method_any_all_normals(const method_truth *truth);
+method method_inverse_tables(const method_truth *truth, size_t side);
+method method_warp(const method_truth *truth, size_t side);
+
+/* Ours: `limit` 0 stands for the scalar calls. */
+method method_ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit);
+
+/* Other calls of a table. */
+typedef enum method_call { METHOD_PDF, METHOD_INVERT, METHOD_NDF, METHOD_LAMBDA, METHOD_CALLS } method_call;
+method method_ours_call(const vndf_distribution *distribution, const char *name, method_call call,
+                        vndf_instructions limit);
+
+const char *method_instructions_name(vndf_instructions set);
+
+#endif

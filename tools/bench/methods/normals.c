@@ -1,0 +1,171 @@
+/* All normals, not the visible ones alone: B. Walter et al., "Microfacet Models for Refraction through Rough
+ * Surfaces", EGSR 2007, eq. 28 and 35. Density D(wm) cos(theta_m): a radial law and an azimuth, closed for GGX
+ * (tan^2 = alpha^2 u/(1-u)) and Beckmann (tan^2 = -alpha^2 log(1-u)). wi is not looked at.
+ *
+ * Any other D: a radial CDF. At the scale where the median slope is 1, y = sin^2(theta_m) has the density pi D(y)
+ * in [0, 1]; it is cut into cells of equal mass, D constant in each, so that the density told is the density drawn
+ * and a coarse table costs variance alone. Roughness stretches. */
+#include <stdlib.h>
+
+#include "bench/methods/vector.h"
+
+/* slope^2 over alpha^2, the density of slopes there times pi alpha^2, and an azimuth. */
+static inline vndf_vec3 normal_from(float slope2, float p22, float alpha, float u1, float *pdf)
+{
+    float phi = 2 * method_pi * u1, z2 = 1.0f / (1.0f + alpha * alpha * slope2), z = sqrtf(z2);
+    float across = alpha * sqrtf(slope2) * z;
+    *pdf = p22 / (method_pi * alpha * alpha * z2 * z);
+    return (vndf_vec3){across * cosf(phi), across * sinf(phi), z};
+}
+
+static inline vndf_vec3 draw_ggx(const method *m, const method_input *in, float *pdf)
+{
+    (void)m;
+    float rest = 1.0f - in->u2;
+    return normal_from(in->u2 / rest, rest * rest, in->alpha, in->u1, pdf);
+}
+
+static inline vndf_vec3 draw_beckmann(const method *m, const method_input *in, float *pdf)
+{
+    (void)m;
+    float rest = 1.0f - in->u2;
+    return normal_from(-logf(rest), rest, in->alpha, in->u1, pdf);
+}
+
+/* ---- any D ------------------------------------------------------------------------------------- */
+
+enum { CELLS = 1024, FINE = 1 << 15 };
+
+typedef struct radial_cdf {
+    float y[CELLS + 1]; /* sin^2(theta_m) at masses j/CELLS */
+    float scale;
+} radial_cdf;
+
+static inline vndf_vec3 draw_any(const method *m, const method_input *in, float *pdf)
+{
+    const radial_cdf *t = m->state;
+    float place = in->u2 * CELLS, width;
+    int j = (int)place;
+    j = j < CELLS ? j : CELLS - 1;
+    width = t->y[j + 1] - t->y[j];
+    float y = fminf(t->y[j] + (place - (float)j) * width, 1 - 0x1p-24f), z2 = 1.0f - y;
+    return normal_from(y / z2, z2 * z2 / ((float)CELLS * width), in->alpha * t->scale, in->u1, pdf);
+}
+
+static double ndf_at(const method_truth *truth, double y)
+{
+    vndf_vec3 wm = {(float)sqrt(y), 0, (float)sqrt(1 - y)};
+    return (double)vndf_ndf(&truth->canonical, wm);
+}
+
+/* Masses by the midpoint rule in v, y = v^2 (3 - 2 v): finer at both ends, where peaks and tails are. */
+static double edge_of(int i)
+{
+    double v = (double)i / FINE;
+    return v * v * (3 - 2 * v);
+}
+
+/* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the
+ * horizon. */
+static int accumulate(const method_truth *truth, double *mass)
+{
+    int top = FINE;
+    mass[0] = 0;
+    for (int i = 0; i < FINE; i++) {
+        double low = edge_of(i), high = edge_of(i + 1);
+        mass[i + 1] = mass[i] + ndf_at(truth, 0.5 * (low + high)) * (high - low);
+    }
+    while (mass[top - 1] >= mass[FINE])
+        top--;
+    return top;
+}
+
+static void fill_cdf(radial_cdf *t, const double *mass, int top)
+{
+    int cell = 1;
+    for (int i = 0; i < top; i++)
+        for (; cell < CELLS && mass[i + 1] * CELLS >= mass[FINE] * cell; cell++) {
+            double part = (mass[FINE] * cell / CELLS - mass[i]) / (mass[i + 1] - mass[i]);
+            t->y[cell] = (float)(edge_of(i) + part * (edge_of(i + 1) - edge_of(i)));
+        }
+    t->y[0] = 0;
+    for (; cell <= CELLS; cell++)
+        t->y[cell] = (float)edge_of(top);
+}
+
+/* ---- loops ------------------------------------------------------------------------------------- */
+
+static void each_ggx(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        const method_input *at = &in->at[i];
+        float pdf;
+        vndf_vec3 wm = draw_ggx(m, at, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
+static void each_beckmann(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        const method_input *at = &in->at[i];
+        float pdf;
+        vndf_vec3 wm = draw_beckmann(m, at, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
+static void each_any(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        const method_input *at = &in->at[i];
+        float pdf;
+        vndf_vec3 wm = draw_any(m, at, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
+static vndf_vec3 one_ggx(const method *m, const method_input *in, float *pdf)
+{
+    return draw_ggx(m, in, pdf);
+}
+
+static vndf_vec3 one_beckmann(const method *m, const method_input *in, float *pdf)
+{
+    return draw_beckmann(m, in, pdf);
+}
+
+static vndf_vec3 one_any(const method *m, const method_input *in, float *pdf)
+{
+    return draw_any(m, in, pdf);
+}
+
+method method_ggx_all_normals(void)
+{
+    return (method){.name = "all normals (2007)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
+                    .one = one_ggx, .each = each_ggx, .turned = 1};
+}
+
+method method_beckmann_all_normals(void)
+{
+    return (method){.name = "all normals (2007)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
+                    .one = one_beckmann, .each = each_beckmann, .turned = 1};
+}
+
+method method_any_all_normals(const method_truth *truth)
+{
+    method m = {.name = "all normals (2007), radial CDF", .instructions = "scalar", .kind = BENCH_PUBLISHED,
+                .bytes = sizeof(radial_cdf), .release = free, .one = one_any, .turned = 1};
+    radial_cdf *t = malloc(sizeof *t);
+    double *mass = malloc((FINE + 1) * sizeof *mass);
+    if (t && mass) {
+        t->scale = truth->scale;
+        fill_cdf(t, mass, accumulate(truth, mass));
+        m.state = t;
+        m.each = each_any;
+    } else {
+        free(t);
+    }
+    free(mass);
+    return m;
+}

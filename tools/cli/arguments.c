@@ -1,0 +1,222 @@
+#include "cli/arguments.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+
+int complain(const char *command, const char *format, ...)
+{
+    va_list list;
+    fprintf(stderr, "%s: ", command);
+    va_start(list, format);
+    vfprintf(stderr, format, list);
+    va_end(list);
+    fputc('\n', stderr);
+    return STATUS_USE;
+}
+
+/* ---- hints --------------------------------------------------------------------------------------- */
+
+enum { HINT_LENGTH = 32 };
+
+/* Edit distance (insert, delete, replace), one row of the table at a time. */
+static size_t edit_distance(const char *a, const char *b)
+{
+    size_t row[HINT_LENGTH + 1], length = strlen(b);
+    for (size_t j = 0; j <= length; j++)
+        row[j] = j;
+    for (size_t i = 1; a[i - 1]; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= length; j++) {
+            size_t best = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            if (row[j] + 1 < best)
+                best = row[j] + 1;
+            if (row[j - 1] + 1 < best)
+                best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return row[length];
+}
+
+const char *nearest_word(const char *word, const char *const *candidates, size_t count)
+{
+    const char *nearest = NULL;
+    size_t least = 3; /* further than two edits is another word, not a slip */
+    if (strlen(word) > HINT_LENGTH)
+        return NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (strlen(candidates[i]) > HINT_LENGTH)
+            continue;
+        size_t distance = edit_distance(word, candidates[i]);
+        if (distance < least && distance < strlen(candidates[i])) {
+            least = distance;
+            nearest = candidates[i];
+        }
+    }
+    return nearest;
+}
+
+static int refuse_option(const command_form *form, const char *word, size_t length)
+{
+    char name[HINT_LENGTH + 1];
+    const char *names[WORDS_MAX];
+    size_t count = form->option_count < WORDS_MAX ? form->option_count : WORDS_MAX;
+    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH, word);
+    for (size_t i = 0; i < count; i++)
+        names[i] = form->options[i].name;
+    const char *hint = nearest_word(name, names, count);
+    if (hint)
+        return complain(form->command, "there is no option '%s'; did you mean '%s'?", name, hint);
+    return complain(form->command, "there is no option '%s'; `%s --help` lists them", name, form->command);
+}
+
+/* ---- options ------------------------------------------------------------------------------------- */
+
+static const option_form *find_option(const command_form *form, const char *word, size_t length)
+{
+    for (size_t i = 0; i < form->option_count; i++) {
+        const option_form *candidate = &form->options[i];
+        if (strlen(candidate->name) == length && memcmp(candidate->name, word, length) == 0)
+            return candidate;
+    }
+    return NULL;
+}
+
+static int store_word(const command_form *form, const option_form *option, const char *value)
+{
+    if (option->values->count >= option->most)
+        return option->most == 1 ? complain(form->command, "%s is given twice", option->name)
+                                 : complain(form->command, "%s is given more than %zu times", option->name,
+                                            option->most);
+    option->values->item[option->values->count++] = value;
+    return PARSE_GO_ON;
+}
+
+/* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. */
+static int take_option(const command_form *form, int argc, char **argv, int *at)
+{
+    const char *word = argv[*at];
+    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const option_form *option = find_option(form, word, length);
+    if (!option)
+        return refuse_option(form, word, length);
+    if (!option->takes_value && equals)
+        return complain(form->command, "%s takes no value", option->name);
+    if (!option->takes_value)
+        return store_word(form, option, word);
+    if (equals)
+        return store_word(form, option, equals + 1);
+    if (*at + 1 >= argc)
+        return complain(form->command, "%s needs a value", option->name);
+    *at += 1;
+    return store_word(form, option, argv[*at]);
+}
+
+static int take_positional(const command_form *form, const char *word, words *positional)
+{
+    if (positional->count < form->positional_max) {
+        positional->item[positional->count++] = word;
+        return PARSE_GO_ON;
+    }
+    if (form->positional_max == 0)
+        return complain(form->command, "'%s' is not expected; only options are", word);
+    return complain(form->command, "'%s' is one word too many; expected only %s", word, form->positional);
+}
+
+int parse_arguments(const command_form *form, int argc, char **argv, words *positional)
+{
+    int result = PARSE_GO_ON;
+    int options_end = 0;
+    for (int i = 0; i < argc && result == PARSE_GO_ON; i++) {
+        int is_option = !options_end && argv[i][0] == '-' && argv[i][1] != '\0';
+        if (is_option && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))
+            return fputs(form->help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+        if (is_option && strcmp(argv[i], "--") == 0)
+            options_end = 1;
+        else if (is_option)
+            result = take_option(form, argc, argv, &i);
+        else
+            result = take_positional(form, argv[i], positional);
+    }
+    if (result == PARSE_GO_ON && positional->count < form->positional_min)
+        return complain(form->command, "%s is missing; see `%s --help`", form->positional, form->command);
+    return result;
+}
+
+const char *only_word(const words *values)
+{
+    return values->count ? values->item[0] : NULL;
+}
+
+/* ---- numbers ------------------------------------------------------------------------------------- */
+
+/* One decimal number at text; the end of it, or NULL. strtod alone would also take nan, inf, hexadecimal
+ * numbers and leading blanks. */
+static const char *scan_number(const char *text, double *number)
+{
+    size_t length = strspn(text, "+-.0123456789eE");
+    char *end;
+    *number = strtod(text, &end);
+    if (length == 0 || end != text + length || !isfinite(*number))
+        return NULL;
+    return end;
+}
+
+static size_t refuse_number(const char *command, const char *what, const char *text, const char *expected)
+{
+    complain(command, "%s '%s' %s", what, text, expected);
+    return 0;
+}
+
+size_t parse_numbers(const char *command, const char *what, const char *text, double low, double high,
+                     size_t least, size_t most, double *numbers)
+{
+    char expected[128];
+    size_t count = 0;
+    const char *at = text;
+    snprintf(expected, sizeof expected, "is not in the range from %.9g to %.9g", low, high);
+    for (;;) {
+        at = scan_number(at, &numbers[count]);
+        if (!at || (*at != '\0' && *at != ','))
+            return refuse_number(command, what, text, most > 1 ? "is not a number, or numbers between commas"
+                                                               : "is not a number");
+        if (!(numbers[count] >= low && numbers[count] <= high))
+            return refuse_number(command, what, text, expected);
+        count++;
+        if (*at == '\0')
+            break;
+        if (count == most)
+            return refuse_number(command, what, text, "has too many numbers");
+        at++;
+    }
+    return count >= least ? count : refuse_number(command, what, text, "has too few numbers");
+}
+
+int option_number(const char *command, const char *what, const words *values, double low, double high,
+                  double *number)
+{
+    const char *text = only_word(values);
+    return !text || parse_numbers(command, what, text, low, high, 1, 1, number) == 1;
+}
+
+int option_count(const char *command, const char *what, const words *values, double low, double high,
+                 unsigned long long *count)
+{
+    double number = 0;
+    if (!only_word(values))
+        return 1;
+    if (!option_number(command, what, values, low, high, &number))
+        return 0;
+    if (number != floor(number))
+        return (int)refuse_number(command, what, only_word(values), "is not a whole number");
+    *count = (unsigned long long)number;
+    return 1;
+}

@@ -1,0 +1,82 @@
+#include "cli/distribution.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/output.h"
+
+int distribution_open(chosen_distribution *chosen, const char *command, const char *name)
+{
+    vndf_error error = {VNDF_OK, ""};
+    chosen->owned = NULL;
+    chosen->distribution = NULL;
+    if (strcmp(name, "ggx") == 0)
+        chosen->distribution = vndf_ggx();
+    else if (strcmp(name, "beckmann") == 0)
+        chosen->distribution = vndf_beckmann();
+    else if (!input_named(command, name))
+        return 0;
+    else
+        chosen->distribution = chosen->owned = vndf_load(name, &error);
+    if (!chosen->distribution)
+        complain(command, "%s", error.message);
+    return chosen->distribution != NULL;
+}
+
+void distribution_close(chosen_distribution *chosen)
+{
+    vndf_free(chosen->owned);
+}
+
+/* Reduced to a quarter turn first, so that cos(90 degrees) is 0 and not 6e-17: a direction on the
+ * horizon is meant to be on it. */
+static double sine_of_degrees(double degrees)
+{
+    const double radian = acos(-1.0) / 180;
+    double turn = fmod(degrees, 360);
+    if (turn < 0)
+        turn += 360;
+    if (turn >= 180)
+        return -sine_of_degrees(turn - 180);
+    return turn <= 90 ? (turn > 45 ? cos((90 - turn) * radian) : sin(turn * radian)) : sine_of_degrees(180 - turn);
+}
+
+vndf_vec3 direction_from(double theta, double phi)
+{
+    double sine = sine_of_degrees(theta), cosine = sine_of_degrees(theta + 90);
+    vndf_vec3 direction = {(float)(sine * sine_of_degrees(phi + 90)), (float)(sine * sine_of_degrees(phi)),
+                           (float)cosine};
+    return direction;
+}
+
+int sees_nothing(const vndf_surface *surface, vndf_vec3 w)
+{
+    return w.z < 0 && vndf_projected_area(surface, w) < 1e-25f;
+}
+
+int roughness_from(const char *command, const char *text, vndf_surface *surface)
+{
+    double alpha[2] = {1, 1};
+    size_t count = text ? parse_numbers(command, "--alpha", text, 1e-18, 1e18, 1, 2, alpha) : 2;
+    if (count == 1)
+        alpha[1] = alpha[0];
+    surface->alpha_x = (float)alpha[0];
+    surface->alpha_y = (float)alpha[1];
+    return count != 0;
+}
+
+int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
+                    vndf_surface *surface, vndf_vec3 *wi)
+{
+    double theta = 0, phi = 0;
+    if (!aim->theta.count) {
+        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
+        return 0;
+    }
+    if (!option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||
+        !option_number(command, "--phi", &aim->phi, -360, 360, &phi))
+        return 0;
+    surface->distribution = distribution;
+    *wi = direction_from(theta, phi);
+    return roughness_from(command, only_word(&aim->alpha), surface);
+}

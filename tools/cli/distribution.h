@@ -1,0 +1,37 @@
+/* What the user points at: a distribution (FILE|ggx|beckmann), a roughness, an incident direction. */
+#ifndef TOOLS_CLI_DISTRIBUTION_H
+#define TOOLS_CLI_DISTRIBUTION_H
+
+#include "cli/arguments.h"
+#include "vndf.h"
+
+/* A closed form, or a table that was loaded and is to be freed. */
+typedef struct chosen_distribution {
+    const vndf_distribution *distribution;
+    vndf_distribution *owned; /* NULL for a closed form */
+} chosen_distribution;
+
+/* "ggx", "beckmann" or a table file (one of that name: "./ggx"). Returns 1, or 0 after a complaint. */
+int distribution_open(chosen_distribution *chosen, const char *command, const char *name);
+void distribution_close(chosen_distribution *chosen);
+
+/* The unit direction at theta and phi in degrees; exact where either is a multiple of 90. */
+vndf_vec3 direction_from(double theta, double phi);
+
+/* Whether so little of the surface faces w (from below the horizon, along a narrow lobe) that densities may
+ * underflow: views where nothing but density 0 is no fault. */
+int sees_nothing(const vndf_surface *surface, vndf_vec3 w);
+
+/* "AX" or "AX,AY" into *surface; text NULL: 1, 1. Returns 1, or 0 after a complaint. */
+int roughness_from(const char *command, const char *text, vndf_surface *surface);
+
+/* The options that sample and eval share. */
+typedef struct aim_words {
+    words theta, phi, alpha;
+} aim_words;
+
+/* A view from --theta (needed), --phi and --alpha. Returns 1, or 0 after a complaint. */
+int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
+                    vndf_surface *surface, vndf_vec3 *wi);
+
+#endif

@@ -1,0 +1,129 @@
+#define _XOPEN_SOURCE 700
+#include "cli/files.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/replace.h"
+
+/* ---- the standard descriptors -------------------------------------------------------------------- */
+
+/* The wrong way round, so that a read or a write still fails: stdin can be written alone, the others read. The
+ * root folder stands in where there is no /dev/null. */
+static int open_in_place(int descriptor)
+{
+    int opened = open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (opened < 0)
+        opened = open("/", O_RDONLY);
+    return opened == descriptor; /* the lowest that is free */
+}
+
+/* ---- the list ------------------------------------------------------------------------------------ */
+
+enum { IS_INPUT, IS_OUTPUT, IS_STDOUT, ROLES };
+
+static const char *const role_names[ROLES] = {"an input of this command", "an output of this command",
+                                              "the standard output of this command"};
+
+typedef struct noted_file {
+    dev_t device;
+    ino_t inode;
+    int role;
+} noted_file;
+
+static noted_file *noted;
+static size_t noted_count, noted_room;
+
+static int make_room(void)
+{
+    if (noted_count < noted_room)
+        return 1;
+    size_t room = noted_room ? 2 * noted_room : 16;
+    noted_file *larger = realloc(noted, room * sizeof *noted);
+    if (!larger)
+        return 0;
+    noted = larger;
+    noted_room = room;
+    return 1;
+}
+
+static const char *note(const struct stat *file, int role)
+{
+    int known = 0;
+    if (!S_ISREG(file->st_mode))
+        return NULL;
+    for (size_t i = 0; i < noted_count; i++) {
+        if (noted[i].device != file->st_dev || noted[i].inode != file->st_ino)
+            continue;
+        if (noted[i].role != role)
+            return role_names[noted[i].role];
+        known = 1;
+    }
+    if (!known && !make_room())
+        return "one file more than there is memory for";
+    if (!known)
+        noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
+    return NULL;
+}
+
+static const char *note_path(const char *path, int role)
+{
+    struct stat file;
+    return stat(path, &file) == 0 ? note(&file, role) : NULL;
+}
+
+const char *files_note_input(const char *path)
+{
+    return note_path(path, IS_INPUT);
+}
+
+const char *files_note_output(const char *path)
+{
+    return note_path(path, IS_OUTPUT);
+}
+
+const char *files_note_stdin(void)
+{
+    struct stat file;
+    return fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
+}
+
+int files_begin(void)
+{
+    struct stat file;
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
+        if (fcntl(descriptor, F_GETFD) < 0 && !open_in_place(descriptor))
+            return 0;
+    return fstat(STDOUT_FILENO, &file) != 0 || !note(&file, IS_STDOUT);
+}
+
+/* ---- one file under two names -------------------------------------------------------------------- */
+
+static int same_inode(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
+/* Of two names without links, which are cut: the same last name in the same folder. */
+static int same_place(char *a, char *b)
+{
+    size_t in_a = replace_folder_length(a), in_b = replace_folder_length(b);
+    int same = strcmp(a + in_a, b + in_b) == 0;
+    a[in_a] = b[in_b] = '\0';
+    return same && same_inode(in_a ? a : ".", in_b ? b : ".");
+}
+
+int files_same(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0 || same_inode(a, b))
+        return 1;
+    char *end_of_a = replace_end_of_links(a), *end_of_b = replace_end_of_links(b);
+    int same = end_of_a && end_of_b && same_place(end_of_a, end_of_b);
+    free(end_of_a);
+    free(end_of_b);
+    return same;
+}

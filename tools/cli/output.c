@@ -1,0 +1,221 @@
+#define _POSIX_C_SOURCE 200809L
+#include "cli/output.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/arguments.h"
+#include "command.h"
+#include "cli/files.h"
+
+/* ---- signals ------------------------------------------------------------------------------------- */
+
+enum { STOPPING_COUNT = 3 };
+
+static const int stopping[STOPPING_COUNT] = {SIGINT, SIGTERM, SIGHUP};
+
+static sigset_t set_of(unsigned held)
+{
+    sigset_t set;
+    sigemptyset(&set);
+    for (unsigned i = 0; i < STOPPING_COUNT; i++)
+        if (held >> i & 1u)
+            sigaddset(&set, stopping[i]);
+    return set;
+}
+
+/* A signal that the parent told us to ignore, or holds itself, is left alone: it would count as
+ * pending for ever, or be let through by us. */
+unsigned output_hold_signals(void)
+{
+    unsigned held = 0;
+    sigset_t before;
+    sigprocmask(SIG_BLOCK, NULL, &before);
+    for (unsigned i = 0; i < STOPPING_COUNT; i++) {
+        struct sigaction action;
+        if (sigaction(stopping[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN &&
+            !sigismember(&before, stopping[i]))
+            held |= 1u << i;
+    }
+    sigset_t set = set_of(held);
+    sigprocmask(SIG_BLOCK, &set, NULL);
+    return held;
+}
+
+void output_release_signals(unsigned held)
+{
+    sigset_t set = set_of(held);
+    sigprocmask(SIG_UNBLOCK, &set, NULL);
+}
+
+int output_stopping(unsigned held)
+{
+    sigset_t pending;
+    if (sigpending(&pending) != 0)
+        return 0;
+    for (unsigned i = 0; i < STOPPING_COUNT; i++)
+        if ((held >> i & 1u) && sigismember(&pending, stopping[i]))
+            return 1;
+    return 0;
+}
+
+int output_interrupted(const output_file *output)
+{
+    return output->path && output_stopping(output->held);
+}
+
+void output_ignore_size_signal(void)
+{
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
+/* ---- opening ------------------------------------------------------------------------------------- */
+
+int output_is_stdout(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+int input_named(const char *command, const char *path)
+{
+    const char *role = files_note_input(path);
+    if (role)
+        complain(command, "'%s' cannot be read: it is %s as well", path, role);
+    return !role;
+}
+
+int input_stdin(const char *command)
+{
+    const char *role = files_note_stdin();
+    if (role)
+        complain(command, "stdin cannot be read: it is %s as well", role);
+    return !role;
+}
+
+int output_replaceable(const char *command, const char *path)
+{
+    struct stat status;
+    if (path[0] == '\0') {
+        complain(command, "the name of the output file is empty");
+        return 0;
+    }
+    if (output_is_stdout(path))
+        return 1;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+        complain(command, "'%s' is not a file that can be replaced", path);
+        return 0;
+    }
+    const char *role = files_note_output(path);
+    if (role)
+        complain(command, "'%s' is not replaced: it is %s", path, role);
+    return !role;
+}
+
+static int open_file(output_file *output)
+{
+    output->held = output_hold_signals();
+    if (replace_begin(&output->replaces, output->path)) {
+        output->file = output->replaces.file;
+        return 1;
+    }
+    complain(output->command, "cannot write '%s': %s", output->path, strerror(errno));
+    output_release_signals(output->held);
+    return 0;
+}
+
+int output_open(output_file *output, const char *command, const char *path)
+{
+    *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
+    return !output->path || (output_replaceable(command, path) && open_file(output));
+}
+
+/* ---- closing ------------------------------------------------------------------------------------- */
+
+/* The error is cleared once it is told, so that it is told once. */
+int output_finish_stdout(const char *command)
+{
+    if (replace_flush(stdout))
+        return STATUS_GOOD;
+    clearerr(stdout);
+    if (errno != EPIPE)
+        complain(command, "cannot write to stdout%s%s", errno ? ": " : "", errno ? strerror(errno) : "");
+    return STATUS_USE;
+}
+
+int output_commit(output_file *output)
+{
+    int status = STATUS_GOOD;
+    if (!output->path)
+        return output_finish_stdout(output->command);
+    if (!replace_commit(&output->replaces))
+        status = complain(output->command, "cannot write '%s': %s", output->path,
+                          errno ? strerror(errno) : "write failed");
+    output_release_signals(output->held);
+    return status;
+}
+
+/* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited
+ * are let through last, when all is said. */
+int output_give_up(output_file *output, const char *why)
+{
+    if (output->path)
+        replace_discard(&output->replaces);
+    complain(output->command, "%s", why);
+    if (output->path)
+        output_release_signals(output->held);
+    return STATUS_USE;
+}
+
+void output_discard(output_file *output)
+{
+    if (!output->path)
+        return;
+    replace_discard(&output->replaces);
+    output_release_signals(output->held);
+}
+
+/* ---- before the work ----------------------------------------------------------------------------- */
+
+static int is_usable(const char *command, const char *path)
+{
+    output_file output;
+    if (!path || !output_open(&output, command, path))
+        return !path;
+    output_discard(&output);
+    return 1;
+}
+
+int outputs_distinct(const char *command, const char *csv, const char *markdown)
+{
+    if (!is_usable(command, csv) || !is_usable(command, markdown))
+        return 0;
+    if (csv && markdown && files_same(csv, markdown)) {
+        complain(command, "--csv and --markdown both name '%s'", csv);
+        return 0;
+    }
+    return 1;
+}
+
+int output_is_earlier(const char *command, const char *path, const char *head, const char *hint)
+{
+    char start[OUTPUT_HEAD_MAX] = "";
+    FILE *file = output_is_stdout(path) ? NULL : fopen(path, "r");
+    if (!file)
+        return 1;
+    size_t size = fread(start, 1, strlen(head), file);
+    fclose(file);
+    if (size == 0 || strncmp(start, head, strlen(head)) == 0)
+        return 1;
+    complain(command, "--csv %s: the file is no earlier result of this command and is kept; %s", path, hint);
+    return 0;
+}
+
+const char *output_extension(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strchr(dot, '/') ? dot + 1 : "";
+}

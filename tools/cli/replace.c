@@ -1,0 +1,185 @@
+#define _XOPEN_SOURCE 700
+#include "cli/replace.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    NAMES_MAX = 100,
+    KEPT_MAX = 100, /* bytes of the name that its temporary keeps: some systems have room for 143 */
+    SUFFIX_MAX = 48,
+    LINKS_MAX = 40, /* as many as the system follows */
+    LINK_BYTES = 4096
+};
+
+/* ---- names --------------------------------------------------------------------------------------- */
+
+size_t replace_folder_length(const char *path)
+{
+    size_t length = strlen(path);
+    while (length && path[length - 1] != '/')
+        length--;
+    return length;
+}
+
+/* The first bytes of `folder`, then `name`; to be freed. NULL and ENOMEM. */
+static char *join(const char *folder, size_t length, const char *name)
+{
+    size_t size = strlen(name) + 1;
+    char *path = malloc(length + size);
+    if (!path) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    memcpy(path, folder, length);
+    memcpy(path + length, name, size);
+    return path;
+}
+
+/* What the link at path holds: 1, 0 if there is none, -1 and errno. */
+static int read_link(const char *path, char held[LINK_BYTES])
+{
+    ssize_t length = readlink(path, held, LINK_BYTES - 1);
+    if (length < 0)
+        return errno == EINVAL || errno == ENOENT ? 0 : -1;
+    held[length] = '\0';
+    return 1;
+}
+
+char *replace_end_of_links(const char *path)
+{
+    char held[LINK_BYTES];
+    int found = 1, reason = ELOOP;
+    char *at = join(path, 0, path);
+    for (int i = 0; at && i < LINKS_MAX && (found = read_link(at, held)) > 0; i++) {
+        char *next = join(at, held[0] == '/' ? 0 : replace_folder_length(at), held);
+        free(at);
+        at = next;
+    }
+    if (found == 0 || !at)
+        return at;
+    if (found < 0)
+        reason = errno;
+    free(at);
+    errno = reason;
+    return NULL;
+}
+
+/* Bytes of a name that its temporary keeps; characters of UTF-8 stay whole. */
+static size_t kept_length(const char *name)
+{
+    size_t length = strlen(name);
+    if (length <= KEPT_MAX)
+        return length;
+    for (length = KEPT_MAX; length && ((unsigned char)name[length] & 0xC0) == 0x80;)
+        length--;
+    return length;
+}
+
+/* ---- the temporary ------------------------------------------------------------------------------- */
+
+/* 0 and errno if the mode cannot be kept. That of a temporary is never wider than the file's. */
+static int keep_mode(int made, const struct stat *old)
+{
+    struct stat now;
+    if (fchown(made, old->st_uid, old->st_gid) != 0)
+        errno = 0;
+    return fstat(made, &now) == 0 && (((now.st_mode ^ old->st_mode) & 0777) == 0 ||
+                                      fchmod(made, old->st_mode & 0777) == 0);
+}
+
+/* O_EXCL: never write through something that is there already. old: the file to be replaced, if there is one. */
+static FILE *create_new(const char *name, const struct stat *old)
+{
+    int made = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? old->st_mode & 0777 : 0666);
+    FILE *file = made >= 0 && (!old || keep_mode(made, old)) ? fdopen(made, "wb") : NULL;
+    int reason = errno;
+    if (made >= 0 && !file) {
+        close(made);
+        remove(name);
+    }
+    errno = reason;
+    return file;
+}
+
+/* NAME.PROCESS.tmp beside the target, or another number where a crash left one of that name. */
+static FILE *create_temporary(replacement *r)
+{
+    struct stat old;
+    FILE *file = NULL;
+    int is_there = stat(r->target, &old) == 0;
+    size_t length = replace_folder_length(r->target);
+    length += kept_length(r->target + length);
+    r->temporary = malloc(length + SUFFIX_MAX);
+    errno = r->temporary ? EEXIST : ENOMEM;
+    for (int i = 0; !file && errno == EEXIST && i < NAMES_MAX; i++) {
+        memcpy(r->temporary, r->target, length);
+        snprintf(r->temporary + length, SUFFIX_MAX, i ? ".%ld.%d.tmp" : ".%ld.tmp", (long)getpid(), i);
+        file = create_new(r->temporary, is_there ? &old : NULL);
+    }
+    return file;
+}
+
+/* ---- the calls ----------------------------------------------------------------------------------- */
+
+static void forget(replacement *r)
+{
+    free(r->target);
+    free(r->temporary);
+    *r = (replacement){NULL, NULL, NULL};
+}
+
+int replace_begin(replacement *r, const char *path)
+{
+    *r = (replacement){replace_end_of_links(path), NULL, NULL};
+    if (r->target && (r->file = create_temporary(r)) != NULL)
+        return 1;
+    int reason = errno;
+    forget(r);
+    errno = reason;
+    return 0;
+}
+
+/* Of a write before, the reason may be lost: another one, of a byte that nobody will read, shows it. */
+int replace_flush(FILE *file)
+{
+    int failed_before = ferror(file);
+    errno = 0;
+    if (fflush(file) == 0 && !failed_before)
+        return 1;
+    if (errno == 0 && write(fileno(file), "", 1) >= 0)
+        errno = 0; /* it would work by now */
+    return 0;
+}
+
+/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be
+ * synced. */
+static int close_whole(FILE *file)
+{
+    int good = replace_flush(file) && (fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS);
+    int reason = errno, closed = fclose(file) == 0;
+    if (!good)
+        errno = reason;
+    return good && closed;
+}
+
+int replace_commit(replacement *r)
+{
+    int good = close_whole(r->file) && rename(r->temporary, r->target) == 0, reason = errno;
+    if (!good)
+        remove(r->temporary);
+    forget(r);
+    errno = reason;
+    return good;
+}
+
+void replace_discard(replacement *r)
+{
+    fclose(r->file);
+    remove(r->temporary);
+    forget(r);
+}

@@ -1,0 +1,110 @@
+#include "cli/source_words.h"
+
+#include <string.h>
+
+#include "command.h"
+#include "cli/output.h"
+
+enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
+
+/* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
+static int read_parameter(const char *command, const char *text, char storage[NAME_MAX_LENGTH],
+                          vndf_parameter *parameter)
+{
+    const char *equals = strchr(text, '=');
+    size_t length = equals ? (size_t)(equals - text) : 0;
+    if (length == 0 || length >= NAME_MAX_LENGTH) {
+        complain(command, "--set '%s' is not NAME=NUMBER", text);
+        return 0;
+    }
+    memcpy(storage, text, length);
+    storage[length] = '\0';
+    parameter->name = storage;
+    return parse_numbers(command, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
+}
+
+static int is_of_name(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Past a number, a name or a single character. The e of 1e3 is no name. */
+static size_t word_length(const char *text)
+{
+    size_t length = strspn(text, ".0123456789");
+    if (length && (text[length] == 'e' || text[length] == 'E'))
+        length += text[length + 1] == '-' || text[length + 1] == '+' ? 2 : 1;
+    while (is_of_name(text[length]))
+        length++;
+    return length ? length : 1;
+}
+
+/* Whether a formula has the name other than before a parenthesis, where it is a function's. */
+static int is_used(const char *formula, const char *parameter)
+{
+    for (size_t length; *formula; formula += length) {
+        length = word_length(formula);
+        if (length == strlen(parameter) && memcmp(formula, parameter, length) == 0 &&
+            formula[length + strspn(formula + length, " \t\r\n")] != '(')
+            return 1;
+    }
+    return 0;
+}
+
+/* A formula that can be read; 0 after a complaint. */
+static int uses_all(const char *command, const char *formula, const vndf_parameter *parameters, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!is_used(formula, parameters[i].name)) {
+            complain(command, "--set %s: the formula '%s' has no '%s'", parameters[i].name, formula,
+                     parameters[i].name);
+            return 0;
+        }
+    return 1;
+}
+
+static vndf_source *source_from_expression(const char *command, const source_words *given, vndf_error *error)
+{
+    vndf_parameter parameters[WORDS_MAX];
+    char names[WORDS_MAX][NAME_MAX_LENGTH];
+    for (size_t i = 0; i < given->set.count; i++)
+        if (!read_parameter(command, given->set.item[i], names[i], &parameters[i]))
+            return NULL;
+    const char *formula = only_word(given->ndf.count ? &given->ndf : &given->slope);
+    vndf_source *source =
+        given->ndf.count ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
+                         : vndf_source_slope_expression(formula, parameters, given->set.count, error);
+    if (!source || uses_all(command, formula, parameters, given->set.count))
+        return source;
+    vndf_source_free(source);
+    return NULL;
+}
+
+vndf_source *source_from_words(const char *command, const source_words *given)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source;
+    if (given->csv.count && !input_named(command, only_word(&given->csv)))
+        return NULL;
+    if (given->csv.count)
+        source = vndf_source_csv_file(only_word(&given->csv), &error);
+    else if (given->family.count)
+        source = vndf_source_family(only_word(&given->family), &error);
+    else
+        source = source_from_expression(command, given, &error);
+    if (!source && error.status != VNDF_OK)
+        complain(command, "%s", error.message);
+    return source;
+}
+
+size_t source_words_count(const source_words *given)
+{
+    return given->ndf.count + given->slope.count + given->csv.count + given->family.count;
+}
+
+int source_words_check_set(const char *command, const source_words *given)
+{
+    if (given->set.count && !given->ndf.count && !given->slope.count)
+        return complain(command, "--set is for --ndf and --slope; the parameters of a family follow its name");
+    return PARSE_GO_ON;
+}

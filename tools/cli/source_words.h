@@ -1,0 +1,21 @@
+/* What the user brings to be tabulated, as words of a command line: a formula, a CSV or a named family. */
+#ifndef TOOLS_CLI_SOURCE_WORDS_H
+#define TOOLS_CLI_SOURCE_WORDS_H
+
+#include "cli/arguments.h"
+#include "vndf_build.h"
+
+typedef struct source_words {
+    words ndf, slope, csv, family, set;
+} source_words;
+
+/* How many of --ndf, --slope, --family and the CSV's option were given. */
+size_t source_words_count(const source_words *given);
+
+/* PARSE_GO_ON if --set stands with a formula or not at all, else the status after a complaint. */
+int source_words_check_set(const char *command, const source_words *given);
+
+/* The source of the one that was given; NULL after a complaint. */
+vndf_source *source_from_words(const char *command, const source_words *given);
+
+#endif

@@ -1,0 +1,172 @@
+/* vndf bench: what a normal costs and what it is worth, beside everything else a user could pick. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/arguments.h"
+#include "bench/bench.h"
+#include "bench/parts.h"
+#include "command.h"
+#include "cli/output.h"
+#include "cli/source_words.h"
+
+static const char name[] = "vndf bench";
+
+static const char help[] =
+    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv-data FILE | --family NAME[:PARAM,...]] [options]\n"
+    "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
+    "\n"
+    "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
+    "and efficiency: closed forms for GGX and Beckmann, published and ours; for the distribution that is named,\n"
+    "tables of ours from 2 KiB to 1 MiB and the published ways for any D. All take turns in one process, with\n"
+    "random directions over the hemisphere and random roughness, data in cache; results are verified before they\n"
+    "count.\n"
+    "\n"
+    "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
+    "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
+    "  --csv-data FILE  what `vndf build` takes as --csv\n"
+    "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
+    "                   may take longer\n"
+    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n"
+    "  --csv FILE       all numbers as CSV (empty: does not apply); - for stdout\n"
+    "  --markdown FILE  the table in Markdown; - for stdout\n"
+    "\n"
+    "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
+    "\n"
+    "example: vndf bench --only avx512\n"
+    "         vndf bench --slope 'exp(-3*r)' --csv bench.csv --markdown -\n";
+
+typedef struct bench_words {
+    source_words source;
+    words seconds, only, csv, markdown;
+} bench_words;
+
+/* ---- progress ---------------------------------------------------------------------------------- */
+
+typedef struct watch {
+    unsigned held; /* signals that wait until all is put away */
+    int shows;     /* stderr is a terminal */
+    int shown;     /* the last percentage */
+} watch;
+
+static int show_progress(double done, const char *what, void *user)
+{
+    watch *w = user;
+    int percent = (int)(100 * done);
+    if (w->shows && percent != w->shown) {
+        fprintf(stderr, "\r\033[Kbench: %3d%% %s", percent, what);
+        fflush(stderr);
+        w->shown = percent;
+    }
+    return output_stopping(w->held);
+}
+
+/* ---- output ------------------------------------------------------------------------------------ */
+
+static int print_to(const char *path, const bench_rows *rows, void (*print)(FILE *, const bench_rows *))
+{
+    output_file output;
+    if (!path)
+        return STATUS_GOOD;
+    if (!output_open(&output, name, path))
+        return STATUS_USE;
+    print(output.file, rows);
+    return output_commit(&output);
+}
+
+/* The text goes to stdout unless something else does. */
+static int print_all(const bench_words *given, const bench_rows *rows)
+{
+    const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
+    int taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
+    if (!taken)
+        bench_print_text(stdout, rows);
+    int status = print_to(csv, rows, bench_print_csv);
+    int second = print_to(markdown, rows, bench_print_markdown);
+    return status == STATUS_GOOD ? second : status;
+}
+
+static int judge(const bench_rows *rows)
+{
+    int status = STATUS_GOOD;
+    for (size_t i = 0; i < rows->count; i++) {
+        const bench_row *row = &rows->row[i];
+        if (row->wrong)
+            complain(name, "%s of %s, %s: wrong results, not timed", row->method, row->distribution,
+                     row->instructions);
+        if (row->wrong && row->kind != BENCH_PUBLISHED)
+            status = STATUS_NO;
+    }
+    return status;
+}
+
+/* ---- running ----------------------------------------------------------------------------------- */
+
+static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
+{
+    watch w = {held, isatty(STDERR_FILENO), -1};
+    vndf_error error = {VNDF_OK, ""};
+    bench_rows rows;
+    plan->progress = show_progress;
+    plan->progress_user = &w;
+    vndf_status status = bench_run(plan, &rows, &error);
+    if (w.shows)
+        fputs("\r\033[K", stderr);
+    if (status != VNDF_OK)
+        return complain(name, "%s", error.message);
+    int printed = print_all(given, &rows), judged = judge(&rows);
+    bench_rows_free(&rows);
+    return printed == STATUS_GOOD ? judged : printed;
+}
+
+static int outputs_usable(const bench_words *given)
+{
+    const char *csv = only_word(&given->csv);
+    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
+           (!csv || output_is_earlier(name, csv, "method,distribution,", "a D is read by --csv-data"));
+}
+
+static int run_words(const bench_words *given)
+{
+    bench_plan plan = {.seconds = 40, .only = only_word(&given->only), .name = "student-t:2.5"};
+    vndf_error error = {VNDF_OK, ""};
+    if (!option_number(name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) || !outputs_usable(given))
+        return STATUS_USE;
+    int own = source_words_count(&given->source) != 0;
+    vndf_source *source = own ? source_from_words(name, &given->source) : vndf_source_family(plan.name, &error);
+    if (!source)
+        return own ? STATUS_USE : complain(name, "%s", error.message);
+    plan.source = source;
+    if (given->source.family.count)
+        plan.name = only_word(&given->source.family);
+    else if (own)
+        plan.name = vndf_source_description(source);
+    unsigned held = output_hold_signals();
+    int status = run_plan(&plan, given, held);
+    vndf_source_free(source);
+    output_release_signals(held);
+    return status;
+}
+
+int command_bench(int argc, char **argv)
+{
+    if (argc > 0 && strcmp(argv[0], "effects") == 0)
+        return command_bench_effects(argc - 1, argv + 1);
+    bench_words given = {0};
+    words positional = {{NULL}, 0};
+    const option_form options[] = {
+        {"--ndf", 1, 1, &given.source.ndf},      {"--slope", 1, 1, &given.source.slope},
+        {"--csv-data", 1, 1, &given.source.csv}, {"--family", 1, 1, &given.source.family},
+        {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--seconds", 1, 1, &given.seconds},     {"--only", 1, 1, &given.only},
+        {"--csv", 1, 1, &given.csv},             {"--markdown", 1, 1, &given.markdown},
+    };
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed == PARSE_GO_ON && source_words_count(&given.source) > 1)
+        return complain(name, "more than one of --ndf, --slope, --csv-data and --family; one at most is needed");
+    if (parsed == PARSE_GO_ON)
+        parsed = source_words_check_set(name, &given.source);
+    return parsed == PARSE_GO_ON ? run_words(&given) : parsed;
+}

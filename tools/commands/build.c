@@ -1,0 +1,191 @@
+/* vndf build: a table from what the user brings. Reads the options, makes the source, calls the
+ * builder, saves, prints what came out. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "cli/arguments.h"
+#include "command.h"
+#include "commands/describe.h"
+#include "cli/output.h"
+#include "cli/source_words.h"
+#include "vndf_build.h"
+
+static const char name[] = "vndf build";
+
+static const char help[] =
+    "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
+    "       vndf build --list\n"
+    "\n"
+    "Makes a table that samples the visible normals of an isotropic distribution of normals, and prints what it\n"
+    "is worth. The input may have any scale and need not be normalised; the factor found is printed.\n"
+    "\n"
+    "  --ndf EXPR      D per steradian, in c = cos(theta_m), theta (radians), t = tan(theta_m)\n"
+    "  --slope EXPR    P22 = D cos^4, in r, the slope length tan(theta_m)\n"
+    "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log sqrt sin cos tan asin acos\n"
+    "                  atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
+    "  --set NAME=X    a parameter of the expression, which has to use it; may be repeated\n"
+    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
+    "  --family NAME   a named distribution or a measured material\n"
+    "  --list          lists families and materials\n"
+    "  --break R       a slope where something begins, ends or has its peak; may be repeated. Formulas, families and\n"
+    "                  rows need none: what is narrow is found, or refused with its slope\n"
+    "  --finest W      a formula that cannot be bounded is sampled for what is as wide as W of its slope\n"
+    "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384; up to 32768 where that brings\n"
+    "                  the total variation below 1e-3, and no --max-tv is given)\n"
+    "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
+    "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
+    "\n"
+    "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
+    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n";
+
+typedef struct build_words {
+    source_words source;
+    words list, bytes, tv, breaks, finest, output;
+} build_words;
+
+static int print_list(void)
+{
+    const char *material;
+    fputs("families:\n", stdout);
+    fputs(vndf_family_help(), stdout);
+    fputs("\nmaterials:\n", stdout);
+    for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
+        puts(material);
+    return STATUS_GOOD;
+}
+
+/* ---- building ------------------------------------------------------------------------------------ */
+
+typedef struct watch {
+    unsigned held;     /* signals that wait until the build has stopped, so that it can say so */
+    int shows;         /* stderr is a terminal */
+    const char *shown; /* the last stage that was printed */
+} watch;
+
+static int show_progress(double done, const char *what, void *user)
+{
+    watch *w = user;
+    if (w->shows && what != w->shown) {
+        fprintf(stderr, "\r\033[Kbuilding: %3.0f%% %s", 100 * done, what);
+        fflush(stderr);
+        w->shown = what;
+    }
+    return output_stopping(w->held);
+}
+
+/* The numbers of --break into room, and --finest. */
+static int read_resolution(const build_words *given, double room[WORDS_MAX], vndf_build_options *options)
+{
+    for (size_t i = 0; i < given->breaks.count; i++)
+        if (!parse_numbers(name, "--break", given->breaks.item[i], 1e-30, 1e30, 1, 1, &room[i]))
+            return 0;
+    options->breaks = room;
+    options->break_count = given->breaks.count;
+    return option_number(name, "--finest", &given->finest, 1e-9, 1, &options->finest);
+}
+
+static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
+{
+    vndf_build_options options = {0};
+    vndf_error error = {VNDF_OK, ""};
+    unsigned long long bytes = 0;
+    double breaks[WORDS_MAX];
+    watch at = {held, isatty(STDERR_FILENO), NULL};
+    if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
+        !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv) ||
+        !read_resolution(given, breaks, &options))
+        return NULL;
+    options.max_bytes = (size_t)bytes;
+    options.progress = show_progress;
+    options.progress_user = &at;
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    if (at.shows)
+        fputs("\r\033[K", stderr);
+    if (!table && output_stopping(held))
+        complain(name, "%s; '%s' was not touched", error.message, only_word(&given->output));
+    else if (!table)
+        complain(name, "%s", error.message);
+    return table;
+}
+
+static int save_to_stdout(const vndf_distribution *table)
+{
+    vndf_error error = {VNDF_OK, ""};
+    size_t size = vndf_distribution_info(table).bytes;
+    void *bytes = malloc(size);
+    int good = bytes && vndf_save_memory(table, bytes, size, &error) == VNDF_OK;
+    if (good)
+        fwrite(bytes, 1, size, stdout);
+    free(bytes);
+    return good ? output_finish_stdout(name) : complain(name, "no memory for the table");
+}
+
+/* And says what it is, if there is a place for it. */
+static int save_table(const vndf_distribution *table, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    if (output_is_stdout(path))
+        return save_to_stdout(table);
+    if (vndf_save(table, path, &error) != VNDF_OK)
+        return complain(name, "%s", error.message);
+    vndf_info info = vndf_distribution_info(table);
+    describe_info(&info);
+    describe_certificate(&info.certificate);
+    return STATUS_GOOD;
+}
+
+static int build_and_save(const vndf_source *source, const build_words *given, unsigned held)
+{
+    if (!output_replaceable(name, only_word(&given->output)))
+        return STATUS_USE;
+    vndf_distribution *table = build_table(source, given, held);
+    if (!table)
+        return STATUS_USE;
+    int status = save_table(table, only_word(&given->output));
+    vndf_free(table);
+    return status;
+}
+
+static int check_words(const build_words *given)
+{
+    size_t sources = source_words_count(&given->source);
+    int set = source_words_check_set(name, &given->source);
+    if (sources != 1)
+        return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
+                        sources ? "more than one" : "none");
+    if (set == PARSE_GO_ON && !given->output.count)
+        return complain(name, "-o FILE is missing");
+    return set;
+}
+
+int command_build(int argc, char **argv)
+{
+    build_words given = {0};
+    words positional = {{NULL}, 0};
+    const option_form options[] = {
+        {"--ndf", 1, 1, &given.source.ndf},  {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
+        {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
+        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks}, {"--finest", 1, 1, &given.finest},
+        {"-o", 1, 1, &given.output},
+    };
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed == PARSE_GO_ON && given.list.count)
+        return print_list();
+    if (parsed == PARSE_GO_ON)
+        parsed = check_words(&given);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    vndf_source *source = source_from_words(name, &given.source);
+    if (!source)
+        return STATUS_USE;
+    unsigned held = output_hold_signals();
+    int status = build_and_save(source, &given, held);
+    vndf_source_free(source);
+    output_release_signals(held);
+    return status;
+}

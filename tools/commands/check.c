@@ -1,0 +1,272 @@
+/* vndf check: is a distribution what it claims to be? Three parts, and a fourth on demand, each printing lines
+ * that end with good or FAILED:
+ *   certificate  measured again against the source, compared with what the table says;
+ *   consistency  sample, pdf and invert agree with each other (consistency.h);
+ *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
+ *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/arguments.h"
+#include "measure/chi_square.h"
+#include "command.h"
+#include "measure/consistency.h"
+#include "cli/distribution.h"
+#include "commands/hard.h"
+#include "cli/output.h"
+#include "measure/statistics.h"
+#include "vndf_build.h"
+
+static const char name[] = "vndf check";
+
+static const char help[] =
+    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S]\n"
+    "       vndf check FILE|ggx|beckmann --at WIX,WIY,WIZ,AX,AY,U1,U2[,WOX,WOY,WOZ]\n"
+    "\n"
+    "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
+    "\n"
+    "  certificate  the numbers stored in the table against a new measurement from its source; more than\n"
+    "               20% (and 1e-7) worse fails. Closed forms have none.\n"
+    "  consistency  at 200000 random views (0 to 180 degrees, roughness 1e-3 to 1): normals are unit, above the\n"
+    "               surface and face the incident direction; where the projected area exceeds 1e-12, pdf gives\n"
+    "               the density that sample returned within 1e-5, and invert, then sample, gives the normal\n"
+    "               within 1e-5, or its uniform numbers come back within 8 steps of 2^-24.\n"
+    "  chi-square   N samples per view against the density integrated over 130 x 65 bins, at 0, 30, 60, 80, 89\n"
+    "               and 130 degrees, roughness 1 and 0.05 x 0.4 (azimuth 25 degrees). The bins divide the\n"
+    "               hemisphere stretched to the lobe, half of their borders evenly, half at quantiles; bins\n"
+    "               of expected count < 5 are pooled. Significance 0.01 for all tests together (Sidak); and\n"
+    "               the density has to integrate to 1 within 1e-5.\n"
+    "  hard         (with --hard) some 1.9 million samples: directions at, beside and below the normal, the\n"
+    "               horizon and straight down; roughness 1e-8 to 1e4, ratios up to 1e8; uniform numbers 0, the\n"
+    "               least float, 1/2 and its neighbours, 1 - 2^-24, 1. For each property the worst value, its\n"
+    "               limit, and the input that gave it, as words for --at.\n"
+    "\n"
+    "  --hard       adds the hard cases\n"
+    "  --at ...     one input alone: what the calls return there, and the properties of --hard\n"
+    "  --samples N  samples per chi-square test (default 1000000)\n"
+    "  --csv FILE   the CSV that the table was built from; without it such a certificate is not measured again\n"
+    "  --seed S     the stream of random numbers, a whole number (default 1)\n"
+    "\n"
+    "example: vndf check wavy.vndf --hard --samples 4000000\n";
+
+typedef struct check_words {
+    words samples, csv, seed, hard, at;
+} check_words;
+
+static const char *verdict(int good)
+{
+    return good ? "good" : "FAILED";
+}
+
+/* ---- certificate --------------------------------------------------------------------------------- */
+
+/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio. */
+static int compare(const char *what, float stored, float measured, double floor)
+{
+    double allowed = floor + 1.2 * ((double)stored - floor) + 1e-7;
+    int good = (double)measured <= allowed;
+    printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
+           verdict(good));
+    return good;
+}
+
+static int compare_certificates(const vndf_certificate *stored, const vndf_certificate *measured)
+{
+    int good = compare("tv", stored->tv, measured->tv, 0);
+    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0);
+    good &= compare("max_weight", stored->max_weight, measured->max_weight, 1);
+    good &= compare("area_error", stored->area_error, measured->area_error, 0);
+    good &= compare("consistency", stored->consistency, measured->consistency, 0);
+    good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0);
+    good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0);
+    good &= compare("hidden", stored->hidden, measured->hidden, 0);
+    good &= compare("finest", stored->finest, measured->finest, 0);
+    return good;
+}
+
+/* What the table was built from; NULL with the reason printed if that cannot be had. */
+static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
+{
+    vndf_error error = {VNDF_OK, ""};
+    *failed = csv && !input_named(name, csv);
+    if (*failed)
+        return NULL;
+    vndf_source *source = csv ? vndf_source_csv_file(csv, &error) : vndf_source_of(table, &error);
+    *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
+    if (*failed)
+        complain(name, "%s", error.message);
+    else if (!source)
+        printf("certificate  not measured again: %s\n", error.message);
+    return source;
+}
+
+static int check_certificate(const vndf_distribution *table, const char *csv)
+{
+    vndf_certificate measured;
+    vndf_error error = {VNDF_OK, ""};
+    int failed;
+    vndf_info info = vndf_distribution_info(table);
+    vndf_source *source = original_source(table, csv, &failed);
+    if (!source)
+        return failed ? STATUS_USE : STATUS_GOOD;
+    if (csv && strcmp(vndf_source_description(source), info.source) != 0)
+        printf("certificate  note: the table says %s\n             and the source is %s\n", info.source,
+               vndf_source_description(source));
+    vndf_status status = vndf_certify(table, source, &measured, &error);
+    vndf_source_free(source);
+    if (status != VNDF_OK)
+        return complain(name, "%s", error.message);
+    return compare_certificates(&info.certificate, &measured) ? STATUS_GOOD : STATUS_NO;
+}
+
+/* ---- consistency --------------------------------------------------------------------------------- */
+
+/* Where to look; the numbers are exact enough to come to the same floats. */
+static int finish_line(int good, const consistency_point *at)
+{
+    puts(verdict(good));
+    if (!good)
+        printf("             at theta %.17g phi %.17g alpha %.9g,%.9g u1 %.9g u2 %.9g\n", at->theta, at->phi,
+               (double)at->alpha_x, (double)at->alpha_y, (double)at->u1, (double)at->u2);
+    return good;
+}
+
+static int check_consistency(const vndf_distribution *distribution, unsigned long long seed)
+{
+    const double tolerance = 1e-5;
+    consistency found = consistency_measure(distribution, 200000, seed);
+    printf("consistency  %zu points (%zu see nothing), %zu invalid results ", found.points, found.blind,
+           found.invalid);
+    int good = finish_line(found.invalid == 0, &found.invalid_at);
+    printf("consistency  pdf against sample: worst relative difference %.3g of %zu ", found.worst_pdf,
+           found.measured);
+    good &= finish_line(found.worst_pdf <= tolerance, &found.pdf_at);
+    printf("consistency  invert, then sample: worst distance %.3g of %zu ", found.worst_invert, found.measured);
+    good &= finish_line(found.worst_invert <= tolerance, &found.invert_at);
+    return good ? STATUS_GOOD : STATUS_NO;
+}
+
+/* ---- chi-square ---------------------------------------------------------------------------------- */
+
+static const double angles[] = {0, 30, 60, 80, 89, 130};
+static const float roughness[][2] = {{1, 1}, {0.05f, 0.4f}};
+
+enum {
+    ANGLES = sizeof angles / sizeof angles[0],
+    ROUGHNESSES = sizeof roughness / sizeof roughness[0],
+    TESTS = ANGLES * ROUGHNESSES
+};
+
+static void print_chi_square(const chi_square *found, const vndf_surface *surface, double theta, double phi,
+                             int good)
+{
+    char alpha[32];
+    snprintf(alpha, sizeof alpha, "%gx%g", (double)surface->alpha_x, (double)surface->alpha_y);
+    printf("chi-square   %-9s %5g %4g ", alpha, theta, phi);
+    if (found->blind)
+        printf("  sees nothing");
+    else
+        printf("%6zu %6zu %12.1f %9.4f %10.1e", found->bins, found->pooled, found->statistic, found->p,
+               found->mass - 1);
+    if (found->unclaimed && !found->blind)
+        printf(" %zu samples have no density", found->unclaimed);
+    printf(" %s\n", verdict(good));
+}
+
+/* Below the horizon a narrow lobe may hold less than a float can tell from nothing. */
+static int is_good(const chi_square *found, const vndf_surface *surface, vndf_vec3 wi)
+{
+    if (found->blind)
+        return sees_nothing(surface, wi);
+    return found->p >= statistics_sidak(0.01, TESTS) && fabs(found->mass - 1) <= 1e-5 && found->unclaimed == 0;
+}
+
+static int check_view(const vndf_surface *surface, double theta, double phi, size_t samples,
+                      unsigned long long seed)
+{
+    chi_square found;
+    vndf_vec3 wi = direction_from(theta, phi);
+    if (!chi_square_test(surface, wi, samples, seed, &found))
+        return complain(name, "no memory");
+    int good = is_good(&found, surface, wi);
+    print_chi_square(&found, surface, theta, phi, good);
+    return good ? STATUS_GOOD : STATUS_NO;
+}
+
+static void show_progress(size_t done)
+{
+    if (isatty(STDERR_FILENO))
+        fprintf(stderr, "\r\033[Kchi-square: %zu of %d\r", done, (int)TESTS);
+}
+
+static int check_chi_square(const vndf_distribution *distribution, size_t samples, unsigned long long seed)
+{
+    int worst = STATUS_GOOD;
+    printf("chi-square   %zu samples per test, significance %.3g each\n", samples, statistics_sidak(0.01, TESTS));
+    printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
+    for (size_t r = 0; r < ROUGHNESSES; r++) {
+        vndf_surface surface = {distribution, roughness[r][0], roughness[r][1]};
+        double phi = surface.alpha_x == surface.alpha_y ? 0 : 25;
+        for (size_t a = 0; a < ANGLES; a++) {
+            show_progress(r * ANGLES + a);
+            int status = check_view(&surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
+            if (status == STATUS_USE)
+                return status;
+            if (status == STATUS_NO)
+                worst = status;
+        }
+    }
+    if (isatty(STDERR_FILENO))
+        fputs("\r\033[K", stderr);
+    return worst;
+}
+
+/* ---- the command --------------------------------------------------------------------------------- */
+
+static int check_all(const chosen_distribution *chosen, const check_words *given)
+{
+    unsigned long long samples = 1000000, seed = 1;
+    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &samples) ||
+        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed))
+        return STATUS_USE;
+    int certificate = STATUS_GOOD;
+    if (chosen->owned)
+        certificate = check_certificate(chosen->owned, only_word(&given->csv));
+    else if (given->csv.count)
+        return complain(name, "--csv is for tables; a closed form was not made of a CSV");
+    if (certificate == STATUS_USE)
+        return STATUS_USE;
+    int consistent = check_consistency(chosen->distribution, seed);
+    int follows = check_chi_square(chosen->distribution, (size_t)samples, seed);
+    if (follows == STATUS_USE)
+        return STATUS_USE;
+    int hard = given->hard.count ? hard_check(chosen->distribution, seed) : STATUS_GOOD;
+    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD &&
+               hard == STATUS_GOOD;
+    printf("result %s\n", verdict(good));
+    return good ? STATUS_GOOD : STATUS_NO;
+}
+
+int command_check(int argc, char **argv)
+{
+    check_words given = {0};
+    words positional = {{NULL}, 0};
+    chosen_distribution chosen;
+    const option_form options[] = {
+        {"--samples", 1, 1, &given.samples}, {"--csv", 1, 1, &given.csv}, {"--seed", 1, 1, &given.seed},
+        {"--hard", 0, 1, &given.hard}, {"--at", 1, 1, &given.at}};
+    const command_form form = {
+        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    if (!distribution_open(&chosen, name, only_word(&positional)))
+        return STATUS_USE;
+    int status = given.at.count ? hard_check_at(chosen.distribution, name, only_word(&given.at))
+                                : check_all(&chosen, &given);
+    distribution_close(&chosen);
+    return status;
+}

@@ -1,0 +1,78 @@
+/* vndf info: what a table says of itself; nothing is measured (`vndf check` does). */
+#include <stdio.h>
+
+#include "cli/arguments.h"
+#include "command.h"
+#include "commands/describe.h"
+#include "cli/distribution.h"
+
+static const char help[] =
+    "usage: vndf info FILE|ggx|beckmann\n"
+    "\n"
+    "Prints `key value` lines:\n"
+    "  source         how it was made, as arguments of `vndf build`\n"
+    "  tool           the version that made it\n"
+    "  bytes          size of the table; 0 for the closed forms\n"
+    "  radial_cells, azimuth_rows, azimuth_cells    its shape\n"
+    "  normalization  the D or P22 that was given was multiplied by this\n"
+    "  scale          median slope length at alpha = 1\n"
+    "and the certificate, as measured when the table was made, incident directions from 0 to 180 degrees:\n"
+    "  tv             largest total variation distance between sampled and true visible normals\n"
+    "  tv_theta       incident angle where it was found, degrees\n"
+    "  tv_above, tv_above_theta    the same for directions from 0 to 90 degrees\n"
+    "  max_weight     largest true/sampled density where all but 1e-6 of the mass is\n"
+    "  weight_bounded 1 if true/sampled is bounded everywhere\n"
+    "  area_error     largest relative error of the projected area, Lambda and G1\n"
+    "  consistency    largest |integral of pdf - 1|\n"
+    "  ndf_error      largest relative error of ndf where all but 1e-6 of the mass is\n"
+    "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
+    "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
+    "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
+    "\n"
+    "example: vndf info wavy.vndf\n";
+
+void describe_certificate(const vndf_certificate *certificate)
+{
+    printf("tv %.4g\n", (double)certificate->tv);
+    printf("tv_theta %.6g\n", (double)certificate->tv_theta);
+    printf("tv_above %.4g\n", (double)certificate->tv_above);
+    printf("tv_above_theta %.6g\n", (double)certificate->tv_above_theta);
+    printf("max_weight %.6g\n", (double)certificate->max_weight);
+    printf("weight_bounded %d\n", certificate->weight_bounded > 0);
+    printf("area_error %.4g\n", (double)certificate->area_error);
+    printf("consistency %.4g\n", (double)certificate->consistency);
+    printf("ndf_error %.4g\n", (double)certificate->ndf_error);
+    printf("hidden %.4g\n", (double)certificate->hidden);
+    printf("finest %.4g\n", (double)certificate->finest);
+    printf("horizon_power %.4g\n", (double)certificate->horizon_power);
+}
+
+void describe_info(const vndf_info *info)
+{
+    printf("source %s\n", info->source);
+    printf("tool %s\n", info->tool);
+    printf("bytes %zu\n", info->bytes);
+    printf("radial_cells %zu\n", info->radial_cells);
+    printf("azimuth_rows %zu\n", info->azimuth_rows);
+    printf("azimuth_cells %zu\n", info->azimuth_cells);
+    printf("normalization %.17g\n", info->normalization);
+    printf("scale %.9g\n", info->scale);
+}
+
+int command_info(int argc, char **argv)
+{
+    const command_form form = {"vndf info", help, NULL, 0, "FILE|ggx|beckmann", 1, 1};
+    words positional = {{NULL}, 0};
+    chosen_distribution chosen;
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    if (!distribution_open(&chosen, form.command, only_word(&positional)))
+        return STATUS_USE;
+    vndf_info info = vndf_distribution_info(chosen.distribution);
+    describe_info(&info);
+    if (chosen.owned)
+        describe_certificate(&info.certificate);
+    distribution_close(&chosen);
+    return STATUS_GOOD;
+}

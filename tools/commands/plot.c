@@ -1,0 +1,129 @@
+/* vndf plot: one figure that shows a distribution and its visible normals. This file reads the options
+ * and lays out the page; panel_ndf.c and panel_disc.c draw. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "command.h"
+#include "cli/distribution.h"
+#include "cli/output.h"
+#include "draw/panels.h"
+#include "draw/svg.h"
+
+static const char name[] = "vndf plot";
+
+static const char help[] =
+    "usage: vndf plot FILE|ggx|beckmann [--theta A,B,...] [--alpha AX[,AY]] -o OUT.svg\n"
+    "\n"
+    "Draws D against the angle of the normal, and for each incident direction the visible normals: their\n"
+    "density as colour and 350 samples as dots, on the hemisphere seen from above (equal-area projection).\n"
+    "\n"
+    "  --theta A,B,...  incident angles from the normal in degrees, 0 to 180, at most 8 (default 0,45,80,100)\n"
+    "  --alpha AX[,AY]  roughness along x and y (default 1)\n"
+    "  -o OUT.svg       the figure; - for stdout\n"
+    "\n"
+    "example: vndf plot wavy.vndf --theta 0,60 -o wavy.svg\n";
+
+enum { DISCS_MAX = 8 };
+
+typedef struct figure_plan {
+    vndf_surface surface;
+    double theta[DISCS_MAX];
+    size_t count;
+} figure_plan;
+
+/* ---- the page ------------------------------------------------------------------------------------ */
+
+static const double margin = 20, header = 64, left_width = 420, disc_width = 290, disc_height = 300;
+
+static size_t columns_of(const figure_plan *figure)
+{
+    return figure->count <= 3 ? figure->count : (figure->count + 1) / 2;
+}
+
+static void draw_header(FILE *file, const figure_plan *figure, double width)
+{
+    char title[128], roughness[64];
+    const char *source = vndf_distribution_info(figure->surface.distribution).source;
+    size_t fits = (size_t)(width - 2 * margin) / 9 - 20;
+    int shown = (int)(fits < 100 ? fits : 100);
+    const char *cut = strlen(source) > (size_t)shown ? "..." : "";
+    snprintf(title, sizeof title, "Visible normals of %.*s%s", shown, source, cut);
+    snprintf(roughness, sizeof roughness, "αx = %.4g, αy = %.4g", (double)figure->surface.alpha_x,
+             (double)figure->surface.alpha_y);
+    svg_text(file, margin, 30, 18, SVG_START, title);
+    svg_text(file, margin, 50, 13, SVG_START, roughness);
+}
+
+/* What colour, dots and marks of the discs mean. */
+static int draw_key(FILE *file, double x, double y)
+{
+    svg_text(file, x, y, 12, SVG_START, "density of visible normals, relative to the darkest of each disc");
+    int good = svg_ramp(file, x, y + 8, 300, 12);
+    svg_text(file, x, y + 34, 11, SVG_START, "0");
+    svg_text(file, x + 75, y + 34, 11, SVG_MIDDLE, "1/16");
+    svg_text(file, x + 150, y + 34, 11, SVG_MIDDLE, "1/4");
+    svg_text(file, x + 300, y + 34, 11, SVG_END, "1");
+    svg_circle(file, x + 5, y + 50, 1.8, "#f76707", "none", 0);
+    svg_text(file, x + 16, y + 54, 12, SVG_START, "sample");
+    svg_circle(file, x + 87, y + 50, 5, "none", "#212529", 1.6);
+    svg_text(file, x + 99, y + 54, 12, SVG_START, "incident direction (arrow: beyond the rim)");
+    return good;
+}
+
+static int draw_figure(FILE *file, const figure_plan *figure)
+{
+    size_t columns = columns_of(figure), rows = (figure->count + columns - 1) / columns;
+    double width = 2 * margin + left_width + disc_width * (double)columns;
+    double height = header + disc_height * (double)(rows > 1 ? rows : 1) + (rows > 1 ? margin : 120);
+    panel_box left = {margin, header, left_width, height - header - 80};
+    svg_begin(file, width, height);
+    draw_header(file, figure, width);
+    panel_ndf(file, left, &figure->surface);
+    int good = draw_key(file, margin + 20, height - 72);
+    for (size_t i = 0; i < figure->count && good; i++) {
+        panel_box box = {margin + left_width + disc_width * (double)(i % columns),
+                         header + disc_height * (double)(i / columns), disc_width, disc_height};
+        good = panel_disc(file, box, &figure->surface, figure->theta[i], (unsigned)(i + 1));
+    }
+    svg_end(file);
+    return good;
+}
+
+/* ---- the command --------------------------------------------------------------------------------- */
+
+static int plot_to_file(const figure_plan *figure, const char *path)
+{
+    output_file output;
+    if (!output_is_stdout(path) && strcmp(output_extension(path), "svg") != 0)
+        return complain(name, "-o '%s': the name has to end in .svg, or be - for stdout", path);
+    if (!output_open(&output, name, path))
+        return STATUS_USE;
+    if (draw_figure(output.file, figure) && !output_interrupted(&output))
+        return output_commit(&output);
+    return output_give_up(&output, output_interrupted(&output) ? "interrupted" : "no memory");
+}
+
+int command_plot(int argc, char **argv)
+{
+    words theta = {{NULL}, 0}, alpha = {{NULL}, 0}, path = {{NULL}, 0}, positional = {{NULL}, 0};
+    chosen_distribution chosen;
+    figure_plan figure = {{NULL, 1, 1}, {0, 45, 80, 100}, 4};
+    const option_form options[] = {{"--theta", 1, 1, &theta}, {"--alpha", 1, 1, &alpha}, {"-o", 1, 1, &path}};
+    const command_form form = {
+        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    if (!path.count)
+        return complain(name, "-o OUT.svg is missing");
+    if (theta.count)
+        figure.count = parse_numbers(name, "--theta", only_word(&theta), 0, 180, 1, DISCS_MAX, figure.theta);
+    if (figure.count == 0 || !roughness_from(name, only_word(&alpha), &figure.surface) ||
+        !distribution_open(&chosen, name, only_word(&positional)))
+        return STATUS_USE;
+    figure.surface.distribution = chosen.distribution;
+    int status = plot_to_file(&figure, only_word(&path));
+    distribution_close(&chosen);
+    return status;
+}

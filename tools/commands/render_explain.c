@@ -1,0 +1,228 @@
+/* What each effect costs in a scene: the same pixels and numbers are rendered on one thread with all effects and
+ * with one of them left out, in turns, and the medians of the times count. What is left out changes where paths
+ * go, so both the time of a path and its rays are told: an effect may also save time, by ending paths.
+ *
+ * Leaving out the microfacets makes their materials smooth, mirror or glass: what is left is the cost of finding
+ * rays, and the rest of a segment is shading by this library. */
+#include "commands/render_explain.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/arguments.h"
+#include "cli/clock.h"
+#include "command.h"
+#include "cli/random.h"
+#include "render/path/parts.h"
+
+enum { TURNS = 15, VARIANTS_MAX = 16 };
+
+static const double turn_seconds = 0.02; /* of one variant */
+
+typedef struct effect_word {
+    unsigned effect;
+    int can_leave;
+    const char *name, *without; /* what it is, and what stands for it when it is left out */
+} effect_word;
+
+static const effect_word effect_words[] = {
+    {EFFECT_MICROFACETS, 1, "microfacets", "smooth materials of the same kind"},
+    {EFFECT_REFRACTION, 0, "refraction", NULL},
+    {EFFECT_MULTIPLE, 1, "multiple scattering", "single scattering"},
+    {EFFECT_TEXTURED_ALPHA, 1, "textured roughness", "the roughness beside the map"},
+    {EFFECT_ROTATED_AXES, 1, "rotated axes", "axes as the shape has them"},
+    {EFFECT_COLOUR_MAPS, 1, "maps of colour", "the colour beside the map"},
+    {EFFECT_MATTE, 0, "matte surfaces", NULL},
+    {EFFECT_SPECULAR, 0, "smooth surfaces", NULL},
+    {EFFECT_ABSORPTION, 1, "absorption", "clear bodies"},
+    {EFFECT_MESHES, 0, "triangles", NULL},
+    {EFFECT_LIGHTS, 1, "lights, drawn", "lights that paths meet"},
+    {EFFECT_ENVIRONMENT, 0, "light from far away", NULL},
+    {EFFECT_ENVIRONMENT_MAP, 1, "environment image, drawn", "an image that paths meet"},
+};
+
+enum { EFFECT_WORDS = sizeof effect_words / sizeof effect_words[0] };
+
+typedef struct variant {
+    const effect_word *word; /* NULL: all effects */
+    path_plan *plan;
+    path_counts counts;
+    int is_repeated;        /* every call of the library is made twice: see repeat.c */
+    double ns[TURNS], segment_ns[TURNS], ray_ns[TURNS]; /* a path, a segment of it, a ray of either kind */
+    double saves[TURNS];    /* of the time of a path with all effects */
+} variant;
+
+/* ---- measuring ---- */
+
+/* `count` paths through pixels all over the film. */
+static path_counts trace(const variant *v, const scene *s, uint64_t seed, size_t count)
+{
+    random_stream stream = random_from(seed);
+    path_counts counts = {0, 0, 0, 0};
+    for (size_t i = 0; i < count; i++) {
+        float rgb[3];
+        int x = (int)(random_bits(&stream) % (uint64_t)s->width);
+        int y = (int)(random_bits(&stream) % (uint64_t)s->height);
+        path_trace(v->plan, x, y, i, seed, &counts, rgb);
+    }
+    return counts;
+}
+
+static void time_turn(variant *v, const scene *s, int turn, size_t count)
+{
+    double start = clock_seconds();
+    path_counts counts = trace(v, s, (uint64_t)turn, count);
+    double ns = 1e9 * (clock_seconds() - start);
+    v->ns[turn] = ns / (double)count;
+    v->segment_ns[turn] = ns / (double)counts.segments;
+    v->ray_ns[turn] = ns / (double)(counts.segments + counts.shadow_rays);
+    v->counts.paths += counts.paths;
+    v->counts.segments += counts.segments;
+    v->counts.shadow_rays += counts.shadow_rays;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* As many paths as take a turn, found by doubling. */
+static size_t paths_of_turn(const variant *all, const scene *s)
+{
+    size_t count = 64;
+    for (double spent = 0; spent < turn_seconds / 2; count *= 2) {
+        double start = clock_seconds();
+        trace(all, s, 1000, count);
+        spent = clock_seconds() - start;
+    }
+    return count;
+}
+
+static void measure(variant *list, size_t count, const scene *s)
+{
+    size_t paths = paths_of_turn(&list[0], s);
+    for (int turn = 0; turn < TURNS; turn++)
+        for (size_t i = 0; i < count; i++)
+            time_turn(&list[i], s, turn, paths);
+    for (size_t i = 0; i < count; i++)
+        for (int turn = 0; turn < TURNS; turn++)
+            list[i].saves[turn] = 1 - list[i].ns[turn] / list[0].ns[turn];
+    for (size_t i = 0; i < count; i++) {
+        qsort(list[i].saves, TURNS, sizeof list[i].saves[0], ascending);
+        qsort(list[i].ns, TURNS, sizeof list[i].ns[0], ascending);
+        qsort(list[i].segment_ns, TURNS, sizeof list[i].segment_ns[0], ascending);
+        qsort(list[i].ray_ns, TURNS, sizeof list[i].ray_ns[0], ascending);
+    }
+}
+
+/* ---- variants ---- */
+
+/* All effects first; then each that the scene calls for and that can be left out; at last all with the library's
+ * calls made twice. The count; 0 after a complaint. */
+static size_t prepare(const char *command, const scene *s, path_sampler sampler, variant list[VARIANTS_MAX])
+{
+    char message[512];
+    size_t count = 0;
+    list[0] = (variant){.plan = path_prepare(s, sampler, 0, message, sizeof message)};
+    if (list[0].plan)
+        count = 1;
+    for (size_t i = 0; i < EFFECT_WORDS && count; i++) {
+        const effect_word *word = &effect_words[i];
+        if (!word->can_leave || !(path_effects(list[0].plan) & word->effect))
+            continue;
+        list[count] = (variant){.word = word,
+                                .plan = path_prepare(s, sampler, word->effect, message, sizeof message)};
+        if (list[count].plan)
+            count++;
+    }
+    if (!count)
+        return complain(command, "%s", message), 0;
+    list[count] = (variant){.is_repeated = 1, .plan = path_prepare(s, sampler, 0, message, sizeof message)};
+    if (list[count].plan)
+        path_repeat(list[count++].plan);
+    return count;
+}
+
+/* ---- printing ---- */
+
+static const variant *without(const variant *list, size_t count, const effect_word *word)
+{
+    for (size_t i = 1; i < count; i++)
+        if (list[i].word == word && !list[i].is_repeated)
+            return &list[i];
+    return NULL;
+}
+
+static void print_line(const char *what, const variant *v)
+{
+    printf("  %-26s %10.0f %9.2f %9.2f %9.0f %9.0f\n", what, v->ns[TURNS / 2],
+           (double)v->counts.segments / (double)v->counts.paths,
+           (double)v->counts.shadow_rays / (double)v->counts.paths, v->segment_ns[TURNS / 2],
+           v->ray_ns[TURNS / 2]);
+}
+
+static void print_effects(const variant *list, size_t count)
+{
+    unsigned effects = path_effects(list[0].plan);
+    puts("what this scene calls for, and what stands for it when it is left out:");
+    for (size_t i = 0; i < EFFECT_WORDS; i++) {
+        const effect_word *word = &effect_words[i];
+        const variant *v = without(list, count, word);
+        if (!(effects & word->effect))
+            continue;
+        if (!v)
+            printf("  %-26s (cannot be left out)\n", word->name);
+        else
+            printf("  %-26s %+7.1f%% ± %.1f of the time of a path, over %s\n", word->name,
+                   100 * v->saves[TURNS / 2], 50 * (v->saves[3 * TURNS / 4] - v->saves[TURNS / 4]), word->without);
+    }
+    puts("(a minus: without it paths go on for longer, or their time differs by less than can be told)");
+    fputs("nothing is run for:", stdout);
+    for (size_t i = 0, said = 0; i < EFFECT_WORDS; i++)
+        if (!(effects & effect_words[i].effect))
+            printf("%s %s", said++ ? "," : "", effect_words[i].name);
+    puts("\n");
+}
+
+static void print_share(const variant *list, size_t count)
+{
+    const variant *smooth = without(list, count, &effect_words[0]), *all = &list[0];
+    printf("\n%.3g rays/s and %.3g paths/s on one thread\n", 1e9 / all->ray_ns[TURNS / 2],
+           1e9 / all->ns[TURNS / 2]);
+    if (!smooth)
+        return;
+    double ratio = all->segment_ns[TURNS / 2] / smooth->segment_ns[TURNS / 2];
+    double rays = all->ray_ns[TURNS / 2] / smooth->ray_ns[TURNS / 2];
+    printf("a segment of a path costs %.2f times what it costs with smooth materials, a ray %.2f times (aim: 2);\n"
+           "microfacets take %.0f%% of the time of a segment, with the rays to the lights that they ask for\n",
+           ratio, rays, 100 * (1 - 1 / ratio));
+    if (list[count - 1].is_repeated)
+        printf("this library takes %.0f%% of the time of a path: what its calls cost when they are made twice\n",
+               100 * (list[count - 1].ns[TURNS / 2] / all->ns[TURNS / 2] - 1));
+}
+
+int render_explain(const char *command, const scene *s, path_sampler sampler)
+{
+    variant *list = calloc(VARIANTS_MAX, sizeof *list);
+    size_t count = list ? prepare(command, s, sampler, list) : 0;
+    if (!list)
+        return complain(command, "no memory");
+    if (count) {
+        measure(list, count, s);
+        print_effects(list, count);
+        puts("                                ns, path  segments   shadow  ns, segment   ns, ray");
+        print_line("all", &list[0]);
+        for (size_t i = 1; i < count; i++) {
+            char what[64];
+            snprintf(what, sizeof what, "%s%s", list[i].is_repeated ? "" : "no ",
+                     list[i].is_repeated ? "all, the library twice" : list[i].word->name);
+            print_line(what, &list[i]);
+        }
+        print_share(list, count);
+    }
+    for (size_t i = 0; i < count; i++)
+        path_free(list[i].plan);
+    free(list);
+    return count ? STATUS_GOOD : STATUS_USE;
+}

@@ -1,0 +1,51 @@
+/* The page: head with style, sections with a title, and the data behind each plot, which stands as a file beside
+ * the page and once more inside it. All of it is held in memory until it is written at once. */
+#ifndef TOOLS_DRAW_PAGE_H
+#define TOOLS_DRAW_PAGE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
+
+typedef struct page_file {
+    char name[PAGE_NAME_MAX];
+    char *text; /* owned */
+    size_t size;
+} page_file;
+
+typedef struct html_page {
+    const char *command; /* that makes it */
+    FILE *html;       /* to write to */
+    page_file file[PAGE_FILES_MAX]; /* the first is the page itself */
+    size_t count;
+    FILE *data;       /* open between page_file_begin and its end */
+} html_page;
+
+/* OF-WHAT, with what is no letter or digit of `of` as a hyphen: the name of a file beside the page. */
+void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what);
+
+/* By this, near its beginning, a page is known as one of `command`; room for PAGE_MARK_MAX. */
+enum { PAGE_MARK_MAX = 96 };
+void page_mark(char mark[PAGE_MARK_MAX], const char *command);
+
+/* 0 if there is no memory; page_free is due in any case. */
+int page_begin(html_page *page, const char *command, const char *title);
+int page_end(html_page *page);
+void page_free(html_page *page);
+
+/* A heading with a line or two below it; both are plain text. */
+void page_section(html_page *page, const char *id, const char *title, const char *lead);
+void page_section_end(html_page *page);
+
+/* A new file beside the page, to be filled; NULL if there is no memory. */
+FILE *page_file_begin(html_page *page, const char *name);
+int page_file_end(html_page *page);
+
+/* Ends a file that the page links and shows inside, folded. */
+int page_data_end(html_page *page, const char *what);
+
+/* A field of a row between quotes. */
+void page_field(FILE *data, const char *text);
+
+#endif

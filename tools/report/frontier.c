@@ -1,0 +1,207 @@
+/* The frontier: error against time. Every row of tools/bench/bench.h is a point; tables of this library are joined over
+ * their sizes, a curve for each instruction set. What is exact stands in a band of its own: a logarithm has
+ * no 0. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/chart.h"
+#include "report/report.h"
+
+enum { ROWS_MAX = 96, LABEL = 160, SERIES_MAX = 16 };
+
+static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
+static const char *const set_names[] = {"one by one", "batch, portable", "batch, AVX2", "batch, AVX-512"};
+static const unsigned set_colours[] = {0, 3, 2, 1};
+
+enum { SETS = sizeof sets / sizeof sets[0] };
+
+static const double rounding = 3e-6;
+
+typedef struct frontier {
+    double x[SERIES_MAX][ROWS_MAX], y[SERIES_MAX][ROWS_MAX];
+    char label[SERIES_MAX][ROWS_MAX][LABEL];
+    const char *text[SERIES_MAX][ROWS_MAX];
+    chart_series series[SERIES_MAX];
+    size_t count;
+    double low_x, high_x, low_y, high_y;
+    char title[160];
+    chart_key key[3 + SETS];
+    size_t key_count;
+} frontier;
+
+static int is_shown(const bench_row *row)
+{
+    return row->kind <= BENCH_TABLE && !row->wrong && row->ns > 0 && row->tv >= 0 && row->tv <= 1;
+}
+
+/* 1 if the method's name says what it samples, in any case of letters. */
+static int names_distribution(const bench_row *row)
+{
+    size_t length = strlen(row->distribution);
+    for (const char *at = row->method; *at; at++) {
+        size_t same = 0;
+        while (same < length && at[same] && tolower((unsigned char)at[same]) ==
+                                                tolower((unsigned char)row->distribution[same]))
+            same++;
+        if (same == length)
+            return 1;
+    }
+    return 0;
+}
+
+/* Of a table only the size, since shape and line tell the rest; colours tell batches. */
+static void label_row(const bench_row *row, char label[LABEL])
+{
+    const char *batch = strstr(row->method, ", batch");
+    int length = batch ? (int)(batch - row->method) : (int)strlen(row->method);
+    if (row->kind == BENCH_TABLE)
+        report_bytes_text(label, (double)row->bytes);
+    else if (names_distribution(row) || row->bytes > 0)
+        snprintf(label, LABEL, "%.*s", length, row->method);
+    else
+        snprintf(label, LABEL, "%.*s, %s", length, row->method, row->distribution);
+}
+
+/* What is left of an exact method is the rounding of floats, which the comparison with a density cannot tell from
+ * an error of that size. */
+static double error_of(const bench_row *row)
+{
+    return row->kind != BENCH_TABLE && row->tv < rounding ? 0 : row->tv;
+}
+
+static void add_row(frontier *f, const bench_row *row)
+{
+    chart_series *s = &f->series[f->count];
+    size_t at = s->count;
+    if (at == ROWS_MAX)
+        return;
+    f->x[f->count][at] = row->ns;
+    f->y[f->count][at] = error_of(row);
+    label_row(row, f->label[f->count][at]);
+    f->text[f->count][at] = f->label[f->count][at];
+    s->count++;
+    f->low_x = fmin(f->low_x, row->ns);
+    f->high_x = fmax(f->high_x, row->ns);
+    if (f->y[f->count][at] > 0) {
+        f->low_y = fmin(f->low_y, row->tv);
+        f->high_y = fmax(f->high_y, row->tv);
+    }
+}
+
+/* The rows of one kind and instruction set; a series if there are any. */
+static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, size_t set)
+{
+    static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
+    chart_series *s = &f->series[f->count];
+    *s = (chart_series){NULL, f->x[f->count], f->y[f->count], 0, set_colours[set], marks[kind],
+                        kind == BENCH_TABLE ? CHART_SOLID : CHART_NO_LINE, f->text[f->count]};
+    for (size_t i = 0; i < rows->count; i++)
+        if (rows->row[i].kind == kind && is_shown(&rows->row[i]) &&
+            strcmp(rows->row[i].instructions, sets[set]) == 0)
+            add_row(f, &rows->row[i]);
+    f->count += s->count > 0;
+}
+
+static void collect(frontier *f, const bench_rows *rows)
+{
+    *f = (frontier){.low_x = HUGE_VAL, .low_y = HUGE_VAL};
+    for (size_t set = 0; set < SETS; set++)
+        for (int kind = BENCH_PUBLISHED; kind <= BENCH_TABLE; kind++)
+            add_series(f, rows, (bench_kind)kind, set);
+}
+
+/* Shapes say who, colours say how many at once: those that occur. */
+static void fill_key(frontier *f)
+{
+    static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},
+                                       {"its closed forms", 7, CHART_SQUARE},
+                                       {"others' methods, from the publications", 7, CHART_TRIANGLE}};
+    f->key_count = 0;
+    for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++)
+        f->key[f->key_count++] = shapes[i];
+    for (size_t set = 0; set < SETS; set++) {
+        int seen = 0;
+        for (size_t k = 0; k < f->count; k++)
+            seen = seen || f->series[k].colour == set_colours[set];
+        if (seen)
+            f->key[f->key_count++] = (chart_key){set_names[set], set_colours[set], CHART_NO_MARK};
+    }
+}
+
+static chart chart_of(frontier *f, const char *name)
+{
+    snprintf(f->title, sizeof f->title, "Error against time: tables of %s beside other methods", name);
+    fill_key(f);
+    chart c = {f->title, NULL, 1080, 710, 20,
+               {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
+               {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
+               "exact", 100, f->series, f->count, f->key, f->key_count};
+    chart_fit(&c.x, f->low_x, f->high_x);
+    chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
+    c.x.low = fmax(c.x.low, f->low_x / 1.6);
+    c.x.high = fmin(c.x.high, f->high_x * 2.5);
+    return c;
+}
+
+static void write_number(FILE *data, double value)
+{
+    if (isnan(value))
+        fputc(',', data);
+    else
+        fprintf(data, ",%.5g", value);
+}
+
+static int write_data(html_page *page, const bench_rows *rows)
+{
+    FILE *data = page_file_begin(page, "frontier.csv");
+    if (!data)
+        return 0;
+    fputs("method,distribution,instructions,bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
+          "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n", data);
+    for (size_t i = 0; i < rows->count; i++) {
+        const bench_row *row = &rows->row[i];
+        const double values[] = {row->ns, row->ns_low, row->ns_high, row->ratio, row->tv, row->tv_theta,
+                                 row->max_weight, row->efficiency[0], row->efficiency[1], row->efficiency_light,
+                                 row->bias[0], row->bias[1]};
+        page_field(data, row->method);
+        fputc(',', data);
+        page_field(data, row->distribution);
+        fprintf(data, ",%s,%zu", row->instructions, row->bytes);
+        for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
+            write_number(data, values[k]);
+        fputc('\n', data);
+    }
+    return page_data_end(page, "all methods, as vndf bench measures them");
+}
+
+static int write_alone(html_page *page, const chart *c)
+{
+    FILE *file = page_file_begin(page, "frontier.svg");
+    if (!file)
+        return 0;
+    chart_draw_alone(file, c);
+    return page_file_end(page);
+}
+
+int report_write_frontier(html_page *page, const report *r)
+{
+    frontier *f = malloc(sizeof *f);
+    if (!f)
+        return 0;
+    collect(f, &r->rows);
+    chart c = chart_of(f, r->subject[0].name);
+    page_section(
+        page, "frontier", "Error against time",
+        "Every way of sampling visible normals that was measured here: further left is faster, further down "
+        "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The "
+        "band at the bottom holds what is exact but for the rounding of floats.");
+    fputs("<figure class=\"scroll wide\">\n", page->html);
+    chart_draw(page->html, &c);
+    fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);
+    int good = write_data(page, &r->rows) && write_alone(page, &c);
+    free(f);
+    page_section_end(page);
+    return good;
+}

@@ -1,0 +1,124 @@
+/* What the parts of `vndf report` share.
+ *
+ *   report.c            the command: words, order of work, progress
+ *   subject.c    a distribution of normals, its tables of several sizes, and how far each is from the truth
+ *   time.c       nanoseconds of view, sample and pdf, one by one and in batches
+ *   variance.c   the noise of two integrals that are estimated with the samples
+ *   advice.c     which table to ship; and the same as a table
+ *   frontier.c   error against time, with the rows of tools/bench/bench.h
+ *   bytes.c      error against bytes, likewise
+ *   theta.c      error against the angle of incidence
+ *   normals.c    density and samples (tools/draw/panels.h)
+ *   page.c              the page's frame, its sections and the data behind them
+ *   folder.c            files that appear together or not at all
+ */
+#ifndef TOOLS_REPORT_REPORT_H
+#define TOOLS_REPORT_REPORT_H
+
+#include <stddef.h>
+
+#include "bench/bench.h"
+#include "draw/page.h"
+#include "vndf_build.h"
+
+enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
+
+/* How far drawn visible normals are from the true ones, from one direction. NaN where less is visible than
+ * 1e-10 of what is at grazing incidence. */
+typedef struct report_error {
+    double tv;         /* total variation: half the integral of |drawn - true| */
+    double variance;   /* that of the weight true/drawn: what an estimator of something constant has left */
+    double max_weight; /* the largest weight met */
+} report_error;
+
+/* Median nanoseconds per call, of what is drawn or evaluated for random directions. */
+typedef struct report_time {
+    double view, sample, pdf;   /* one by one: the view; what a sample with its density adds; a given normal */
+    double batch, batch_shared; /* vndf_sample_n, view included: a direction each; one direction for all */
+} report_time;
+
+typedef struct report_table {
+    size_t asked;              /* --max-bytes */
+    vndf_distribution *table;
+    vndf_info info;
+    report_error error[REPORT_ANGLES], worst;
+    double tv;                 /* the larger of what the certificate and the angles here say */
+    double tv_above;           /* the largest total variation from above the horizon */
+    report_time time;
+} report_table;
+
+typedef struct report_subject {
+    char name[64];             /* for people, cut to fit */
+    char arguments[512];       /* of `vndf build`, for a shell; cut to fit */
+    int brought;               /* by the user */
+    vndf_source *source;
+    vndf_truth *truth;
+    report_table table[REPORT_SIZES];
+    size_t count;
+    size_t left_out;           /* sizes for which the time did not suffice */
+    size_t chosen;             /* the recommended table */
+} report_subject;
+
+/* Noise of an integral: relative root mean square error of the mean of 1, 4, 16 ... samples. */
+typedef struct report_noise {
+    char method[64];
+    double error[REPORT_COUNTS];
+} report_noise;
+
+typedef struct report_integral {
+    char title[96];
+    double truth;
+    report_noise noise[REPORT_METHODS];
+    size_t count;
+} report_integral;
+
+typedef struct report {
+    report_subject subject[REPORT_SUBJECTS];
+    size_t count;
+    report_time ggx, beckmann;
+    report_integral integral[2];
+    bench_rows rows;
+} report;
+
+/* Tells how far the work is, in [0, 1] of the step at hand; nonzero: stop. */
+typedef struct report_watch {
+    vndf_progress *progress;
+    void *user;
+} report_watch;
+
+double report_theta(size_t angle);
+
+/* "16 KiB", "1 MiB", "25.8 KiB", to 3%. */
+void report_bytes_text(char text[16], double bytes);
+
+/* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
+
+/* Takes the source; free with report_subject_free whatever is returned. `name` is cut to fit. */
+vndf_status report_subject_begin(report_subject *subject, vndf_source *source, const char *name,
+                                 const char *arguments, vndf_error *error);
+
+/* Builds the tables up to `largest` bytes, smallest first, as long as a next one is likely to end before `seconds`
+ * have been spent, and measures them; two at least. */
+vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds,
+                                 const report_watch *watch, vndf_error *error);
+void report_subject_free(report_subject *subject);
+
+/* Which of its tables to ship. */
+void report_choose(report_subject *subject);
+
+report_time report_time_of(const vndf_distribution *distribution);
+
+/* The albedo of a conductor at 60 and 85 degrees. */
+void report_variance_measure(const report_subject *subject, report_integral integral[2]);
+
+/* ---- writing: one section each; 0 if there is no memory ---- */
+
+int report_write_advice(html_page *page, const report *r);
+int report_write_frontier(html_page *page, const report *r);
+int report_write_bytes(html_page *page, const report *r);
+int report_write_theta(html_page *page, const report *r);
+int report_write_normals(html_page *page, const report *r);
+int report_write_variance(html_page *page, const report *r);
+int report_write_time(html_page *page, const report *r);
+
+#endif
