@@ -120,31 +120,31 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
  * escaped it. A callback can only be sampled: hidden is 1, and what is narrower than `finest` times its slope may
  * have escaped. */
 typedef struct vndf_certificate {
-    float tv;          /* largest total variation distance between sampled and true visible normals */
-    float tv_theta;    /* the incident angle where it was found, degrees */
-    float tv_above;    /* the same over directions from 0 to 90 degrees */
+    float tv;       /* largest total variation distance between sampled and true visible normals */
+    float tv_theta; /* the incident angle where it was found, degrees */
+    float tv_above; /* the same over directions from 0 to 90 degrees */
     float tv_above_theta;
-    float max_weight;  /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
+    float max_weight;     /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
-    float area_error;  /* largest relative error of the projected area, hence of Lambda and G1 */
-    float consistency; /* largest |integral of the pdf - 1| */
-    float ndf_error;   /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
-    float hidden;      /* part that may have escaped, in [0, 1]: see above */
-    float finest;      /* relative width of slope; 0 if nothing narrower escapes either */
-    float horizon_power; /* p < 0 if D grows as cos(theta_m)^p towards the horizon, so that angular grids of a
+    float area_error;     /* largest relative error of the projected area, hence of Lambda and G1 */
+    float consistency;    /* largest |integral of the pdf - 1| */
+    float ndf_error;      /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
+    float hidden;         /* part that may have escaped, in [0, 1]: see above */
+    float finest;         /* relative width of slope; 0 if nothing narrower escapes either */
+    float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, so that angular grids of a
                           * host cannot resolve it; 0 if D is bounded there */
 } vndf_certificate;
 
 /* What a distribution is. Strings belong to the distribution. */
 typedef struct vndf_info {
-    const char *source;      /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
-    const char *tool;        /* version that made it, "vndf 0.1.0" */
-    size_t bytes;            /* size of the table file; 0 for closed forms */
-    size_t radial_cells;     /* cells of the radial table */
-    size_t azimuth_rows;     /* rows of the azimuth tables, above and below the horizon together */
-    size_t azimuth_cells;    /* cells of a row above the horizon */
-    double normalization;    /* the given D or P22 was multiplied by this */
-    double scale;            /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
+    const char *source;   /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
+    const char *tool;     /* version that made it, "vndf 0.1.0" */
+    size_t bytes;         /* size of the table file; 0 for closed forms */
+    size_t radial_cells;  /* cells of the radial table */
+    size_t azimuth_rows;  /* rows of the azimuth tables, above and below the horizon together */
+    size_t azimuth_cells; /* cells of a row above the horizon */
+    double normalization; /* the given D or P22 was multiplied by this */
+    double scale;         /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
     vndf_certificate certificate;
 } vndf_info;
 
@@ -163,15 +163,15 @@ typedef struct vndf_surface {
  * lives. Its members are private, and may change between versions. */
 typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
-    vndf_vec3 wi;                  /* as given: a rounding to unit length would move the horizon */
-    double alpha_x, alpha_y;       /* roughness times the table's own slope scale */
-    float ax, ay;                  /* the same */
-    int plain;                     /* densities may be formed in float */
-    float closed[12];              /* closed forms: what drawing in float takes, 0 where it is not plain */
+    vndf_vec3 wi;                          /* as given: a rounding to unit length would move the horizon */
+    double alpha_x, alpha_y;               /* roughness times the table's own slope scale */
+    float ax, ay;                          /* the same */
+    int plain;                             /* densities may be formed in float */
+    float closed[12];                      /* closed forms: what drawing in float takes, 0 where it is not plain */
     /* The others are of tables, and 0 for closed forms. */
-    float s, c, cos_phi, sin_phi;  /* stretched direction: across (>= 0), along z; its azimuth */
-    float front, wedge;            /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
-    float area, spread;            /* projected area of the unit problem; times ax ay */
+    float s, c, cos_phi, sin_phi; /* stretched direction: across (>= 0), along z; its azimuth */
+    float front, wedge;           /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
+    float area, spread;           /* projected area of the unit problem; times ax ay */
 } vndf_view;
 
 /* wi need not be unit: any length that floats have will do. alpha_x and alpha_y may be as far apart as their range
@@ -238,8 +238,8 @@ enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
 typedef struct vndf_batch {
     const vndf_distribution *distribution;
     size_t count;
-    unsigned shared;                 /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
-    vndf_instructions limit;         /* 0: the best there is; results are the same */
+    unsigned shared;         /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
+    vndf_instructions limit; /* 0: the best there is; results are the same */
     const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
 } vndf_batch;
@@ -287,8 +287,8 @@ VNDF_API float vndf_g1(const vndf_surface *surface, vndf_vec3 w);
 /* How masking and shadowing are correlated in G2 (Heitz, "Understanding the Masking-Shadowing Function
  * in Microfacet-Based BRDFs", JCGT 2014). */
 typedef enum vndf_g2_model {
-    VNDF_G2_SEPARABLE,         /* G1(wi) G1(wo), eq. 98 */
-    VNDF_G2_HEIGHT_CORRELATED  /* 1/(1 + Lambda(wi) + Lambda(wo)), eq. 99 */
+    VNDF_G2_SEPARABLE,        /* G1(wi) G1(wo), eq. 98 */
+    VNDF_G2_HEIGHT_CORRELATED /* 1/(1 + Lambda(wi) + Lambda(wo)), eq. 99 */
 } vndf_g2_model;
 
 /* Masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */

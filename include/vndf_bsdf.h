@@ -60,14 +60,10 @@ enum { VNDF_WAVELENGTHS = 3 };
 
 /* What light does at the surface. Of both, one is chosen per sample, reflection with the probability F (the mean of
  * the wavelengths). */
-typedef enum vndf_lobes {
-    VNDF_LOBES_REFLECTION,
-    VNDF_LOBES_TRANSMISSION,
-    VNDF_LOBES_BOTH
-} vndf_lobes;
+typedef enum vndf_lobes { VNDF_LOBES_REFLECTION, VNDF_LOBES_TRANSMISSION, VNDF_LOBES_BOTH } vndf_lobes;
 
 typedef enum vndf_fresnel {
-    VNDF_FRESNEL_NONE,       /* F = 1 for reflection, 0 for transmission, but 1 in total reflection: the shape alone */
+    VNDF_FRESNEL_NONE, /* F = 1 for reflection, 0 for transmission, but 1 in total reflection: the shape alone */
     VNDF_FRESNEL_SCHLICK,    /* f0 + (1 - f0) (1 - cos)^5; with transmission the cosine in the thinner medium */
     VNDF_FRESNEL_DIELECTRIC, /* unpolarised, index ratio eta */
     VNDF_FRESNEL_CONDUCTOR   /* unpolarised, complex index conductor_eta + i conductor_k; reflection alone */
@@ -91,8 +87,8 @@ typedef enum vndf_normals_drawn {
     /* Those of them that reflect wi to above the horizon: no sample is lost. Weights are those of visible normals
      * times the part of them that is left where wm is drawn; for GGX of anisotropic roughness up to 1.7 of that. */
     VNDF_NORMALS_BOUNDED,
-    VNDF_NORMALS_ALL,      /* D cos(theta_m), as before visible normals were used: weights are unbounded */
-    VNDF_NORMALS_V_CAVITY  /* those that wi sees in V-cavities; for that masking only */
+    VNDF_NORMALS_ALL,     /* D cos(theta_m), as before visible normals were used: weights are unbounded */
+    VNDF_NORMALS_V_CAVITY /* those that wi sees in V-cavities; for that masking only */
 } vndf_normals_drawn;
 
 typedef enum vndf_scattering {
@@ -130,12 +126,12 @@ typedef struct vndf_effects {
 typedef struct vndf_description {
     const vndf_distribution *distribution; /* not owned; must outlive the material */
     vndf_effects effects;
-    float alpha_x, alpha_y;                    /* roughness where a hit brings none, > 0 */
-    float rotation;                            /* angle from x to the axis of alpha_x, radians, within 1e4 */
-    float eta;                                 /* index on the side of -z over that on the side of z, 0.01 to 100 */
-    float f0[VNDF_WAVELENGTHS];                /* Schlick: reflectance at right angles, 0 to 1 */
-    float conductor_eta[VNDF_WAVELENGTHS];     /* over the index on the side of z, 0 to 1000, */
-    float conductor_k[VNDF_WAVELENGTHS];       /* and its imaginary part, the same; one of them > 0 */
+    float alpha_x, alpha_y;                /* roughness where a hit brings none, > 0 */
+    float rotation;                        /* angle from x to the axis of alpha_x, radians, within 1e4 */
+    float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
+    float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at right angles, 0 to 1 */
+    float conductor_eta[VNDF_WAVELENGTHS]; /* over the index on the side of z, 0 to 1000, */
+    float conductor_k[VNDF_WAVELENGTHS];   /* and its imaginary part, the same; one of them > 0 */
     /* Scattering events in a walk at most; 0: 64. Walks that have not left by then are lost: of GGX none in 40000
      * up to alpha 10, but 1% of a heavy-tailed table there, 0.7% of eta 1.001 at grazing, and all at alpha 1000. */
     unsigned order_limit;
@@ -151,13 +147,13 @@ typedef struct vndf_roughness {
 /* A material, resolved: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
-    const struct vndf_routines *routines;            /* made for its effects, */
-    const struct vndf_routines *unrotated;           /* and in the frame of the roughness */
+    const struct vndf_routines *routines;  /* made for its effects, */
+    const struct vndf_routines *unrotated; /* and in the frame of the roughness */
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
     int two_sided;
-    int steep;                                       /* F changes faster than directions are rounded */
+    int steep; /* F changes faster than directions are rounded */
 } vndf_material;
 
 /* VNDF_OK, or VNDF_ERROR_ARGUMENT with the combination or number that is refused; *material is then unusable but
@@ -171,13 +167,13 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
  * moved. Its members are private. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    vndf_view view;                  /* of wi in the frame of the roughness, turned up */
-    double eta;                      /* index on the other side over that on the side of wi */
-    double carried;                  /* what transmission has more than for importance: 1/eta^2 for radiance */
-    float side;                      /* -1 where wi is on the side of -z, 1 else */
-    float area;                      /* projected area along wi */
+    vndf_view view; /* of wi in the frame of the roughness, turned up */
+    double eta;     /* index on the other side over that on the side of wi */
+    double carried; /* what transmission has more than for importance: 1/eta^2 for radiance */
+    float side;     /* -1 where wi is on the side of -z, 1 else */
+    float area;     /* projected area along wi */
     float cos_rotation, sin_rotation;
-    double bounds[8];                /* bounded normals: what their law takes of the direction */
+    double bounds[8]; /* bounded normals: what their law takes of the direction */
 } vndf_bsdf;
 
 /* With the roughness of the material. wi is unit within 2e-6. Materials that do not transmit and have no Fresnel
@@ -191,7 +187,7 @@ VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, con
 
 /* Which way light went. */
 typedef enum vndf_lobe {
-    VNDF_LOBE_NONE,         /* nowhere: the sample is lost, its weight is 0 */
+    VNDF_LOBE_NONE, /* nowhere: the sample is lost, its weight is 0 */
     VNDF_LOBE_REFLECTION,
     VNDF_LOBE_TRANSMISSION,
     /* eta = 1: on along -wi, unbent, with the weight of masking (1 for walks). A Dirac, towards which there is
@@ -200,9 +196,9 @@ typedef enum vndf_lobe {
 } vndf_lobe;
 
 typedef struct vndf_scattered {
-    vndf_vec3 wo;                    /* unit within 10 ulps of 2^-23 */
-    float weight[VNDF_WAVELENGTHS];  /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1 */
-    float density;                   /* per steradian; what vndf_bsdf_pdf gives for wo, to 1e-5; at least FLT_MIN */
+    vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23 */
+    float weight[VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1 */
+    float density;                  /* per steradian; what vndf_bsdf_pdf gives for wo, to 1e-5; at least FLT_MIN */
     vndf_lobe lobe;
 } vndf_scattered;
 
@@ -244,7 +240,8 @@ typedef struct vndf_scattered_n {
 
 /* Element i is to the bit what the call of one gives. No array of results may overlap one that is read. `seed` may
  * be NULL where the material is no random walk. */
-VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3], vndf_scattered_n scattered);
+VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3],
+                                 vndf_scattered_n scattered);
 VNDF_API void vndf_bsdf_eval_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
                                float *const value[VNDF_WAVELENGTHS]);
 VNDF_API void vndf_bsdf_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, float *pdf);

@@ -27,8 +27,8 @@ typedef struct vndf_parameter {
  * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that
  * points at the column if it cannot be read. The text and parameters are copied; parameters that the formula does
  * not use are no error here (`vndf build --set` refuses them). */
-VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters,
-                                                 size_t count, vndf_error *error);
+VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
+                                                 vndf_error *error);
 
 /* P22 as a formula in r = tan(theta_m), the slope length; otherwise as above. */
 VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters,
@@ -38,8 +38,7 @@ VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_
  * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped. Rows
  * are joined by shape-preserving interpolation; see src/source/csv/csv.h for the rule of the tail. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
-VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size,
-                                           vndf_error *error);
+VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 
 /* A family by name: ggx, beckmann, student-t:GAMMA, gtr:GAMMA, epd:P, abc:B,C or abc:MATERIAL,
  * sgd:ALPHA,P or sgd:MATERIAL/CHANNEL, hyper-cauchy:..., phong:N, mix:(...). vndf_family_help lists them. */
@@ -58,8 +57,8 @@ VNDF_API const char *vndf_family_material(size_t index);
 typedef double vndf_density_function(double x, void *user);
 VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
                                                vndf_error *error);
-VNDF_API vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user,
-                                                 const char *name, vndf_error *error);
+VNDF_API vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user, const char *name,
+                                                 vndf_error *error);
 
 /* The source that a table was built from, made again from its provenance (expressions and families;
  * for others NULL and VNDF_ERROR_ARGUMENT with the reason). */
@@ -81,17 +80,17 @@ VNDF_API void vndf_source_free(vndf_source *source);
  * and step, and one for each of these, of the numbers, names and other operators. An operation takes some 4 to 12
  * ns, so that no formula takes more than minutes; the time of a callback is its own. Memory stays below 512 MiB. */
 enum {
-    VNDF_LIMIT_EXPRESSION_LENGTH = 4096,     /* characters */
-    VNDF_LIMIT_EXPRESSION_DEPTH = 64,        /* parentheses, calls, signs and powers inside each other */
-    VNDF_LIMIT_PARAMETERS = 64,              /* of an expression */
-    VNDF_LIMIT_PARAMETER_NAME = 64,          /* characters */
-    VNDF_LIMIT_FAMILY_LENGTH = 4096,         /* characters of a family's specification */
-    VNDF_LIMIT_NAME_LENGTH = 4096,           /* characters of the name of a CSV or a callback */
+    VNDF_LIMIT_EXPRESSION_LENGTH = 4096, /* characters */
+    VNDF_LIMIT_EXPRESSION_DEPTH = 64,    /* parentheses, calls, signs and powers inside each other */
+    VNDF_LIMIT_PARAMETERS = 64,          /* of an expression */
+    VNDF_LIMIT_PARAMETER_NAME = 64,      /* characters */
+    VNDF_LIMIT_FAMILY_LENGTH = 4096,     /* characters of a family's specification */
+    VNDF_LIMIT_NAME_LENGTH = 4096,       /* characters of the name of a CSV or a callback */
     VNDF_LIMIT_CSV_ROWS = 1000000,
-    VNDF_LIMIT_CSV_LINE = 4096,              /* characters of a line */
-    VNDF_LIMIT_CSV_BYTES = 1 << 26,          /* of a file */
-    VNDF_LIMIT_BREAKS = 64,                  /* of vndf_build_options */
-    VNDF_LIMIT_BUILD_PANELS = 60000          /* pieces in which P22 is smooth to 1e-10 */
+    VNDF_LIMIT_CSV_LINE = 4096,     /* characters of a line */
+    VNDF_LIMIT_CSV_BYTES = 1 << 26, /* of a file */
+    VNDF_LIMIT_BREAKS = 64,         /* of vndf_build_options */
+    VNDF_LIMIT_BUILD_PANELS = 60000 /* pieces in which P22 is smooth to 1e-10 */
 };
 #define VNDF_LIMIT_BUILD_OPERATIONS 1e10
 
@@ -111,14 +110,14 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * sampled: what is narrower than `finest` of its slope may hide, whole, unless a break is given there. The certificate
  * says which it was (vndf_certificate: hidden, finest). */
 typedef struct vndf_build_options {
-    size_t max_bytes;         /* size of the file at most, from 2048 to 1 MiB; 0: 16384, or with no max_tv either up
+    size_t max_bytes;        /* size of the file at most, from 2048 to 1 MiB; 0: 16384, or with no max_tv either up
                                * to 32768 where that brings the total variation below 1e-3: oscillations, say */
-    double max_tv;            /* a total variation to reach: the smallest table that does; 0: the best that fits */
-    vndf_progress *progress;  /* may be NULL */
+    double max_tv;           /* a total variation to reach: the smallest table that does; 0: the best that fits */
+    vndf_progress *progress; /* may be NULL */
     void *progress_user;
-    const double *breaks;     /* slopes, in the source's unit, where something begins, ends, or has its peak: beside */
-    size_t break_count;       /* them P22 is looked at to 1e-12 of the slope; for any source; kept in the provenance */
-    double finest;            /* width, relative to the slope, of what samples have to find, from 1e-9 to 1; 0: 1e-3.
+    const double *breaks; /* slopes, in the source's unit, where something begins, ends, or has its peak: beside */
+    size_t break_count;   /* them P22 is looked at to 1e-12 of the slope; for any source; kept in the provenance */
+    double finest;        /* width, relative to the slope, of what samples have to find, from 1e-9 to 1; 0: 1e-3.
                                  Costs 280/finest evaluations. A formula that cannot be bounded, and would be refused,
                                  is sampled if finest is given */
 } vndf_build_options;

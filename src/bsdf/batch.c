@@ -92,8 +92,8 @@ static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, 
 {
     const vndf_material *m = b->material;
     size_t wi = at_of(b, first, VNDF_SHARED_WI), heights = b->shared & VNDF_SHARED_WI ? 1 : count;
-    vndf_batch part = {m->is.distribution, count, b->shared, b->limit, &m->roughness.alpha_x, &m->roughness.alpha_y,
-                       b->wi_x + wi, b->wi_y + wi, b->wi_z + wi};
+    vndf_batch part = {m->is.distribution,    count,        b->shared,    b->limit,    &m->roughness.alpha_x,
+                       &m->roughness.alpha_y, b->wi_x + wi, b->wi_y + wi, b->wi_z + wi};
     if (b->alpha_x) {
         part.alpha_x = b->alpha_x + at_of(b, first, VNDF_SHARED_ALPHA);
         part.alpha_y = b->alpha_y + at_of(b, first, VNDF_SHARED_ALPHA);

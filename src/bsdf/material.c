@@ -54,26 +54,19 @@ static const vndf_fresnel_routine *fresnel_of(const vndf_effects *e)
     switch (e->fresnel) {
     case VNDF_FRESNEL_SCHLICK:
         return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_schlick : &vndf_fresnel_of_schlick_thin;
-    case VNDF_FRESNEL_DIELECTRIC:
-        return &vndf_fresnel_of_dielectric;
-    case VNDF_FRESNEL_CONDUCTOR:
-        return &vndf_fresnel_of_conductor;
-    default:
-        return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_total : &vndf_fresnel_of_nothing;
+    case VNDF_FRESNEL_DIELECTRIC: return &vndf_fresnel_of_dielectric;
+    case VNDF_FRESNEL_CONDUCTOR: return &vndf_fresnel_of_conductor;
+    default: return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_total : &vndf_fresnel_of_nothing;
     }
 }
 
 static const vndf_masking_routine *masking_of(const vndf_effects *e)
 {
     switch (e->masking) {
-    case VNDF_MASKING_SEPARABLE:
-        return &vndf_masking_separable;
-    case VNDF_MASKING_V_CAVITIES:
-        return &vndf_masking_v_cavities;
-    case VNDF_MASKING_NONE:
-        return &vndf_masking_none;
-    default:
-        return &vndf_masking_height_correlated;
+    case VNDF_MASKING_SEPARABLE: return &vndf_masking_separable;
+    case VNDF_MASKING_V_CAVITIES: return &vndf_masking_v_cavities;
+    case VNDF_MASKING_NONE: return &vndf_masking_none;
+    default: return &vndf_masking_height_correlated;
     }
 }
 

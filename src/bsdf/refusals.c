@@ -85,7 +85,8 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
         status = check_number("eta", is->eta, 0.01f, 100.0, error);
     if (status == VNDF_OK && is->effects.scattering == VNDF_SCATTERING_MULTIPLE &&
         is->effects.lobes == VNDF_LOBES_BOTH && is->effects.fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
-        status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
+        status = vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                           "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
                            "since light that goes straight on has no density");
     for (int i = 0; i < VNDF_WAVELENGTHS && status == VNDF_OK; i++) {
         if (is->effects.fresnel == VNDF_FRESNEL_SCHLICK)
@@ -96,7 +97,8 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
         if (status == VNDF_OK)
             status = check_number("conductor_k", is->conductor_k[i], 0.0, 1000.0, error);
         if (status == VNDF_OK && !(is->conductor_eta[i] + is->conductor_k[i] > 0.0f))
-            status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
+            status =
+                vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
     }
     return status;
 }
@@ -110,7 +112,8 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
     if (!vndf_view_from(&surface, up).distribution)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
-                         "distribution within [1e-18, 1e18]", (double)is->alpha_x, (double)is->alpha_y);
+                         "distribution within [1e-18, 1e18]",
+                         (double)is->alpha_x, (double)is->alpha_y);
     if (is->effects.axes == VNDF_AXES_ROTATED)
         return check_number("rotation", is->rotation, -1e4, 1e4, error);
     return VNDF_OK;

@@ -39,10 +39,10 @@ typedef struct vndf_fresnel_routine {
 
 /* A microfacet between two directions; sizes of cosines. */
 typedef struct vndf_event {
-    vndf_vec3 wo;            /* turned up */
-    double cos_i, cos_o;     /* to the surface's normal */
+    vndf_vec3 wo;              /* turned up */
+    double cos_i, cos_o;       /* to the surface's normal */
     double facing_i, facing_o; /* to the microfacet's */
-    double cos_m;            /* wm.z */
+    double cos_m;              /* wm.z */
 } vndf_event;
 
 /* G2/(cos_i cos_o), which stays finite where the cosines vanish; of reflection and of transmission. */

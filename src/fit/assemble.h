@@ -13,7 +13,7 @@ typedef struct vndf_plan {
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
     size_t max_bytes;
-    double finest;  /* the error down to which the fits were refined */
+    double finest; /* the error down to which the fits were refined */
 } vndf_plan;
 
 /* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped

@@ -217,10 +217,11 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
-        vndf_status other = vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                                      "the table is of another distribution: scale %.9g and normalization %.9g, "
-                                      "the source has %.9g and %.9g", distribution->scale,
-                                      distribution->normalization, profile->scale, profile->normalization);
+        vndf_status other =
+            vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                      "the table is of another distribution: scale %.9g and normalization %.9g, "
+                      "the source has %.9g and %.9g",
+                      distribution->scale, distribution->normalization, profile->scale, profile->normalization);
         vndf_profile_free(profile);
         return other;
     }

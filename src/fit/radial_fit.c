@@ -11,15 +11,15 @@
 
 enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 
-static const double SLOPE_MOST = 1e29; /* 1/R remains a normal float */
+static const double SLOPE_MOST = 1e29;  /* 1/R remains a normal float */
 static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi keeps a hundred steps in float */
 
 /* A jump is seen by its values this far on either side, relative to its slope: beyond its narrow panel. */
 static const double BESIDE = 1e-9;
-static const double JUMP_LEAST = 1e-4;  /* of the higher side: less is no more than what cells err by */
-static const double JUMP_MASS = 1e-25;  /* P r^2 at a jump that is worth a knot: well above the floor's */
-static const double SAME_JUMP = 1.0001; /* ratio of slopes within which panels have narrowed to one jump */
-static const double INSIDE_JUMP = 4e-7; /* of the slope: four floats into the cell, for knots are rounded */
+static const double JUMP_LEAST = 1e-4;   /* of the higher side: less is no more than what cells err by */
+static const double JUMP_MASS = 1e-25;   /* P r^2 at a jump that is worth a knot: well above the floor's */
+static const double SAME_JUMP = 1.0001;  /* ratio of slopes within which panels have narrowed to one jump */
+static const double INSIDE_JUMP = 4e-7;  /* of the slope: four floats into the cell, for knots are rounded */
 static const double NEAR_HORIZON = 1e-6; /* of the last cell: x/z is finite there */
 
 /* An end of f this many times above the mean is a pole of D: the cell is kept bounded. */

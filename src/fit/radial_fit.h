@@ -9,14 +9,14 @@
 /* A knot as the table holds it: floats on x + z = 1, and the slope that they stand for. */
 typedef struct vndf_fit_knot {
     float x, z;
-    double r;    /* x/z, infinite at the horizon */
-    int jump;    /* P jumps here: its value is taken from either side */
+    double r; /* x/z, infinite at the horizon */
+    int jump; /* P jumps here: its value is taken from either side */
 } vndf_fit_knot;
 
 typedef struct vndf_radial_fit {
     const vndf_profile *profile;
-    double fade;       /* power of vndf_profile_fade */
-    double *jump;      /* slopes where P jumps, ascending */
+    double fade;  /* power of vndf_profile_fade */
+    double *jump; /* slopes where P jumps, ascending */
     size_t jump_count;
 } vndf_radial_fit;
 

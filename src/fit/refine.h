@@ -18,10 +18,10 @@ typedef vndf_interval_miss vndf_interval_error(double a, double b, void *user);
 typedef double vndf_interval_middle(double a, double b);
 
 typedef struct vndf_refinement {
-    size_t start;      /* knots given at the start, ascending */
-    size_t count;      /* and points added after them, in order of need */
-    double *knot;      /* start + count */
-    double *error;     /* count + 1: sum of the shares plus the largest alone, after n added points */
+    size_t start;  /* knots given at the start, ascending */
+    size_t count;  /* and points added after them, in order of need */
+    double *knot;  /* start + count */
+    double *error; /* count + 1: sum of the shares plus the largest alone, after n added points */
 } vndf_refinement;
 
 /* Adds points until `limit` or until the error is below `enough`. 0 if there is no memory. */

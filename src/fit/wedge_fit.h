@@ -11,10 +11,10 @@ typedef struct vndf_row_cache vndf_row_cache;
 
 typedef struct vndf_wedge_fit {
     vndf_side side;
-    vndf_refinement q;        /* where cells of q begin, in order of need */
-    uint32_t cells;           /* of a row, now */
+    vndf_refinement q;                    /* where cells of q begin, in order of need */
+    uint32_t cells;                       /* of a row, now */
     float node[VNDF_WEDGE_CELLS_MAX + 1]; /* their ends in q */
-    vndf_row_cache *cache;    /* rows made so far */
+    vndf_row_cache *cache;                /* rows made so far */
 } vndf_wedge_fit;
 
 /* One row: aspect, and mass and density of its cells, total mass 1. */

@@ -18,8 +18,8 @@ typedef struct vndf_turn {
 VNDF_INLINE lanes_f vndf_sine_quarter(lanes_f f)
 {
     lanes_f q = f * f;
-    return f * (3.14159263696f + q * (-5.1677096882f + q * (2.55006977348f
-                + q * (-0.598242370689f + q * 0.0775608117772f))));
+    return f * (3.14159263696f +
+                q * (-5.1677096882f + q * (2.55006977348f + q * (-0.598242370689f + q * 0.0775608117772f))));
 }
 
 VNDF_INLINE vndf_turn vndf_half_turn(lanes_f u)

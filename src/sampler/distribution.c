@@ -1,13 +1,17 @@
 /* The two closed forms as distributions, and what any distribution says of itself. */
 #include "table/table.h"
 
-static const vndf_distribution ggx = {
-    .kind = VNDF_KIND_GGX, .normalization = 1.0, .scale = 1.0,
-    .source = "--family ggx", .tool = "vndf " VNDF_VERSION};
+static const vndf_distribution ggx = {.kind = VNDF_KIND_GGX,
+                                      .normalization = 1.0,
+                                      .scale = 1.0,
+                                      .source = "--family ggx",
+                                      .tool = "vndf " VNDF_VERSION};
 
-static const vndf_distribution beckmann = {
-    .kind = VNDF_KIND_BECKMANN, .normalization = 1.0, .scale = 0.83255461115769776,
-    .source = "--family beckmann", .tool = "vndf " VNDF_VERSION};
+static const vndf_distribution beckmann = {.kind = VNDF_KIND_BECKMANN,
+                                           .normalization = 1.0,
+                                           .scale = 0.83255461115769776,
+                                           .source = "--family beckmann",
+                                           .tool = "vndf " VNDF_VERSION};
 
 const vndf_distribution *vndf_ggx(void)
 {
@@ -26,7 +30,7 @@ vndf_info vndf_distribution_info(const vndf_distribution *d)
         return nothing;
     }
     size_t rows = (size_t)d->above.row_count + d->below.row_count;
-    vndf_info info = {d->source, d->tool, d->bytes, d->radial_count, rows, d->above.cell_count,
-                      d->normalization, d->scale, d->certificate};
+    vndf_info info = {d->source,           d->tool,          d->bytes, d->radial_count, rows,
+                      d->above.cell_count, d->normalization, d->scale, d->certificate};
     return info;
 }

@@ -27,8 +27,22 @@ VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay,
 VNDF_INLINE vndf_view view_of(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi,
                               vndf_aim aim)
 {
-    vndf_view view = {d, wi, ax, ay, x, y, vndf_aim_is_plain(x, y, aim.c), {0.0f}, aim.s, aim.c, aim.cos_phi,
-                      aim.sin_phi, aim.front, aim.wedge, aim.area, aim.area * (x * y)};
+    vndf_view view = {d,
+                      wi,
+                      ax,
+                      ay,
+                      x,
+                      y,
+                      vndf_aim_is_plain(x, y, aim.c),
+                      {0.0f},
+                      aim.s,
+                      aim.c,
+                      aim.cos_phi,
+                      aim.sin_phi,
+                      aim.front,
+                      aim.wedge,
+                      aim.area,
+                      aim.area * (x * y)};
     return view;
 }
 

@@ -38,7 +38,7 @@ static void destroy(vndf_source *self)
 static vndf_source *make(const char *option, vndf_density_function *density, void *user, const char *name,
                          double (*p22)(const vndf_source *, double), vndf_error *error)
 {
-    vndf_text words = { NULL, 0, 0, 0 };
+    vndf_text words = {NULL, 0, 0, 0};
     if (!density) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
         return NULL;
@@ -58,7 +58,8 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS };
+    source->base =
+        (vndf_source){.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS};
     source->density = density;
     source->user = user;
     return &source->base;

@@ -9,7 +9,7 @@
 #include "source/resolution.h"
 #include "source/words.h"
 
-static const char *const options[] = { "--ndf", "--slope", "--family" };
+static const char *const options[] = {"--ndf", "--slope", "--family"};
 
 /* "a=0.3" -> name and value; the '=' becomes the end of the name. */
 static vndf_status read_setting(char *word, vndf_parameter *parameter, vndf_error *error)

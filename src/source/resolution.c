@@ -34,7 +34,7 @@ static void add_number(vndf_text *text, const char *option, double value)
 
 char *vndf_resolution_describe(const vndf_resolution *r, const char *description, vndf_error *error)
 {
-    vndf_text text = { NULL, 0, 0, 0 };
+    vndf_text text = {NULL, 0, 0, 0};
     vndf_text_add(&text, description);
     for (size_t i = 0; i < r->break_count; i++)
         add_number(&text, "--break", r->breaks[i]);
@@ -64,8 +64,8 @@ vndf_status vndf_resolution_read(const char *description, double room[VNDF_LIMIT
                                  vndf_error *error)
 {
     vndf_words words;
-    vndf_error inner = { VNDF_OK, "" };
-    *r = (vndf_resolution){ room, 0, 0 };
+    vndf_error inner = {VNDF_OK, ""};
+    *r = (vndf_resolution){room, 0, 0};
     if (vndf_words_split(description, &words, &inner) != VNDF_OK) /* whose words nobody can read says nothing */
         return inner.status == VNDF_ERROR_SYNTAX ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
     for (size_t i = vndf_resolution_start(&words); i + 1 < words.count; i += 2) {

@@ -9,7 +9,7 @@
 typedef struct vndf_resolution {
     const double *breaks; /* slopes, in any order */
     size_t break_count;
-    double finest;        /* relative width; 0: not said */
+    double finest; /* relative width; 0: not said */
 } vndf_resolution;
 
 vndf_status vndf_resolution_check(const vndf_resolution *resolution, vndf_error *error);

@@ -18,9 +18,9 @@ struct vndf_source {
     char *description;                                /* arguments of `vndf build`, owned */
     const double *breaks;                             /* ascending slopes of known kinks and jumps, or NULL */
     size_t break_count;
-    int rebuildable;                                  /* description alone makes the same source again */
-    double operations;                                /* what an evaluation costs (vndf_build.h, limits) */
-    double rounding;                                  /* relative: P22 is no smoother than that */
+    int rebuildable;   /* description alone makes the same source again */
+    double operations; /* what an evaluation costs (vndf_build.h, limits) */
+    double rounding;   /* relative: P22 is no smoother than that */
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */
 };
 

@@ -93,7 +93,7 @@ vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *er
 {
     size_t length = strlen(line);
     const char *in = line;
-    *words = (vndf_words){ malloc(length + 2), malloc((length / 2 + 1) * sizeof *words->word), 0 };
+    *words = (vndf_words){malloc(length + 2), malloc((length / 2 + 1) * sizeof *words->word), 0};
     char *out = words->bytes;
     if (!words->bytes || !words->word) {
         vndf_words_free(words);
@@ -118,7 +118,7 @@ void vndf_words_free(vndf_words *words)
 {
     free(words->bytes);
     free(words->word);
-    *words = (vndf_words){ NULL, NULL, 0 };
+    *words = (vndf_words){NULL, NULL, 0};
 }
 
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size)

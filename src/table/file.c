@@ -177,9 +177,8 @@ static int within(uint32_t value, uint32_t least, uint32_t most)
 static int counts_valid(vndf_table_size s)
 {
     return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.above_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
-           within(s.below_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
-           within(s.above_rows, 3, VNDF_WEDGE_ROWS_MAX) && within(s.below_rows, 3, VNDF_WEDGE_ROWS_MAX) &&
-           s.above_rows % 2 == 1 && s.below_rows % 2 == 1 &&
+           within(s.below_cells, 2, VNDF_WEDGE_CELLS_MAX) && within(s.above_rows, 3, VNDF_WEDGE_ROWS_MAX) &&
+           within(s.below_rows, 3, VNDF_WEDGE_ROWS_MAX) && s.above_rows % 2 == 1 && s.below_rows % 2 == 1 &&
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
 

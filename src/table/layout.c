@@ -39,8 +39,8 @@ static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint
     wedge->stride = stride;
     wedge->cdf = block;
     size_t per_piece = sizeof *wedge->piece + sizeof *wedge->quick;
-    wedge->piece = calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell +
-                                  row_knots * sizeof *wedge->row_span);
+    wedge->piece =
+        calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell + row_knots * sizeof *wedge->row_span);
     if (!block || !wedge->piece)
         return 0;
     wedge->quick = (vndf_area_quick *)(wedge->piece + knots);

@@ -26,18 +26,18 @@ enum {
     VNDF_WEDGE_ROWS_MAX = 4096,
     VNDF_WEDGE_CELLS_MAX = 64,
     VNDF_AREA_KNOTS_MAX = 4096,
-    VNDF_BLOCK = 16,         /* radial knots are searched by blocks */
-    VNDF_WINDOW = 8,         /* above the horizon by a window of so many (table/window.h), */
-    VNDF_RANGES = 94,        /* one for each of this many ranges of u */
-    VNDF_RANGES_END = 16,    /* the first and last so many are half octaves of u and of 1 - u */
-    VNDF_RATIOS = 18,        /* and of |k|/c, for either sign of k */
-    VNDF_WINDOW_SHIFT = 13,  /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
-    VNDF_NARROW = 2000,      /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
-    VNDF_PADDING = 8,          /* arrays that are counted through are padded to a multiple of this */
-    VNDF_FEW = 16,           /* so many numbers are looked up in registers */
-    VNDF_AREA_ORDER = 6,     /* coefficients of a piece of an area's spline */
-    VNDF_AREA_SPAN = 8,      /* doubles from piece to piece */
-    VNDF_GUIDE_SHIFT = 19    /* bits of a guide's entry below the index of a knot */
+    VNDF_BLOCK = 16,        /* radial knots are searched by blocks */
+    VNDF_WINDOW = 8,        /* above the horizon by a window of so many (table/window.h), */
+    VNDF_RANGES = 94,       /* one for each of this many ranges of u */
+    VNDF_RANGES_END = 16,   /* the first and last so many are half octaves of u and of 1 - u */
+    VNDF_RATIOS = 18,       /* and of |k|/c, for either sign of k */
+    VNDF_WINDOW_SHIFT = 13, /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
+    VNDF_NARROW = 2000,     /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
+    VNDF_PADDING = 8,       /* arrays that are counted through are padded to a multiple of this */
+    VNDF_FEW = 16,          /* so many numbers are looked up in registers */
+    VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */
+    VNDF_AREA_SPAN = 8,     /* doubles from piece to piece */
+    VNDF_GUIDE_SHIFT = 19   /* bits of a guide's entry below the index of a knot */
 };
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
@@ -56,11 +56,11 @@ typedef struct vndf_knots {
  * what the sampler wants of its knots: 64 bytes, a line of the cache, all floats. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
-    float x0, x1, z0, z1;        /* the knots */
-    float before0, before1;      /* sums up to the first (vndf_knots): F0, F1 */
-    float width, calm;           /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/tabulated/radial.h), 2 if
+    float x0, x1, z0, z1;   /* the knots */
+    float before0, before1; /* sums up to the first (vndf_knots): F0, F1 */
+    float width, calm; /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/tabulated/radial.h), 2 if
                                   * those beside it are calm too and D does not jump at its ends */
-    float a, b, e, g;            /* e, g: sums once more */
+    float a, b, e, g;  /* e, g: sums once more */
 } vndf_radial_cell;
 
 /* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
@@ -69,8 +69,8 @@ typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
     uint32_t drop, single;     /* of entries; whether one step is always enough */
     uint16_t *first;
-    uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
-    uint32_t *entry;           /* first, and where in its bucket the next is: for lanes of doubles */
+    uint32_t *next;  /* bits of the knot after each, beyond every value where the last cell has begun */
+    uint32_t *entry; /* first, and where in its bucket the next is: for lanes of doubles */
 } vndf_guide;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
@@ -101,21 +101,21 @@ typedef struct vndf_row_cell {
  * is a quintic spline on knots of its own (table/area_piece.h). */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
-    float *q;                            /* cell_count + 1, from 0 to 1 */
-    float *row_y;                        /* (row_count + 1)/2: where rows 0, 2, 4, ... stand */
-    float *aspect_p, *aspect_r;          /* row_count */
-    uint32_t stride;                     /* floats from row to row in the next two: a multiple of VNDF_PADDING */
-    float *cdf, *cell_mass;              /* mass before a cell and in it; each row's mass is 1 */
-    float *density;                      /* at the ends of the cells, cell_count + 1 to a row */
+    float *q;                                   /* cell_count + 1, from 0 to 1 */
+    float *row_y;                               /* (row_count + 1)/2: where rows 0, 2, 4, ... stand */
+    float *aspect_p, *aspect_r;                 /* row_count */
+    uint32_t stride;                      /* floats from row to row in the next two: a multiple of VNDF_PADDING */
+    float *cdf, *cell_mass;               /* mass before a cell and in it; each row's mass is 1 */
+    float *density;                       /* at the ends of the cells, cell_count + 1 to a row */
     float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
-    vndf_area_span *piece;               /* the spline once more, knot_count - 1 */
-    vndf_area_quick *quick;              /* and once more */
-    float few[VNDF_AREA_ORDER + 2][VNDF_FEW]; /* members of quick, for lanes, if there are so few pieces */
+    vndf_area_span *piece;                /* the spline once more, knot_count - 1 */
+    vndf_area_quick *quick;               /* and once more */
+    float few[VNDF_AREA_ORDER + 2][VNDF_FEW];   /* members of quick, for lanes, if there are so few pieces */
     double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
-    float few_y[VNDF_FEW + 1];           /* row_y, if there are so few */
-    float few_aspects[4][VNDF_FEW + 1];  /* p and then r of rows 0, 2, 4, ..., then of those between */
-    vndf_row_span *row_span;             /* row_y and aspects once more, (row_count - 1)/2 */
-    vndf_row_cell *row_cell;             /* cdf, cell_mass and density once more; from row to row `stride` */
+    float few_y[VNDF_FEW + 1];                  /* row_y, if there are so few */
+    float few_aspects[4][VNDF_FEW + 1];         /* p and then r of rows 0, 2, 4, ..., then of those between */
+    vndf_row_span *row_span;                    /* row_y and aspects once more, (row_count - 1)/2 */
+    vndf_row_cell *row_cell; /* cdf, cell_mass and density once more; from row to row `stride` */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
@@ -123,18 +123,18 @@ typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vn
 
 struct vndf_distribution {
     vndf_kind kind;
-    uint32_t radial_count;     /* cells */
-    float f0_total, f1_total;  /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
-    vndf_knots knots;          /* radial_count + 1 and padding */
-    vndf_knots blocks;         /* the first knot of each block, padded likewise */
-    float *slope;              /* X/Z of the knots, ascending, last is infinite */
-    vndf_radial_cell *cells;   /* radial_count, on borders of lines of the cache in cells_memory */
+    uint32_t radial_count;    /* cells */
+    float f0_total, f1_total; /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
+    vndf_knots knots;         /* radial_count + 1 and padding */
+    vndf_knots blocks;        /* the first knot of each block, padded likewise */
+    float *slope;             /* X/Z of the knots, ascending, last is infinite */
+    vndf_radial_cell *cells;  /* radial_count, on borders of lines of the cache in cells_memory */
     void *cells_memory;
     uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* the second half for k < 0 */
-    vndf_guide slope_guide;    /* not last: lanes read a half word beyond the windows */
+    vndf_guide slope_guide;                        /* not last: lanes read a half word beyond the windows */
     vndf_wedge above, below;
-    double normalization;      /* the source was multiplied by it */
-    double scale;              /* canonical slope 1 is this slope of the source */
+    double normalization; /* the source was multiplied by it */
+    double scale;         /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */

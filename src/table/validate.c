@@ -83,8 +83,9 @@ const char *vndf_table_invalid(const vndf_distribution *table)
 {
     const char *why = radial_invalid(table);
     const vndf_certificate *c = &table->certificate;
-    const float claims[] = {c->tv, c->tv_theta, c->tv_above, c->tv_above_theta, c->max_weight, c->weight_bounded,
-                            c->area_error, c->consistency, c->ndf_error, c->hidden, c->finest, -c->horizon_power};
+    const float claims[] = {c->tv,         c->tv_theta,       c->tv_above,   c->tv_above_theta,
+                            c->max_weight, c->weight_bounded, c->area_error, c->consistency,
+                            c->ndf_error,  c->hidden,         c->finest,     -c->horizon_power};
     for (unsigned i = 0; i < sizeof claims / sizeof *claims; i++)
         if (!in_range(claims[i], 0.0f, HUGE_VALF))
             return "the certificate holds what is no measurement";

@@ -27,8 +27,8 @@ static inline void bsdf_optics(vndf_description *is, unsigned long long *state)
 }
 
 /* Roughness from the list, half of the time anisotropic. */
-static inline vndf_description bsdf_material(const oracle_ndf *ndf, const vndf_effects *effects, const float *alphas,
-                                             size_t count, unsigned long long *state)
+static inline vndf_description bsdf_material(const oracle_ndf *ndf, const vndf_effects *effects,
+                                             const float *alphas, size_t count, unsigned long long *state)
 {
     vndf_description is = {.distribution = ndf->distribution, .effects = *effects};
     is.alpha_x = is.alpha_y = bsdf_pick(alphas, count, state);
@@ -58,9 +58,9 @@ static inline void bsdf_describe(const vndf_description *is, const char *ndf, vn
 {
     char text[ORACLE_EFFECTS_TEXT];
     oracle_effects_name(&is->effects, text);
-    fprintf(stderr, "  %s, %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n", text,
-            ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation, (double)wi.x,
-            (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
+    fprintf(stderr, "  %s, %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n",
+            text, ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation,
+            (double)wi.x, (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
 }
 
 #endif

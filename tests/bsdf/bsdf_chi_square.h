@@ -39,7 +39,8 @@ static inline double sphere_turn(double phi)
 
 /* Every second border is even, the others are quantiles, from the least to the largest: beyond them a quadrature
  * that looks at few places may find nothing. The surface itself is a border of z. */
-static inline void sphere_place(double *border, size_t parts, double low, double high, const double *sorted, size_t count)
+static inline void sphere_place(double *border, size_t parts, double low, double high, const double *sorted,
+                                size_t count)
 {
     size_t steps = (parts - 1) / 2 - 1;
     for (size_t i = 0; i < parts; i++)
@@ -199,7 +200,8 @@ static inline int sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t sample
     double statistic = sphere_statistic(probability, observed, (double)samples, &result->classes);
     result->lost = observed[SPHERE_BINS] / (double)samples;
     result->p = result->classes > 1 ? statistics_chi_square_p(statistic, result->classes - 1)
-                                    : result->lost == 1 ? 1 : 0;
+                : result->lost == 1 ? 1
+                                    : 0;
     free(probability);
     return 1;
 }

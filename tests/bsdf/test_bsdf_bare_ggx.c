@@ -40,9 +40,13 @@ static size_t compare(const vndf_material *m, const inputs *in, size_t *differin
 {
     static float x[COUNT], y[COUNT], z[COUNT], weight[3][COUNT], density[COUNT];
     static uint8_t lobe[COUNT];
-    const vndf_bsdf_batch batch = {.material = m, .count = COUNT,
-                                   .alpha_x = in->alpha[0], .alpha_y = in->alpha[1],
-                                   .wi_x = in->wi[0], .wi_y = in->wi[1], .wi_z = in->wi[2]};
+    const vndf_bsdf_batch batch = {.material = m,
+                                   .count = COUNT,
+                                   .alpha_x = in->alpha[0],
+                                   .alpha_y = in->alpha[1],
+                                   .wi_x = in->wi[0],
+                                   .wi_y = in->wi[1],
+                                   .wi_z = in->wi[2]};
     const float *const u[3] = {in->u[0], in->u[1], in->u[2]};
     vndf_scattered_n out = {{x, y, z}, {weight[0], weight[1], weight[2]}, density, lobe};
     size_t kept = 0;

@@ -19,19 +19,24 @@ static int is_tried(const vndf_effects *e)
 {
     int turned = e->axes == VNDF_AXES_ROTATED;
     vndf_fresnel fresnel = e->lobes == VNDF_LOBES_BOTH || (e->lobes == VNDF_LOBES_REFLECTION && turned)
-                               ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
-    vndf_masking masking = e->normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES
-                                                               : VNDF_MASKING_HEIGHT_CORRELATED;
+                               ? VNDF_FRESNEL_DIELECTRIC
+                               : VNDF_FRESNEL_NONE;
+    vndf_masking masking =
+        e->normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES : VNDF_MASKING_HEIGHT_CORRELATED;
     return oracle_effects_sensible(e) && e->scattering == VNDF_SCATTERING_SINGLE && e->fresnel == fresnel &&
            e->masking == masking && e->transport == VNDF_TRANSPORT_RADIANCE;
 }
 
-static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const setting *at, unsigned long long seed,
-                     size_t samples, double level)
+static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const setting *at,
+                     unsigned long long seed, size_t samples, double level)
 {
     unsigned long long state = seed * 2654435761u + 99;
-    vndf_description is = {.distribution = ndf->distribution, .effects = *effects, .alpha_x = at->alpha_x,
-                           .alpha_y = at->alpha_y, .rotation = 0.7f, .eta = at->eta};
+    vndf_description is = {.distribution = ndf->distribution,
+                           .effects = *effects,
+                           .alpha_x = at->alpha_x,
+                           .alpha_y = at->alpha_y,
+                           .rotation = 0.7f,
+                           .eta = at->eta};
     vndf_vec3 wi = oracle_toward((double)at->z, (double)at->phi);
     vndf_material material;
     vndf_bsdf bsdf;
@@ -44,7 +49,8 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
     if (TEST(r.p > level) & TEST_NEAR(r.mass, 1 - r.lost, noise))
         return;
     bsdf_describe(&is, ndf->name, wi, wi);
-    fprintf(stderr, "    p %.3g, %lu classes, mass %.7g, lost %.7g\n", r.p, (unsigned long)r.classes, r.mass, r.lost);
+    fprintf(stderr, "    p %.3g, %lu classes, mass %.7g, lost %.7g\n", r.p, (unsigned long)r.classes, r.mass,
+            r.lost);
 }
 
 int main(int arguments, char **argument)
@@ -52,7 +58,10 @@ int main(int arguments, char **argument)
     static const char *const names[KIND_COUNT] = {"ggx", "beckmann", "student-t-2.5"};
     int quick = oracle_quick();
     size_t every = arguments > 2 ? 1 : quick ? 5 : 3; /* of the settings */
-    size_t samples = arguments > 2 ? (size_t)strtoul(argument[2], NULL, 10) : quick ? 30000 : 200000, sets = 0, done = 0;
+    size_t samples = arguments > 2 ? (size_t)strtoul(argument[2], NULL, 10)
+                     : quick       ? 30000
+                                   : 200000,
+           sets = 0, done = 0;
     for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
         vndf_effects e = oracle_effects(i);
         sets += (size_t)is_tried(&e);

@@ -48,7 +48,8 @@ static vndf_description material_of(const oracle_ndf *ndf, vndf_normals_drawn no
     is.effects.lobes = glass ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
     is.effects.fresnel = glass ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
     is.effects.transport = VNDF_TRANSPORT_IMPORTANCE;
-    is.effects.masking = normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES : VNDF_MASKING_HEIGHT_CORRELATED;
+    is.effects.masking =
+        normals == VNDF_NORMALS_V_CAVITY ? VNDF_MASKING_V_CAVITIES : VNDF_MASKING_HEIGHT_CORRELATED;
     return is;
 }
 
@@ -99,9 +100,11 @@ static void test_ndf(const char *name, unsigned long long seed)
                     largest[n] = t.largest;
                     albedo = n == VNDF_NORMALS_VISIBLE ? t.sum : albedo;
                 }
-                printf("%s, %s, alpha %.2f, cos %.2f: lost %.4f; largest weight visible %.3f, bounded %.3f, all %.4g, "
-                       "V-cavity %.3f\n", name, glass ? "glass" : "mirror", (double)alphas[a], cosines[k], 1 - albedo,
-                       largest[0], largest[1], largest[2], largest[3]);
+                printf(
+                    "%s, %s, alpha %.2f, cos %.2f: lost %.4f; largest weight visible %.3f, bounded %.3f, all %.4g, "
+                    "V-cavity %.3f\n",
+                    name, glass ? "glass" : "mirror", (double)alphas[a], cosines[k], 1 - albedo, largest[0],
+                    largest[1], largest[2], largest[3]);
             }
     oracle_ndf_close(&ndf);
 }

@@ -6,10 +6,10 @@
 #include "oracle/oracle_bsdf.h"
 #include "harness/test.h"
 
-static const float COSINES[] = {0, 1e-30f, 1e-6f, 1e-3f, 0.01f, 0.1f, 0.3f, 0.5f, 0.7071068f, 0.9f, 0.999f,
-                                0.99999994f, 1};
-static const float INDICES[] = {0.01f, 0.2f, 1 / 2.4f, 1 / 1.5f, 1 / 1.33f, 0.999f, 1, 1.001f, 1.0000001f, 1.33f,
-                                1.5f, 2.4f, 10, 100};
+static const float COSINES[] = {0,    1e-30f,     1e-6f, 1e-3f,  0.01f,       0.1f, 0.3f,
+                                0.5f, 0.7071068f, 0.9f,  0.999f, 0.99999994f, 1};
+static const float INDICES[] = {0.01f,  0.2f,       1 / 2.4f, 1 / 1.5f, 1 / 1.33f, 0.999f, 1,
+                                1.001f, 1.0000001f, 1.33f,    1.5f,     2.4f,      10,     100};
 static const float ABSORPTIONS[] = {0, 1e-6f, 0.01f, 0.5f, 1, 3.9f, 100, 1000};
 enum { COSINE_COUNT = 13, INDEX_COUNT = 14, ABSORPTION_COUNT = 8 };
 

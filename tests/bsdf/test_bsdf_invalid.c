@@ -17,11 +17,12 @@ static float any_bits(unsigned long long *state)
 /* Mostly an ordinary number in [-1, 1], else any bits or one of the hard ones. */
 static float some_number(unsigned long long *state)
 {
-    static const float hard[] = {0, -0.0f, 1, -1, NAN, INFINITY, -INFINITY, FLT_MIN, -FLT_MIN, FLT_MAX, 1e-45f,
-                                 0.99999994f};
+    static const float hard[] = {0,         -0.0f,   1,        -1,      NAN,    INFINITY,
+                                 -INFINITY, FLT_MIN, -FLT_MIN, FLT_MAX, 1e-45f, 0.99999994f};
     float which = test_uniform(state);
-    return which < 0.6f ? 2 * test_uniform(state) - 1
-         : which < 0.8f ? bsdf_pick(hard, sizeof hard / sizeof *hard, state) : any_bits(state);
+    return which < 0.6f   ? 2 * test_uniform(state) - 1
+           : which < 0.8f ? bsdf_pick(hard, sizeof hard / sizeof *hard, state)
+                          : any_bits(state);
 }
 
 static vndf_vec3 some_direction(unsigned long long *state)
@@ -52,25 +53,28 @@ static int is_direction(vndf_vec3 w)
 
 static int is_nothing(const vndf_scattered *s)
 {
-    return s->lobe == VNDF_LOBE_NONE && s->density == 0 && s->weight[0] == 0 && s->weight[1] == 0 && s->weight[2] == 0;
+    return s->lobe == VNDF_LOBE_NONE && s->density == 0 && s->weight[0] == 0 && s->weight[1] == 0 &&
+           s->weight[2] == 0;
 }
 
-static void check_hit(const vndf_description *is, const vndf_bsdf *bsdf, vndf_vec3 wi, vndf_vec3 wo, const float u[3])
+static void check_hit(const vndf_description *is, const vndf_bsdf *bsdf, vndf_vec3 wi, vndf_vec3 wo,
+                      const float u[3])
 {
     vndf_scattered s;
     float f[VNDF_WAVELENGTHS], pdf = vndf_bsdf_pdf(bsdf, wo);
     vndf_bsdf_sample(bsdf, u, &s);
     vndf_bsdf_eval(bsdf, wo, 7, f);
-    int good = TEST(sound_all(s.weight) && sound(s.density) && is_direction(s.wo)) & TEST(sound_all(f) && sound(pdf));
+    int good =
+        TEST(sound_all(s.weight) && sound(s.density) && is_direction(s.wo)) & TEST(sound_all(f) && sound(pdf));
     good &= TEST((s.lobe == VNDF_LOBE_NONE) == (s.density == 0) && (unsigned)s.lobe <= VNDF_LOBE_STRAIGHT);
     if (!is_direction(wo) || wo.z == 0)
         good &= TEST(pdf == 0 && f[0] == 0 && f[1] == 0 && f[2] == 0);
     if (good)
         return;
     bsdf_describe(is, "", wi, wo);
-    fprintf(stderr, "    u %g %g %g: lobe %d wo %g %g %g weight %g density %g; f %g pdf %g\n", (double)u[0], (double)u[1],
-            (double)u[2], (int)s.lobe, (double)s.wo.x, (double)s.wo.y, (double)s.wo.z, (double)s.weight[0],
-            (double)s.density, (double)f[0], (double)pdf);
+    fprintf(stderr, "    u %g %g %g: lobe %d wo %g %g %g weight %g density %g; f %g pdf %g\n", (double)u[0],
+            (double)u[1], (double)u[2], (int)s.lobe, (double)s.wo.x, (double)s.wo.y, (double)s.wo.z,
+            (double)s.weight[0], (double)s.density, (double)f[0], (double)pdf);
 }
 
 /* Any numbers at once. */

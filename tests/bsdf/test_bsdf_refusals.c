@@ -7,8 +7,13 @@
 
 static vndf_description good(vndf_effects effects)
 {
-    vndf_description is = {.distribution = vndf_ggx(), .effects = effects, .alpha_x = 0.3f, .alpha_y = 0.2f, .eta = 1.5f,
-                           .f0 = {0.04f, 0.04f, 0.04f}, .conductor_eta = {0.2f, 0.9f, 1.1f},
+    vndf_description is = {.distribution = vndf_ggx(),
+                           .effects = effects,
+                           .alpha_x = 0.3f,
+                           .alpha_y = 0.2f,
+                           .eta = 1.5f,
+                           .f0 = {0.04f, 0.04f, 0.04f},
+                           .conductor_eta = {0.2f, 0.9f, 1.1f},
                            .conductor_k = {3.9f, 2.4f, 2.2f}};
     return is;
 }
@@ -73,7 +78,8 @@ static void test_names(void)
         {{.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_CONDUCTOR}, {"CONDUCTOR", "LOBES_REFLECTION"}},
         {{.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_CONDUCTOR}, {"CONDUCTOR", "LOBES_REFLECTION"}},
         {{.lobes = VNDF_LOBES_BOTH}, {"LOBES_BOTH", "FRESNEL_NONE"}},
-        {{.lobes = VNDF_LOBES_TRANSMISSION, .normals = VNDF_NORMALS_BOUNDED}, {"NORMALS_BOUNDED", "LOBES_REFLECTION"}},
+        {{.lobes = VNDF_LOBES_TRANSMISSION, .normals = VNDF_NORMALS_BOUNDED},
+         {"NORMALS_BOUNDED", "LOBES_REFLECTION"}},
         {{.normals = VNDF_NORMALS_V_CAVITY}, {"NORMALS_V_CAVITY", "MASKING_V_CAVITIES"}},
         {{.scattering = VNDF_SCATTERING_MULTIPLE, .masking = VNDF_MASKING_SEPARABLE},
          {"SCATTERING_MULTIPLE", "MASKING_HEIGHT_CORRELATED"}},
@@ -121,13 +127,20 @@ static const number NUMBERS[] = {
     {"rotation", offsetof(vndf_description, rotation), {.axes = VNDF_AXES_ROTATED}, -1e4, 1e4},
     {"eta", offsetof(vndf_description, eta), {.fresnel = VNDF_FRESNEL_DIELECTRIC}, 0.01, 100},
     {"eta", offsetof(vndf_description, eta), {.lobes = VNDF_LOBES_TRANSMISSION}, 0.01, 100},
-    {"eta", offsetof(vndf_description, eta), {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_SCHLICK}, 0.01, 100},
+    {"eta",
+     offsetof(vndf_description, eta),
+     {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_SCHLICK},
+     0.01,
+     100},
     {"f0", offsetof(vndf_description, f0), {.fresnel = VNDF_FRESNEL_SCHLICK}, 0, 1},
     {"f0", offsetof(vndf_description, f0) + 2 * sizeof(float), {.fresnel = VNDF_FRESNEL_SCHLICK}, 0, 1},
     {"conductor_eta", offsetof(vndf_description, conductor_eta), {.fresnel = VNDF_FRESNEL_CONDUCTOR}, 0, 1000},
     {"conductor_k", offsetof(vndf_description, conductor_k), {.fresnel = VNDF_FRESNEL_CONDUCTOR}, 0, 1000},
-    {"conductor_k", offsetof(vndf_description, conductor_k) + 2 * sizeof(float), {.fresnel = VNDF_FRESNEL_CONDUCTOR},
-     0, 1000},
+    {"conductor_k",
+     offsetof(vndf_description, conductor_k) + 2 * sizeof(float),
+     {.fresnel = VNDF_FRESNEL_CONDUCTOR},
+     0,
+     1000},
 };
 
 static vndf_description with(vndf_effects effects, size_t offset, float value)

@@ -45,7 +45,8 @@ static int check_weight(const vndf_bsdf *bsdf, const vndf_scattered *s, finding 
     }
     for (int i = 0; i < VNDF_WAVELENGTHS; i++) {
         double want = (double)f[i] * fabs((double)s->wo.z) / (double)s->density;
-        if (f[i] < 1e37f && (f[i] > 1e-30f || s->weight[i] > 1e-6f)) /* below it f has been cut to 0 or to FLT_MIN */
+        if (f[i] < 1e37f &&
+            (f[i] > 1e-30f || s->weight[i] > 1e-6f)) /* below it f has been cut to 0 or to FLT_MIN */
             worst = fmax(worst, fabs((double)s->weight[i] - want) / fmax(want, least));
     }
     found->kept++;
@@ -54,7 +55,8 @@ static int check_weight(const vndf_bsdf *bsdf, const vndf_scattered *s, finding 
     return TEST(density <= 1e-5) & TEST(worst <= 1e-5);
 }
 
-static void check_sample(const vndf_description *is, const char *name, vndf_vec3 wi, const float u[3], finding *found)
+static void check_sample(const vndf_description *is, const char *name, vndf_vec3 wi, const float u[3],
+                         finding *found)
 {
     vndf_material material;
     vndf_bsdf bsdf;
@@ -114,8 +116,8 @@ static void test_ndf(const char *name, unsigned long long seed)
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"ggx", "beckmann", "student-t-2.5", "hazy", "epd-0.6",
-                                        "sgd-blue-metallic-paint-b"};
+    static const char *const names[] = {"ggx",  "beckmann", "student-t-2.5",
+                                        "hazy", "epd-0.6",  "sgd-blue-metallic-paint-b"};
     for (size_t i = 0; i < 6; i++)
         if (oracle_wanted(arguments, argument, i, names[i]))
             test_ndf(names[i], 1000 * i + 23);

@@ -10,7 +10,7 @@
 
 #ifdef HAS_PROCESSES
 
-#include "harness/run_program.h"
+#  include "harness/run_program.h"
 
 enum { IN = 1, OUT = 2, ALL = 7, RARELY = 8 };
 
@@ -45,17 +45,22 @@ static const subject subjects[] = {
     {OUT, {"plot", table, "-o", "-"}, {{0}}},
     {OUT, {"masking", table, "-o", "new.csv"}, {{.name = "new.csv"}}},
     {OUT, {"masking", table, "-o", "-"}, {{0}}},
-    {OUT, {"bench", "--only", "ggx", "--seconds", "0.1", "--csv", "new.csv", "--markdown", "new.md"},
+    {OUT,
+     {"bench", "--only", "ggx", "--seconds", "0.1", "--csv", "new.csv", "--markdown", "new.md"},
      {{"new.csv", "method,distribution,", "\n"}, {"new.md", "| ", ".\n"}}},
-    {OUT | RARELY, {"bench", "effects", "--distribution", "ggx", "--only", "bare reflection", "--seconds", "0.01",
-                    "--csv", "new.csv"}, {{"new.csv", "set,distribution,", "\n"}}},
+    {OUT | RARELY,
+     {"bench", "effects", "--distribution", "ggx", "--only", "bare reflection", "--seconds", "0.01", "--csv",
+      "new.csv"},
+     {{"new.csv", "set,distribution,", "\n"}}},
     {OUT, {"render", "ball.scene", "--spp", "2", "-o", "new.png"}, {{.name = "new.png"}}},
     {OUT, {"render", "ball.scene", "--spp", "2", "-o", "new.pfm"}, {{.name = "new.pfm"}}},
     {OUT, {"render", "ball.scene", "--spp", "2", "-o", "-"}, {{0}}},
     {OUT, {"render", "--grammar"}, {{0}}},
-    {OUT, {"compare", "ball.scene", "page", "--spp", "2"},
+    {OUT,
+     {"compare", "ball.scene", "page", "--spp", "2"},
      {{"page/index.html", "<!DOCTYPE html>", "</html>\n"}, {.name = "page/reference.pfm"}}},
-    {OUT | RARELY, {"report", "page", "--seconds", "1"},
+    {OUT | RARELY,
+     {"report", "page", "--seconds", "1"},
      {{"page/index.html", "<!DOCTYPE html>", "</html>\n"}, {"page/frontier.svg", "<svg ", "</svg>\n"}}},
 };
 

@@ -13,20 +13,20 @@
 
 #ifdef VNDF_TEST_WRAP
 
-#include <dirent.h>
-#include <errno.h>
-#include <fcntl.h>
-#include <stdlib.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#  include <dirent.h>
+#  include <errno.h>
+#  include <fcntl.h>
+#  include <stdlib.h>
+#  include <sys/resource.h>
+#  include <sys/stat.h>
+#  include <sys/wait.h>
+#  include <unistd.h>
 
-#include "command.h"
-#include "cli/output.h"
-#include "draw/page.h"
-#include "harness/run_program.h"
-#include "vndf_build.h"
+#  include "command.h"
+#  include "cli/output.h"
+#  include "draw/page.h"
+#  include "harness/run_program.h"
+#  include "vndf_build.h"
 
 size_t __real_fwrite(const void *data, size_t size, size_t count, FILE *file);
 int __real_fflush(FILE *file);
@@ -50,7 +50,7 @@ enum { WRITE = 1, FLUSH, CLOSE, SYNC, MODE, RENAME, STEPS };
 /* The step that fails from now on, once; renames so far; those of a file that was not synced as it is. */
 static int failing, renames, unsynced;
 static struct stat synced;
-static FILE *spoiled; /* the stream that a write failed of */
+static FILE *spoiled;     /* the stream that a write failed of */
 static char renamed[512]; /* the last temporary */
 
 static int fails(int step)
@@ -320,7 +320,7 @@ typedef struct command {
     int (*run)(int argc, char **argv);
     const char *name; /* the file that is there already */
     const char *words[RUN_WORDS];
-    int files;        /* written in all, at least */
+    int files; /* written in all, at least */
 } command;
 
 static const command commands[] = {

@@ -10,18 +10,18 @@
 
 #ifdef HAS_PROCESSES
 
-#include <dirent.h>
-#include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
+#  include <dirent.h>
+#  include <errno.h>
+#  include <fcntl.h>
+#  include <signal.h>
+#  include <stdlib.h>
+#  include <sys/resource.h>
+#  include <sys/stat.h>
+#  include <sys/wait.h>
+#  include <time.h>
+#  include <unistd.h>
 
-#include "vndf_build.h"
+#  include "vndf_build.h"
 
 enum { WORDS = 16, NOBODY = 65534, NOT_RUN = 126 };
 
@@ -32,9 +32,9 @@ static const char old_text[] = "the old file\n";
 
 /* What is special about a child. */
 typedef struct setting {
-    int out, in;        /* descriptors for stdout and stdin; -1: /dev/null */
-    rlim_t file_limit;  /* bytes; 0: none */
-    int unprivileged;   /* becomes nobody if it is root, whom no folder refuses */
+    int out, in;       /* descriptors for stdout and stdin; -1: /dev/null */
+    rlim_t file_limit; /* bytes; 0: none */
+    int unprivileged;  /* becomes nobody if it is root, whom no folder refuses */
     int ignores_pipe;
 } setting;
 
@@ -194,7 +194,9 @@ static void test_full_disk(void)
 static void test_full_stdout(void)
 {
     static const char *const printers[][WORDS] = {
-        {"info", "ggx", NULL}, {"--help", NULL}, {"build", "--list", NULL},
+        {"info", "ggx", NULL},
+        {"--help", NULL},
+        {"build", "--list", NULL},
         {"sample", "ggx", "--theta", "60", "-n", "3", "-o", "-", NULL},
         {"sample", "ggx", "--theta", "60", "-n", "100000", "-o", "-", NULL},
         {"check", "ggx", "--at", "1,0,0,1,1,0.5,0", NULL}};
@@ -217,8 +219,8 @@ static void test_full_stdout(void)
 static void test_no_folder(void)
 {
     static const char *const words[] = {"build", "--family", "ggx", "-o", "old.vndf/table.vndf", NULL};
-    static const char *const sample[] = {"sample", "ggx", "--theta", "60", "-n", "3", "-o", "old.vndf/a.csv",
-                                         NULL};
+    static const char *const sample[] = {"sample", "ggx", "--theta",        "60", "-n",
+                                         "3",      "-o",  "old.vndf/a.csv", NULL};
     put_old("old.vndf");
     outcome o = run(&plain, words);
     TEST(exited(o, 2));
@@ -271,8 +273,8 @@ static outcome interrupt(const char *const *words, int number, long delay, int a
 /* A build of many seconds. The child of a busy machine may not have begun it yet: then the signal waits longer. */
 static void test_interrupted_build(int number)
 {
-    static const char *const words[] = {"build", "--slope", "exp(-r)*(1+0.9*sin(300*r))", "--max-bytes", "65536",
-                                        "-o", "old.vndf", NULL};
+    static const char *const words[] = {
+        "build", "--slope", "exp(-r)*(1+0.9*sin(300*r))", "--max-bytes", "65536", "-o", "old.vndf", NULL};
     outcome o = {0, ""};
     put_old("old.vndf");
     for (long delay = 300; delay < 5000 && !o.errors[0]; delay *= 2)
@@ -311,7 +313,8 @@ static void put_scene(void)
     FILE *file = fopen("ball.scene", "w");
     TEST(file && fputs("film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
                        "material gold conductor of gold distribution ggx alpha 0.2\n"
-                       "sphere centre 0 0 0 radius 1 material gold\n", file) >= 0);
+                       "sphere centre 0 0 0 radius 1 material gold\n",
+                       file) >= 0);
     if (file)
         fclose(file);
 }
@@ -320,8 +323,8 @@ static void put_scene(void)
  * milliseconds, may not be there yet: then the signal waits longer. */
 static void test_interrupted_render(void)
 {
-    static const char *const words[] = {"render", "ball.scene", "-o", "ball.pfm", "--spp", "1e9", "--threads", "1",
-                                        NULL};
+    static const char *const words[] = {"render", "ball.scene", "-o", "ball.pfm", "--spp",
+                                        "1e9",    "--threads",  "1",  NULL};
     char said[256] = "";
     outcome o = {0, "before"};
     FILE *out = tmpfile();
@@ -384,7 +387,9 @@ static void test_closed_pipe(void)
     static const char *const printers[][WORDS] = {
         {"sample", "ggx", "--theta", "60", "-n", "1000000", "-o", "-", NULL},
         {"sample", "ggx", "--theta", "60", "-n", "3", "-o", "-", NULL},
-        {"info", table, NULL}, {"build", "--list", NULL}, {"check", "ggx", "--at", "1,0,0,1,1,0.5,0", NULL},
+        {"info", table, NULL},
+        {"build", "--list", NULL},
+        {"check", "ggx", "--at", "1,0,0,1,1,0.5,0", NULL},
         {"build", "--family", "ggx", "--max-bytes", "2048", "-o", "new.vndf", NULL}};
     for (size_t i = 0; i < sizeof printers / sizeof *printers; i++)
         for (int ignores = 0; ignores < 2; ignores++) {

@@ -12,11 +12,11 @@
 
 #ifdef HAS_PROCESSES
 
-#include <dirent.h>
-#include <errno.h>
+#  include <dirent.h>
+#  include <errno.h>
 
-#include "harness/run_program.h"
-#include "vndf_build.h"
+#  include "harness/run_program.h"
+#  include "vndf_build.h"
 
 enum { NOBODY = 65534, LONGEST = 255 };
 
@@ -26,7 +26,7 @@ static const char old_text[] = "the old file\n";
 /* ---- writers ---- */
 
 /* Words in which OUTPUT stands for the file; none: vndf_save, of the library. */
-#define OUTPUT "OUTPUT"
+#  define OUTPUT "OUTPUT"
 
 typedef struct writer {
     const char *ending;

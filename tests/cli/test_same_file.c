@@ -10,10 +10,10 @@
 
 #ifdef HAS_PROCESSES
 
-#include "harness/run_program.h"
+#  include "harness/run_program.h"
 
 /* Words in which OUTPUT stands for a name of the input. */
-#define OUTPUT "OUTPUT"
+#  define OUTPUT "OUTPUT"
 
 typedef struct subject {
     const char *input;
@@ -153,9 +153,11 @@ static void test_other(void)
 /* What is appended to stdout would change an input, too. */
 static void test_stdout(void)
 {
-    static const char *const words[][RUN_WORDS] = {
-        {"info", "before"}, {"sample", "before", "--theta", "60", "-n", "10", "-o", "-"},
-        {"eval", "before", "--theta", "60"}, {"plot", "before", "-o", "-"}, {"plot", "ggx", "-o", "before"}};
+    static const char *const words[][RUN_WORDS] = {{"info", "before"},
+                                                   {"sample", "before", "--theta", "60", "-n", "10", "-o", "-"},
+                                                   {"eval", "before", "--theta", "60"},
+                                                   {"plot", "before", "-o", "-"},
+                                                   {"plot", "ggx", "-o", "before"}};
     const run_setting appends = {.append = "before"}, filters = {.in = "normals", .append = "normals"};
     keep("table.csv");
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -173,12 +175,14 @@ static void test_stdout(void)
  * written. */
 static void test_folder(void)
 {
-    static const char *const make[] = {"compare", "ball.scene", "page", "--spp", "2", "--samplers", "visible,all",
-                                       NULL};
-    static const char *const repeat[] = {"compare", "ball.scene", "page", "--spp", "2", "--samplers",
-                                         "visible,all", "--reference", "page/reference.pfm", NULL};
-    static const char *const spoil[] = {"compare", "ball.scene", "page", "--spp", "2", "--samplers", "visible,all",
-                                        "--seed", "7", "--reference", "page/all-time.pfm", NULL};
+    static const char *const make[] = {"compare", "ball.scene", "page",        "--spp",
+                                       "2",       "--samplers", "visible,all", NULL};
+    static const char *const repeat[] = {
+        "compare",     "ball.scene",         "page", "--spp", "2", "--samplers", "visible,all",
+        "--reference", "page/reference.pfm", NULL};
+    static const char *const spoil[] = {"compare",           "ball.scene",  "page",   "--spp", "2",
+                                        "--samplers",        "visible,all", "--seed", "7",     "--reference",
+                                        "page/all-time.pfm", NULL};
     struct stat before, after;
     TEST(run_put("ball.scene", run_scene) && run_program(&run_plain, make)->status == 0);
     TEST(stat("page/reference.pfm", &before) == 0 && run_program(&run_plain, repeat)->status == 0);
@@ -196,8 +200,8 @@ static void test_outputs(void)
     static const char *const names[][2] = {{"a", "a"}, {"a", "./a"}, {"a", "folder/../a"}, {"a", "link"}};
     TEST(symlink("a", "link") == 0);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *words[] = {"bench", "--only", "ggx", "--seconds", "0.1", "--csv", names[i][0], "--markdown",
-                               names[i][1], NULL};
+        const char *words[] = {"bench", "--only",    "ggx",        "--seconds", "0.1",
+                               "--csv", names[i][0], "--markdown", names[i][1], NULL};
         const run_outcome *o = run_program(&run_plain, words);
         if (!(TEST(o->status == 2) & TEST_HAS(o->text, "both name 'a'")))
             run_tell(words, o);

@@ -40,8 +40,8 @@ static void log_is_exact(void)
     unsigned long long state = 2;
     double worst = 0.0, worst1p = 0.0;
     for (int i = 0; i < POINTS; i++) {
-        double x = i % 2 ? exp(between(&state, -700.0, 700.0))
-                         : 1.0 + between(&state, -1.0, 1.0) * ldexp(1.0, -i % 50);
+        double x =
+            i % 2 ? exp(between(&state, -700.0, 700.0)) : 1.0 + between(&state, -1.0, 1.0) * ldexp(1.0, -i % 50);
         double y = exp(between(&state, -60.0, 60.0));
         if (x != 1.0 && x > 0.0)
             worst = fmax(worst, off(vndf_log(x), logl(x)));

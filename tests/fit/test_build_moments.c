@@ -8,9 +8,17 @@
 #include "harness/test.h"
 #include "vndf_build.h"
 
-static const char *const P22[] = {"(1+r^2)^-2",  "exp(-r^2)",   "(1+r^2)^-1.55", "(1+r)^-3.3", "r^-1.5*exp(-r)",
-                                  "step(1-r)",   "exp(-r^8)",   "r^6*exp(-r^2)", "step(1-r)*step(r-0.8)",
-                                  "exp(-((r-1)/0.05)^2)", "exp(-((r-3)/0.1)^2)+0.1*exp(-r^2)",
+static const char *const P22[] = {"(1+r^2)^-2",
+                                  "exp(-r^2)",
+                                  "(1+r^2)^-1.55",
+                                  "(1+r)^-3.3",
+                                  "r^-1.5*exp(-r)",
+                                  "step(1-r)",
+                                  "exp(-r^8)",
+                                  "r^6*exp(-r^2)",
+                                  "step(1-r)*step(r-0.8)",
+                                  "exp(-((r-1)/0.05)^2)",
+                                  "exp(-((r-3)/0.1)^2)+0.1*exp(-r^2)",
                                   "exp(-r)*(1+0.9*cos(20*r))"};
 static const size_t SIZES[] = {2048, 4096, 16384};
 

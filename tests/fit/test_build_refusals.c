@@ -8,19 +8,19 @@ typedef struct refusal {
 } refusal;
 
 static const refusal refusals[] = {
-    {"1-r", "negative"},                        /* negative beyond slope 1 */
+    {"1-r", "negative"}, /* negative beyond slope 1 */
     {"exp(-r)-0.001", "negative"},
     {"exp(-r)*sqrt(3-r)", "not a number"},
     {"exp(-r)/abs(r-1)", "infinite at slope 1"},
     {"0", "zero"},
     {"step(-1-r)", "zero"},
     {"1", "infinite projected area"},
-    {"1/(1+r^3)", "infinite projected area"},   /* r^-3: the first moment diverges like a logarithm */
+    {"1/(1+r^3)", "infinite projected area"}, /* r^-3: the first moment diverges like a logarithm */
     {"(1+r*r)^-1", "infinite projected area"},
     {"r^-2*exp(-r)", "at the pole"},
     {"r^-3*exp(-r)", "at the pole"},
-    {"(1+r*r)^-1.52", "tail"},                  /* integrable, but in slopes that no float normal has */
-    {"r^-1.9*exp(-r)", "below slope 1e-30"},    /* the same at the pole */
+    {"(1+r*r)^-1.52", "tail"},               /* integrable, but in slopes that no float normal has */
+    {"r^-1.9*exp(-r)", "below slope 1e-30"}, /* the same at the pole */
     {"1e-320*exp(-r*r)", "too small for doubles"},
     {"exp(-r)+step(r-1)*step(1.001-r)*sqrt(1.0001-r)", "not a number"},
     {"exp(-r)*(1+cos(1e12*r))", "too rough"},
@@ -28,19 +28,23 @@ static const refusal refusals[] = {
 };
 
 static const char *const accepted[] = {
-    "r^-1.7*exp(-r)", "(1+r*r)^-1.65", "step(1-r)", "exp(-((r-1)/0.02)^2)", "step(r-1)*exp(-r)",
-        "exp(-r*r)+1e4*exp(-1e4*r*r)",
-    "1e-30*exp(-r*r)", "1e30*exp(-r*r)",
-    "exp(-((r-1)/1e-5)^2)", "exp(-((r-1.37)/5e-5)^2)", /* all mass in a narrow ring */
+    "r^-1.7*exp(-r)",          "(1+r*r)^-1.65",     "step(1-r)",
+    "exp(-((r-1)/0.02)^2)",    "step(r-1)*exp(-r)", "exp(-r*r)+1e4*exp(-1e4*r*r)",
+    "1e-30*exp(-r*r)",         "1e30*exp(-r*r)",    "exp(-((r-1)/1e-5)^2)",
+    "exp(-((r-1.37)/5e-5)^2)", /* all mass in a narrow ring */
 };
 
 /* The same without a table. */
 static const char *const resolved[] = {
-    "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "r^100/cosh(r)", /* far out infinity times 0 and over infinity */
-    "1-pow(tanh(r),2)", "2*step(0.4-r)+1-step(r-1)", /* far out exactly 0, where bounds must not be rounded away */
-    "1e-305*exp(-r*r)", "exp(-((r-1.37)/2e-5)^2)",
+    "r^11*exp(-r^2)",
+    "exp(r)/(1+exp(2*r))",
+    "r^100/cosh(r)", /* far out infinity times 0 and over infinity */
+    "1-pow(tanh(r),2)",
+    "2*step(0.4-r)+1-step(r-1)", /* far out exactly 0, where bounds must not be rounded away */
+    "1e-305*exp(-r*r)",
+    "exp(-((r-1.37)/2e-5)^2)",
     "exp(-r)/sqrt(abs(r^2-2))", /* infinite, but at no double */
-    "(1-cos(r))/r^2*exp(-r)", /* few digits near 0 */
+    "(1-cos(r))/r^2*exp(-r)",   /* few digits near 0 */
 };
 
 static vndf_distribution *build(const char *slope, vndf_error *error)

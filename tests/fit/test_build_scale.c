@@ -35,7 +35,7 @@ static double mean_difference(const vndf_distribution *a, const vndf_distributio
     double sum = 0;
     for (int i = 0; i < SAMPLES; i++) {
         float z = 1.2f * test_uniform(&state) - 0.2f, s = sqrtf(1 - z * z), u1 = test_uniform(&state),
-            u2 = test_uniform(&state), v1, v2;
+              u2 = test_uniform(&state), v1, v2;
         vndf_vec3 wi = {s * 0.6f, s * 0.8f, z};
         vndf_view va = vndf_view_from(&sa, wi), vb = vndf_view_from(&sb, wi);
         vndf_invert(&vb, vndf_sample(&va, u1, u2, NULL), &v1, &v2);
@@ -60,8 +60,7 @@ int main(void)
                       0.2);
         TEST_NEAR(apart, 0, (double)one.tv + (double)other.tv);
         fprintf(stderr, "width %g: TV %.3g (%.3g at width 1), uniform numbers within %.2g\n", widths[i],
-                (double)other.tv,
-                (double)one.tv, apart);
+                (double)other.tv, (double)one.tv, apart);
         vndf_free(table);
     }
     vndf_free(unit);

@@ -140,15 +140,18 @@ static void test_dense(const struct subject *s, const vndf_source *source, const
         return;
     if (TEST(vndf_survey_from(&v, table, profile))) {
         worst w = look_all(&v, count);
-        int good = TEST(w.tv <= 1.1 * (double)claim->tv + 1e-7) & TEST(w.above <= 1.1 * (double)claim->tv_above + 1e-7) &
+        int good = TEST(w.tv <= 1.1 * (double)claim->tv + 1e-7) &
+                   TEST(w.above <= 1.1 * (double)claim->tv_above + 1e-7) &
                    TEST(w.max_weight - 1 <= 1.3 * ((double)claim->max_weight - 1)) &
                    TEST(w.area_error <= 1.1 * (double)claim->area_error + 1e-7) &
                    TEST(s->tv == 0 || (double)claim->tv <= s->tv);
         if (!good)
-            fprintf(stderr, "  %s (%lu bytes) certifies TV %.4g at %g (%.4g above), weight %.5g, area %.3g; found TV %.4g"
-                            " at %.9g (%.4g), weight %.5g, area %.3g\n", s->name, (unsigned long)table->bytes,
-                    (double)claim->tv, (double)claim->tv_theta, (double)claim->tv_above, (double)claim->max_weight,
-                    (double)claim->area_error, w.tv, w.tv_theta, w.above, w.max_weight, w.area_error);
+            fprintf(stderr,
+                    "  %s (%lu bytes) certifies TV %.4g at %g (%.4g above), weight %.5g, area %.3g; found TV %.4g"
+                    " at %.9g (%.4g), weight %.5g, area %.3g\n",
+                    s->name, (unsigned long)table->bytes, (double)claim->tv, (double)claim->tv_theta,
+                    (double)claim->tv_above, (double)claim->max_weight, (double)claim->area_error, w.tv,
+                    w.tv_theta, w.above, w.max_weight, w.area_error);
     }
     vndf_survey_free(&v);
     vndf_profile_free(profile);
@@ -171,7 +174,10 @@ static void test_subject(const struct subject *s, int count)
  * cells are 2e-5 of their slope wide at least. */
 static void test_needles(void)
 {
-    static const struct { const char *p22; float least, most; } needles[] = {
+    static const struct {
+        const char *p22;
+        float least, most;
+    } needles[] = {
         {"exp(-r)+1e5*exp(-((r-1.2345)/1e-6)^2)", 0.12f, 0.17f},
         {"exp(-r)+1e6*exp(-((r-1.2345)/1e-7)^2)", 0.165f, 0.185f},
     };
@@ -209,7 +215,10 @@ static void test_edge(void)
 /* D of student-t:1.7 grows as cos^-0.6 towards the horizon; that of GGX has a limit there. */
 static void test_horizon(void)
 {
-    static const struct { const char *name; double power; } cases[] = {{"student-t:1.7", -0.6}, {"ggx", 0}};
+    static const struct {
+        const char *name;
+        double power;
+    } cases[] = {{"student-t:1.7", -0.6}, {"ggx", 0}};
     for (int i = 0; i < 2; i++) {
         vndf_certificate claim = {0};
         vndf_build_options small = {.max_bytes = 4096};

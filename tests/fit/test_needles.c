@@ -53,8 +53,8 @@ enum { FORMS = sizeof forms / sizeof *forms };
 
 typedef struct needle {
     const form *form;
-    double r0, width, share;           /* slope, width relative to it, part of the mass */
-    vndf_parameter parameter[3];       /* a, s, k */
+    double r0, width, share;     /* slope, width relative to it, part of the mass */
+    vndf_parameter parameter[3]; /* a, s, k */
 } needle;
 
 static vndf_source *source_of(needle *n, double k)
@@ -127,7 +127,8 @@ static void test_needle(needle *n)
     double k = height_of(n), mass = mass_with(n, k);
     vndf_source *source = source_of(n, k);
     vndf_truth *truth = vndf_truth_from(source, &error);
-    double r = n->r0 * (1 + 0.3 * n->width), found = truth ? vndf_source_p22(source, r) / vndf_truth_p22(truth, r) : 0;
+    double r = n->r0 * (1 + 0.3 * n->width),
+           found = truth ? vndf_source_p22(source, r) / vndf_truth_p22(truth, r) : 0;
     int good = truth ? TEST_RELATIVE(found, mass, 1e-4)
                      : TEST(error.status == VNDF_ERROR_DISTRIBUTION) & TEST_HAS(error.message, " slope ");
     if (!good || getenv("VERBOSE"))
@@ -149,7 +150,9 @@ int main(int argc, char **argv)
     int count = argc > 1 ? atoi(argv[1]) : 120;
     unsigned long long state = 20261;
     for (int i = 0; i < count; i++) {
-        needle n = {.form = &forms[i % FORMS], .r0 = between(&state, 0.01, 50), .width = between(&state, 1e-12, 1e-2),
+        needle n = {.form = &forms[i % FORMS],
+                    .r0 = between(&state, 0.01, 50),
+                    .width = between(&state, 1e-12, 1e-2),
                     .share = between(&state, 1e-3, 0.9)};
         place(&n);
         test_needle(&n);

@@ -59,8 +59,9 @@ static void test_form(const form *f, double scale)
 /* Areas of exp(-r)/(2 pi) down to 1e-8 of that at grazing incidence, by quadrature with 30 digits. */
 static void test_deep_areas(void)
 {
-    static const struct { double theta, area; } deep[] = {
-        {150, 0.073703088805636}, {170, 6.89553179981653e-4}, {176.43, 1.17646841603251e-8}};
+    static const struct {
+        double theta, area;
+    } deep[] = {{150, 0.073703088805636}, {170, 6.89553179981653e-4}, {176.43, 1.17646841603251e-8}};
     vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
     vndf_truth *truth = source ? vndf_truth_from(source, NULL) : NULL;
     for (size_t i = 0; TEST(truth != NULL) && i < sizeof deep / sizeof *deep; i++)

@@ -28,8 +28,8 @@ static inline unsigned long long hash_sample(unsigned long long hash, const vndf
 
 /* All other functions of vndf.h that take a view or a surface. */
 static inline unsigned long long hash_others(unsigned long long hash, const vndf_view *view,
-                                             const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wm,
-                                             float x, float y)
+                                             const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wm, float x,
+                                             float y)
 {
     float v1 = 0.0f, v2 = 0.0f;
     vndf_invert(view, wm, &v1, &v2);

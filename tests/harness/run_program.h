@@ -14,10 +14,10 @@
 enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
 
 typedef struct run_setting {
-    unsigned closed;     /* a bit for each of the descriptors 0 to 2 */
-    const char *in;      /* what stdin is opened from; NULL: /dev/null */
-    const char *append;  /* what stdout is appended to; NULL: `text` of the outcome, as stderr */
-    const char *left;    /* a file for which a temporary of the same process number is there already */
+    unsigned closed;    /* a bit for each of the descriptors 0 to 2 */
+    const char *in;     /* what stdin is opened from; NULL: /dev/null */
+    const char *append; /* what stdout is appended to; NULL: `text` of the outcome, as stderr */
+    const char *left;   /* a file for which a temporary of the same process number is there already */
 } run_setting;
 
 static const run_setting run_plain = {.closed = 0};

@@ -33,7 +33,7 @@ static inline int test_near(double got, double want, double tolerance, const cha
 #define TEST(condition) test_report((condition) ? 1 : 0, __FILE__, __LINE__, #condition)
 #define TEST_NEAR(got, want, tolerance) test_near((got), (want), (tolerance), __FILE__, __LINE__, #got " ~ " #want)
 #define TEST_RELATIVE(got, want, tolerance) \
-    test_near((got), (want), (tolerance) * fabs(want), __FILE__, __LINE__, #got " ~ " #want)
+  test_near((got), (want), (tolerance)*fabs(want), __FILE__, __LINE__, #got " ~ " #want)
 #define TEST_HAS(text, part) test_report(strstr((text), (part)) != NULL, __FILE__, __LINE__, #text " has " #part)
 
 static inline int test_done(void)

@@ -12,7 +12,7 @@ static const double PI = 3.14159265358979323846;
 typedef struct sphere {
     double ax, ay, x, y, z; /* roughness, wi */
     masking_function function;
-    double cosine;          /* of theta_m, for the inner integral */
+    double cosine; /* of theta_m, for the inner integral */
 } sphere;
 
 static double ggx_d(const sphere *s, double x, double y, double z)
@@ -96,7 +96,8 @@ static void test_closed_forms(void)
 /* Roughness along wi, bounded. */
 static void test_schlick_k(void)
 {
-    vndf_surface ggx = {vndf_ggx(), 0.2f, 0.6f}, rough = {vndf_ggx(), 5, 5}, beckmann = {vndf_beckmann(), 0.2f, 0.6f};
+    vndf_surface ggx = {vndf_ggx(), 0.2f, 0.6f}, rough = {vndf_ggx(), 5, 5},
+                 beckmann = {vndf_beckmann(), 0.2f, 0.6f};
     TEST_NEAR(masking_schlick_k(&ggx, oracle_direction(30, 0)), 0.1, 1e-7);
     TEST_NEAR(masking_schlick_k(&ggx, oracle_direction(30, 90)), 0.3, 1e-7);
     TEST_NEAR(masking_schlick_k(&beckmann, oracle_direction(70, 90)), 0.6 * sqrt(2 / PI), 1e-7);
@@ -118,8 +119,8 @@ static void test_verdicts(const vndf_distribution *d, const char *name)
                 far[j] = fmax(far[j], fabs(got.of[j] - 1));
             worst = fmax(worst, fabs(got.normals - 1));
         }
-    fprintf(stderr, "%s: D cos within %.2g, smith %.2g, v-cavities %.2g; others off by %.2g %.2g %.2g\n", name, worst,
-            far[MASKING_SMITH], far[MASKING_V_CAVITIES], far[MASKING_IMPLICIT], far[MASKING_KELEMEN],
+    fprintf(stderr, "%s: D cos within %.2g, smith %.2g, v-cavities %.2g; others off by %.2g %.2g %.2g\n", name,
+            worst, far[MASKING_SMITH], far[MASKING_V_CAVITIES], far[MASKING_IMPLICIT], far[MASKING_KELEMEN],
             far[MASKING_SCHLICK_SMITH]);
     TEST(far[MASKING_SMITH] < 1e-5 && far[MASKING_V_CAVITIES] < 1e-5);
     TEST(far[MASKING_IMPLICIT] > 0.01 && far[MASKING_KELEMEN] > 0.01 && far[MASKING_SCHLICK_SMITH] > 0.01);

@@ -10,8 +10,8 @@
 #include "harness/test.h"
 
 static const char *const pathological[] = {
-    "step(1-r)", "exp(-r)*step(r-2)", "exp(-((r-1)/0.02)^2)", "r^-1.5*exp(-r)", "r^-1.75*exp(-r)", "(1+r*r)^-1.55",
-    "exp(-r*r)+1e4*exp(-(100*r)^2)", "exp(-1e9*r)"};
+    "step(1-r)",       "exp(-r)*step(r-2)", "exp(-((r-1)/0.02)^2)",          "r^-1.5*exp(-r)",
+    "r^-1.75*exp(-r)", "(1+r*r)^-1.55",     "exp(-r*r)+1e4*exp(-(100*r)^2)", "exp(-1e9*r)"};
 
 static void print_point(const stress_point *at)
 {

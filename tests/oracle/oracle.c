@@ -134,7 +134,7 @@ static double seen_between(const direction *d, double r0, double r1)
     while (u < end) {
         double r = exp(u), here = d->o->shape(r), there = d->o->shape(r * 1.001);
         double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0,
-            next = u + 0.35 / (1 + 0.1 * steep);
+               next = u + 0.35 / (1 + 0.1 * steep);
         next = next < end ? next : end;
         sum += oracle_integrate(seen_at, d, u, next);
         u = next;

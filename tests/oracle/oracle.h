@@ -13,17 +13,26 @@
 #include "vndf_build.h"
 
 typedef struct oracle {
-    const char *family, *slope;  /* how the builder gets it: one of the two */
-    double (*shape)(double r);   /* P22 up to a factor */
-    double breaks[2];            /* slopes where it jumps or has a kink, ascending; 0: none */
-    double peak, reach;          /* slopes below and beyond which less than 1e-12 of the mass lies */
-    int rough;                   /* a ring or a jump: ten times the error is allowed */
-    double norm;                 /* P22 = norm shape, integral P22 r dr = 1/(2 pi) */
+    const char *family, *slope; /* how the builder gets it: one of the two */
+    double (*shape)(double r);  /* P22 up to a factor */
+    double breaks[2];           /* slopes where it jumps or has a kink, ascending; 0: none */
+    double peak, reach;         /* slopes below and beyond which less than 1e-12 of the mass lies */
+    int rough;                  /* a ring or a jump: ten times the error is allowed */
+    double norm;                /* P22 = norm shape, integral P22 r dr = 1/(2 pi) */
 } oracle;
 
 /* In the order of oracle_get. */
-enum { ORACLE_GGX, ORACLE_BECKMANN, ORACLE_STUDENT, ORACLE_LAPLACE, ORACLE_MEASURED, ORACLE_HAZE, ORACLE_RING,
-      ORACLE_DISC, ORACLE_COUNT };
+enum {
+    ORACLE_GGX,
+    ORACLE_BECKMANN,
+    ORACLE_STUDENT,
+    ORACLE_LAPLACE,
+    ORACLE_MEASURED,
+    ORACLE_HAZE,
+    ORACLE_RING,
+    ORACLE_DISC,
+    ORACLE_COUNT
+};
 
 oracle oracle_get(size_t index);
 const char *oracle_name(const oracle *o);

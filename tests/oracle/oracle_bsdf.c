@@ -88,14 +88,10 @@ static double g2_of(const oracle_bsdf *o, const double alpha[2], const double wi
     double one_li = oracle_ndf_area(o->ndf, alpha, wi) / (wi[2] / sqrt(dot(wi, wi)));
     double one_lo = oracle_ndf_area(o->ndf, alpha, up) / (up[2] / sqrt(dot(up, up)));
     switch (o->is.effects.masking) {
-    case VNDF_MASKING_SEPARABLE:
-        return 1 / (one_li * one_lo);
-    case VNDF_MASKING_V_CAVITIES:
-        return wo[2] > 0 ? fmin(gi, go) : fmax(0, gi + go - 1);
-    case VNDF_MASKING_NONE:
-        return 1;
-    default:
-        return wo[2] > 0 ? 1 / (one_li + one_lo - 1) : beta_by_quadrature(one_li, one_lo);
+    case VNDF_MASKING_SEPARABLE: return 1 / (one_li * one_lo);
+    case VNDF_MASKING_V_CAVITIES: return wo[2] > 0 ? fmin(gi, go) : fmax(0, gi + go - 1);
+    case VNDF_MASKING_NONE: return 1;
+    default: return wo[2] > 0 ? 1 / (one_li + one_lo - 1) : beta_by_quadrature(one_li, one_lo);
     }
 }
 
@@ -130,14 +126,11 @@ static double normal_density(const oracle_bsdf *o, const double alpha[2], const 
                              double facing)
 {
     switch (o->is.effects.normals) {
-    case VNDF_NORMALS_ALL:
-        return oracle_ndf_all(o->ndf, alpha, wm);
+    case VNDF_NORMALS_ALL: return oracle_ndf_all(o->ndf, alpha, wm);
     case VNDF_NORMALS_V_CAVITY: /* of a normal and its twin (-x, -y, z) the one that is seen */
         return oracle_ndf_all(o->ndf, alpha, wm) * g1_of_cavity(wi, wm, facing) * facing / (wi[2] * wm[2]);
-    case VNDF_NORMALS_BOUNDED:
-        return -1;
-    default:
-        return oracle_ndf_visible(o->ndf, alpha, wi, wm) * facing / dot(wi, wm);
+    case VNDF_NORMALS_BOUNDED: return -1;
+    default: return oracle_ndf_visible(o->ndf, alpha, wi, wm) * facing / dot(wi, wm);
     }
 }
 
@@ -173,7 +166,8 @@ static void transmit(const oracle_bsdf *o, const double alpha[2], const double w
     double facing = dot(wi, wm), beyond = -dot(wo, wm), sum = facing - ratio * beyond;
     if (!(facing > 0) || !(beyond > 0))
         return;
-    double shape = oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm, facing, beyond) * facing * beyond;
+    double shape =
+        oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm, facing, beyond) * facing * beyond;
     double per = wi[2] * -wo[2] * sum * sum, jacobian = ratio * ratio * beyond / (sum * sum);
     if (o->is.effects.transport == VNDF_TRANSPORT_IMPORTANCE)
         per /= ratio * ratio;
@@ -235,8 +229,13 @@ void oracle_effects_name(const vndf_effects *e, char text[ORACLE_EFFECTS_TEXT])
     static const char *const masking[] = {"correlated", "separable", "v-cavities", "unmasked"};
     static const char *const normals[] = {"visible", "bounded", "all", "v-cavity"};
     static const char *const transport[] = {"radiance", "importance"}, *const axes[] = {"fixed", "rotated"};
-    const char *words[] = {lobes[e->lobes], fresnel[e->fresnel], masking[e->masking], normals[e->normals],
-                           transport[e->transport], axes[e->axes], e->scattering ? "multiple" : "single"};
+    const char *words[] = {lobes[e->lobes],
+                           fresnel[e->fresnel],
+                           masking[e->masking],
+                           normals[e->normals],
+                           transport[e->transport],
+                           axes[e->axes],
+                           e->scattering ? "multiple" : "single"};
     text[0] = '\0';
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         strcat(text, words[i]);

@@ -25,8 +25,8 @@ static int build_into(const char *recipe, const char *path)
     char *slope;
     vndf_build_options options = {.max_bytes = strtoul(recipe, &slope, 10)};
     int family = strncmp(slope, " family ", 8) == 0;
-    vndf_source *source = family ? vndf_source_family(slope + 8, &error)
-                                 : vndf_source_slope_expression(slope, NULL, 0, &error);
+    vndf_source *source =
+        family ? vndf_source_family(slope + 8, &error) : vndf_source_slope_expression(slope, NULL, 0, &error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
     int good = table && vndf_save(table, path, &error) == VNDF_OK;
     if (!good)
@@ -267,12 +267,15 @@ int float_scan(const char *line, char name[64], float_quantity *quantity, float_
     char word[16];
     double n[8];
     int fields = sscanf(line, "%63[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, word, &n[0], &n[1], &n[2],
-                        &n[3], &n[4], &n[5], &n[6], &n[7]), id = 0;
+                        &n[3], &n[4], &n[5], &n[6], &n[7]),
+        id = 0;
     while (id < FLOAT_COUNT && strcmp(word, float_quantity_name((float_quantity)id)) != 0)
         id++;
     if (fields != 10 || id == FLOAT_COUNT)
         return 0;
-    float_point read = {{(float)n[0], (float)n[1], (float)n[2]}, (float)n[3], (float)n[4],
+    float_point read = {{(float)n[0], (float)n[1], (float)n[2]},
+                        (float)n[3],
+                        (float)n[4],
                         {(float)n[5], (float)n[6], (float)n[7]}};
     *at = read;
     *quantity = (float_quantity)id;

@@ -10,7 +10,13 @@
 
 /* DRAWN is the density that vndf_sample returns against the oracle's at the normal that it returns. */
 typedef enum float_quantity {
-    FLOAT_DENSITY, FLOAT_DRAWN, FLOAT_AREA, FLOAT_LAMBDA, FLOAT_G1, FLOAT_NDF, FLOAT_COUNT
+    FLOAT_DENSITY,
+    FLOAT_DRAWN,
+    FLOAT_AREA,
+    FLOAT_LAMBDA,
+    FLOAT_G1,
+    FLOAT_NDF,
+    FLOAT_COUNT
 } float_quantity;
 
 const char *float_quantity_name(float_quantity quantity);

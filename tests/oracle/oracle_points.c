@@ -54,8 +54,8 @@ static void choose_roughness(float_point *at, unsigned long long *state)
 {
     int wide = one_of(state, 3) == 0;
     at->alpha_x = (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
-    at->alpha_y = one_of(state, 3) == 0 ? at->alpha_x
-                                            : (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
+    at->alpha_y =
+        one_of(state, 3) == 0 ? at->alpha_x : (float)(wide ? decade(state, -6, 4) : decade(state, -3, 0.5));
 }
 
 /* The sphere; the horizon; and the sphere of the stretched frame, where the area below falls to nothing. */
@@ -96,8 +96,8 @@ float_point float_point_random(const float_subject *subject, unsigned long long 
 
 static float corner(unsigned long long *state)
 {
-    static const float edges[] = {0, FLT_TRUE_MIN, 0x1p-24f, 0.5f - 0x1p-25f, 0.5f, 0.5f + 0x1p-24f,
-                                  1 - 0x1p-24f, 1};
+    static const float edges[] = {0,    FLT_TRUE_MIN,    0x1p-24f,     0.5f - 0x1p-25f,
+                                  0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
     int i = one_of(state, 16);
     return i < 8 ? edges[i] : i < 12 ? (float)decade(state, -12, 0) : 1 - (float)decade(state, -7.5, 0);
 }
@@ -184,15 +184,12 @@ float_point float_point_hard(const float_subject *subject, unsigned long long *s
     else
         choose_direction(subject, &at, state);
     switch (one_of(state, 8)) {
-    case 0: case 1:
-        at.wm = sample_of(subject, &at, corner(state), corner(state));
-        break;
+    case 0:
+    case 1: at.wm = sample_of(subject, &at, corner(state), corner(state)); break;
     case 2: /* the horizon */
         at.wm = unit(cos(phi), sin(phi), one_of(state, 4) ? decade(state, -44, -2) : 0);
         break;
-    case 3:
-        at.wm = at_knot(subject, &at, phi, state);
-        break;
+    case 3: at.wm = at_knot(subject, &at, phi, state); break;
     case 4:
         cut_at_knot(subject, &at, phi, a, state);
         at.wm = one_of(state, 2) ? normal_at(subject, &at, decade(state, -2, 2), phi, 1)

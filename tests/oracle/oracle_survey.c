@@ -72,7 +72,7 @@ static void visit_slope(grid *g, double r, double cos_a, double sin_a, double p2
 {
     double ax = g->surface->alpha_x, ay = g->surface->alpha_y;
     double x = ax * r * (g->cos_phi * cos_a - g->sin_phi * sin_a),
-        y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
+           y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
     double z = 1 / sqrt(1 + x * x + y * y), mask = g->c + g->s * r * cos_a;
     oracle_point point = {{(float)(x * z), (float)(y * z), (float)z}, 0, 0};
     point.truth = mask > 0 ? p22 * mask / g->area / (ax * ay * z * z * z) : 0;
@@ -133,7 +133,7 @@ static void visit_all(const oracle *o, const vndf_surface *surface, vndf_vec3 wi
     stretch(&g, wi);
     make_edges(&g);
     double end = g.c > 0 ? PI : PI / 2, from = 0, turn = -g.c / (g.s * o->breaks[0]);
-        /* there the cut meets the break */
+    /* there the cut meets the break */
     double edge[3] = {PI / 2, fabs(turn) < 1 ? acos(turn) : end, end};
     if (edge[1] < edge[0]) {
         edge[0] = edge[1];

@@ -22,17 +22,17 @@
 typedef struct oracle_wedge {
     size_t cells, rows, knots;
     double *q, *row_y, *aspect_p, *aspect_r;
-    double *mass, *density;                      /* row by row; each row's mass is 1 */
+    double *mass, *density; /* row by row; each row's mass is 1 */
     double *knot_y, *area, *slope, *curve;
 } oracle_wedge;
 
 typedef struct oracle_table {
     double scale;
-    size_t count;                                /* radial cells */
+    size_t count; /* radial cells */
     double *x, *z, *f0, *f1, *mu0, *mu1;
-    double total0, total1;                       /* integrals of P22 R dR and P22 R^2 dR */
+    double total0, total1; /* integrals of P22 R dR and P22 R^2 dR */
     oracle_wedge above, below;
-    double *numbers;                             /* where all of them are */
+    double *numbers; /* where all of them are */
 } oracle_table;
 
 /* Reads a file; 0 after a message if it is no table of version 3. */

@@ -18,8 +18,8 @@ static const double PI = 3.14159265358979323846;
 typedef struct seen {
     const oracle_table *t;
     double s, c, cosine, sine, x, z;
-    double w;         /* (s, 0, c) . normal */
-    double per_area;  /* 1/(ax ay) */
+    double w;        /* (s, 0, c) . normal */
+    double per_area; /* 1/(ax ay) */
 } seen;
 
 /* Which sides of jumps are taken: of the radial knot, and of the seam. */
@@ -54,8 +54,9 @@ static double wedge_density(const oracle_wedge *w, double y, double cosine, doub
     size_t i = 0, j = 0;
     while (i + 2 < (w->rows + 1) / 2 && w->row_y[i + 1] <= y)
         i++;
-    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = (w->row_y[i + 1] - y) /
-        (w->row_y[i + 1] - w->row_y[i]), share[3] = {rest * rest, 2 * rest * m, m * m};
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]),
+           rest = (w->row_y[i + 1] - y) / (w->row_y[i + 1] - w->row_y[i]),
+           share[3] = {rest * rest, 2 * rest * m, m * m};
     double p = 0, r = 0, e0 = 0, e1 = 0, mass = 0;
     for (size_t n = 0; n < 3; n++) {
         p += share[n] * w->aspect_p[2 * i + n];
@@ -87,8 +88,9 @@ static double azimuth_density(const seen *v, int toward)
         return toward ? 0.5 * wedge_density(&v->t->below, v->s, cosine, v->sine) : 0;
     double front = v->c * v->t->total0 * PI / 2 + v->s * v->t->total1;
     double wedge = oracle_wedge_mass(&v->t->above, v->c);
-    double here = toward ? v->c * v->t->total0 + v->s * v->t->total1 * cosine
-                         : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine) : 0;
+    double here = toward      ? v->c * v->t->total0 + v->s * v->t->total1 * cosine
+                  : wedge > 0 ? wedge * wedge_density(&v->t->above, v->c, cosine, v->sine)
+                              : 0;
     return 0.5 * here / (front + wedge);
 }
 
@@ -152,8 +154,7 @@ static piece piece_of(const seen *v, size_t j, size_t cut)
     if (j == cut)
         return cut_piece(v, j);
     double w0 = weight_at(v, j), w1 = weight_at(v, j + 1);
-    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1,
-               j + 2 >= cut};
+    piece p = {t->f0[j], t->f1[j], w0 * t->mu0[j] + w1 * t->mu1[j], w0, w1, w0, w1, 0, 1, j + 2 >= cut};
     double way = cut < t->count && p.weighted ? fmin(16 * cut_piece(v, cut).length, 1) : 0;
     if (j + 2 == cut)
         p.v1 += way * (w0 - w1);

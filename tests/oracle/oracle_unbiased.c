@@ -26,8 +26,8 @@ static void add_point(const oracle_point *point, void *user)
 
 oracle_expected oracle_expect(const oracle *o, const vndf_surface *surface, vndf_vec3 wi)
 {
-    oracle_expected e = {surface->alpha_x, surface->alpha_y, wi,
-                         vndf_distribution_info(surface->distribution).scale, {0}};
+    oracle_expected e = {
+        surface->alpha_x, surface->alpha_y, wi, vndf_distribution_info(surface->distribution).scale, {0}};
     oracle_visit(o, surface, wi, add_point, &e);
     return e;
 }
@@ -38,7 +38,7 @@ void oracle_averages(const oracle *o, const vndf_distribution *table, const orac
     vndf_surface surface = {table, expected->alpha_x, expected->alpha_y};
     vndf_view view = vndf_view_from(&surface, expected->wi);
     double area = oracle_surface_area(o, &surface, expected->wi), sum[ORACLE_FUNCTIONS] = {0},
-        squares[ORACLE_FUNCTIONS] = {0};
+           squares[ORACLE_FUNCTIONS] = {0};
     for (unsigned long n = 0; n < samples; n++) {
         float pdf, u1 = test_uniform(state), u2 = test_uniform(state);
         vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);

@@ -141,8 +141,8 @@ static void test_sizes(void)
 
 static void test_patterns(void)
 {
-    static const char *const names[] = {"checks", "tiles", "stripes", "grid", "studio", "stars", "noise", "blots",
-                                        "brushed", "ramp"};
+    static const char *const names[] = {"checks", "tiles", "stripes", "grid",    "studio",
+                                        "stars",  "noise", "blots",   "brushed", "ramp"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         image made;
         image_error error;
@@ -155,7 +155,7 @@ static void test_patterns(void)
             most = fmaxf(most, made.rgb[k]);
         }
         TEST(least > 0.0f && most > 1.3f * least && most < 1000.0f); /* light, and not flat */
-        TEST(i < 6 || (least > 0.09f && most <= 1.0f)); /* roughness */
+        TEST(i < 6 || (least > 0.09f && most <= 1.0f));              /* roughness */
         image_free(&made);
     }
 }

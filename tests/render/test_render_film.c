@@ -24,8 +24,8 @@ static void room_begin(render_case *c)
     case_rough(c, 0.2f, 0.2f, metal);
     TEST(geometry_add_sphere(&c->scene.geometry, (sphere){vec(0.7f, 0.6f, 0.0f), 0.6f}, case_last(c)));
     case_material(c, MATERIAL_MATTE, 0.7f, 0.6f, 0.5f);
-    TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(-3, 0, 3), vec(6, 0, 0), vec(0, 0, -6)}, case_last(c)));
+    TEST(geometry_add_rectangle(&c->scene.geometry, (rectangle){vec(-3, 0, 3), vec(6, 0, 0), vec(0, 0, -6)},
+                                case_last(c)));
     case_material(c, MATERIAL_LIGHT, 9.0f, 9.0f, 9.0f);
     TEST(geometry_add_sphere(&c->scene.geometry, (sphere){vec(0, 3, 1), 0.3f}, case_last(c)));
     TEST(geometry_build(&c->scene.geometry));
@@ -127,8 +127,8 @@ static unsigned effects_of(const render_case *c, unsigned without)
 
 static void test_effects(const render_case *c)
 {
-    const unsigned all = EFFECT_MICROFACETS | EFFECT_REFRACTION | EFFECT_LIGHTS | EFFECT_ENVIRONMENT |
-                         EFFECT_MATTE;
+    const unsigned all =
+        EFFECT_MICROFACETS | EFFECT_REFRACTION | EFFECT_LIGHTS | EFFECT_ENVIRONMENT | EFFECT_MATTE;
     TEST(effects_of(c, 0) == all);
     TEST(effects_of(c, EFFECT_LIGHTS) == (all & ~(unsigned)EFFECT_LIGHTS));
 }

@@ -104,8 +104,9 @@ static void test_random_scenes(void)
     static const struct {
         int count;
         float spread, size;
-    } cases[] = {{1, 1.0f, 2.0f}, {2, 1.0f, 1.0f}, {50, 1.0f, 0.3f}, {300, 1.0f, 0.1f}, {200, 1e4f, 2e3f},
-                 {200, 1e-3f, 2e-4f}, {60, 0.0f, 1.0f}}; /* the last: corners and centres all at one place */
+    } cases[] = {
+        {1, 1.0f, 2.0f},   {2, 1.0f, 1.0f},     {50, 1.0f, 0.3f}, {300, 1.0f, 0.1f},
+        {200, 1e4f, 2e3f}, {200, 1e-3f, 2e-4f}, {60, 0.0f, 1.0f}}; /* the last: corners and centres all at one place */
     unsigned long long state = 0x5151;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         geometry g = {0};

@@ -44,8 +44,8 @@ static void test_sphere_coordinates(void)
     for (int i = 0; i < 3000; i++) {
         const double longitude = 2.0 * PI * test_uniform_double(&state);
         const double theta = 0.01 + 3.12 * test_uniform_double(&state);
-        const vndf_vec3 n = vec((float)(sin(theta) * sin(longitude)), (float)cos(theta),
-                                (float)(sin(theta) * cos(longitude)));
+        const vndf_vec3 n =
+            vec((float)(sin(theta) * sin(longitude)), (float)cos(theta), (float)(sin(theta) * cos(longitude)));
         const ray r = ray_along(add(s.centre, scale(n, 2.0f)), scale(n, -1.0f));
         hit h;
         if (!TEST(geometry_hit(&g, &r, &h)))
@@ -98,7 +98,9 @@ static void test_triangle_tangent(void)
         geometry g = {0};
         const vndf_vec3 a = point_in_box(&state, 1.0f), b = add(a, random_direction(&state));
         const vndf_vec3 c = add(a, random_direction(&state)), n = cross(subtract(b, a), subtract(c, a));
-        const triangle t = {{a, b, c}, {{0.0f, 0.0f, 0.0f}}, {0.1f, test_uniform(&state), test_uniform(&state)},
+        const triangle t = {{a, b, c},
+                            {{0.0f, 0.0f, 0.0f}},
+                            {0.1f, test_uniform(&state), test_uniform(&state)},
                             {0.7f, test_uniform(&state), test_uniform(&state)}};
         const float area = (t.u[1] - t.u[0]) * (t.v[2] - t.v[0]) - (t.u[2] - t.u[0]) * (t.v[1] - t.v[0]);
         if (dot(n, n) < 0.1f || fabsf(area) < 0.05f)

@@ -223,8 +223,8 @@ static void test_close_blocker(float before, int is_dark)
     TEST(geometry_add_rectangle(&c.scene.geometry, /* their fronts are below */
                                 (rectangle){vec(-9, -9, 100.0f - before), vec(0, 18, 0), vec(18, 0, 0)}, 0));
     case_material(&c, MATERIAL_LIGHT, 50, 50, 50);
-    TEST(geometry_add_rectangle(&c.scene.geometry,
-                                (rectangle){vec(-5, -5, 100), vec(0, 10, 0), vec(10, 0, 0)}, 1));
+    TEST(
+        geometry_add_rectangle(&c.scene.geometry, (rectangle){vec(-5, -5, 100), vec(0, 10, 0), vec(10, 0, 0)}, 1));
     TEST(geometry_build(&c.scene.geometry));
     case_mean drawn = case_render(&c, SAMPLER_MATERIAL, 0, 16, 3);
     TEST(is_dark ? drawn.value == 0 : drawn.value > 0);

@@ -20,8 +20,8 @@ static void tinted(render_case *c, float absorb)
 static void plate(render_case *c)
 {
     case_material(c, MATERIAL_MATTE, 0.5f, 0.5f, 0.5f);
-    TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)}, case_last(c)));
+    TEST(geometry_add_rectangle(&c->scene.geometry, (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)},
+                                case_last(c)));
 }
 
 /* Straight through a slab without refraction. */

@@ -61,8 +61,8 @@ static void plate_begin(render_case *c)
 {
     case_begin(c, vec(0.3f, -3.0f, 1.0f), origin);
     case_material(c, MATERIAL_MATTE, 0.5f, 0.5f, 0.5f);
-    TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)}, case_last(c)));
+    TEST(geometry_add_rectangle(&c->scene.geometry, (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)},
+                                case_last(c)));
 }
 
 /* Radiance 1/2 L sin^2(half angle) cos(theta). */
@@ -124,13 +124,12 @@ static void metal_begin(render_case *c, float alpha_x, float alpha_y)
     case_begin(c, vec(0.5f, -3.0f, 1.5f), origin);
     case_constant(c, 0.1f);
     case_rough(c, alpha_x, alpha_y, is);
-    TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)}, case_last(c)));
+    TEST(geometry_add_rectangle(&c->scene.geometry, (rectangle){vec(-1, -1, 0), vec(2, 0, 0), vec(0, 2, 0)},
+                                case_last(c)));
     case_material(c, MATERIAL_LIGHT, 5.0f, 4.0f, 3.0f);
     TEST(geometry_add_sphere(&c->scene.geometry, (sphere){vec(-0.3f, 2.0f, 1.2f), 0.4f}, case_last(c)));
-    TEST(geometry_add_rectangle(&c->scene.geometry,
-                                (rectangle){vec(0.2f, 0.9f, 0.7f), vec(0, 0, 0.5f), vec(0.6f, 0, 0)},
-                                case_last(c)));
+    TEST(geometry_add_rectangle(
+        &c->scene.geometry, (rectangle){vec(0.2f, 0.9f, 0.7f), vec(0, 0, 0.5f), vec(0.6f, 0, 0)}, case_last(c)));
     TEST(geometry_build(&c->scene.geometry));
 }
 

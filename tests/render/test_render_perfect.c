@@ -26,8 +26,8 @@ typedef struct twin {
     vndf_material material;
     vndf_bsdf visible;
     vndf_vec3 wi;
-    float eta;                             /* index on the other side over that on the side of wi */
-    double reflected, variance;            /* of all directions: how many more than expected, and its variance */
+    float eta;                  /* index on the other side over that on the side of wi */
+    double reflected, variance; /* of all directions: how many more than expected, and its variance */
 } twin;
 
 static const vndf_roughness turned = {1.0f, 1.0f, 0.8f, 0.6f};
@@ -35,9 +35,13 @@ static unsigned long long state = 20231;
 
 static vndf_description describe(const subject *s, const vndf_distribution *table)
 {
-    vndf_description is = {.distribution = s->distribution ? s->distribution : table, .alpha_x = s->alpha_x,
-                           .alpha_y = s->alpha_y, .eta = 1.5f, .rotation = 0.6435011f,
-                           .conductor_eta = {0.2f, 0.5f, 1.2f}, .conductor_k = {3.9f, 2.3f, 1.7f}};
+    vndf_description is = {.distribution = s->distribution ? s->distribution : table,
+                           .alpha_x = s->alpha_x,
+                           .alpha_y = s->alpha_y,
+                           .eta = 1.5f,
+                           .rotation = 0.6435011f,
+                           .conductor_eta = {0.2f, 0.5f, 1.2f},
+                           .conductor_k = {3.9f, 2.3f, 1.7f}};
     is.effects.lobes = s->transmits ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
     is.effects.fresnel = s->transmits ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_CONDUCTOR;
     is.effects.axes = VNDF_AXES_ROTATED;

@@ -67,8 +67,8 @@ static void check_optics(const scene *s)
          m->is.alpha_y == 0.2f && m->is.distribution == vndf_ggx());
     m = material_of(s, "b");
     TEST(m && m->is.conductor_eta[1] == 2.0f && m->is.conductor_k[2] == 6.0f && m->is.alpha_y == 0.4f);
-    TEST(m && m->is.effects.masking == VNDF_MASKING_V_CAVITIES &&
-         m->is.effects.normals == VNDF_NORMALS_V_CAVITY && m->is.distribution == vndf_beckmann());
+    TEST(m && m->is.effects.masking == VNDF_MASKING_V_CAVITIES && m->is.effects.normals == VNDF_NORMALS_V_CAVITY &&
+         m->is.distribution == vndf_beckmann());
     m = material_of(s, "c");
     TEST(m && m->is.effects.fresnel == VNDF_FRESNEL_DIELECTRIC && m->is.effects.lobes == VNDF_LOBES_BOTH);
     TEST(m && m->is.eta == 1.5f && m->absorb[1] == 2.0f && m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE &&
@@ -85,7 +85,8 @@ static void test_rough_materials(void)
 {
     scene s;
     char message[MESSAGE];
-    if (!TEST(read_text(&s, LIT
+    if (!TEST(read_text(&s,
+                        LIT
                         "material a conductor of gold distribution ggx alpha 0.2\n"
                         "material b conductor eta 1 2 3 k 4 5 6 distribution beckmann alpha 0.2 0.4\n"
                         "  masking v-cavities normals v-cavity\n"
@@ -117,12 +118,12 @@ static void test_plain_materials(void)
 {
     scene s;
     char message[MESSAGE];
-    if (!TEST(read_text(&s, LIT
-                        "image m pattern ramp\nimage n pattern noise width 16 height 16\n"
-                        "material a matte colour 0.1 0.2 0.3 colour-map m\nmaterial b mirror\n"
-                        "material c glass index 1.33 absorb 0 0 1\nmaterial d light radiance 5 6 7\n"
-                        "material e conductor of silver distribution ggx alpha 0.5 alpha-map m\n"
-                        "material f conductor of silver distribution ggx alpha 0.5 0.2 alpha-y-map n\n",
+    if (!TEST(read_text(&s,
+                        LIT "image m pattern ramp\nimage n pattern noise width 16 height 16\n"
+                            "material a matte colour 0.1 0.2 0.3 colour-map m\nmaterial b mirror\n"
+                            "material c glass index 1.33 absorb 0 0 1\nmaterial d light radiance 5 6 7\n"
+                            "material e conductor of silver distribution ggx alpha 0.5 alpha-map m\n"
+                            "material f conductor of silver distribution ggx alpha 0.5 0.2 alpha-y-map n\n",
                         message))) {
         fprintf(stderr, "%s\n", message);
         return;
@@ -142,12 +143,12 @@ static void test_shapes(void)
 {
     scene s;
     char message[MESSAGE];
-    if (!TEST(read_text(&s, LIT
-                        "material radius matte colour 1 1 1\n" /* a name may be a keyword */
-                        "material b matte colour 0 0 0\n"
-                        "sphere material radius radius 2 centre 1 2 3\n"
-                        "rectangle corner 1 1 1 edge-u 2 0 0 edge-v 0.001 3 0 material b\n"
-                        "box from 1 -1 1 to -1 1 -1 material b\n",
+    if (!TEST(read_text(&s,
+                        LIT "material radius matte colour 1 1 1\n" /* a name may be a keyword */
+                            "material b matte colour 0 0 0\n"
+                            "sphere material radius radius 2 centre 1 2 3\n"
+                            "rectangle corner 1 1 1 edge-u 2 0 0 edge-v 0.001 3 0 material b\n"
+                            "box from 1 -1 1 to -1 1 -1 material b\n",
                         message))) {
         fprintf(stderr, "%s\n", message);
         return;
@@ -252,8 +253,8 @@ static void test_shipped_spheres(void)
         memset(at, ' ', letters);
         memcpy(at, instead, sizeof instead - 1);
     }
-    int good = scene_read_text(&s, VNDF_SOURCE_DIR "/tools/scenes/spheres.scene", text, length, message,
-                               sizeof message);
+    int good =
+        scene_read_text(&s, VNDF_SOURCE_DIR "/tools/scenes/spheres.scene", text, length, message, sizeof message);
     check_shipped(good, &s, message);
 }
 
@@ -261,10 +262,10 @@ static void test_shipped_spheres(void)
 static void test_grammar(void)
 {
     static const char *const known[] = {
-        "title", "film", "camera", "integrator", "environment", "image", "material", "sphere", "rectangle",
-        "box", "mesh", "conductor", "dielectric", "reflector", "shape", "matte", "mirror", "glass", "light",
-        "alpha-x-map", "alpha-y-map", "alpha-map", "colour-map", "absorb", "order", "scattering",
-        "masking", "rotation", "bytes"};
+        "title",     "film",       "camera",  "integrator",  "environment", "image",     "material",   "sphere",
+        "rectangle", "box",        "mesh",    "conductor",   "dielectric",  "reflector", "shape",      "matte",
+        "mirror",    "glass",      "light",   "alpha-x-map", "alpha-y-map", "alpha-map", "colour-map", "absorb",
+        "order",     "scattering", "masking", "rotation",    "bytes"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (!strstr(scene_grammar[0], known[i]))
             TEST_HAS(scene_grammar[1], known[i]);

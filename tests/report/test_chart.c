@@ -165,8 +165,8 @@ static void test_chart(char *text)
 {
     static const double x[] = {1, 10, 100, 1000, 10}, y[] = {0.1, 0.01, (double)NAN, 0.1, 0};
     const chart_series series = {"a <b> & \"c\"", x, y, 5, 1, CHART_DOT, CHART_SOLID, NULL};
-    chart c = {"title", NULL, 500, 300, 100, {CHART_LOG, 1, 100, 0, "x"}, {CHART_LOG, 1e-3, 1, 0, "y"},
-               "none", 30, &series, 1, NULL, 0};
+    chart c = {"title", NULL,    500, 300,  100, {CHART_LOG, 1, 100, 0, "x"}, {CHART_LOG, 1e-3, 1, 0, "y"}, "none",
+               30,      &series, 1,   NULL, 0};
     FILE *file = tmpfile();
     if (!TEST(file))
         return;

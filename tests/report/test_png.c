@@ -76,8 +76,8 @@ static size_t take_block(reader *r, unsigned char *out, size_t size)
 {
     static const unsigned length_base[29] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                              31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
-    static const unsigned distance_base[30] = {1,   2,   3,   4,   5,   7,    9,    13,   17,   25,
-                                               33,  49,  65,  97,  129, 193,  257,  385,  513,  769,
+    static const unsigned distance_base[30] = {1,    2,    3,    4,    5,    7,    9,    13,    17,    25,
+                                               33,   49,   65,   97,   129,  193,  257,  385,   513,   769,
                                                1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
     unsigned lengths[320] = {0};
     int literals = 257 + (int)take(r, 5), distances = 1 + (int)take(r, 5), orders = 4 + (int)take(r, 4);
@@ -243,8 +243,7 @@ static void test_png(const char *pattern, int width, int height, float exposure,
     size_t size = take_back(file, bytes);
     TEST(memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0);
     const unsigned char *head = chunk(bytes, size, "IHDR", &length);
-    TEST(head && length == 13 && big_endian(head) == (uint32_t)width &&
-         big_endian(head + 4) == (uint32_t)height);
+    TEST(head && length == 13 && big_endian(head) == (uint32_t)width && big_endian(head + 4) == (uint32_t)height);
     TEST(head && memcmp(head + 8, "\x08\x02\0\0\0", 5) == 0);
     const unsigned char *data = chunk(bytes, size, "IDAT", &length);
     size_t row = 3 * (size_t)width, whole = (row + 1) * (size_t)height;

@@ -10,25 +10,25 @@
 
 #ifdef HAS_PROCESSES
 
-#include <dirent.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
+#  include <dirent.h>
+#  include <fcntl.h>
+#  include <signal.h>
+#  include <stdlib.h>
+#  include <sys/resource.h>
+#  include <sys/stat.h>
+#  include <sys/wait.h>
+#  include <time.h>
+#  include <unistd.h>
 
-#include "command.h"
-#include "cli/output.h"
+#  include "command.h"
+#  include "cli/output.h"
 
 enum { PATH_SIZE = 512, WORDS_OF_RUN = 12, DEPTH_MAX = 64 };
 
 /* ---- running ---- */
 
 typedef struct outcome {
-    int status; /* of waitpid */
+    int status;      /* of waitpid */
     char text[8192]; /* stdout and stderr */
 } outcome;
 
@@ -351,8 +351,12 @@ static void test_refused(const char *folder)
     const char *bad[] = {"--slope", "exp(-r", "no-such-folder", NULL}, *deep[] = {"no-such-folder/x", NULL};
     const char *set[] = {"--family", "ggx", "--set", "k=1", "x", NULL};
     const char *const *all[] = {foreign, file, two, nothing, bad, set};
-    const char *const reasons[] = {"has files in it, and no page of", "is no folder", "more than one of",
-                                   "DIR is missing", "column", "--set is for"};
+    const char *const reasons[] = {"has files in it, and no page of",
+                                   "is no folder",
+                                   "more than one of",
+                                   "DIR is missing",
+                                   "column",
+                                   "--set is for"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         outcome o = run(all[i], none);
         TEST(ended_with(&o, STATUS_USE));

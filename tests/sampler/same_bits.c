@@ -19,8 +19,12 @@ enum { PREFIX = 20000 };
 /* Any set of effects that makes sense, by number. */
 static vndf_effects effects_of(unsigned long i)
 {
-    vndf_effects e = {(vndf_lobes)(i % 3),           (vndf_fresnel)(i / 3 % 4),        (vndf_masking)(i / 12 % 4),
-                      (vndf_normals_drawn)(i / 48 % 4), (vndf_scattering)(i / 192 % 2), (vndf_transport)(i / 384 % 2),
+    vndf_effects e = {(vndf_lobes)(i % 3),
+                      (vndf_fresnel)(i / 3 % 4),
+                      (vndf_masking)(i / 12 % 4),
+                      (vndf_normals_drawn)(i / 48 % 4),
+                      (vndf_scattering)(i / 192 % 2),
+                      (vndf_transport)(i / 384 % 2),
                       (vndf_axes)(i / 768 % 2)};
     return e;
 }
@@ -29,9 +33,14 @@ static vndf_effects effects_of(unsigned long i)
 static unsigned long long hash_material(unsigned long long hash, const vndf_surface *surface, unsigned long i,
                                         vndf_vec3 wi, const float u[3])
 {
-    vndf_description is = {.distribution = surface->distribution, .effects = effects_of(i), .eta = 1.5f,
-                           .alpha_x = surface->alpha_x, .alpha_y = surface->alpha_y, .rotation = 1.0f,
-                           .f0 = {0.1f, 0.5f, 0.9f}, .conductor_eta = {0.2f, 0.9f, 1.5f},
+    vndf_description is = {.distribution = surface->distribution,
+                           .effects = effects_of(i),
+                           .eta = 1.5f,
+                           .alpha_x = surface->alpha_x,
+                           .alpha_y = surface->alpha_y,
+                           .rotation = 1.0f,
+                           .f0 = {0.1f, 0.5f, 0.9f},
+                           .conductor_eta = {0.2f, 0.9f, 1.5f},
                            .conductor_k = {3.9f, 2.4f, 0.0f}};
     vndf_material material;
     vndf_bsdf bsdf;

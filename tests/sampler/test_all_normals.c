@@ -77,15 +77,17 @@ static void check_sample(const law *l, const char *name, float u1, float u2)
     vndf_vec3 wm = draw(l, u1, u2, &pdf);
     double x = wm.x, y = wm.y, z = wm.z, length = fabs(sqrt(x * x + y * y + z * z) - 1);
     double facing = (double)l->wi.x * x + (double)l->wi.y * y + (double)l->wi.z * z;
-    double exact = density(l, vndf_normal_of(wm)), error = fabs((double)pdf / fmin(fmax(exact, FLT_MIN), FLT_MAX) - 1);
-    int good = TEST(length < 4 * 0x1p-23) & TEST(wm.z > 0) & TEST(pdf >= FLT_MIN && pdf <= FLT_MAX) &
-               TEST(error < 1e-5);
+    double exact = density(l, vndf_normal_of(wm)),
+           error = fabs((double)pdf / fmin(fmax(exact, FLT_MIN), FLT_MAX) - 1);
+    int good =
+        TEST(length < 4 * 0x1p-23) & TEST(wm.z > 0) & TEST(pdf >= FLT_MIN && pdf <= FLT_MAX) & TEST(error < 1e-5);
     if (l->cavity && l->wi.z > 0)
         good &= TEST(facing > 0);
     if (!good)
-        fprintf(stderr, "  %s, alpha %g %g, wi %.9g %.9g %.9g, u %.9g %.9g: %.9g %.9g %.9g density %.9g, exact %.9g\n",
-                name, l->ax, l->ay, (double)l->wi.x, (double)l->wi.y, (double)l->wi.z, (double)u1, (double)u2, x, y, z,
-                (double)pdf, exact);
+        fprintf(stderr,
+                "  %s, alpha %g %g, wi %.9g %.9g %.9g, u %.9g %.9g: %.9g %.9g %.9g density %.9g, exact %.9g\n",
+                name, l->ax, l->ay, (double)l->wi.x, (double)l->wi.y, (double)l->wi.z, (double)u1, (double)u2, x,
+                y, z, (double)pdf, exact);
     worst_density = fmax(worst_density, error);
     worst_length = fmax(worst_length, length);
 }
@@ -111,8 +113,9 @@ static void check_all_samples(const law *l, const char *name, unsigned long long
     }
 }
 
-static const vndf_vec3 DIRECTIONS[] = {{0, 0, 1}, {1e-4f, 0, 1}, {0.6f, 0, 0.8f}, {-0.48f, 0.64f, 0.6f},
-                                       {0.8f, -0.6f, 0.01f}, {-1, 0, 1e-6f}, {0.6f, 0.8f, 1e-20f}, {1, 0, 0}};
+static const vndf_vec3 DIRECTIONS[] = {
+    {0, 0, 1},      {1e-4f, 0, 1},        {0.6f, 0, 0.8f}, {-0.48f, 0.64f, 0.6f}, {0.8f, -0.6f, 0.01f},
+    {-1, 0, 1e-6f}, {0.6f, 0.8f, 1e-20f}, {1, 0, 0}};
 enum { DIRECTION_COUNT = sizeof DIRECTIONS / sizeof DIRECTIONS[0] };
 
 static void test_samples(void)
@@ -192,7 +195,8 @@ static void test_integrals(void)
             worst = fmax(worst, fabs(one - 1));
             for (size_t w = j % 2; w < DIRECTION_COUNT; w += 2) {
                 law cavity = law_of(&s, alphas[j][0], alphas[j][1], DIRECTIONS[w], 1);
-                one = integral(&cavity, 8); /* twins are both on the grid: kinks of one are made up for by the other */
+                one = integral(&cavity,
+                               8); /* twins are both on the grid: kinks of one are made up for by the other */
                 TEST_NEAR(one, 1, 1e-5);
                 worst_cavity = fmax(worst_cavity, fabs(one - 1));
             }
@@ -332,8 +336,8 @@ static double mass_beyond(double t, double w)
 static void test_azimuth(void)
 {
     enum { STEPS = 2000 };
-    const double ratios[] = {0, 1e-20, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.9999, 1 - 1e-6, 1, 1 + 1e-6, 1.0001, 1.01, 1.1,
-                             2, 10, 1e3, 1e6, 1e14, 1e30};
+    const double ratios[] = {0,        1e-20,  1e-3, 0.1, 0.5, 0.9, 0.99, 0.9999, 1 - 1e-6, 1,
+                             1 + 1e-6, 1.0001, 1.01, 1.1, 2,   10,  1e3,  1e6,    1e14,     1e30};
     double worst = 0;
     for (size_t i = 0; i < sizeof ratios / sizeof ratios[0]; i++) {
         vndf_twin twin = vndf_twin_from(1, (float)ratios[i]);

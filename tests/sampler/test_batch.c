@@ -54,8 +54,15 @@ static void fill(numbers *n, unsigned long long seed)
 static vndf_batch batch_of(const vndf_distribution *d, const numbers *n, size_t count, unsigned shared,
                            vndf_instructions limit)
 {
-    vndf_batch b = {d, count, shared, limit, n->of[ALPHA_X] + 1, n->of[ALPHA_Y] + 1,
-                    n->of[WI_X] + 1, n->of[WI_Y] + 1, n->of[WI_Z] + 1};
+    vndf_batch b = {d,
+                    count,
+                    shared,
+                    limit,
+                    n->of[ALPHA_X] + 1,
+                    n->of[ALPHA_Y] + 1,
+                    n->of[WI_X] + 1,
+                    n->of[WI_Y] + 1,
+                    n->of[WI_Z] + 1};
     return b;
 }
 
@@ -101,9 +108,8 @@ static void test_sample(const vndf_distribution *d, const char *name, vndf_instr
             vndf_sample_n(&b, given.of[U1], given.of[U2], normals_of(&made), made.of[PDF]);
             size_t different = differences(&b, &given, &made);
             if (!TEST(different == 0))
-                fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name,
-                        (int)limit, shared,
-                        (unsigned long)different, (unsigned long)counts[c]);
+                fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name, (int)limit,
+                        shared, (unsigned long)different, (unsigned long)counts[c]);
             TEST(made.of[X][counts[c]] == given.of[X][counts[c]]); /* nothing beyond the end */
         }
 }

@@ -126,8 +126,15 @@ static void call_one(kind which, const vndf_batch *b, vndf_normals normals, size
 static vndf_batch batch_of(const vndf_distribution *d, numbers *n, size_t count, unsigned shared,
                            vndf_instructions limit)
 {
-    vndf_batch b = {d, count, shared, limit, n->of[ALPHA_X] + 1, n->of[ALPHA_Y] + 1,
-                    n->of[WI_X] + 1, n->of[WI_Y] + 1, n->of[WI_Z] + 1};
+    vndf_batch b = {d,
+                    count,
+                    shared,
+                    limit,
+                    n->of[ALPHA_X] + 1,
+                    n->of[ALPHA_Y] + 1,
+                    n->of[WI_X] + 1,
+                    n->of[WI_Y] + 1,
+                    n->of[WI_Z] + 1};
     return b;
 }
 

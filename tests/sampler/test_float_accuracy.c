@@ -11,6 +11,7 @@
 #include "oracle/oracle_float.h"
 #include "harness/test.h"
 
+/* clang-format off */
 static const char *const subjects[] = {
     "student-t-2.5-small.vndf", "student-t-2.5.vndf", "student-t-2.5-large.vndf", "student-t-1.8.vndf",
     "student-t-6.vndf", "gtr-1.5.vndf", "epd-0.6.vndf", "hazy.vndf", "sgd-alum-bronze-r.vndf", "sgd-nickel-g.vndf",
@@ -20,6 +21,7 @@ static const char *const subjects[] = {
     "2048 exp(-r)*step(r-2)", "2048 exp(-((r-1)/0.02)^2)", "2048 r^-1.5*exp(-r)", "2048 r^-1.75*exp(-r)",
     "2048 (1+r*r)^-1.55",
     "2048 exp(-r*r)+1e4*exp(-(100*r)^2)", "2048 exp(-1e9*r)"};
+/* clang-format on */
 
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 

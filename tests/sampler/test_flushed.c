@@ -10,7 +10,7 @@
 #include "vndf_bsdf.h"
 
 #if defined(__SSE2__)
-#include <xmmintrin.h>
+#  include <xmmintrin.h>
 
 /* Bits of the control register: flush to zero, denormals are zero. */
 static void set_flushing(int flushing)
@@ -68,8 +68,9 @@ static double hard_cosine(unsigned long long *state)
 {
     float which = test_uniform(state);
     double sign = test_uniform(state) < 0.5f ? -1 : 1;
-    return which < 0.3f ? sign * between(state, 1e-37, 1)
-         : which < 0.5f ? sign * (1 - between(state, 1e-16, 1)) : 2 * test_uniform_double(state) - 1;
+    return which < 0.3f   ? sign * between(state, 1e-37, 1)
+           : which < 0.5f ? sign * (1 - between(state, 1e-16, 1))
+                          : 2 * test_uniform_double(state) - 1;
 }
 
 /* Flushed, a denormal is 0: it is none of ours. */
@@ -221,9 +222,13 @@ static void test_bsdf(const vndf_distribution *d, unsigned long long *state)
     const oracle_ndf ndf = {.distribution = d};
     static const float alphas[] = {1e-18f, 1e-10f, 1e-4f, 0.03f, 0.5f, 10, 1e10f, 9e17f};
     for (unsigned i = 0; i < BSDF_COUNT; i++) {
-        vndf_effects e = {(vndf_lobes)(i % 3), (vndf_fresnel)(i / 3 % 4), (vndf_masking)(i / 12 % 4),
-                          (vndf_normals_drawn)(i / 48 % 4), (vndf_scattering)(i / 192 % 2),
-                          VNDF_TRANSPORT_RADIANCE, (vndf_axes)(i / 384 % 2)};
+        vndf_effects e = {(vndf_lobes)(i % 3),
+                          (vndf_fresnel)(i / 3 % 4),
+                          (vndf_masking)(i / 12 % 4),
+                          (vndf_normals_drawn)(i / 48 % 4),
+                          (vndf_scattering)(i / 192 % 2),
+                          VNDF_TRANSPORT_RADIANCE,
+                          (vndf_axes)(i / 384 % 2)};
         vndf_description is = bsdf_material(&ndf, &e, alphas, 8, state);
         vndf_material material;
         vndf_bsdf bsdf;

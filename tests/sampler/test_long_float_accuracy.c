@@ -8,15 +8,21 @@
 #include "oracle/oracle_float.h"
 #include "harness/test.h"
 
+/* clang-format off */
 static const char *const subjects[] = {
     "student-t-2.5-small.vndf", "student-t-2.5.vndf", "student-t-2.5-large.vndf", "student-t-1.8.vndf",
     "student-t-6.vndf", "gtr-1.5.vndf", "epd-0.6.vndf", "hazy.vndf", "sgd-alum-bronze-r.vndf", "sgd-nickel-g.vndf",
     "sgd-blue-metallic-paint-b.vndf", "sgd-red-fabric-r.vndf", "sgd-specular-black-phenolic-g.vndf",
     "abc-two-layer-gold.vndf", "example.vndf", "disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf",
     "tail.vndf"};
+/* clang-format on */
 
-enum { SUBJECTS = sizeof subjects / sizeof *subjects, RANDOM = 15000000 / SUBJECTS,
-       HARD = 1500000 / SUBJECTS, CLIMB = 100000 };
+enum {
+    SUBJECTS = sizeof subjects / sizeof *subjects,
+    RANDOM = 15000000 / SUBJECTS,
+    HARD = 1500000 / SUBJECTS,
+    CLIMB = 100000
+};
 
 int main(int argc, char **argv)
 {

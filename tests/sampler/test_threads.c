@@ -41,7 +41,7 @@ static void run_task(task *t)
 /* ---- threads: start_thread and join_thread give 1 if they could ---------------------------------- */
 
 #if defined(VNDF_TEST_PTHREADS)
-#include <pthread.h>
+#  include <pthread.h>
 typedef pthread_t thread;
 
 static void *enter(void *data)
@@ -60,7 +60,7 @@ static int join_thread(thread t)
     return pthread_join(t, NULL) == 0;
 }
 #elif !defined(__STDC_NO_THREADS__) && defined(__STDC_VERSION__)
-#include <threads.h>
+#  include <threads.h>
 typedef thrd_t thread;
 
 static int enter(void *data)
@@ -79,7 +79,7 @@ static int join_thread(thread t)
     return thrd_join(t, NULL) == thrd_success;
 }
 #else
-#define NO_THREADS
+#  define NO_THREADS
 #endif
 
 /* ------------------------------------------------------------------------------------------------- */

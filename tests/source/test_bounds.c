@@ -7,6 +7,7 @@
 #include "source/formula/expression_bound.h"
 #include "source/family/family.h"
 
+/* clang-format off */
 static const char *const formulas[] = {
     "r", "1/r", "-r+2-r/3", "(r-1)*(r-2)", "(r-1)/(r^2+1)", "1/(r-1.5)", "exp(-r)", "exp(-(r/1e-3)^2)", "log(r)",
     "sqrt(r)", "sqrt(abs(r-1))", "sqrt(max(0,1-r))", "sin(r)", "cos(3*r)", "tan(r)", "sin(1e10*r)", "asin(r/3)",
@@ -17,6 +18,7 @@ static const char *const formulas[] = {
     "1+5*exp(-((r-1)/1e-8)^2)", "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "exp(-abs(r-1)/1e-3)", "sqrt(1-r*r)",
     "erf(r-1)-erf(r-2)", "exp(1e5*r)*exp(-1e5*r)", "1e300*r*1e300*1e-300*1e-300", "0^r", "0*log(r)", "log(r)^2",
 };
+/* clang-format on */
 
 static vndf_expression expression;
 

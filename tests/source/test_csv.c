@@ -12,7 +12,7 @@ static const double pi = 3.14159265358979323846;
 
 static vndf_source *read_text(const char *text)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_csv_text("test.csv", text, strlen(text), &error);
     if (!TEST(source != NULL))
         fprintf(stderr, "  %s\n", error.message);
@@ -34,7 +34,7 @@ static void test_units(void)
                                  " slope ,\tndf \r\n0,4\r\n#\r\n1 , 8\r\n1.7320508075688772,16\r");
     vndf_source *degrees = read_text("\xEF\xBB\xBFtheta_deg,p22\n0,4\n45,2\n60,1\n");
     vndf_source *radians = read_text("theta,p22\n0,4\n0.78539816339744831,2\n1.0471975511965977,1\n");
-    const vndf_source *all[] = { slope, ndf, degrees, radians };
+    const vndf_source *all[] = {slope, ndf, degrees, radians};
     for (size_t i = 0; i < 4; i++) {
         TEST_RELATIVE(vndf_source_p22(all[i], 0), 4.0, 1e-14);
         TEST_RELATIVE(vndf_source_p22(all[i], 1), 2.0, 1e-14);
@@ -112,8 +112,8 @@ static void test_shape(void)
 
 static void test_tails(void)
 {
-    vndf_source *steep = read_text("slope,p22\n1,1\n2,0.03125\n");     /* r^-5 goes on as it is */
-    vndf_source *shallow = read_text("slope,p22\n1,1\n2,0.5\n");       /* r^-1 becomes r^-4 */
+    vndf_source *steep = read_text("slope,p22\n1,1\n2,0.03125\n"); /* r^-5 goes on as it is */
+    vndf_source *shallow = read_text("slope,p22\n1,1\n2,0.5\n");   /* r^-1 becomes r^-4 */
     vndf_source *rising = read_text("slope,p22\n0,1\n2,3\n");
     vndf_source *compact = read_text("slope,p22\n0,1\n1,1\n1.000001,0\n");
     vndf_source *full = read_text("theta_deg,ndf\n0,3\n45,2\n90,1\n"); /* D at 90 degrees is given */
@@ -170,7 +170,7 @@ static void test_thinning(void)
 
 static void test_error_size(const char *text, size_t size, const char *message)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_csv_text("t.csv", text, size, &error);
     if (!(TEST(source == NULL) & TEST(error.status == VNDF_ERROR_SYNTAX) & TEST_HAS(error.message, message)))
         fprintf(stderr, "  %s\n", error.message);
@@ -215,7 +215,7 @@ static void test_errors(void)
 static void test_limits(void)
 {
     static char line[5000];
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     memset(line, ' ', sizeof line);
     memcpy(line, "slope,p22\n", 10);
     test_error_size(line, sizeof line, "line 2: 4990 characters; at most 4096");
@@ -233,7 +233,7 @@ static void test_limits(void)
 
 static void test_files(void)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     TEST(vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/merl_abc.csv", &error) == NULL);
     TEST_HAS(error.message, "merl_abc.csv: line 4: 3 fields");
     TEST(vndf_source_csv_file("no/such/file.csv", &error) == NULL && error.status == VNDF_ERROR_IO);

@@ -11,11 +11,11 @@
 #include "source/source.h"
 #include "source/words.h"
 
-static const vndf_parameter parameters[] = { { "a", 0.3 }, { "gamma", 2.5 }, { "b_1", -2 } };
+static const vndf_parameter parameters[] = {{"a", 0.3}, {"gamma", 2.5}, {"b_1", -2}};
 
 static double slope_value(const char *text, double r)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_expression(text, parameters, 3, &error);
     double value = source ? vndf_source_p22(source, r) : NAN;
     if (!TEST(source != NULL))
@@ -79,7 +79,7 @@ static void test_ndf(void)
 
 static void test_error(const char *text, vndf_status status, const char *message)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_expression(text, parameters, 3, &error);
     int good = TEST(source == NULL) & TEST(error.status == status) & TEST_HAS(error.message, message);
     if (!good)
@@ -113,8 +113,8 @@ static void test_errors(void)
 
 static void test_parameter_error(const char *name, double value, const char *message)
 {
-    vndf_parameter parameter = { name, value };
-    vndf_error error = { VNDF_OK, "" };
+    vndf_parameter parameter = {name, value};
+    vndf_error error = {VNDF_OK, ""};
     TEST(vndf_source_ndf_expression("c", &parameter, 1, &error) == NULL);
     TEST(error.status == VNDF_ERROR_ARGUMENT);
     TEST_HAS(error.message, message);
@@ -122,7 +122,7 @@ static void test_parameter_error(const char *name, double value, const char *mes
 
 static void test_parameter_errors(void)
 {
-    vndf_parameter twice[] = { { "a", 1 }, { "a", 2 } }, many[65];
+    vndf_parameter twice[] = {{"a", 1}, {"a", 2}}, many[65];
     test_parameter_error("1a", 1, "'1a': a name is a letter");
     test_parameter_error("", 1, "a name is a letter");
     test_parameter_error(NULL, 1, "a name is a letter");
@@ -171,7 +171,7 @@ static void test_limits(void)
 
 static void test_description(const char *text, const char *want)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_expression(text, parameters, 1, &error), *again;
     if (!TEST(source != NULL))
         return;
@@ -189,7 +189,7 @@ static void test_description(const char *text, const char *want)
 
 static void test_descriptions(void)
 {
-    vndf_parameter third = { "x", 1.0 / 3 };
+    vndf_parameter third = {"x", 1.0 / 3};
     vndf_source *source = vndf_source_ndf_expression("c^x", &third, 1, NULL);
     TEST(strcmp(vndf_source_description(source), "--ndf 'c^x' --set x=0.3333333333333333") == 0);
     vndf_source_free(source);
@@ -200,7 +200,7 @@ static void test_descriptions(void)
 
 static void test_no_description(const char *text, const char *message)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     TEST(vndf_source_from_description(text, &error) == NULL);
     TEST(error.status != VNDF_OK);
     TEST_HAS(error.message, message);
@@ -226,9 +226,9 @@ static void test_bad_descriptions(void)
 /* What a shell would split is what was put together. */
 static void test_words(void)
 {
-    static const char *const in[] = { "plain", "", "two words", "it's", "''", "back\\slash", "tab\there" };
-    static const char *const out[] = { "plain", "", "two words", "it's", "''", "back\\slash", "tab here" };
-    vndf_text text = { NULL, 0, 0, 0 };
+    static const char *const in[] = {"plain", "", "two words", "it's", "''", "back\\slash", "tab\there"};
+    static const char *const out[] = {"plain", "", "two words", "it's", "''", "back\\slash", "tab here"};
+    vndf_text text = {NULL, 0, 0, 0};
     vndf_words words;
     for (size_t i = 0; i < 7; i++)
         vndf_text_add_word(&text, in[i]);
@@ -261,13 +261,13 @@ static void test_kinks(void)
     TEST_RELATIVE(disc->breaks[0], tan(0.25), 1e-14);
     vndf_source_free(disc);
     test_breaks("exp(-r^2)", 0, NULL);
-    test_breaks("step(1-r)", 1, (double[]){ 1 });
-    test_breaks("max(0, 1-r^2) + step(1-r)", 1, (double[]){ 1 });
-    test_breaks("step(r-1)*step(1.001-r)", 2, (double[]){ 1, 1.001 });
-    test_breaks("step(1e-7-abs(r-3))", 3, (double[]){ 3 - 1e-7, 3, 3 + 1e-7 });
-    test_breaks("step(1e-6-r)", 1, (double[]){ 1e-6 });
+    test_breaks("step(1-r)", 1, (double[]){1});
+    test_breaks("max(0, 1-r^2) + step(1-r)", 1, (double[]){1});
+    test_breaks("step(r-1)*step(1.001-r)", 2, (double[]){1, 1.001});
+    test_breaks("step(1e-7-abs(r-3))", 3, (double[]){3 - 1e-7, 3, 3 + 1e-7});
+    test_breaks("step(1e-6-r)", 1, (double[]){1e-6});
     test_breaks("min(exp(-r), exp(-2*r)+0.1)", 2, /* exp(-r) = (1 +- sqrt 0.6)/2 */
-                (double[]){ -log((1 + sqrt(0.6)) / 2), -log((1 - sqrt(0.6)) / 2) });
+                (double[]){-log((1 + sqrt(0.6)) / 2), -log((1 - sqrt(0.6)) / 2)});
 }
 
 static double cube(double x, void *user)
@@ -278,7 +278,7 @@ static double cube(double x, void *user)
 static void test_callbacks(void)
 {
     double factor = 2, c = 1 / sqrt(1 + 0.5 * 0.5);
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *ndf = vndf_source_ndf_callback(cube, &factor, "it's mine", &error);
     vndf_source *p22 = vndf_source_slope_callback(cube, &factor, NULL, &error);
     TEST_RELATIVE(vndf_source_p22(ndf, 0.5), 2 * pow(c, 7), 1e-15);
@@ -295,7 +295,7 @@ static void test_callbacks(void)
 /* Numbers survive printing and reading, also under a locale with a decimal comma (if the machine has one). */
 static void test_numbers(void)
 {
-    static const char *const locales[] = { "C", "de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8" };
+    static const char *const locales[] = {"C", "de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"};
     unsigned long long state = 7;
     for (size_t i = 0; i < 5; i++) {
         if (!setlocale(LC_ALL, locales[i]))

@@ -12,6 +12,7 @@
 static const double pi = 3.14159265358979323846;
 
 /* At ends and in the middle of all ranges. */
+/* clang-format off */
 static const char *const all[] = {
     "ggx", "beckmann", "student-t:1.5000001", "student-t:1.6", "student-t:4", "student-t:1e9", "gtr:1e-9",
     "gtr:0.5", "gtr:1", "gtr:1,1", "gtr:2,1e-9", "gtr:3.5,0.2", "gtr:1000,0.5", "gtr:1000,1e-9", "gtr:0.3,1e-9",
@@ -21,10 +22,11 @@ static const char *const all[] = {
     "phong:0", "phong:50", "phong:1e9", "mix:(1,1e-9,sgd:1e-9,1000)+(1e12,1e9,epd:0.05)",
     "mix:(0.8,0.01,ggx)+(0.2,1,student-t:2)", "mix:(1,1,sgd:alum-bronze/r)+(2,0.5,abc:two-layer-gold)",
 };
+/* clang-format on */
 
 static vndf_source *family(const char *specification)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_family(specification, &error);
     if (!TEST(source != NULL))
         fprintf(stderr, "  %s: %s\n", specification, error.message);
@@ -60,7 +62,7 @@ static void test_all_finite(void)
 /* The ratio to the value at 0 against the formula in its plain form, at slopes where that keeps its digits. */
 static void test_formula(const char *specification, double (*formula)(double r))
 {
-    static const double slopes[] = { 0.01, 0.1, 0.5, 1, 2, 5 };
+    static const double slopes[] = {0.01, 0.1, 0.5, 1, 2, 5};
     vndf_source *source = family(specification);
     for (size_t i = 0; source && i < 6; i++) {
         double ratio = vndf_source_p22(source, slopes[i]) / vndf_source_p22(source, 0);
@@ -75,13 +77,34 @@ static double cosine(double r)
     return cos(atan(r));
 }
 
-static double ggx(double r) { return pow(1 + r * r, -2); }
-static double beckmann(double r) { return exp(-r * r); }
-static double student(double r) { return pow(1 + r * r / 1.5, -2.5); }
-static double hyper_cauchy(double r) { return pow(2 + r * r / 0.25, -1.7); }
-static double epd(double r) { return exp(-pow(r, 1.4)); }
-static double phong(double r) { return pow(cosine(r), 34); }
-static double abc(double r) { return pow(1 + 50 * (1 - cosine(r)), -1.7) * pow(cosine(r), 4); }
+static double ggx(double r)
+{
+    return pow(1 + r * r, -2);
+}
+static double beckmann(double r)
+{
+    return exp(-r * r);
+}
+static double student(double r)
+{
+    return pow(1 + r * r / 1.5, -2.5);
+}
+static double hyper_cauchy(double r)
+{
+    return pow(2 + r * r / 0.25, -1.7);
+}
+static double epd(double r)
+{
+    return exp(-pow(r, 1.4));
+}
+static double phong(double r)
+{
+    return pow(cosine(r), 34);
+}
+static double abc(double r)
+{
+    return pow(1 + 50 * (1 - cosine(r)), -1.7) * pow(cosine(r), 4);
+}
 
 static double gtr(double r)
 {
@@ -112,11 +135,11 @@ static void test_formulas(void)
 static void test_relations(void)
 {
     static const char *const pairs[][2] = {
-        { "mix:(1,1,gtr:2,0.1)+(1,1,gtr:2,0.1)", "mix:(1,0.1,ggx)+(1,0.1,ggx)" },
-        { "mix:(1,1,epd:1)+(1,1,epd:1)", "mix:(1,1,beckmann)+(1,1,beckmann)" },
-        { "mix:(1,1,student-t:3)+(1,1,ggx)", "mix:(1,1,hyper-cauchy:3,1)+(1,1,student-t:2)" },
-        { "mix:(1,1,phong:0)+(1,1,gtr:1,1)", "mix:(1,1,gtr:7,1)+(1,1,ggx)" },
-        { "gtr:1.5", "gtr:1.5,0.1" },
+        {"mix:(1,1,gtr:2,0.1)+(1,1,gtr:2,0.1)", "mix:(1,0.1,ggx)+(1,0.1,ggx)"},
+        {"mix:(1,1,epd:1)+(1,1,epd:1)", "mix:(1,1,beckmann)+(1,1,beckmann)"},
+        {"mix:(1,1,student-t:3)+(1,1,ggx)", "mix:(1,1,hyper-cauchy:3,1)+(1,1,student-t:2)"},
+        {"mix:(1,1,phong:0)+(1,1,gtr:1,1)", "mix:(1,1,gtr:7,1)+(1,1,ggx)"},
+        {"gtr:1.5", "gtr:1.5,0.1"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         vndf_source *a = family(pairs[i][0]), *b = family(pairs[i][1]);
@@ -153,10 +176,10 @@ static void test_mass(const char *specification, double tolerance)
 static void test_masses(void)
 {
     static const char *const smooth[] = {
-        "ggx", "beckmann", "student-t:1.8", "student-t:50", "gtr:0.01", "gtr:0.5,0.001", "gtr:1,0.3", "gtr:1,1",
-        "gtr:1.0000001,0.3", "gtr:6,0.01", "gtr:200,0.9", "epd:0.2", "epd:1", "epd:4", "abc:50,1.7", "abc:1e6,0.2",
-        "abc:0.1,5", "sgd:0.2,0.7", "sgd:1e-5,0.4", "sgd:0.7,1.8", "hyper-cauchy:1.8,0.3", "hyper-cauchy:9",
-        "phong:0", "phong:1e5",
+        "ggx",          "beckmann",    "student-t:1.8",        "student-t:50",   "gtr:0.01",    "gtr:0.5,0.001",
+        "gtr:1,0.3",    "gtr:1,1",     "gtr:1.0000001,0.3",    "gtr:6,0.01",     "gtr:200,0.9", "epd:0.2",
+        "epd:1",        "epd:4",       "abc:50,1.7",           "abc:1e6,0.2",    "abc:0.1,5",   "sgd:0.2,0.7",
+        "sgd:1e-5,0.4", "sgd:0.7,1.8", "hyper-cauchy:1.8,0.3", "hyper-cauchy:9", "phong:0",     "phong:1e5",
     };
     for (size_t i = 0; i < sizeof smooth / sizeof smooth[0]; i++)
         test_mass(smooth[i], 1e-10);
@@ -166,20 +189,20 @@ static void test_masses(void)
 /* Closed forms of the two masses that the library integrates: incomplete gamma, and powers. */
 static void test_closed_masses(void)
 {
-    const vndf_family_form *forms[] = { vndf_family_form_find("sgd", 3), vndf_family_form_find("abc", 3) };
+    const vndf_family_form *forms[] = {vndf_family_form_find("sgd", 3), vndf_family_form_find("abc", 3)};
     for (double a = 1e-4; a < 1; a *= 2.3) {
-        double half[] = { a, 0.5 }, none[] = { a, 0 }, B = 1 / a;
+        double half[] = {a, 0.5}, none[] = {a, 0}, B = 1 / a;
         /* p = 1/2: pi alpha e^alpha alpha^p Gamma(1/2, alpha) */
         TEST_RELATIVE(forms[0]->mass(half), pi * a * exp(a) * sqrt(a) * sqrt(pi) * erfc(sqrt(a)), 1e-13);
         TEST_RELATIVE(forms[0]->mass(none), pi * a, 1e-13);
         /* C = 3: 2 pi integral (1 + B v)^-3 (1 - v) dv over [0, 1] = pi / (1 + B) */
-        TEST_RELATIVE(forms[1]->mass((double[]){ B, 3 }), pi / (1 + B), 1e-13);
+        TEST_RELATIVE(forms[1]->mass((double[]){B, 3}), pi / (1 + B), 1e-13);
     }
 }
 
 static void test_error(const char *specification, const char *message)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_family(specification, &error);
     if (!(TEST(source == NULL) & TEST(error.status == VNDF_ERROR_SYNTAX) & TEST_HAS(error.message, message)))
         fprintf(stderr, "  %s: %s\n", specification, error.message);
@@ -188,7 +211,7 @@ static void test_error(const char *specification, const char *message)
 
 static void test_errors(void)
 {
-    vndf_error error = { VNDF_OK, "" };
+    vndf_error error = {VNDF_OK, ""};
     test_error("", "column 1: unknown family ''; known are ggx, beckmann, student-t, gtr, epd, abc, sgd, "
                    "hyper-cauchy, phong, mix");
     test_error("GGX", "column 1: unknown family 'GGX'");

@@ -124,7 +124,8 @@ static void test_bad_options(void)
     static const double bad[] = {1, -1}, many[VNDF_LIMIT_BREAKS + 1] = {1};
     test_refused((vndf_build_options){.breaks = bad, .break_count = 2}, "a break is -1; it is a slope above 0");
     test_refused((vndf_build_options){.break_count = 2}, "breaks is NULL");
-    test_refused((vndf_build_options){.breaks = many, .break_count = VNDF_LIMIT_BREAKS + 1}, "65 breaks; at most 64");
+    test_refused((vndf_build_options){.breaks = many, .break_count = VNDF_LIMIT_BREAKS + 1},
+                 "65 breaks; at most 64");
     test_refused((vndf_build_options){.finest = -1}, "finest is -1");
     test_refused((vndf_build_options){.finest = 1e-10}, "finest is 1e-10");
 }

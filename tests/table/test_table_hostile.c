@@ -13,11 +13,11 @@ static uint32_t get_u32(const unsigned char *bytes)
 /* One change: a bit, a byte, a word of a nasty number, two words swapped, or a float scaled. */
 static void mutate(unsigned char *bytes, size_t size, unsigned long long *state)
 {
-    static const uint32_t nasty[] = {0, 1, 0x7f800000, 0xff800000, 0x7fc00000, 0x80000000, 0x3f800000, 0x00800000,
-                                     0x7f7fffff, 0xffffffff, 0x00000002, 0x33800000};
+    static const uint32_t nasty[] = {0,          1,          0x7f800000, 0xff800000, 0x7fc00000, 0x80000000,
+                                     0x3f800000, 0x00800000, 0x7f7fffff, 0xffffffff, 0x00000002, 0x33800000};
     unsigned long long r = test_random_bits(state);
     size_t at = 16 + (size_t)(r >> 20) % (size - 24), word = at & ~(size_t)3,
-        other = 16 + (size_t)(r >> 33) % (size - 24);
+           other = 16 + (size_t)(r >> 33) % (size - 24);
     float f;
     switch (r >> 61) {
     case 0: bytes[at] ^= (unsigned char)(1 << (r & 7)); break;

@@ -7,7 +7,7 @@
 #include "harness/test.h"
 
 #ifndef VNDF_SOURCE_DIR
-#define VNDF_SOURCE_DIR "."
+#  define VNDF_SOURCE_DIR "."
 #endif
 
 static int same(const void *a, const void *b, size_t size)
@@ -43,7 +43,7 @@ static void test_equal(const vndf_distribution *a, const vndf_distribution *b)
     int differ = 0;
     for (int i = 0; i < 20000; i++) {
         float z = 2 * test_uniform(&state) - 1, s = sqrtf(1 - z * z), u1 = test_uniform(&state),
-            u2 = test_uniform(&state);
+              u2 = test_uniform(&state);
         vndf_vec3 wi = {0.6f * s, -0.8f * s, z};
         vndf_surface sa = {a, 0.3f, 0.7f}, sb = {b, 0.3f, 0.7f};
         answer x = answer_of(&sa, wi, u1, u2), y = answer_of(&sb, wi, u1, u2);

@@ -160,23 +160,34 @@ static void knots_equal(vndf_distribution *t)
 static const struct {
     void (*spoil)(vndf_distribution *table);
     const char *message;
-} TABLE_RULES[] = {
-    {off_line, "off the line"}, {knots_swapped, "radial knots do not ascend"}, {knots_equal, "coincide"},
-    {moment_zero, "moment out of range"}, {moment_large, "moment out of range"},
-    {density_negative, "moment out of range"}, {density_nan, "moment out of range"},
-    {pole_dense, "from the pole"}, {cubic_negative, "below zero"}, {claim_nan, "no measurement"},
-    {claim_negative, "no measurement"}, {scale_zero, "scale or normalization"},
-    {normalization_infinite, "scale or normalization"}};
+} TABLE_RULES[] = {{off_line, "off the line"},
+                   {knots_swapped, "radial knots do not ascend"},
+                   {knots_equal, "coincide"},
+                   {moment_zero, "moment out of range"},
+                   {moment_large, "moment out of range"},
+                   {density_negative, "moment out of range"},
+                   {density_nan, "moment out of range"},
+                   {pole_dense, "from the pole"},
+                   {cubic_negative, "below zero"},
+                   {claim_nan, "no measurement"},
+                   {claim_negative, "no measurement"},
+                   {scale_zero, "scale or normalization"},
+                   {normalization_infinite, "scale or normalization"}};
 
 static const struct {
     void (*spoil)(vndf_wedge *wedge);
     const char *message;
-} WEDGE_RULES[] = {
-    {cells_coincide, "azimuth cells do not ascend"}, {row_mass_zero, "mass or density"},
-    {row_density_negative, "mass or density"}, {row_heavy, "add up to 1"}, {aspect_zero, "aspect"},
-    {rows_coincide, "azimuth rows do not ascend"}, {knots_coincide, "area knots do not ascend"},
-    {no_mass, "wedge mass is out of range"}, {slope_negative, "wedge mass is out of range"},
-    {curve_nan, "wedge mass is out of range"}, {mass_falls, "wedge masses do not ascend"}};
+} WEDGE_RULES[] = {{cells_coincide, "azimuth cells do not ascend"},
+                   {row_mass_zero, "mass or density"},
+                   {row_density_negative, "mass or density"},
+                   {row_heavy, "add up to 1"},
+                   {aspect_zero, "aspect"},
+                   {rows_coincide, "azimuth rows do not ascend"},
+                   {knots_coincide, "area knots do not ascend"},
+                   {no_mass, "wedge mass is out of range"},
+                   {slope_negative, "wedge mass is out of range"},
+                   {curve_nan, "wedge mass is out of range"},
+                   {mass_falls, "wedge masses do not ascend"}};
 
 static void test_spoiled(vndf_distribution *table, const char *message)
 {
@@ -202,10 +213,12 @@ static void test_rules(const unsigned char *sound, size_t size)
 /* ---- rules of the whole -------------------------------------------------------------------------- */
 
 /* Which count, and a value outside its limits. */
+/* clang-format off */
 static const unsigned LIMITS[][2] = {
     {0, 1}, {0, VNDF_RADIAL_CELLS_MAX + 1}, {1, 1}, {1, VNDF_WEDGE_CELLS_MAX + 1}, {2, 1}, {2, 4},
     {2, VNDF_WEDGE_ROWS_MAX + 1}, {3, 1}, {3, VNDF_AREA_KNOTS_MAX + 1}, {4, 1}, {4, VNDF_WEDGE_CELLS_MAX + 1},
     {5, 1}, {5, 4}, {5, VNDF_WEDGE_ROWS_MAX + 1}, {6, 1}, {6, VNDF_AREA_KNOTS_MAX + 1}};
+/* clang-format on */
 
 static void test_whole(const unsigned char *sound, size_t size)
 {

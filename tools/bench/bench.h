@@ -20,9 +20,9 @@ typedef enum bench_kind {
 
 /* NaN is what does not apply or was not measured. */
 typedef struct bench_row {
-    char method[64];            /* "GGX spherical caps (2023)", "table 16 KiB" ... */
-    char distribution[64];      /* what it samples: "ggx", "beckmann", the caller's name for the source */
-    char instructions[16];      /* "scalar", "portable", "avx2", "avx512" */
+    char method[64];       /* "GGX spherical caps (2023)", "table 16 KiB" ... */
+    char distribution[64]; /* what it samples: "ggx", "beckmann", the caller's name for the source */
+    char instructions[16]; /* "scalar", "portable", "avx2", "avx512" */
     bench_kind kind;
     size_t bytes;               /* of its tables; 0 for closed forms */
     int wrong;                  /* 1: its results failed verification, so nothing was timed */
@@ -51,7 +51,7 @@ typedef struct bench_plan {
     const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others then */
     const size_t *ready_limits;            /* the max_bytes of each, ascending */
     size_t ready_count;                    /* 0: they are built here */
-    vndf_progress *progress;   /* may be NULL; asked every few milliseconds */
+    vndf_progress *progress;               /* may be NULL; asked every few milliseconds */
     void *progress_user;
 } bench_plan;
 

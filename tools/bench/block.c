@@ -22,8 +22,15 @@ method_outputs bench_block_outputs(bench_block *block)
 
 static void fill_normals(bench_block *block, const method_truth *truth)
 {
-    vndf_batch batch = {truth->canonical.distribution, BENCH_BLOCK, 0, VNDF_INSTRUCTIONS_BEST, block->alpha,
-                        block->alpha, block->wi_x, block->wi_y, block->wi_z};
+    vndf_batch batch = {truth->canonical.distribution,
+                        BENCH_BLOCK,
+                        0,
+                        VNDF_INSTRUCTIONS_BEST,
+                        block->alpha,
+                        block->alpha,
+                        block->wi_x,
+                        block->wi_y,
+                        block->wi_z};
     vndf_sample_n(&batch, block->u1, block->u2, (vndf_normals){block->wm_x, block->wm_y, block->wm_z}, NULL);
 }
 

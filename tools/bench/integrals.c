@@ -76,8 +76,15 @@ static void mirror(const integral *x)
 static void evaluate(const integral *x)
 {
     bench_block *b = x->block, *t = x->turned;
-    vndf_batch batch = {x->truth.canonical.distribution, BENCH_BLOCK, VNDF_SHARED_ALPHA, VNDF_INSTRUCTIONS_BEST,
-                        &x->alpha, &x->alpha, t->wi_x, t->wi_y, t->wi_z};
+    vndf_batch batch = {x->truth.canonical.distribution,
+                        BENCH_BLOCK,
+                        VNDF_SHARED_ALPHA,
+                        VNDF_INSTRUCTIONS_BEST,
+                        &x->alpha,
+                        &x->alpha,
+                        t->wi_x,
+                        t->wi_y,
+                        t->wi_z};
     mirror(x);
     vndf_ndf_n(&batch, (vndf_normals){b->x, b->y, b->z}, x->d);
     vndf_lambda_n(&batch, x->wo_lambda);

@@ -43,7 +43,7 @@ typedef struct bench_entry {
 typedef struct bench_list {
     size_t count, table_count;
     const vndf_distribution *table[BENCH_TABLES];
-    int borrowed;                       /* the tables are the caller's */
+    int borrowed; /* the tables are the caller's */
     const char *name[BENCH_SUBJECTS];
     method_truth truth[BENCH_SUBJECTS]; /* distribution NULL where nothing of it is wanted */
     bench_entry entry[BENCH_ENTRIES_MAX];

@@ -12,8 +12,8 @@ typedef struct cells {
     char of[COLUMNS][CELL];
 } cells;
 
-static const char *const headings[COLUMNS] = {"bytes", "ns", "spread", "shared", "latency", "ratio", "TV",
-                                              "weight", "eff 60", "eff 85", "eff light", "bias 60, 85"};
+static const char *const headings[COLUMNS] = {"bytes", "ns",     "spread", "shared", "latency",   "ratio",
+                                              "TV",    "weight", "eff 60", "eff 85", "eff light", "bias 60, 85"};
 
 static const char legend[] =
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
@@ -121,12 +121,14 @@ static const char *kind_name(bench_kind kind)
 void bench_print_csv(FILE *file, const bench_rows *rows)
 {
     fputs("method,distribution,instructions,kind,bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,"
-          "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n", file);
+          "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
+          file);
     for (size_t i = 0; i < rows->count; i++) {
         const bench_row *r = &rows->row[i];
-        const double numbers[] = {r->ns, r->ns_low, r->ns_high, r->shared_ns, r->latency_ns, r->ratio, r->tv,
-                                  r->tv_theta, r->max_weight, r->efficiency[0], r->efficiency[1],
-                                  r->efficiency_light, r->bias[0], r->bias[1]};
+        const double numbers[] = {
+            r->ns,      r->ns_low,   r->ns_high,    r->shared_ns,     r->latency_ns,    r->ratio,
+            r->tv,      r->tv_theta, r->max_weight, r->efficiency[0], r->efficiency[1], r->efficiency_light,
+            r->bias[0], r->bias[1]};
         csv_text(file, r->method);
         fputc(',', file);
         csv_text(file, r->distribution);

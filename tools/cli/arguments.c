@@ -92,9 +92,9 @@ static const option_form *find_option(const command_form *form, const char *word
 static int store_word(const command_form *form, const option_form *option, const char *value)
 {
     if (option->values->count >= option->most)
-        return option->most == 1 ? complain(form->command, "%s is given twice", option->name)
-                                 : complain(form->command, "%s is given more than %zu times", option->name,
-                                            option->most);
+        return option->most == 1
+                   ? complain(form->command, "%s is given twice", option->name)
+                   : complain(form->command, "%s is given more than %zu times", option->name, option->most);
     option->values->item[option->values->count++] = value;
     return PARSE_GO_ON;
 }
@@ -186,8 +186,8 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
     for (;;) {
         at = scan_number(at, &numbers[count]);
         if (!at || (*at != '\0' && *at != ','))
-            return refuse_number(command, what, text, most > 1 ? "is not a number, or numbers between commas"
-                                                               : "is not a number");
+            return refuse_number(command, what, text,
+                                 most > 1 ? "is not a number, or numbers between commas" : "is not a number");
         if (!(numbers[count] >= low && numbers[count] <= high))
             return refuse_number(command, what, text, expected);
         count++;

@@ -20,15 +20,15 @@ typedef struct words {
 } words;
 
 typedef struct option_form {
-    const char *name;  /* "--theta", "-o" */
-    int takes_value;   /* 0: a flag, counted in values->count */
-    size_t most;       /* how often it may be given, at most WORDS_MAX */
+    const char *name; /* "--theta", "-o" */
+    int takes_value;  /* 0: a flag, counted in values->count */
+    size_t most;      /* how often it may be given, at most WORDS_MAX */
     words *values;
 } option_form;
 
 typedef struct command_form {
-    const char *command;    /* "vndf build": opens every message */
-    const char *help;       /* printed for --help */
+    const char *command; /* "vndf build": opens every message */
+    const char *help;    /* printed for --help */
     const option_form *options;
     size_t option_count;
     const char *positional; /* what the positional words are, "FILE|ggx|beckmann" */

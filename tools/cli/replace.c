@@ -88,8 +88,8 @@ static int keep_mode(int made, const struct stat *old)
     struct stat now;
     if (fchown(made, old->st_uid, old->st_gid) != 0)
         errno = 0;
-    return fstat(made, &now) == 0 && (((now.st_mode ^ old->st_mode) & 0777) == 0 ||
-                                      fchmod(made, old->st_mode & 0777) == 0);
+    return fstat(made, &now) == 0 &&
+           (((now.st_mode ^ old->st_mode) & 0777) == 0 || fchmod(made, old->st_mode & 0777) == 0);
 }
 
 /* O_EXCL: never write through something that is there already. old: the file to be replaced, if there is one. */

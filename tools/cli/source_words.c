@@ -71,9 +71,9 @@ static vndf_source *source_from_expression(const char *command, const source_wor
         if (!read_parameter(command, given->set.item[i], names[i], &parameters[i]))
             return NULL;
     const char *formula = only_word(given->ndf.count ? &given->ndf : &given->slope);
-    vndf_source *source =
-        given->ndf.count ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
-                         : vndf_source_slope_expression(formula, parameters, given->set.count, error);
+    vndf_source *source = given->ndf.count
+                              ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
+                              : vndf_source_slope_expression(formula, parameters, given->set.count, error);
     if (!source || uses_all(command, formula, parameters, given->set.count))
         return source;
     vndf_source_free(source);

@@ -156,11 +156,15 @@ int command_bench(int argc, char **argv)
     bench_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},      {"--slope", 1, 1, &given.source.slope},
-        {"--csv-data", 1, 1, &given.source.csv}, {"--family", 1, 1, &given.source.family},
+        {"--ndf", 1, 1, &given.source.ndf},
+        {"--slope", 1, 1, &given.source.slope},
+        {"--csv-data", 1, 1, &given.source.csv},
+        {"--family", 1, 1, &given.source.family},
         {"--set", 1, WORDS_MAX, &given.source.set},
-        {"--seconds", 1, 1, &given.seconds},     {"--only", 1, 1, &given.only},
-        {"--csv", 1, 1, &given.csv},             {"--markdown", 1, 1, &given.markdown},
+        {"--seconds", 1, 1, &given.seconds},
+        {"--only", 1, 1, &given.only},
+        {"--csv", 1, 1, &given.csv},
+        {"--markdown", 1, 1, &given.markdown},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);

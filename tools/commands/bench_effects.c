@@ -226,10 +226,14 @@ int command_bench_effects(int argc, char **argv)
     words positional = {{NULL}, 0};
     const option_form options[] = {
         {"--distribution", 1, EFFECTS_DISTRIBUTIONS_MAX, &given.distribution},
-        {"--alpha", 1, 1, &given.alpha},     {"--theta", 1, 1, &given.theta},
-        {"--only", 1, 1, &given.only},       {"--seconds", 1, 1, &given.seconds},
-        {"--csv", 1, 1, &given.csv},         {"--markdown", 1, 1, &given.markdown},
-        {"--run", 1, 1, &given.run},         {"--passes", 1, 1, &given.passes},
+        {"--alpha", 1, 1, &given.alpha},
+        {"--theta", 1, 1, &given.theta},
+        {"--only", 1, 1, &given.only},
+        {"--seconds", 1, 1, &given.seconds},
+        {"--csv", 1, 1, &given.csv},
+        {"--markdown", 1, 1, &given.markdown},
+        {"--run", 1, 1, &given.run},
+        {"--passes", 1, 1, &given.passes},
         {"--instructions", 0, 1, &given.instructions},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};

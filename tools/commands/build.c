@@ -165,11 +165,16 @@ int command_build(int argc, char **argv)
     build_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},  {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
-        {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
-        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
-        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks}, {"--finest", 1, 1, &given.finest},
+        {"--ndf", 1, 1, &given.source.ndf},
+        {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},
+        {"--family", 1, 1, &given.source.family},
+        {"--list", 0, 1, &given.list},
+        {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--max-bytes", 1, 1, &given.bytes},
+        {"--max-tv", 1, 1, &given.tv},
+        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
+        {"--finest", 1, 1, &given.finest},
         {"-o", 1, 1, &given.output},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};

@@ -244,8 +244,8 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     if (follows == STATUS_USE)
         return STATUS_USE;
     int hard = given->hard.count ? hard_check(chosen->distribution, seed) : STATUS_GOOD;
-    int good = certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD &&
-               hard == STATUS_GOOD;
+    int good =
+        certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD && hard == STATUS_GOOD;
     printf("result %s\n", verdict(good));
     return good ? STATUS_GOOD : STATUS_NO;
 }
@@ -255,11 +255,12 @@ int command_check(int argc, char **argv)
     check_words given = {0};
     words positional = {{NULL}, 0};
     chosen_distribution chosen;
-    const option_form options[] = {
-        {"--samples", 1, 1, &given.samples}, {"--csv", 1, 1, &given.csv}, {"--seed", 1, 1, &given.seed},
-        {"--hard", 0, 1, &given.hard}, {"--at", 1, 1, &given.at}};
-    const command_form form = {
-        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const option_form options[] = {{"--samples", 1, 1, &given.samples},
+                                   {"--csv", 1, 1, &given.csv},
+                                   {"--seed", 1, 1, &given.seed},
+                                   {"--hard", 0, 1, &given.hard},
+                                   {"--at", 1, 1, &given.at}};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;

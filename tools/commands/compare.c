@@ -127,14 +127,18 @@ int command_compare(int argc, char **argv)
 {
     char arguments[1024];
     compare_words given = {0};
-    compare_choice choice = {.command = name, .arguments = arguments, .seconds = 120,
-                             .threads = film_processors()};
+    compare_choice choice = {
+        .command = name, .arguments = arguments, .seconds = 120, .threads = film_processors()};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--samplers", 1, 1, &given.samplers}, {"--tables", 1, 1, &given.tables},
-        {"--seconds", 1, 1, &given.seconds},   {"--spp", 1, 1, &given.spp},
-        {"--reference-spp", 1, 1, &given.reference_spp}, {"--reference", 1, 1, &given.reference},
-        {"--width", 1, 1, &given.width},       {"--threads", 1, 1, &given.threads},
+        {"--samplers", 1, 1, &given.samplers},
+        {"--tables", 1, 1, &given.tables},
+        {"--seconds", 1, 1, &given.seconds},
+        {"--spp", 1, 1, &given.spp},
+        {"--reference-spp", 1, 1, &given.reference_spp},
+        {"--reference", 1, 1, &given.reference},
+        {"--width", 1, 1, &given.width},
+        {"--threads", 1, 1, &given.threads},
         {"--seed", 1, 1, &given.seed},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE DIR", 2, 2};

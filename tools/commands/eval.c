@@ -90,8 +90,7 @@ int command_eval(int argc, char **argv)
     vndf_vec3 wi;
     const option_form options[] = {
         {"--theta", 1, 1, &aim.theta}, {"--phi", 1, 1, &aim.phi}, {"--alpha", 1, 1, &aim.alpha}};
-    const command_form form = {
-        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;

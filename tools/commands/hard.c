@@ -113,8 +113,10 @@ int hard_check_at(const vndf_distribution *distribution, const char *command, co
     vndf_surface surface = {distribution, at.alpha_x, at.alpha_y};
     vndf_view view = vndf_view_from(&surface, at.wi);
     if (!view.distribution)
-        return complain(command, "--at %s is no view: wi must not be 0, and alpha times the scale of the "
-                        "distribution must be within 1e-18 and 1e18", numbers);
+        return complain(command,
+                        "--at %s is no view: wi must not be 0, and alpha times the scale of the "
+                        "distribution must be within 1e-18 and 1e18",
+                        numbers);
     print_calls(&surface, &view, &at);
     stress_measure_sample(&surface, &view, &at, &result);
     stress_measure_direction(&surface, &at, &result);

@@ -116,8 +116,8 @@ static void write_rows(FILE *file, const masking_rows *rows)
 {
     for (int i = 0; i < ANGLES; i++) {
         write_quoted(file, rows->subject);
-        fprintf(file, ",%.9g,%.9g,%.9g,%g", (double)rows->surface.alpha_x, (double)rows->surface.alpha_y, rows->phi,
-                angle[i]);
+        fprintf(file, ",%.9g,%.9g,%.9g,%g", (double)rows->surface.alpha_x, (double)rows->surface.alpha_y,
+                rows->phi, angle[i]);
         for (int j = 0; j < MASKING_COUNT; j++)
             fprintf(file, ",%.9g", rows->at[i].of[j]);
         putc('\n', file);
@@ -137,8 +137,8 @@ static void write_header(FILE *file)
 /* What is to be reported on, and where. */
 typedef struct masking_plan {
     const masking_words *given;
-    const output_file *csv;          /* NULL: there is none */
-    const vndf_distribution *own;    /* of the source that was given; NULL: there is none */
+    const output_file *csv;       /* NULL: there is none */
+    const vndf_distribution *own; /* of the source that was given; NULL: there is none */
     const char *own_name;
 } masking_plan;
 
@@ -152,7 +152,8 @@ static int read_settings(const masking_words *given, masking_rows *rows)
         return 0;
     if (vndf_projected_area(&rows->surface, up) > 0)
         return 1;
-    complain(name, "--alpha times the scale of '%s' (vndf info) is not in the range from 1e-18 to 1e18", rows->subject);
+    complain(name, "--alpha times the scale of '%s' (vndf info) is not in the range from 1e-18 to 1e18",
+             rows->subject);
     return 0;
 }
 
@@ -252,13 +253,17 @@ int command_masking(int argc, char **argv)
     masking_words given = {0};
     masking_plan plan = {.given = &given};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf}, {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv}, {"--family", 1, 1, &given.source.family},
-        {"--set", 1, WORDS_MAX, &given.source.set}, {"--alpha", 1, 1, &given.alpha},
-        {"--phi", 1, 1, &given.phi}, {"-o", 1, 1, &given.output},
+        {"--ndf", 1, 1, &given.source.ndf},
+        {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},
+        {"--family", 1, 1, &given.source.family},
+        {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--alpha", 1, 1, &given.alpha},
+        {"--phi", 1, 1, &given.phi},
+        {"-o", 1, 1, &given.output},
     };
-    const command_form form = {
-        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 0, WORDS_MAX};
+    const command_form form = {name, help,     options, sizeof options / sizeof options[0], "FILE|ggx|beckmann",
+                               0,    WORDS_MAX};
     int parsed = parse_arguments(&form, argc, argv, &given.subjects);
     if (parsed == PARSE_GO_ON)
         parsed = check_words(&given);

@@ -110,8 +110,7 @@ int command_plot(int argc, char **argv)
     chosen_distribution chosen;
     figure_plan figure = {{NULL, 1, 1}, {0, 45, 80, 100}, 4};
     const option_form options[] = {{"--theta", 1, 1, &theta}, {"--alpha", 1, 1, &alpha}, {"-o", 1, 1, &path}};
-    const command_form form = {
-        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;

@@ -108,7 +108,7 @@ static image_writer *writer_of(const char *path, const char *format)
 
 typedef struct watch {
     const output_file *output;
-    int shows;          /* stderr is a terminal */
+    int shows;                    /* stderr is a terminal */
     double start, shown, seconds; /* seconds: the limit; 0: none */
 } watch;
 
@@ -160,8 +160,12 @@ static int render_film(output_file *output, image_writer *write, const path_plan
 {
     film f;
     watch w = {output, isatty(STDERR_FILENO), clock_seconds(), 0, c->seconds};
-    film_run run = {.samples = c->spp ? c->spp : s->integrator.samples, .seconds = c->seconds, .seed = c->seed,
-                    .threads = (unsigned)c->threads, .progress = show_progress, .user = &w};
+    film_run run = {.samples = c->spp ? c->spp : s->integrator.samples,
+                    .seconds = c->seconds,
+                    .seed = c->seed,
+                    .threads = (unsigned)c->threads,
+                    .progress = show_progress,
+                    .user = &w};
     if (!c->spp && c->seconds > 0)
         run.samples = 1000000000;
     if (!film_make(&f, s->width, s->height))
@@ -244,12 +248,12 @@ int command_render(int argc, char **argv)
     render_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
-        {"--spp", 1, 1, &given.spp},
-        {"--seconds", 1, 1, &given.seconds}, {"--threads", 1, 1, &given.threads},
-        {"--seed", 1, 1, &given.seed},       {"--sampler", 1, 1, &given.sampler},
-        {"--width", 1, 1, &given.width},     {"--exposure", 1, 1, &given.exposure},
-        {"--explain", 0, 1, &given.explain}, {"--grammar", 0, 1, &given.grammar},
+        {"-o", 1, 1, &given.output},           {"--format", 1, 1, &given.format},
+        {"--spp", 1, 1, &given.spp},           {"--seconds", 1, 1, &given.seconds},
+        {"--threads", 1, 1, &given.threads},   {"--seed", 1, 1, &given.seed},
+        {"--sampler", 1, 1, &given.sampler},   {"--width", 1, 1, &given.width},
+        {"--exposure", 1, 1, &given.exposure}, {"--explain", 0, 1, &given.explain},
+        {"--grammar", 0, 1, &given.grammar},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);

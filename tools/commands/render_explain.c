@@ -47,9 +47,9 @@ typedef struct variant {
     const effect_word *word; /* NULL: all effects */
     path_plan *plan;
     path_counts counts;
-    int is_repeated;        /* every call of the library is made twice: see repeat.c */
+    int is_repeated;                                    /* every call of the library is made twice: see repeat.c */
     double ns[TURNS], segment_ns[TURNS], ray_ns[TURNS]; /* a path, a segment of it, a ray of either kind */
-    double saves[TURNS];    /* of the time of a path with all effects */
+    double saves[TURNS];                                /* of the time of a path with all effects */
 } variant;
 
 /* ---- measuring ---- */
@@ -131,8 +131,8 @@ static size_t prepare(const char *command, const scene *s, path_sampler sampler,
         const effect_word *word = &effect_words[i];
         if (!word->can_leave || !(path_effects(list[0].plan) & word->effect))
             continue;
-        list[count] = (variant){.word = word,
-                                .plan = path_prepare(s, sampler, word->effect, message, sizeof message)};
+        list[count] =
+            (variant){.word = word, .plan = path_prepare(s, sampler, word->effect, message, sizeof message)};
         if (list[count].plan)
             count++;
     }

@@ -43,11 +43,11 @@ typedef struct report_plan {
 } report_plan;
 
 typedef struct report_bar {
-    unsigned held;     /* signals that wait until nothing is half done */
-    int shows;         /* stderr is a terminal */
-    double from, to;   /* of all the work, the step at hand */
-    const char *step;  /* its name */
-    int shown;         /* what stands there, in thousandths */
+    unsigned held;    /* signals that wait until nothing is half done */
+    int shows;        /* stderr is a terminal */
+    double from, to;  /* of all the work, the step at hand */
+    const char *step; /* its name */
+    int shown;        /* what stands there, in thousandths */
 } report_bar;
 
 enum { BAR_WIDTH = 30 };
@@ -170,8 +170,13 @@ static int compare_methods(report *r, double seconds, report_bar *bar)
         ready[i] = s->table[i].table;
         limits[i] = s->table[i].asked;
     }
-    const bench_plan plan = {.source = s->source, .name = s->name, .seconds = seconds * bench_part, .ready = ready,
-                             .ready_limits = limits, .ready_count = s->count, .progress = watch_bar,
+    const bench_plan plan = {.source = s->source,
+                             .name = s->name,
+                             .seconds = seconds * bench_part,
+                             .ready = ready,
+                             .ready_limits = limits,
+                             .ready_count = s->count,
+                             .progress = watch_bar,
                              .progress_user = bar};
     begin_step(bar, "all methods side by side", 0.65, 1);
     return bench_run(&plan, &r->rows, &error) == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
@@ -202,7 +207,8 @@ static void write_contents(FILE *html, const report *r)
     fputs("</code>.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and time</a> "
           "<a href=\"#bytes\">Error and bytes</a> <a href=\"#theta\">Error and angle</a> "
           "<a href=\"#normals\">Density and samples</a> <a href=\"#variance\">Variance</a> "
-          "<a href=\"#time\">Where the time goes</a></nav>\n", html);
+          "<a href=\"#time\">Where the time goes</a></nav>\n",
+          html);
 }
 
 static int write_page(html_page *page, const report *r)
@@ -264,8 +270,8 @@ int command_report(int argc, char **argv)
     report_plan plan = {.seconds = 45};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &plan.source.ndf}, {"--slope", 1, 1, &plan.source.slope},
-        {"--csv", 1, 1, &plan.source.csv}, {"--family", 1, 1, &plan.source.family},
+        {"--ndf", 1, 1, &plan.source.ndf},         {"--slope", 1, 1, &plan.source.slope},
+        {"--csv", 1, 1, &plan.source.csv},         {"--family", 1, 1, &plan.source.family},
         {"--set", 1, WORDS_MAX, &plan.source.set}, {"--seconds", 1, 1, &plan.seconds_words},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "DIR", 1, 1};

@@ -69,8 +69,8 @@ static write_normal *writer_for(const char *path, const char *format)
 }
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
-static int write_samples(output_file *output, write_normal *write, const vndf_view *view,
-                         unsigned long long count, uint64_t seed)
+static int write_samples(output_file *output, write_normal *write, const vndf_view *view, unsigned long long count,
+                         uint64_t seed)
 {
     random_stream stream = random_from(seed);
     if (write == write_csv)
@@ -115,8 +115,7 @@ int command_sample(int argc, char **argv)
         {"-n", 1, 1, &given.number},         {"--seed", 1, 1, &given.seed},   {"-o", 1, 1, &given.output},
         {"--format", 1, 1, &given.format},
     };
-    const command_form form = {
-        name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;

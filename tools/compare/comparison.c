@@ -89,9 +89,11 @@ static void print_common(FILE *file, const comparison *r)
 
 static void print_agreement(FILE *file, const comparison *r)
 {
-    fprintf(file, "\n| %s | all light, of the reference's | in standard deviations "
-                  "| blocks of 16 x 16 pixels beyond 3 (by chance 0.27%%) | their mean square (1) |\n"
-                  "|---|---|---|---|---|\n", r->by);
+    fprintf(file,
+            "\n| %s | all light, of the reference's | in standard deviations "
+            "| blocks of 16 x 16 pixels beyond 3 (by chance 0.27%%) | their mean square (1) |\n"
+            "|---|---|---|---|---|\n",
+            r->by);
     for (size_t i = 0; i < r->contest->count; i++)
         fprintf(file, "| %s | %.5f | %+.1f | %.2f%% | %.2f |\n", r->contest->way[i].name, r->agrees[i].ratio,
                 r->agrees[i].whole, 100 * r->agrees[i].beyond, r->agrees[i].mean_square);
@@ -102,9 +104,10 @@ static void print_agreement(FILE *file, const comparison *r)
 void comparison_print(FILE *file, const comparison *r)
 {
     const contest *c = r->contest;
-    fprintf(file, "| %s | samples in equal time | error | efficiency | error of %llu samples | time of them "
-                  "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n", r->by,
-            (unsigned long long)c->samples, c->way[0].name);
+    fprintf(file,
+            "| %s | samples in equal time | error | efficiency | error of %llu samples | time of them "
+            "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n",
+            r->by, (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++) {
         char f[FIGURES][FIGURE_TEXT];
         way_figures(f, c, i);

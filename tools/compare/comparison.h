@@ -9,13 +9,13 @@ typedef struct comparison {
     contest *contest;
     const char *title, *arguments; /* of the scene; the words of the command */
     float exposure;
-    const char *by;              /* what the ways differ in: "normals", "tables" */
-    const char *reference_is;    /* "2048 samples of visible normals" */
-    int reference_read;          /* its noise is not known, and counts as that of the ways */
-    char remarks[1024];          /* of ways that the scene cannot have, of samples that were lost; "" if none */
+    const char *by;           /* what the ways differ in: "normals", "tables" */
+    const char *reference_is; /* "2048 samples of visible normals" */
+    int reference_read;       /* its noise is not known, and counts as that of the ways */
+    char remarks[1024];       /* of ways that the scene cannot have, of samples that were lost; "" if none */
     crop crops[CROPS];
     agreement agrees[WAYS_MAX];
-    int has_common;              /* ways saw the same numbers as the first: what they share is no noise */
+    int has_common; /* ways saw the same numbers as the first: what they share is no noise */
     double common[WAYS_MAX], common_noise[WAYS_MAX];
 } comparison;
 
@@ -32,8 +32,13 @@ measured samples_for_error(const contest *c, size_t i, int trimmed);
 
 /* The figures of a way as text, for tables of any kind. */
 typedef enum figure {
-    FIGURE_TIME_SAMPLES, FIGURE_TIME_ERROR, FIGURE_EFFICIENCY, FIGURE_SECONDS, FIGURE_ERROR,
-    FIGURE_SAMPLES_FOR_ERROR, FIGURES
+    FIGURE_TIME_SAMPLES,
+    FIGURE_TIME_ERROR,
+    FIGURE_EFFICIENCY,
+    FIGURE_SECONDS,
+    FIGURE_ERROR,
+    FIGURE_SAMPLES_FOR_ERROR,
+    FIGURES
 } figure;
 
 enum { FIGURE_TEXT = 64 };

@@ -10,9 +10,10 @@
 static void write_figures(html_page *page, const comparison *r)
 {
     const contest *c = r->contest;
-    fprintf(page->html, "<div class=\"scroll\"><table><tr><th rowspan=\"2\">%s<th colspan=\"3\">equal time"
-                        "<th colspan=\"3\">equal samples: %llu</tr>\n<tr><th>samples<th>error<th>efficiency"
-                        "<th>seconds<th>error<th>samples for the error of %s</tr>\n",
+    fprintf(page->html,
+            "<div class=\"scroll\"><table><tr><th rowspan=\"2\">%s<th colspan=\"3\">equal time"
+            "<th colspan=\"3\">equal samples: %llu</tr>\n<tr><th>samples<th>error<th>efficiency"
+            "<th>seconds<th>error<th>samples for the error of %s</tr>\n",
             r->by, (unsigned long long)c->samples, c->way[0].name);
     for (size_t i = 0; i < c->count; i++) {
         char f[FIGURES][FIGURE_TEXT];
@@ -32,15 +33,17 @@ static void write_result(html_page *page, const comparison *r)
              r->contest->way[0].by_time.seconds, r->contest->way[0].name, (unsigned long long)r->contest->samples);
     page_section(page, "result", "What came out", lead);
     write_figures(page, r);
-    fprintf(page->html, "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
-                        "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
-                        "all pixels, %s. In brackets: without fireflies, the worst thousandth of the pixels. "
-                        "Efficiency: one over error squared and time, that of %s is 1; its standard deviation is "
-                        "from the spread of the pixels' errors, and rather too large. In equal time the others "
-                        "stop at the first sample of all pixels that ends beyond it.</p>\n",
+    fprintf(page->html,
+            "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
+            "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
+            "all pixels, %s. In brackets: without fireflies, the worst thousandth of the pixels. "
+            "Efficiency: one over error squared and time, that of %s is 1; its standard deviation is "
+            "from the spread of the pixels' errors, and rather too large. In equal time the others "
+            "stop at the first sample of all pixels that ends beyond it.</p>\n",
             100 * ERROR_FLOOR,
             r->reference_read ? "with the noise of the reference, which was read and whose noise nobody knows"
-                              : "less the noise of the reference", r->contest->way[0].name);
+                              : "less the noise of the reference",
+            r->contest->way[0].name);
     if (r->remarks[0]) {
         fputs("<p class=\"note\">", page->html);
         chart_escape(page->html, r->remarks);
@@ -51,8 +54,8 @@ static void write_result(html_page *page, const comparison *r)
 
 /* ---- curves ---- */
 
-static const chart_mark marks[WAYS_MAX] = {CHART_DOT, CHART_CROSS, CHART_SQUARE, CHART_DIAMOND, CHART_RING,
-                                           CHART_TRIANGLE, CHART_DOT, CHART_SQUARE};
+static const chart_mark marks[WAYS_MAX] = {CHART_DOT,  CHART_CROSS,    CHART_SQUARE, CHART_DIAMOND,
+                                           CHART_RING, CHART_TRIANGLE, CHART_DOT,    CHART_SQUARE};
 
 static void draw_curves(FILE *html, const comparison *r, int by_time)
 {
@@ -72,9 +75,19 @@ static void draw_curves(FILE *html, const comparison *r, int by_time)
         }
         series[i] = (chart_series){w->name, x[i], y[i], w->points, (unsigned)i, marks[i], CHART_SOLID, NULL};
     }
-    chart drawn = {by_time ? "Error against time" : "Error against samples", NULL, CHART_WIDTH, CHART_HEIGHT, 120,
+    chart drawn = {by_time ? "Error against time" : "Error against samples",
+                   NULL,
+                   CHART_WIDTH,
+                   CHART_HEIGHT,
+                   120,
                    {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
-                   {CHART_LOG, 0, 0, 0, "relative error, without fireflies"}, NULL, 0, series, c->count, NULL, 0};
+                   {CHART_LOG, 0, 0, 0, "relative error, without fireflies"},
+                   NULL,
+                   0,
+                   series,
+                   c->count,
+                   NULL,
+                   0};
     chart_fit(&drawn.x, range[0], range[1]);
     chart_fit(&drawn.y, range[2], range[3]);
     fputs("<figure>\n", html);
@@ -124,8 +137,10 @@ static void write_agreement(html_page *page, const comparison *r)
     page_section(page, "agreement", "Do they show the same?",
                  "Against the reference, which has numbers of its own: differences of blocks of 16 x 16 pixels, "
                  "in standard deviations. Noise with fireflies is underestimated, and its blocks stray more.");
-    fprintf(page->html, "<table><tr><th>%s<th>all light, of the<br>reference's<th>in standard<br>deviations"
-                        "<th>blocks beyond 3<br>(by chance 0.27%%)<th>their mean<br>square (1)</tr>\n", r->by);
+    fprintf(page->html,
+            "<table><tr><th>%s<th>all light, of the<br>reference's<th>in standard<br>deviations"
+            "<th>blocks beyond 3<br>(by chance 0.27%%)<th>their mean<br>square (1)</tr>\n",
+            r->by);
     for (size_t i = 0; i < r->contest->count; i++) {
         const agreement *a = &r->agrees[i];
         fprintf(page->html, "<tr><td>%s<td>%.5f<td>%+.1f<td>%.2f%%<td>%.2f</tr>\n", r->contest->way[i].name,
@@ -159,7 +174,8 @@ static void write_head(FILE *html, const comparison *r)
     chart_escape(html, r->arguments);
     fputs("</code></p>\n<nav><a href=\"#result\">What came out</a> <a href=\"#pictures\">Equal time</a> "
           "<a href=\"#samples\">Equal samples</a> <a href=\"#maps\">Error maps</a> <a href=\"#curves\">Curves</a> "
-          "<a href=\"#agreement\">Agreement</a>", html);
+          "<a href=\"#agreement\">Agreement</a>",
+          html);
     fputs(r->has_common ? " <a href=\"#tables\">What tables change</a></nav>\n" : "</nav>\n", html);
 }
 

@@ -43,8 +43,10 @@ static int add_crops(html_page *page, const comparison *r)
 static void show(FILE *html, const char *name, const char *caption, const film *size)
 {
     int factor = SHOWN_WIDTH / size->width > 1 ? SHOWN_WIDTH / size->width : 1;
-    fprintf(html, "<figure><a href=\"%s\"><img class=\"pixels\" src=\"%s\" width=\"%d\" height=\"%d\" "
-                  "alt=\"\"></a><figcaption>", name, name, factor * size->width, factor * size->height);
+    fprintf(html,
+            "<figure><a href=\"%s\"><img class=\"pixels\" src=\"%s\" width=\"%d\" height=\"%d\" "
+            "alt=\"\"></a><figcaption>",
+            name, name, factor * size->width, factor * size->height);
     chart_escape(html, caption);
     fputs("</figcaption></figure>\n", html);
 }
@@ -75,12 +77,14 @@ static int write_pictures(html_page *page, const comparison *r)
     for (size_t i = 0; i < c->count && good; i++)
         good = show_film(page, r, c->way[i].name, "time.png", &c->way[i].at_time, &c->way[i].by_time);
     fputs("</div>\n<h3>Crops</h3>\n<figure class=\"wide\"><a href=\"crops.png\">"
-          "<img src=\"crops.png\" alt=\"\"></a><figcaption>From left to right: reference", page->html);
+          "<img src=\"crops.png\" alt=\"\"></a><figcaption>From left to right: reference",
+          page->html);
     for (size_t i = 0; i < c->count; i++)
         fprintf(page->html, ", %s", c->way[i].name);
-    fprintf(page->html, ". Above (%d, %d), where all err most; below (%d, %d), where the others err most beside "
-                        "%s.</figcaption></figure>\n", r->crops[0].x, r->crops[0].y, r->crops[1].x, r->crops[1].y,
-            c->way[0].name);
+    fprintf(page->html,
+            ". Above (%d, %d), where all err most; below (%d, %d), where the others err most beside "
+            "%s.</figcaption></figure>\n",
+            r->crops[0].x, r->crops[0].y, r->crops[1].x, r->crops[1].y, c->way[0].name);
     page_section_end(page);
     return good && add_crops(page, r);
 }
@@ -104,9 +108,10 @@ static void write_legend(FILE *html, const map_range *range)
     for (int i = 0; i <= 8; i++) {
         unsigned char rgb[3];
         error_colour(i / 8.0, rgb);
-        fprintf(html, "<span style=\"display:inline-block;width:2em;height:1em;background:#%02x%02x%02x;"
-                      "border:1px solid #868e96\"></span> %.3g%% ", rgb[0], rgb[1], rgb[2],
-                100 * range->low * pow(range->high / range->low, i / 8.0));
+        fprintf(html,
+                "<span style=\"display:inline-block;width:2em;height:1em;background:#%02x%02x%02x;"
+                "border:1px solid #868e96\"></span> %.3g%% ",
+                rgb[0], rgb[1], rgb[2], 100 * range->low * pow(range->high / range->low, i / 8.0));
     }
     fputs("</p>\n", html);
 }
@@ -145,7 +150,8 @@ static void write_common(FILE *html, const comparison *r)
         fprintf(html, "<tr><td>%s<td>%s</tr>\n", r->contest->way[i].name, text);
     }
     fputs("</table>\n<p class=\"note\">The root of the mean product of two independent differences; below: twice "
-          "what chance leaves of it.</p>\n", html);
+          "what chance leaves of it.</p>\n",
+          html);
 }
 
 int comparison_changes(html_page *page, const comparison *r)
@@ -153,8 +159,10 @@ int comparison_changes(html_page *page, const comparison *r)
     const contest *c = r->contest;
     char lead[256];
     int good = 1;
-    snprintf(lead, sizeof lead, "What more samples do not lessen: with the same random numbers for all, beside "
-                                "%s.", c->way[0].name);
+    snprintf(lead, sizeof lead,
+             "What more samples do not lessen: with the same random numbers for all, beside "
+             "%s.",
+             c->way[0].name);
     page_section(page, "tables", "What tables change", lead);
     write_common(page->html, r);
     write_legend(page->html, &of_tables);

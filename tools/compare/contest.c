@@ -89,8 +89,11 @@ static int render_some(contest *c, way *w, uint64_t samples)
     uint64_t at = w->film.samples;
     uint64_t to_point = w->next - at, to_all = at < c->samples ? c->samples - at : to_point;
     samples = samples < to_point ? samples : to_point;
-    film_run run = {.samples = samples < to_all ? samples : to_all, .threads = c->threads, .seed = c->seed,
-                    .progress = watch, .user = c};
+    film_run run = {.samples = samples < to_all ? samples : to_all,
+                    .threads = c->threads,
+                    .seed = c->seed,
+                    .progress = watch,
+                    .user = c};
     return film_render(&w->film, w->plan, &run) && keep_point(c, w);
 }
 
@@ -175,8 +178,8 @@ int contest_repeat(const contest *c, uint64_t seed, film more[WAYS_MAX])
 {
     for (size_t i = 0; i < c->count; i++) {
         repeated r = {c, i};
-        film_run run = {.samples = c->samples, .threads = c->threads, .seed = seed, .progress = watch_repeated,
-                        .user = &r};
+        film_run run = {
+            .samples = c->samples, .threads = c->threads, .seed = seed, .progress = watch_repeated, .user = &r};
         if (!film_make(&more[i], c->way[i].scene->width, c->way[i].scene->height) ||
             !film_render(&more[i], c->way[i].plan, &run))
             return 0;

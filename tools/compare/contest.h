@@ -19,8 +19,8 @@ enum { WAYS_MAX = 8, POINTS_MAX = 40, WAY_NAME_MAX = 32 };
 
 /* Of an image against the reference. Relative: an error of a pixel over the light of the reference there. */
 typedef struct film_error {
-    double relative; /* root of the mean of (I - R)^2 / (R^2 + floor^2), of luminance, less the noise of R */
-    double trimmed;  /* the same without the thousandth part of the pixels that are worst: fireflies */
+    double relative;  /* root of the mean of (I - R)^2 / (R^2 + floor^2), of luminance, less the noise of R */
+    double trimmed;   /* the same without the thousandth part of the pixels that are worst: fireflies */
     double spread[2]; /* standard deviations of the squares of the two, as parts of them; rather too large, as
                        * pixels differ in how noisy they are, too */
 } film_error;
@@ -34,13 +34,13 @@ typedef struct contest_point {
 typedef struct way {
     char name[WAY_NAME_MAX];
     const scene *scene;
-    path_plan *plan;       /* not owned */
-    film film;             /* as it grows */
-    film at_samples, at_time; /* as it was with `samples` samples, and after the time of the first way */
+    path_plan *plan;                 /* not owned */
+    film film;                       /* as it grows */
+    film at_samples, at_time;        /* as it was with `samples` samples, and after the time of the first way */
     contest_point point[POINTS_MAX]; /* at powers of two of samples, and with `samples` of them */
     size_t points;
     contest_point by_samples, by_time;
-    uint64_t next;         /* samples at the next point */
+    uint64_t next; /* samples at the next point */
 } way;
 
 typedef struct contest {

@@ -88,11 +88,14 @@ static int render_reference(under_way *run)
 {
     const compare_choice *c = run->choice;
     const way *w = &run->contest.way[0];
-    film_run whole = {.samples = (uint64_t)reference_samples(run), .threads = run->contest.threads,
-                      .seed = c->seed + 1000003, .progress = show_progress, .user = run};
+    film_run whole = {.samples = (uint64_t)reference_samples(run),
+                      .threads = run->contest.threads,
+                      .seed = c->seed + 1000003,
+                      .progress = show_progress,
+                      .user = run};
     char message[512];
-    path_plan *plan = path_prepare(w->scene, c->table_count ? SAMPLER_MATERIAL : SAMPLER_VISIBLE, 0, message,
-                                   sizeof message);
+    path_plan *plan =
+        path_prepare(w->scene, c->table_count ? SAMPLER_MATERIAL : SAMPLER_VISIBLE, 0, message, sizeof message);
     if (!plan)
         return complain(run->choice->command, "the reference: %s", message);
     int good = film_make(&run->reference, w->scene->width, w->scene->height) &&
@@ -172,8 +175,10 @@ static void remark_lost(comparison *r, const way *w)
 {
     size_t at = strlen(r->remarks);
     if (w->film.counts.samples_lost)
-        snprintf(r->remarks + at, sizeof r->remarks - at, "%s: %llu of %llu samples were not finite and count as "
-                 "black. ", w->name, (unsigned long long)w->film.counts.samples_lost,
+        snprintf(r->remarks + at, sizeof r->remarks - at,
+                 "%s: %llu of %llu samples were not finite and count as "
+                 "black. ",
+                 w->name, (unsigned long long)w->film.counts.samples_lost,
                  (unsigned long long)w->film.counts.paths);
 }
 
@@ -223,8 +228,8 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state)
         return complain(c->command, "no memory");
     run->choice = c;
     run->shows = isatty(STDERR_FILENO);
-    run->contest = (contest){.threads = (unsigned)c->threads, .seed = c->seed, .progress = show_progress,
-                             .user = run};
+    run->contest =
+        (contest){.threads = (unsigned)c->threads, .seed = c->seed, .progress = show_progress, .user = run};
     if (run->shows)
         fputs("\r\033[Kreading the scene, making its tables", stderr);
     int status = ways_prepare(run);
@@ -241,4 +246,3 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state)
     free(run);
     return status;
 }
-

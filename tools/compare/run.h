@@ -9,16 +9,16 @@
 enum { COMPARE_TABLES_MAX = WAYS_MAX - 2, COMPARE_FINE_TABLE = 131072, COMPARE_LARGEST_TABLE = 1048576 };
 
 typedef struct compare_choice {
-    const char *command; /* opens every message */
-    const char *scene;   /* its file */
-    const char *arguments; /* all words, for the page */
+    const char *command;                                         /* opens every message */
+    const char *scene;                                           /* its file */
+    const char *arguments;                                       /* all words, for the page */
     unsigned long long spp, reference_spp, width, threads, seed; /* the first three: 0 if not given */
-    double seconds;      /* for all, where spp is not given */
+    double seconds;                                              /* for all, where spp is not given */
     double table[COMPARE_TABLES_MAX];
-    size_t table_count;  /* 0: samplers are compared */
+    size_t table_count; /* 0: samplers are compared */
     path_sampler sampler[WAYS_MAX];
     size_t sampler_count;
-    int named;           /* the samplers were: one that the scene cannot have is an error */
+    int named;             /* the samplers were: one that the scene cannot have is an error */
     const char *reference; /* a PFM; NULL: rendered */
 } compare_choice;
 

@@ -90,8 +90,10 @@ static int add_table_way(under_way *run, unsigned bytes)
     if (!s)
         return STATUS_USE;
     return is_rebuilt(s) ? add_material_way(run, way_name, s)
-                         : complain(run->choice->command, "%s: every distribution is a table of a file, which "
-                                                          "--tables cannot build anew", run->choice->scene);
+                         : complain(run->choice->command,
+                                    "%s: every distribution is a table of a file, which "
+                                    "--tables cannot build anew",
+                                    run->choice->scene);
 }
 
 static int is_closed(const scene *s)

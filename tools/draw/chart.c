@@ -48,11 +48,13 @@ void chart_style(FILE *file)
           ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}\n"
           ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
           ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}\n"
-          ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}\n", file);
+          ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}\n",
+          file);
     write_rules(file, light);
     fputs("@media screen and (prefers-color-scheme:dark){\n"
           ".paper{fill:#16191d}.ink{fill:#e9ecef}.quiet{fill:#b6bec6}\n"
-          ".grid{stroke:#343a40}.axis{stroke:#868e96}.lead{stroke:#868e96}\n", file);
+          ".grid{stroke:#343a40}.axis{stroke:#868e96}.lead{stroke:#868e96}\n",
+          file);
     write_rules(file, dark);
     fputs("}\n", file);
 }
@@ -165,8 +167,7 @@ static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, do
     static const char *const outlines[] = {
         "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L5 0L0 5L-5 0z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
     if (mark == CHART_DOT)
-        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
-                mark_radius);
+        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y, mark_radius);
     else if (mark == CHART_RING)
         fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
                 mark_radius);
@@ -235,8 +236,8 @@ static void write_ends(FILE *file, const chart *c, const chart_frame *f)
         while (last > 0 && !is_inside(c, f, s->x[last - 1], s->y[last - 1]))
             last--;
         if (s->label && last > 0 && count < ENDS_MAX)
-            ends[count++] = (chart_end){pixel_x(c, f, s->x[last - 1]), pixel_y(c, f, s->y[last - 1]), 0, s->colour,
-                                        s->label};
+            ends[count++] =
+                (chart_end){pixel_x(c, f, s->x[last - 1]), pixel_y(c, f, s->y[last - 1]), 0, s->colour, s->label};
     }
     chart_label_ends(file, ends, count, f->left + f->width + 14, f->top + 4, f->top + f->height + f->band - 2);
 }

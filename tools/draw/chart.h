@@ -25,19 +25,25 @@ typedef struct chart_axis {
 } chart_axis;
 
 typedef enum chart_mark {
-    CHART_NO_MARK, CHART_DOT, CHART_RING, CHART_SQUARE, CHART_DIAMOND, CHART_TRIANGLE, CHART_CROSS
+    CHART_NO_MARK,
+    CHART_DOT,
+    CHART_RING,
+    CHART_SQUARE,
+    CHART_DIAMOND,
+    CHART_TRIANGLE,
+    CHART_CROSS
 } chart_mark;
 
 typedef enum chart_line { CHART_NO_LINE, CHART_SOLID, CHART_DASHED, CHART_DOTTED } chart_line;
 
 typedef struct chart_series {
-    const char *label;          /* at the end of the curve; may be NULL */
-    const double *x, *y;        /* what is not finite interrupts the curve */
+    const char *label;   /* at the end of the curve; may be NULL */
+    const double *x, *y; /* what is not finite interrupts the curve */
     size_t count;
-    unsigned colour;            /* of the palette, 0 to CHART_COLOURS - 1 */
+    unsigned colour; /* of the palette, 0 to CHART_COLOURS - 1 */
     chart_mark mark;
     chart_line line;
-    const char *const *texts;   /* NULL, or a label beside each point (an empty one is none) */
+    const char *const *texts; /* NULL, or a label beside each point (an empty one is none) */
 } chart_series;
 
 /* An entry of the key below the title; without a mark a stroke shows the colour. */
@@ -50,12 +56,12 @@ typedef struct chart_key {
 enum { CHART_COLOURS = 8, CHART_WIDTH = 560, CHART_HEIGHT = 380 };
 
 typedef struct chart {
-    const char *title, *about;  /* above the frame; for those who cannot see it */
-    double width, height;       /* of all, pixels */
-    double right;               /* of it, for the labels at the ends of curves */
+    const char *title, *about; /* above the frame; for those who cannot see it */
+    double width, height;      /* of all, pixels */
+    double right;              /* of it, for the labels at the ends of curves */
     chart_axis x, y;
-    const char *zero;           /* NULL, or the name of a band below the frame for y = 0 on a logarithmic axis */
-    double band;                /* its height */
+    const char *zero; /* NULL, or the name of a band below the frame for y = 0 on a logarithmic axis */
+    double band;      /* its height */
     const chart_series *series;
     size_t count;
     const chart_key *key;

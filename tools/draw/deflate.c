@@ -11,8 +11,15 @@
 #include <string.h>
 
 enum {
-    LITERALS = 286, DISTANCES = 30, ORDERS = 19, /* sizes of the alphabets */
-    BLOCK = 32768, WINDOW = 32768, HASHES = 1 << 15, CHAIN = 48, MATCH_MIN = 3, MATCH_MAX = 258
+    LITERALS = 286,
+    DISTANCES = 30,
+    ORDERS = 19, /* sizes of the alphabets */
+    BLOCK = 32768,
+    WINDOW = 32768,
+    HASHES = 1 << 15,
+    CHAIN = 48,
+    MATCH_MIN = 3,
+    MATCH_MAX = 258
 };
 
 /* ---- bits ---- */

@@ -75,9 +75,10 @@ int page_data_end(html_page *page, const char *what)
     size_t lines = 0;
     for (size_t i = 0; i < file->size; i++)
         lines += file->text[i] == '\n';
-    fprintf(page->html, "<details class=\"data\"><summary>Data: %s (%zu rows)</summary>\n"
-                        "<p><a href=\"%s\" download=\"%s\">%s</a></p>\n<pre>", what, lines - 1, file->name,
-            file->name, file->name);
+    fprintf(page->html,
+            "<details class=\"data\"><summary>Data: %s (%zu rows)</summary>\n"
+            "<p><a href=\"%s\" download=\"%s\">%s</a></p>\n<pre>",
+            what, lines - 1, file->name, file->name, file->name);
     chart_escape(page->html, file->text);
     fputs("</pre></details>\n", page->html);
     return 1;

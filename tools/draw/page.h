@@ -15,11 +15,11 @@ typedef struct page_file {
 } page_file;
 
 typedef struct html_page {
-    const char *command; /* that makes it */
-    FILE *html;       /* to write to */
+    const char *command;            /* that makes it */
+    FILE *html;                     /* to write to */
     page_file file[PAGE_FILES_MAX]; /* the first is the page itself */
     size_t count;
-    FILE *data;       /* open between page_file_begin and its end */
+    FILE *data; /* open between page_file_begin and its end */
 } html_page;
 
 /* OF-WHAT, with what is no letter or digit of `of` as a hyphen: the name of a file beside the page. */

@@ -18,7 +18,7 @@ typedef struct ndf_curve {
 /* Pixels of the plot and the values at its borders. */
 typedef struct log_axes {
     double left, top, width, height;
-    double degrees;          /* at the right */
+    double degrees; /* at the right */
     double decade_low, decade_high;
 } log_axes;
 

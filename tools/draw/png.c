@@ -57,8 +57,8 @@ static void write_base64(FILE *file, const unsigned char *data, size_t size)
         uint32_t word = (uint32_t)data[i] << 16;
         word |= left > 1 ? (uint32_t)data[i + 1] << 8 : 0;
         word |= left > 2 ? data[i + 2] : 0;
-        const char text[4] = {digit[word >> 18], digit[word >> 12 & 63u],
-                              left > 1 ? digit[word >> 6 & 63u] : '=', left > 2 ? digit[word & 63u] : '='};
+        const char text[4] = {digit[word >> 18], digit[word >> 12 & 63u], left > 1 ? digit[word >> 6 & 63u] : '=',
+                              left > 2 ? digit[word & 63u] : '='};
         fwrite(text, 1, 4, file);
     }
 }

@@ -44,16 +44,20 @@ void svg_text(FILE *file, double x, double y, double size, svg_anchor anchor, co
 
 void svg_text_on_picture(FILE *file, double x, double y, double size, const char *text)
 {
-    fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" "
-                  "stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">", x, y, size, ink);
+    fprintf(file,
+            "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" "
+            "stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">",
+            x, y, size, ink);
     write_escaped(file, text);
     fputs("</text>\n", file);
 }
 
 void svg_text_upwards(FILE *file, double x, double y, double size, const char *text)
 {
-    fprintf(file, "<text transform=\"translate(%.1f %.1f) rotate(-90)\" font-size=\"%.1f\" text-anchor=\"middle\" "
-                  "fill=\"%s\">", x, y, size, ink);
+    fprintf(file,
+            "<text transform=\"translate(%.1f %.1f) rotate(-90)\" font-size=\"%.1f\" text-anchor=\"middle\" "
+            "fill=\"%s\">",
+            x, y, size, ink);
     write_escaped(file, text);
     fputs("</text>\n", file);
 }
@@ -61,8 +65,10 @@ void svg_text_upwards(FILE *file, double x, double y, double size, const char *t
 void svg_line(FILE *file, double x1, double y1, double x2, double y2, const char *stroke, double width,
               const char *dashes)
 {
-    fprintf(file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%.1f\" "
-                  "stroke-dasharray=\"%s\"/>\n", x1, y1, x2, y2, stroke, width, dashes);
+    fprintf(file,
+            "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%.1f\" "
+            "stroke-dasharray=\"%s\"/>\n",
+            x1, y1, x2, y2, stroke, width, dashes);
 }
 
 void svg_circle(FILE *file, double x, double y, double radius, const char *fill, const char *stroke, double width)
@@ -74,8 +80,8 @@ void svg_circle(FILE *file, double x, double y, double radius, const char *fill,
 void svg_frame(FILE *file, double x, double y, double width, double height)
 {
     fprintf(file,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#868e96\"/>\n",
-            x, y, width, height);
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#868e96\"/>\n", x,
+            y, width, height);
 }
 
 /* ---- rasters ------------------------------------------------------------------------------------- */
@@ -83,8 +89,8 @@ void svg_frame(FILE *file, double x, double y, double width, double height)
 /* From nearly white to dark blue through green: lightness falls steadily, so it also reads in grey. */
 static colour ramp_colour(double place)
 {
-    static const double stops[][3] = {{250, 251, 247}, {205, 232, 206}, {120, 198, 186}, {44, 140, 180},
-                                      {26, 79, 142},   {10, 26, 74}};
+    static const double stops[][3] = {{250, 251, 247}, {205, 232, 206}, {120, 198, 186},
+                                      {44, 140, 180},  {26, 79, 142},   {10, 26, 74}};
     double at = place * 5, rounding = 0.5;
     int low = at < 4 ? (int)at : 4;
     double t = at - low, rgb[3];
@@ -110,8 +116,10 @@ static int write_image(FILE *file, const double box[4], const unsigned char *ind
 {
     colour palette[256];
     fill_palette(palette);
-    fprintf(file, "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "
-                  "xlink:href=\"data:image/png;base64,", box[0], box[1], box[2], box[3]);
+    fprintf(file,
+            "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "
+            "xlink:href=\"data:image/png;base64,",
+            box[0], box[1], box[2], box[3]);
     int good = png_write_base64(file, index, columns, rows, palette);
     fputs("\"/>\n", file);
     return good;

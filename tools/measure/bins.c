@@ -42,8 +42,8 @@ static double quantile(size_t i, size_t parts, const double *sorted)
 static void place_slopes(double border[BINS_THETA + 1], const double *sorted, double scale)
 {
     for (size_t i = 0; i <= BINS_THETA; i++)
-        border[i] = i % 2 == 0 ? tan(even_place(i, BINS_THETA, 0, pi / 2))
-                               : quantile(i, BINS_THETA, sorted) / scale;
+        border[i] =
+            i % 2 == 0 ? tan(even_place(i, BINS_THETA, 0, pi / 2)) : quantile(i, BINS_THETA, sorted) / scale;
     border[BINS_THETA] = HUGE_VAL;
     sort(border, BINS_THETA + 1);
 }

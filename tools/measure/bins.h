@@ -19,9 +19,9 @@ enum { BINS_THETA = 65, BINS_PHI = 130, BINS_COUNT = BINS_THETA * BINS_PHI };
 
 typedef struct bin_map {
     double stretch_x, stretch_y;
-    double centre;                 /* azimuth of the incident direction in the stretched hemisphere */
-    double slope[BINS_THETA + 1];  /* borders: tan(theta'), ascending from 0 to infinity */
-    double phi[BINS_PHI + 1];      /* radians, ascending */
+    double centre;                /* azimuth of the incident direction in the stretched hemisphere */
+    double slope[BINS_THETA + 1]; /* borders: tan(theta'), ascending from 0 to infinity */
+    double phi[BINS_PHI + 1];     /* radians, ascending */
 } bin_map;
 
 /* Bins for the visible normals of one view; seed starts the pilot samples. */

@@ -46,8 +46,8 @@ static draw draw_normal(const vndf_distribution *distribution, consistency_point
 /* 5e-7: four roundings of a float near 1. */
 static int is_valid(const draw *it)
 {
-    return fabs(dot(it->wm, it->wm) - 1) < 1e-6 && it->wm.z >= 0 && dot(it->wm, it->wi) >= -5e-7 &&
-           it->pdf > 0 && isfinite(it->pdf);
+    return fabs(dot(it->wm, it->wm) - 1) < 1e-6 && it->wm.z >= 0 && dot(it->wm, it->wi) >= -5e-7 && it->pdf > 0 &&
+           isfinite(it->pdf);
 }
 
 /* Density 0 is for views that see nothing, or as good as nothing in float. */

@@ -29,17 +29,23 @@ double masking_schlick_k(const vndf_surface *surface, vndf_vec3 wi)
 enum { NORMALS, AREA, V_CAVITIES, KELEMEN, PARTS };
 
 typedef struct slopes {
-    vndf_surface unit;       /* roughness 1: P22(r) */
-    double scale;            /* median slope */
-    double x, y, cosine;     /* roughness, cos_i */
-    double across, turn;     /* q/r, b0 */
+    vndf_surface unit;   /* roughness 1: P22(r) */
+    double scale;        /* median slope */
+    double x, y, cosine; /* roughness, cos_i */
+    double across, turn; /* q/r, b0 */
 } slopes;
 
 static slopes slopes_of(const vndf_surface *surface, vndf_vec3 wi)
 {
-    double x = (double)surface->alpha_x, y = (double)surface->alpha_y, wx = x * (double)wi.x, wy = y * (double)wi.y;
-    slopes s = {{surface->distribution, 1, 1}, vndf_distribution_info(surface->distribution).scale, x, y,
-                (double)wi.z, hypot(wx, wy), atan2(wy, wx)};
+    double x = (double)surface->alpha_x, y = (double)surface->alpha_y, wx = x * (double)wi.x,
+           wy = y * (double)wi.y;
+    slopes s = {{surface->distribution, 1, 1},
+                vndf_distribution_info(surface->distribution).scale,
+                x,
+                y,
+                (double)wi.z,
+                hypot(wx, wy),
+                atan2(wy, wx)};
     return s;
 }
 

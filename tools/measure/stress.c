@@ -13,14 +13,14 @@ typedef struct stress_angle {
 } stress_angle;
 
 static const stress_angle angles[] = {
-    {0, 1}, {1e-7, 1}, {1e-4, 1}, {0.01, 1}, {30, 1}, {60, 1}, {85, 1}, {89, 1}, {89.9, 1}, {89.9999, 1},
-    {90, 1e-7f}, {90, 1e-20f}, {90, 1e-42f}, {90, 0.0f}, {90, -0.0f}, {90, -1e-42f}, {90, -1e-20f}, {90, -1e-7f},
-    {91, 1}, {130, 1}, {179.9, 1}, {180, 1}};
+    {0, 1},        {1e-7, 1},    {1e-4, 1},   {0.01, 1},    {30, 1},      {60, 1},    {85, 1},     {89, 1},
+    {89.9, 1},     {89.9999, 1}, {90, 1e-7f}, {90, 1e-20f}, {90, 1e-42f}, {90, 0.0f}, {90, -0.0f}, {90, -1e-42f},
+    {90, -1e-20f}, {90, -1e-7f}, {91, 1},     {130, 1},     {179.9, 1},   {180, 1}};
 static const double azimuths[] = {0, 90, 45, 200};
 static const double lengths[] = {1, 1 + 1e-6, 1 - 1e-6};
 static const float roughnesses[] = {1e-8f, 1e-6f, 1e-4f, 1e-2f, 0.1f, 0.5f, 1, 2, 10, 1e4f};
-static const float edges[] = {0.0f, FLT_TRUE_MIN, 0x1p-24f, 0.5f - 0x1p-25f, 0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f,
-                              1.0f};
+static const float edges[] = {0.0f, FLT_TRUE_MIN,    0x1p-24f,     0.5f - 0x1p-25f,
+                              0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1.0f};
 static const double greatest_ratio = 1.0001e8;
 
 enum {

@@ -27,9 +27,18 @@ typedef struct stress_point {
 
 typedef enum stress_id {
     /* of a sample */
-    STRESS_UNIT, STRESS_ABOVE, STRESS_FACING, STRESS_POSITIVE, STRESS_REPEATED, STRESS_INVERTED,
+    STRESS_UNIT,
+    STRESS_ABOVE,
+    STRESS_FACING,
+    STRESS_POSITIVE,
+    STRESS_REPEATED,
+    STRESS_INVERTED,
     /* of a direction */
-    STRESS_AREA, STRESS_MIRRORED, STRESS_LAMBDA, STRESS_G1, STRESS_G2,
+    STRESS_AREA,
+    STRESS_MIRRORED,
+    STRESS_LAMBDA,
+    STRESS_G1,
+    STRESS_G2,
     /* of neighbouring directions */
     STRESS_MONOTONE,
     STRESS_COUNT
@@ -44,13 +53,13 @@ const stress_property *stress_property_of(stress_id id);
 
 typedef struct stress_finding {
     size_t checked, failed;
-    double worst;      /* infinite for NaN */
-    stress_point at;   /* where the worst was; what does not matter is 0 */
+    double worst;    /* infinite for NaN */
+    stress_point at; /* where the worst was; what does not matter is 0 */
 } stress_finding;
 
 typedef struct stress_result {
     size_t views, samples;
-    size_t outside;    /* roughnesses left out, since times the scale of the table they leave [1e-18, 1e18] */
+    size_t outside; /* roughnesses left out, since times the scale of the table they leave [1e-18, 1e18] */
     stress_finding found[STRESS_COUNT];
 } stress_result;
 

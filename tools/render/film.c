@@ -22,10 +22,10 @@ typedef struct pass {
     const path_plan *plan;
     const film_run *run;
     int width, height;
-    double *sum, *square;      /* of this pass */
-    uint64_t first, samples;   /* a pixel */
-    double done, part;         /* of the run: before this pass, and this pass */
-    int next_row, stopped;     /* shared by the threads */
+    double *sum, *square;    /* of this pass */
+    uint64_t first, samples; /* a pixel */
+    double done, part;       /* of the run: before this pass, and this pass */
+    int next_row, stopped;   /* shared by the threads */
     path_counts counts;
 #ifdef VNDF_TOOLS_PTHREADS
     pthread_mutex_t lock;

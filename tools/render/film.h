@@ -6,11 +6,11 @@
 
 typedef struct film {
     int width, height;
-    double *sum;        /* width * height * 3 */
-    double *square;     /* of the luminance: its variance; width * height */
-    uint64_t samples;   /* a pixel, so far */
-    double seconds;     /* spent rendering, all threads at once */
-    double processor;   /* the same as time of processors, of all threads together */
+    double *sum;      /* width * height * 3 */
+    double *square;   /* of the luminance: its variance; width * height */
+    uint64_t samples; /* a pixel, so far */
+    double seconds;   /* spent rendering, all threads at once */
+    double processor; /* the same as time of processors, of all threads together */
     path_counts counts;
 } film;
 
@@ -24,8 +24,8 @@ int film_make(film *f, int width, int height);
 void film_free(film *f);
 
 typedef struct film_run {
-    uint64_t samples;   /* a pixel, to add */
-    double seconds;     /* stop after so many, between passes; 0: no limit */
+    uint64_t samples; /* a pixel, to add */
+    double seconds;   /* stop after so many, between passes; 0: no limit */
     unsigned threads;
     uint64_t seed;
     int (*progress)(double done, void *user); /* other than 0 stops, between rows; may be NULL */

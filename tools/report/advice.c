@@ -88,7 +88,8 @@ static void write_choice(FILE *html, const report_subject *s)
                 v.value[0], 100 * v.value[1], v.value[2], v.value[3]);
     else {
         fputs("None of those measured keeps all four limits; this is the smallest that comes near the largest, "
-              "with ", html);
+              "with ",
+              html);
         write_broken(html, &v);
         fputs(". ", html);
     }
@@ -176,7 +177,8 @@ static int write_data(html_page *page, const report *r)
     if (!data)
         return 0;
     fputs("distribution,bytes,tv,tv_theta_deg,max_weight,weight_bounded,added_variance,area_error,consistency,"
-          "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n", data);
+          "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n",
+          data);
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             const report_table *t = &r->subject[k].table[i];

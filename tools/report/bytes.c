@@ -61,8 +61,7 @@ static int write_data(html_page *page, const report *r, const byte_points *other
         for (size_t i = 0; i < r->subject[k].count; i++) {
             fputs("table,", data);
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes,
-                    r->subject[k].table[i].tv);
+            fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes, r->subject[k].table[i].tv);
         }
     for (size_t i = 0; i < others->count; i++) {
         page_field(data, others->label[i]);
@@ -97,14 +96,25 @@ int report_write_bytes(html_page *page, const report *r)
             y[k][i] = r->subject[k].table[i].tv;
         }
         shorten(r->subject[k].name, label[k]);
-        series[k] = (chart_series){label[k], x[k], y[k], r->subject[k].count, colours[k], marks[k], CHART_SOLID,
-                                   NULL};
+        series[k] =
+            (chart_series){label[k], x[k], y[k], r->subject[k].count, colours[k], marks[k], CHART_SOLID, NULL};
     }
     collect_others(&r->rows, &others);
-    series[r->count] = (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE,
-                                      others.text};
-    chart c = {NULL, "error against bytes", 1080, 460, 270, {CHART_BYTES, 0, 0, 0, "size of the table"},
-               {CHART_LOG, 0, 0, 0, "total variation, worst angle"}, NULL, 0, series, r->count + 1, NULL, 0};
+    series[r->count] =
+        (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE, others.text};
+    chart c = {NULL,
+               "error against bytes",
+               1080,
+               460,
+               270,
+               {CHART_BYTES, 0, 0, 0, "size of the table"},
+               {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
+               NULL,
+               0,
+               series,
+               r->count + 1,
+               NULL,
+               0};
     fit_axes(&c);
     page_section(
         page, "bytes", "Error against bytes",

@@ -42,8 +42,8 @@ static int names_distribution(const bench_row *row)
     size_t length = strlen(row->distribution);
     for (const char *at = row->method; *at; at++) {
         size_t same = 0;
-        while (same < length && at[same] && tolower((unsigned char)at[same]) ==
-                                                tolower((unsigned char)row->distribution[same]))
+        while (same < length && at[same] &&
+               tolower((unsigned char)at[same]) == tolower((unsigned char)row->distribution[same]))
             same++;
         if (same == length)
             return 1;
@@ -95,8 +95,14 @@ static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, siz
 {
     static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
     chart_series *s = &f->series[f->count];
-    *s = (chart_series){NULL, f->x[f->count], f->y[f->count], 0, set_colours[set], marks[kind],
-                        kind == BENCH_TABLE ? CHART_SOLID : CHART_NO_LINE, f->text[f->count]};
+    *s = (chart_series){NULL,
+                        f->x[f->count],
+                        f->y[f->count],
+                        0,
+                        set_colours[set],
+                        marks[kind],
+                        kind == BENCH_TABLE ? CHART_SOLID : CHART_NO_LINE,
+                        f->text[f->count]};
     for (size_t i = 0; i < rows->count; i++)
         if (rows->row[i].kind == kind && is_shown(&rows->row[i]) &&
             strcmp(rows->row[i].instructions, sets[set]) == 0)
@@ -134,10 +140,19 @@ static chart chart_of(frontier *f, const char *name)
 {
     snprintf(f->title, sizeof f->title, "Error against time: tables of %s beside other methods", name);
     fill_key(f);
-    chart c = {f->title, NULL, 1080, 710, 20,
+    chart c = {f->title,
+               NULL,
+               1080,
+               710,
+               20,
                {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
                {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
-               "exact", 100, f->series, f->count, f->key, f->key_count};
+               "exact",
+               100,
+               f->series,
+               f->count,
+               f->key,
+               f->key_count};
     chart_fit(&c.x, f->low_x, f->high_x);
     chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
     c.x.low = fmax(c.x.low, f->low_x / 1.6);
@@ -159,12 +174,14 @@ static int write_data(html_page *page, const bench_rows *rows)
     if (!data)
         return 0;
     fputs("method,distribution,instructions,bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
-          "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n", data);
+          "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
+          data);
     for (size_t i = 0; i < rows->count; i++) {
         const bench_row *row = &rows->row[i];
-        const double values[] = {row->ns, row->ns_low, row->ns_high, row->ratio, row->tv, row->tv_theta,
-                                 row->max_weight, row->efficiency[0], row->efficiency[1], row->efficiency_light,
-                                 row->bias[0], row->bias[1]};
+        const double values[] = {
+            row->ns,       row->ns_low,     row->ns_high,       row->ratio,         row->tv,
+            row->tv_theta, row->max_weight, row->efficiency[0], row->efficiency[1], row->efficiency_light,
+            row->bias[0],  row->bias[1]};
         page_field(data, row->method);
         fputc(',', data);
         page_field(data, row->distribution);

@@ -31,8 +31,10 @@ static double widest_angle(const report_subject *s)
 
 static void begin_panel(FILE *file, double width, double height)
 {
-    fprintf(file, "<svg xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart panel\" width=\"%.0f\" "
-                  "height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n", width, height, width, height);
+    fprintf(file,
+            "<svg xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart panel\" width=\"%.0f\" "
+            "height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
+            width, height, width, height);
 }
 
 static int draw_subject(FILE *file, const report_subject *s)

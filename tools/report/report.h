@@ -38,25 +38,25 @@ typedef struct report_time {
 } report_time;
 
 typedef struct report_table {
-    size_t asked;              /* --max-bytes */
+    size_t asked; /* --max-bytes */
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
-    double tv;                 /* the larger of what the certificate and the angles here say */
-    double tv_above;           /* the largest total variation from above the horizon */
+    double tv;       /* the larger of what the certificate and the angles here say */
+    double tv_above; /* the largest total variation from above the horizon */
     report_time time;
 } report_table;
 
 typedef struct report_subject {
-    char name[64];             /* for people, cut to fit */
-    char arguments[512];       /* of `vndf build`, for a shell; cut to fit */
-    int brought;               /* by the user */
+    char name[64];       /* for people, cut to fit */
+    char arguments[512]; /* of `vndf build`, for a shell; cut to fit */
+    int brought;         /* by the user */
     vndf_source *source;
     vndf_truth *truth;
     report_table table[REPORT_SIZES];
     size_t count;
-    size_t left_out;           /* sizes for which the time did not suffice */
-    size_t chosen;             /* the recommended table */
+    size_t left_out; /* sizes for which the time did not suffice */
+    size_t chosen;   /* the recommended table */
 } report_subject;
 
 /* Noise of an integral: relative root mean square error of the mean of 1, 4, 16 ... samples. */

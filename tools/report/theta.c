@@ -49,14 +49,24 @@ static void draw_subject(FILE *file, const report_subject *s)
     theta_curves curves;
     chart_series series[SHOWN_MAX + 1];
     fill_curves(s, &curves);
-    chart c = {s->name, NULL, CHART_WIDTH, CHART_HEIGHT, 84,
+    chart c = {s->name,
+               NULL,
+               CHART_WIDTH,
+               CHART_HEIGHT,
+               84,
                {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
-               {CHART_LOG, 0, 0, 0, "total variation"}, NULL, 0, series, curves.count + 1, NULL, 0};
+               {CHART_LOG, 0, 0, 0, "total variation"},
+               NULL,
+               0,
+               series,
+               curves.count + 1,
+               NULL,
+               0};
     chart_fit(&c.y, fmax(curves.low, 1e-8), curves.high);
     const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
     for (size_t k = 0; k < curves.count; k++)
-        series[k] = (chart_series){curves.label[k], curves.x, curves.y[k], REPORT_ANGLES, colours[k],
-                                   CHART_NO_MARK, lines[k], NULL};
+        series[k] = (chart_series){curves.label[k], curves.x,      curves.y[k], REPORT_ANGLES,
+                                   colours[k],      CHART_NO_MARK, lines[k],    NULL};
     series[curves.count] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
     fputs("<figure>\n", file);
     chart_draw(file, &c);

@@ -72,8 +72,15 @@ static void evaluate(workload *w)
 
 static void draw_batch(workload *w, unsigned shared)
 {
-    vndf_batch batch = {w->surface[0].distribution, DIRECTIONS, shared, VNDF_INSTRUCTIONS_BEST,
-                        w->alpha, w->alpha, w->x, w->y, w->z};
+    vndf_batch batch = {w->surface[0].distribution,
+                        DIRECTIONS,
+                        shared,
+                        VNDF_INSTRUCTIONS_BEST,
+                        w->alpha,
+                        w->alpha,
+                        w->x,
+                        w->y,
+                        w->z};
     vndf_normals out = {w->out_x, w->out_y, w->out_z};
     vndf_sample_n(&batch, w->u1, w->u2, out, w->pdf);
     w->sum += w->pdf[DIRECTIONS / 2];
@@ -116,8 +123,8 @@ report_time report_time_of(const vndf_distribution *distribution)
         return none;
     fill(w, distribution);
     double view = time_loop(w, make_views);
-    report_time time = {view, time_loop(w, draw_samples) - view, time_loop(w, evaluate),
-                        time_loop(w, draw_apart), time_loop(w, draw_shared)};
+    report_time time = {view, time_loop(w, draw_samples) - view, time_loop(w, evaluate), time_loop(w, draw_apart),
+                        time_loop(w, draw_shared)};
     int good = isfinite(w->sum); /* always: densities of valid views are finite, but no compiler knows */
     free(w);
     return good ? time : none;
@@ -181,8 +188,8 @@ static void draw_bar(FILE *file, double y, const time_line *line, int from, int 
 {
     double x = LEFT;
     for (int p = from; p < to; p++) {
-        fprintf(file, "<rect class=\"f%d\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n",
-                p, x, y, line->part[p] * per_ns, BAR - 2.0);
+        fprintf(file, "<rect class=\"f%d\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p, x, y,
+                line->part[p] * per_ns, BAR - 2.0);
         x += line->part[p] * per_ns;
     }
     fprintf(file, "<text class=\"tick quiet\" x=\"%.1f\" y=\"%.1f\">", x + 5, y + BAR - 3.5);
@@ -220,9 +227,10 @@ static void draw_times(FILE *file, const time_line *lines, size_t count)
     most = step * ceil(most / step);
     per_ns = WIDE / most;
     double bottom = 56 + (double)ROW * (double)count;
-    fprintf(file, "<svg class=\"chart\" width=\"%d\" height=\"%.0f\" viewBox=\"0 0 %d %.0f\" role=\"img\" "
-                  "aria-label=\"time of view, sample and pdf\">\n", LEFT + WIDE + RIGHT, bottom + 48,
-            LEFT + WIDE + RIGHT, bottom + 48);
+    fprintf(file,
+            "<svg class=\"chart\" width=\"%d\" height=\"%.0f\" viewBox=\"0 0 %d %.0f\" role=\"img\" "
+            "aria-label=\"time of view, sample and pdf\">\n",
+            LEFT + WIDE + RIGHT, bottom + 48, LEFT + WIDE + RIGHT, bottom + 48);
     draw_legend(file, 16);
     draw_axis(file, most, step, bottom, per_ns);
     for (size_t i = 0; i < count; i++) {

@@ -26,7 +26,7 @@ static const double angles[2] = {60, 85};
 
 typedef struct scene {
     const vndf_truth *truth;
-    vndf_surface exact;     /* the largest table: masking, and all normals */
+    vndf_surface exact; /* the largest table: masking, and all normals */
     vndf_vec3 wi;
     double alpha, area, g1; /* area and G1 of wi */
 } scene;
@@ -39,8 +39,12 @@ static double true_area(const vndf_truth *truth, double alpha, vndf_vec3 w)
 
 static scene scene_at(const report_subject *subject, double degrees, double alpha)
 {
-    scene s = {subject->truth, {subject->table[subject->count - 1].table, (float)alpha, (float)alpha},
-               direction_from(degrees, 0), alpha, 0, 0};
+    scene s = {subject->truth,
+               {subject->table[subject->count - 1].table, (float)alpha, (float)alpha},
+               direction_from(degrees, 0),
+               alpha,
+               0,
+               0};
     s.area = true_area(s.truth, alpha, s.wi);
     s.g1 = (double)s.wi.z / s.area;
     return s;
@@ -220,8 +224,14 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     double low = HUGE_VAL, high = 0;
     for (size_t m = 0; m < integral->count; m++) {
         const report_noise *noise = &integral->noise[m];
-        series[m] = (chart_series){noise->method, counts, noise->error, REPORT_COUNTS, colours[m], marks[m],
-                                   m == 2 ? CHART_DASHED : CHART_SOLID, NULL};
+        series[m] = (chart_series){noise->method,
+                                   counts,
+                                   noise->error,
+                                   REPORT_COUNTS,
+                                   colours[m],
+                                   marks[m],
+                                   m == 2 ? CHART_DASHED : CHART_SOLID,
+                                   NULL};
         for (int k = 0; k < REPORT_COUNTS; k++) {
             low = noise->error[k] > 0 ? fmin(low, noise->error[k]) : low;
             high = fmax(high, noise->error[k]);
@@ -229,9 +239,19 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
     }
     low = pow(10, floor(log10(fmax(low, 1e-7)) * 2) / 2);
     high = fmax(pow(10, ceil(log10(high) * 2) / 2), 10 * low);
-    chart c = {integral->title, NULL, CHART_WIDTH, CHART_HEIGHT, 132,
+    chart c = {integral->title,
+               NULL,
+               CHART_WIDTH,
+               CHART_HEIGHT,
+               132,
                {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
-               {CHART_LOG, low, high, 0, "relative RMS error"}, NULL, 0, series, integral->count, NULL, 0};
+               {CHART_LOG, low, high, 0, "relative RMS error"},
+               NULL,
+               0,
+               series,
+               integral->count,
+               NULL,
+               0};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);

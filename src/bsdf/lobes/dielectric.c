@@ -72,7 +72,8 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
         vndf_scatter_nothing(s);
 }
 
-VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_normals_drawn normals)
+VNDF_INLINE void sample_through(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
+                                vndf_normals_drawn normals)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], normals);
     scatter_through(b, &n, s);
@@ -129,7 +130,8 @@ VNDF_INLINE float pdf_through(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_dra
 {
     wo.z *= b->side;
     vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
-    return wo.z < 0.0f && vndf_is_refraction(&half) ? vndf_density_from(vndf_half_density(b, &half, normals)) : 0.0f;
+    return wo.z < 0.0f && vndf_is_refraction(&half) ? vndf_density_from(vndf_half_density(b, &half, normals))
+                                                    : 0.0f;
 }
 
 /* Times the part of the samples that go this way. */
@@ -222,7 +224,8 @@ static float pdf_both_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 const vndf_routines vndf_routines_transmission[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible, through_drawn},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible,
+                              through_drawn},
     [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through, pdf_through_all, NULL},
     [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity, NULL},
 };

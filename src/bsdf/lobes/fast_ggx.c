@@ -29,8 +29,8 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     float weight = wo.z * b->area / vndf_plain_ggx_unmasked(b, wo);
-    vndf_set_bare(s, wo, weight, vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing
-                                                              : vndf_ggx_density_of(b, wo));
+    vndf_set_bare(s, wo, weight,
+                  vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
 }
 
 /* Whether both directions are of plain size and their half vector has its digits. */
@@ -48,7 +48,8 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VN
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value);
         return;
     }
-    value[0] = value[1] = value[2] = vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / vndf_plain_ggx_unmasked(b, wo)));
+    value[0] = value[1] = value[2] =
+        vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / vndf_plain_ggx_unmasked(b, wo)));
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)

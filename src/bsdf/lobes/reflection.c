@@ -29,14 +29,16 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);
     int bounded = choice.normals == VNDF_NORMALS_BOUNDED;
-    scatter(b, &n, s, !bounded || (n.quotient > 0.1f * b->area && vndf_is_inside(u[0]) && vndf_is_inside(u[1])), choice);
+    scatter(b, &n, s, !bounded || (n.quotient > 0.1f * b->area && vndf_is_inside(u[0]) && vndf_is_inside(u[1])),
+            choice);
 }
 
 VNDF_INLINE float pdf(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn normals)
 {
     wo.z *= b->side;
     vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    return wo.z > 0.0f && half.event.facing_i > 0.0 ? vndf_density_from(vndf_half_density(b, &half, normals)) : 0.0f;
+    return wo.z > 0.0f && half.event.facing_i > 0.0 ? vndf_density_from(vndf_half_density(b, &half, normals))
+                                                    : 0.0f;
 }
 
 /* ---- bare ---- */

@@ -101,7 +101,8 @@ VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
 {
     vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
-    double rise = eta - 1.0, x = rise * o.x + (i.x + o.x), y = rise * o.y + (i.y + o.y), z = rise * o.z + (i.z + o.z);
+    double rise = eta - 1.0, x = rise * o.x + (i.x + o.x), y = rise * o.y + (i.y + o.y),
+           z = rise * o.z + (i.z + o.z);
     double square = x * x + y * y + z * z, per = copysign(1.0 / sqrt(square), z);
     vndf_normal wm = {x * per, y * per, z * per};
     double facing_i = i.x * wm.x + i.y * wm.y + i.z * wm.z, facing_o = -(o.x * wm.x + o.y * wm.y + o.z * wm.z);
@@ -263,8 +264,7 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, doub
 /* ---- values ---- */
 
 /* f of a reflection, wo in the frame of the hit; `bare` as above. */
-VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS],
-                                      int bare)
+VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS], int bare)
 {
     double f[VNDF_WAVELENGTHS];
     vndf_half half = vndf_half_reflected(b->view.wi, wo);

@@ -36,7 +36,7 @@ VNDF_INLINE double vndf_schlick(double cosine, double f0)
 
 double vndf_conductor(double cosine, double eta, double k);
 
-extern const vndf_fresnel_routine vndf_fresnel_of_schlick, vndf_fresnel_of_schlick_thin, vndf_fresnel_of_dielectric,
-    vndf_fresnel_of_conductor, vndf_fresnel_of_total, vndf_fresnel_of_nothing;
+extern const vndf_fresnel_routine vndf_fresnel_of_schlick, vndf_fresnel_of_schlick_thin,
+    vndf_fresnel_of_dielectric, vndf_fresnel_of_conductor, vndf_fresnel_of_total, vndf_fresnel_of_nothing;
 
 #endif

@@ -6,8 +6,12 @@
 static vndf_walk walk_of(const vndf_bsdf *b)
 {
     const vndf_description *is = &b->material->is;
-    vndf_walk walk = {b->material->fresnel->reflectance, is, b->eta, is->effects.lobes != VNDF_LOBES_REFLECTION,
-                      is->effects.transport, is->order_limit};
+    vndf_walk walk = {b->material->fresnel->reflectance,
+                      is,
+                      b->eta,
+                      is->effects.lobes != VNDF_LOBES_REFLECTION,
+                      is->effects.transport,
+                      is->order_limit};
     return walk;
 }
 
@@ -57,7 +61,8 @@ const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval
 static void sample_unbent(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_vec3 wi = b->view.wi;
-    const vndf_scattered straight = {{-wi.x, -wi.y, -b->side * wi.z}, {1.0f, 1.0f, 1.0f}, 1.0f, VNDF_LOBE_STRAIGHT};
+    const vndf_scattered straight = {
+        {-wi.x, -wi.y, -b->side * wi.z}, {1.0f, 1.0f, 1.0f}, 1.0f, VNDF_LOBE_STRAIGHT};
     (void)u;
     *s = straight;
 }

@@ -11,11 +11,11 @@
 #include "sampler/surface.h"
 
 typedef struct vndf_walk_path {
-    vndf_view view;                  /* at an event: of where the ray came from */
-    double depth;                    /* -log C1, in the frame of the side it is on */
+    vndf_view view; /* at an event: of where the ray came from */
+    double depth;   /* -log C1, in the frame of the side it is on */
     double weight[VNDF_WAVELENGTHS];
-    double eta, eta_back;            /* index beyond over this one, and the inverse */
-    int turned;                      /* on the other side than wi */
+    double eta, eta_back; /* index beyond over this one, and the inverse */
+    int turned;           /* on the other side than wi */
     vndf_walk_random random;
 } vndf_walk_path;
 
@@ -82,8 +82,8 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
 /* The way in, from far above. */
 VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, uint64_t seed)
 {
-    vndf_walk_path path = {*view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0,
-                           vndf_walk_random_from(seed)};
+    vndf_walk_path path = {
+        *view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0, vndf_walk_random_from(seed)};
     path.depth = vndf_walk_exponential(&path.random) / vndf_walk_view_slant(view);
     return path;
 }

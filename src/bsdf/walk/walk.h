@@ -38,7 +38,7 @@ typedef struct vndf_walk {
     double eta;                 /* index on the other side over that on the side of wi; not 1 if it transmits */
     int transmits;              /* else what is not reflected is lost */
     vndf_transport transport;
-    unsigned order_limit;       /* scattering events at most, >= 1; what has not left then is lost */
+    unsigned order_limit; /* scattering events at most, >= 1; what has not left then is lost */
 } vndf_walk;
 
 typedef struct vndf_walked {

@@ -38,8 +38,8 @@ static double ndf_error(const vndf_survey *v)
  * the two neighbours that promise most. */
 
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
-static const double ANGLES[] = {0,    10, 20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9, 90,
-                                90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
+static const double ANGLES[] = {0,  10,   20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9,
+                                90, 90.1, 91, 95, 100, 110, 120, 130, 150, 170, 179};
 static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1, 0.03};
 
 /* Where a quadratic through both ends and the middle of a span misses a cubic most. */
@@ -55,8 +55,8 @@ enum {
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
     SPANS_MOST = 40, /* of rows on a side, and of radial cells: of more, every second or third ... is looked at */
     BETWEEN = 60,
-    DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
-                      BETWEEN
+    DIRECTIONS_MOST =
+        ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT + BETWEEN
 };
 
 typedef struct direction {
@@ -105,9 +105,8 @@ static void add_cuts(circle *all, vndf_survey *v)
 {
     const vndf_distribution *d = v->table;
     uint32_t last = 0;
-    while (last + 1 < d->radial_count &&
-           vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) >
-               vndf_profile_claimed(v->profile) * v->profile->f1)
+    while (last + 1 < d->radial_count && vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) >
+                                             vndf_profile_claimed(v->profile) * v->profile->f1)
         last++;
     uint32_t step = last / SPANS_MOST + 1;
     for (uint32_t j = 0; j <= last; j += step)

@@ -82,7 +82,8 @@ static uint32_t points_in(const vndf_survey *v, uint32_t j, double width)
 }
 
 /* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
-static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, double to, uint32_t count, uint32_t i)
+static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, double to, uint32_t count,
+                                uint32_t i)
 {
     int fine = count == VNDF_GAUSS;
     knots k = knots_of(v->table, j);
@@ -132,8 +133,9 @@ static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *
 {
     const vndf_profile *p = v->profile;
     knots k = knots_of(v->table, j);
-    double heavy = HEAVY * vndf_profile_moments(p, vndf_survey_slope(v->table, j, 0, 1),
-                                                vndf_survey_slope(v->table, j, 1, 1)).m0;
+    double heavy =
+        HEAVY *
+        vndf_profile_moments(p, vndf_survey_slope(v->table, j, 0, 1), vndf_survey_slope(v->table, j, 1, 1)).m0;
     double at = from, widest = NARROW * (to - from);
     panels few = {-1, -1, 0};
     int good = 1;
@@ -157,8 +159,8 @@ static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *
  * out as there are doubles, and is drawn there with a density that has a limit. */
 static int add_last(vndf_survey *v, size_t *panel)
 {
-    static const double ends[] = {0,       1.0 / 256, 1.0 / 64, 1.0 / 16,  0.25,     0.5,       0.75,
-                                  0.9375, 1 - 1e-3,  1 - 1e-5, 1 - 1e-7,  1 - 1e-9, 1 - 1e-12, 1};
+    static const double ends[] = {0,      1.0 / 256, 1.0 / 64, 1.0 / 16, 0.25,     0.5,       0.75,
+                                  0.9375, 1 - 1e-3,  1 - 1e-5, 1 - 1e-7, 1 - 1e-9, 1 - 1e-12, 1};
     int good = 1;
     for (size_t i = 0; i + 1 < sizeof ends / sizeof *ends && good; i++)
         good = add_part(v, v->table->radial_count - 1, ends[i], ends[i + 1], panel);

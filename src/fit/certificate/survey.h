@@ -33,9 +33,9 @@ typedef struct vndf_survey {
     size_t stretch_count, node_count;
     vndf_survey_point *samples; /* of one direction after the other */
     size_t count, capacity;
-    double area;                /* true area of the direction, for s + |c| = 1 */
-    double lack;                /* of its drawn mass, for what the samples leave out */
-    double blur;                /* by how much rounding of normals to float changes the drawn density, all together */
+    double area; /* true area of the direction, for s + |c| = 1 */
+    double lack; /* of its drawn mass, for what the samples leave out */
+    double blur; /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_survey;
 
 typedef struct vndf_finding {

@@ -15,16 +15,16 @@ enum { OCTAVES = 100, DEPTH_SEEN = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
 static const double PI = 3.14159265358979323846;
 static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
-static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
+static const double NEGLIGIBLE = 1e-45;  /* of the peak: far below the floor, for views deep below the horizon */
 static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
-static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
-static const double SAME_EDGE = 1e-13;  /* in log R: narrower than where resolve() calls it a jump */
-static const double ROUNDED = 4e-16;    /* of a slope: what points may be off by */
+static const double LEAST = 1e-290;      /* a product with a slope or two remains a normal double */
+static const double SAME_EDGE = 1e-13;   /* in log R: narrower than where resolve() calls it a jump */
+static const double ROUNDED = 4e-16;     /* of a slope: what points may be off by */
 static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
-static const double POLE_LOST = 1e-6;   /* part of the mass that may lie below the first panel, */
-static const double TAIL_LOST = 2e-3;   /* of the area at grazing incidence beyond the last: one cell draws it */
-static const double NARROW = 1.01;      /* ratio of a panel's ends that was cut for what is in it */
-static const double SAME_MASS = 1e-7;   /* two passes agree */
+static const double POLE_LOST = 1e-6;    /* part of the mass that may lie below the first panel, */
+static const double TAIL_LOST = 2e-3;    /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double NARROW = 1.01;       /* ratio of a panel's ends that was cut for what is in it */
+static const double SAME_MASS = 1e-7;    /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)
 {
@@ -119,7 +119,8 @@ static int stopped(const vndf_profile *profile)
 static double roughness(const vndf_profile *profile, double u0, double u1)
 {
     double r = exp((u0 + u1) / 2) * profile->scale;
-    if (!profile->source->reach || !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
+    if (!profile->source->reach ||
+        !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
         return 0.0;
     vndf_reach at = profile->source->reach(profile->source, r, r);
     double width = profile->normalization * (at.high - at.low) * r * r;
@@ -303,14 +304,16 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
     if (pole < HUGE_VAL && pole >= 2.0 - POWER_MARGIN)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower "
-                         "than r^-2", pole);
+                         "than r^-2",
+                         pole);
     if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > POLE_LOST * profile->f0)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
     if (tail <= 3.0 + POWER_MARGIN)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "infinite projected area: P22 falls as r^%.4g for large r, must fall faster than r^-3 "
-                         "(D slower than 1/cos(theta_m) towards 90 degrees)", 0.0 - tail);
+                         "(D slower than 1/cos(theta_m) towards 90 degrees)",
+                         0.0 - tail);
     if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > TAIL_LOST * profile->f1)
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area "
@@ -362,9 +365,9 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
     enum { PASSES = 4 };
     double most = peak(profile); /* first to a size that neither overflows nor vanishes */
     if (most > 0.0 && most < LEAST_PEAK)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor",
-                         most);
+        return vndf_fail(
+            error, VNDF_ERROR_DISTRIBUTION,
+            "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor", most);
     if (most > 0.0)
         profile->normalization = 1.0 / most;
     vndf_status status = measure(profile, error);
@@ -388,7 +391,8 @@ static vndf_status settle(vndf_profile *profile, vndf_error *error)
     profile->unsettled = 1;
     return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                      "P22 has a feature too narrow to be resolved: two integrations of it disagree; the narrowest "
-                     "part that was tried lies at slope %.9g", narrowest(profile) * profile->scale);
+                     "part that was tried lies at slope %.9g",
+                     narrowest(profile) * profile->scale);
 }
 
 /* ---- what no point has met ---- */

@@ -17,11 +17,11 @@
 
 /* F_n = integral_0^R P r^(n+1) dr at the inner edge, T_n from there to infinity; E = F0 - F1/R, S = T1 - R T0. */
 typedef struct vndf_panel {
-    double r;                       /* inner edge */
-    double m0, m1;                  /* integral P r dr and P r (r - inner edge) dr over the panel */
-    double f0, f1, e;               /* before the inner edge */
-    double t0, s;                   /* beyond the inner edge */
-    int jump;                       /* narrowed to the limit: P jumps here */
+    double r;         /* inner edge */
+    double m0, m1;    /* integral P r dr and P r (r - inner edge) dr over the panel */
+    double f0, f1, e; /* before the inner edge */
+    double t0, s;     /* beyond the inner edge */
+    int jump;         /* narrowed to the limit: P jumps here */
 } vndf_panel;
 
 /* A Gauss point: P r dr = weight. */
@@ -37,21 +37,21 @@ typedef struct vndf_profile_point {
 
 typedef struct vndf_profile {
     const vndf_source *source;
-    char *description;              /* of the source and of how closely it is looked at; owned */
-    double sampled;                 /* what was asked for as the finest; 0: nothing */
-    vndf_guard *guard;              /* of the build; NULL for an oracle that may be shared between threads */
+    char *description; /* of the source and of how closely it is looked at; owned */
+    double sampled;    /* what was asked for as the finest; 0: nothing */
+    vndf_guard *guard; /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale, floor;
-    size_t count, capacity;         /* panels; panel[count] is the outer end */
+    size_t count, capacity; /* panels; panel[count] is the outer end */
     vndf_panel *panel;
-    vndf_profile_point *point;      /* VNDF_GAUSS per panel */
-    double f0, f1;                  /* totals */
-    double tail_m0, tail_m1;        /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
-    int rough;                      /* more panels are needed than there may be */
-    int unsettled;                  /* two passes found different masses */
-    double *edge;                   /* slopes in the source's unit where panels end besides its own breaks, */
-    size_t edge_count;              /* ascending */
-    double hidden;                  /* of the mass, or of the area at grazing incidence, may be missed: at most; 1 if */
-    double finest;                  /* this is not 0 but the relative width down to which the source was sampled */
+    vndf_profile_point *point; /* VNDF_GAUSS per panel */
+    double f0, f1;             /* totals */
+    double tail_m0, tail_m1;   /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
+    int rough;                 /* more panels are needed than there may be */
+    int unsettled;             /* two passes found different masses */
+    double *edge;              /* slopes in the source's unit where panels end besides its own breaks, */
+    size_t edge_count;         /* ascending */
+    double hidden;             /* of the mass, or of the area at grazing incidence, may be missed: at most; 1 if */
+    double finest;             /* this is not 0 but the relative width down to which the source was sampled */
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The guard is kept:

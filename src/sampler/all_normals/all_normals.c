@@ -95,8 +95,8 @@ typedef struct drawn_normal {
 } drawn_normal;
 
 /* A normal at the horizon, which only a far tail rounds to, is lifted by what no float sees: it has a density. */
-VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, double ay, const radius *r, float cosine,
-                                        float sine)
+VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, double ay, const radius *r,
+                                        float cosine, float sine)
 {
     double x = r->x * (ax * cosine), y = r->x * (ay * sine), z = r->z, per = 1.0 / sqrt(x * x + y * y + z * z);
     drawn_normal drawn = {{(float)(x * per), (float)(y * per), (float)(z * per)}, 0.0};

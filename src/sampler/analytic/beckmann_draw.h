@@ -66,9 +66,19 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
     lanes_f line = 3.54490770f * bound, tail = vndf_beckmann_tail(bound, near);
     lanes_f k = lanes_least(bound, across2 * both * 4.0f);
     vndf_beckmann_incidence w = {
-        ax, ay, x * per, y * per, bound, line, tail, 0.886226925f * (1.0f + (line + tail)) * (ax * ay),
-        lanes_one_of(vndf_beckmann_nearness, near), vndf_beckmann_start(0, k, near),
-        vndf_beckmann_start(1, k, near), vndf_beckmann_start(2, k, near), vndf_beckmann_start(3, k, near),
+        ax,
+        ay,
+        x * per,
+        y * per,
+        bound,
+        line,
+        tail,
+        0.886226925f * (1.0f + (line + tail)) * (ax * ay),
+        lanes_one_of(vndf_beckmann_nearness, near),
+        vndf_beckmann_start(0, k, near),
+        vndf_beckmann_start(1, k, near),
+        vndf_beckmann_start(2, k, near),
+        vndf_beckmann_start(3, k, near),
         vndf_beckmann_start(4, k, near),
         lanes_both(vndf_aim_is_plain(ax, ay, bound), lanes_less(lanes_most(bound, per), lanes_set(1e10f)))};
     return w;
@@ -78,11 +88,11 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
 VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_of(const vndf_view *v)
 {
     const float *w = v->closed;
-    vndf_beckmann_incidence of = {
-        lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]), lanes_set(w[2]), lanes_set(w[3]),
-        lanes_set(w[4]), lanes_set(w[5]), lanes_set(w[6]),
-        lanes_set(w[7]), lanes_set(w[8]), lanes_set(w[9]), lanes_set(w[10]), lanes_set(w[11]),
-        v->plain ? lanes_all() : lanes_none()};
+    vndf_beckmann_incidence of = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]),
+                                  lanes_set(w[1]),  lanes_set(w[2]),  lanes_set(w[3]),
+                                  lanes_set(w[4]),  lanes_set(w[5]),  lanes_set(w[6]),
+                                  lanes_set(w[7]),  lanes_set(w[8]),  lanes_set(w[9]),
+                                  lanes_set(w[10]), lanes_set(w[11]), v->plain ? lanes_all() : lanes_none()};
     return of;
 }
 

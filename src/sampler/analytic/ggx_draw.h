@@ -31,10 +31,10 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, length = lanes_root(across2 + wi_z * wi_z);
     lanes_f per = 1.0f / (across2 * length), up = length + wi_z; /* of both at once */
     lanes_f c = wi_z * across2 * per, spread = 3.14159265f * (ax * ay);
-    vndf_ggx_incidence w = {ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per,
-                            spread + spread * c, lanes_all()};
-    w.plain = lanes_both(vndf_aim_is_plain(ax, ay, c),
-                         lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(1e10f)));
+    vndf_ggx_incidence w = {
+        ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per, spread + spread * c, lanes_all()};
+    w.plain =
+        lanes_both(vndf_aim_is_plain(ax, ay, c), lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(1e10f)));
     return w;
 }
 
@@ -42,9 +42,9 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_of(const vndf_view *v)
 {
     const float *w = v->closed;
-    vndf_ggx_incidence of = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]),
-                             lanes_set(w[2]), lanes_set(w[3]), lanes_set(w[4]),
-                             v->plain ? lanes_all() : lanes_none()};
+    vndf_ggx_incidence of = {
+        lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]),
+        lanes_set(w[2]),  lanes_set(w[3]),  lanes_set(w[4]), v->plain ? lanes_all() : lanes_none()};
     return of;
 }
 

@@ -20,8 +20,12 @@ vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !vndf_is_usable_direction(wi))
         return vndf_invalid_view();
-    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = ax, .alpha_y = ay,
-                      .ax = surface->alpha_x, .ay = surface->alpha_y};
+    vndf_view view = {.distribution = surface->distribution,
+                      .wi = wi,
+                      .alpha_x = ax,
+                      .alpha_y = ay,
+                      .ax = surface->alpha_x,
+                      .ay = surface->alpha_y};
     return view;
 }
 
@@ -30,10 +34,15 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
         return vndf_closed_view_carefully(surface, wi);
-    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w.ax, .alpha_y = w.ay,
-                      .ax = w.ax, .ay = w.ay, .plain = 1,
-                      .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1,
-                                 w.p2, w.p3, w.p4}};
+    vndf_view view = {
+        .distribution = surface->distribution,
+        .wi = wi,
+        .alpha_x = w.ax,
+        .alpha_y = w.ay,
+        .ax = w.ax,
+        .ay = w.ay,
+        .plain = 1,
+        .closed = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1, w.p2, w.p3, w.p4}};
     return view;
 }
 

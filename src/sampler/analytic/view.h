@@ -14,8 +14,14 @@ vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi);
 /* Where float does: in the caller, as a call costs a tenth of it. */
 VNDF_INLINE vndf_view vndf_ggx_view_of(const vndf_surface *surface, vndf_vec3 wi, const vndf_ggx_incidence *w)
 {
-    vndf_view view = {.distribution = surface->distribution, .wi = wi, .alpha_x = w->ax, .alpha_y = w->ay,
-                      .ax = w->ax, .ay = w->ay, .plain = 1, .closed = {w->x, w->y, w->c, w->q, w->spread}};
+    vndf_view view = {.distribution = surface->distribution,
+                      .wi = wi,
+                      .alpha_x = w->ax,
+                      .alpha_y = w->ay,
+                      .ax = w->ax,
+                      .ay = w->ay,
+                      .plain = 1,
+                      .closed = {w->x, w->y, w->c, w->q, w->spread}};
     return view;
 }
 

@@ -71,11 +71,12 @@ static void vndf_draw_beckmann(vndf_sample_block *b)
     for (uint32_t g = 0; g < groups; g++) {
         const vndf_beckmann_incidence *at = one ? one : &w.at[g];
         lanes_m plain;
-        vndf_drawn n = vndf_beckmann_normal(at, &w.first[g], w.second[g],
-                                            vndf_beckmann_middle(w.u1[g], w.u2[g]), &plain);
+        vndf_drawn n =
+            vndf_beckmann_normal(at, &w.first[g], w.second[g], vndf_beckmann_middle(w.u1[g], w.u2[g]), &plain);
         vndf_block_store(b, g * VNDF_LANES, &n);
         if (lanes_any(lanes_without(lanes_all(), plain)))
-            vndf_block_leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain), g * VNDF_LANES);
+            vndf_block_leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain),
+                             g * VNDF_LANES);
     }
 }
 

@@ -45,7 +45,7 @@ typedef struct vndf_batch_call {
 
 /* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
 VNDF_INLINE void vndf_batch_for_each_view(const vndf_batch *b, const vndf_batch_call *c,
-                               void (*one)(const vndf_view *view, const vndf_batch_call *c, size_t i))
+                                          void (*one)(const vndf_view *view, const vndf_batch_call *c, size_t i))
 {
     if (vndf_batch_is_one_view(b)) {
         vndf_view view = vndf_batch_view(b, 0);

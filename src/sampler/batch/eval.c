@@ -28,16 +28,11 @@ static float answer_of(const call *c, size_t i)
 {
     vndf_surface surface = vndf_batch_surface(c->batch, i);
     switch (c->question) {
-    case VNDF_ASK_NDF:
-        return vndf_ndf(&surface, vndf_batch_normal(c->wm, i));
-    case VNDF_ASK_AREA:
-        return vndf_projected_area(&surface, vndf_batch_wi(c->batch, i));
-    case VNDF_ASK_LAMBDA:
-        return vndf_lambda(&surface, vndf_batch_wi(c->batch, i));
-    case VNDF_ASK_G1:
-        return vndf_g1(&surface, vndf_batch_wi(c->batch, i));
-    default:
-        break;
+    case VNDF_ASK_NDF: return vndf_ndf(&surface, vndf_batch_normal(c->wm, i));
+    case VNDF_ASK_AREA: return vndf_projected_area(&surface, vndf_batch_wi(c->batch, i));
+    case VNDF_ASK_LAMBDA: return vndf_lambda(&surface, vndf_batch_wi(c->batch, i));
+    case VNDF_ASK_G1: return vndf_g1(&surface, vndf_batch_wi(c->batch, i));
+    default: break;
     }
     vndf_view view = vndf_view_bare(&surface, vndf_batch_wi(c->batch, i));
     vndf_vec3 wm = vndf_batch_normal(c->wm, i);
@@ -73,7 +68,7 @@ static void read_block(vndf_eval_block *block, const call *c, size_t first, copi
 {
     const vndf_batch *b = c->batch;
     const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
-                                           b->wi_z, c->wm.x, c->wm.y, c->wm.z};
+                                           b->wi_z,    c->wm.x,    c->wm.y, c->wm.z};
     int last = is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
     for (int n = 0; n <= last; n++) {
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)

@@ -39,7 +39,9 @@ VNDF_INLINE vndf_given picked_given(doubles_m m, const vndf_given *g)
     vndf_given safe = {{doubles_pick(m, g->wi.ax, one), doubles_pick(m, g->wi.ay, one),
                         doubles_pick(m, g->wi.x, nothing), doubles_pick(m, g->wi.y, nothing),
                         doubles_pick(m, g->wi.z, one)},
-                       doubles_pick(m, g->x, nothing), doubles_pick(m, g->y, nothing), doubles_pick(m, g->z, one)};
+                       doubles_pick(m, g->x, nothing),
+                       doubles_pick(m, g->y, nothing),
+                       doubles_pick(m, g->z, one)};
     return safe;
 }
 
@@ -95,7 +97,9 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         doubles ax = input(in, VNDF_EVAL_ALPHA_X, i) * scale, ay = input(in, VNDF_EVAL_ALPHA_Y, i) * scale;
-        vndf_given g = {{ax, ay, one, one, one}, input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+        vndf_given g = {{ax, ay, one, one, one},
+                        input(in, VNDF_EVAL_X, i),
+                        input(in, VNDF_EVAL_Y, i),
                         input(in, VNDF_EVAL_Z, i)};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
@@ -223,11 +227,11 @@ static void answer_pdf(const vndf_distribution *d, vndf_eval_block *b)
     answer_way(d, b, &s, BELOW);
 }
 
-#if VNDF_LANES == 16
+#  if VNDF_LANES == 16
 void vndf_eval_block_avx512(const vndf_distribution *d, vndf_question question, vndf_eval_block *b)
-#else
+#  else
 void vndf_eval_block_avx2(const vndf_distribution *d, vndf_question question, vndf_eval_block *b)
-#endif
+#  endif
 {
     b->left_count = 0;
     if (question == VNDF_ASK_AREA)

@@ -11,12 +11,26 @@
 enum { VNDF_EVAL_BLOCK = 256 };
 
 typedef enum vndf_question {
-    VNDF_ASK_PDF, VNDF_ASK_VISIBLE, VNDF_ASK_NDF, VNDF_ASK_AREA, VNDF_ASK_LAMBDA, VNDF_ASK_G1
+    VNDF_ASK_PDF,
+    VNDF_ASK_VISIBLE,
+    VNDF_ASK_NDF,
+    VNDF_ASK_AREA,
+    VNDF_ASK_LAMBDA,
+    VNDF_ASK_G1
 } vndf_question;
 
 /* What a block is given: members of vndf_given, in their order. */
-enum { VNDF_EVAL_ALPHA_X, VNDF_EVAL_ALPHA_Y, VNDF_EVAL_WI_X, VNDF_EVAL_WI_Y, VNDF_EVAL_WI_Z, VNDF_EVAL_X,
-       VNDF_EVAL_Y, VNDF_EVAL_Z, VNDF_EVAL_INPUTS };
+enum {
+    VNDF_EVAL_ALPHA_X,
+    VNDF_EVAL_ALPHA_Y,
+    VNDF_EVAL_WI_X,
+    VNDF_EVAL_WI_Y,
+    VNDF_EVAL_WI_Z,
+    VNDF_EVAL_X,
+    VNDF_EVAL_Y,
+    VNDF_EVAL_Z,
+    VNDF_EVAL_INPUTS
+};
 
 /* Arrays that lanes may read to the end of the last group; those that the question wants. */
 typedef struct vndf_eval_inputs {
@@ -26,8 +40,8 @@ typedef struct vndf_eval_inputs {
 typedef struct vndf_eval_block {
     vndf_eval_inputs in;
     uint32_t count, left_count;
-    uint32_t left[VNDF_EVAL_BLOCK];    /* indices without an answer */
-    float value[VNDF_EVAL_BLOCK];      /* the answers */
+    uint32_t left[VNDF_EVAL_BLOCK]; /* indices without an answer */
+    float value[VNDF_EVAL_BLOCK];   /* the answers */
 } vndf_eval_block;
 
 #if VNDF_HAS_LANES

@@ -3,8 +3,8 @@
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
-#include "sampler/batch/analytic.h"
-#include "sampler/batch/search.h"
+#  include "sampler/batch/analytic.h"
+#  include "sampler/batch/search.h"
 
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
@@ -131,11 +131,11 @@ static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
     vndf_unsort_block(b, from, &front, &wedge);
 }
 
-#if VNDF_LANES == 16
+#  if VNDF_LANES == 16
 void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
-#else
+#  else
 void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
-#endif
+#  endif
 {
     b->left_count = 0;
     if (d->kind == VNDF_KIND_GGX)

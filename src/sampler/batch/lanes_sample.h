@@ -19,7 +19,7 @@ enum { VNDF_BLOCK_SAMPLES = 256, VNDF_DELICATE = 1 << 16 };
  * what is drawn goes. */
 typedef struct vndf_sample_block {
     const float *alpha_x, *alpha_y, *wi_x, *wi_y, *wi_z, *u1, *u2;
-    const vndf_view *view;             /* of all, then alpha and wi are not read; or NULL */
+    const vndf_view *view; /* of all, then alpha and wi are not read; or NULL */
     uint32_t count, left_count;
     /* indices of those that are not drawn, VNDF_DELICATE added if that was tried */
     uint32_t left[VNDF_BLOCK_SAMPLES];

@@ -110,7 +110,9 @@ VNDF_INLINE vndf_azimuth_cell vndf_mixed_cell(const vndf_mixed_row *m, lanes_u j
 {
     uint32_t n = m->count;
     vndf_azimuth_cell cell = {{lanes_few(m->e0, n, j), lanes_few(m->e1, n, j), lanes_few(m->mass, n, j)},
-                              lanes_few(m->before, n, j), lanes_few(m->q, n, j), lanes_few(m->width, n, j)};
+                              lanes_few(m->before, n, j),
+                              lanes_few(m->q, n, j),
+                              lanes_few(m->width, n, j)};
     return cell;
 }
 

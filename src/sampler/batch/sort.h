@@ -156,9 +156,9 @@ VNDF_INLINE vndf_incidence vndf_sorted_incidence(const vndf_sorted *w, uint32_t 
 {
     if (w->is_shared)
         return w->shared;
-    vndf_incidence at = {lanes_load(w->ax + i), lanes_load(w->ay + i), lanes_load(w->s + i), lanes_load(w->c + i),
-                         lanes_load(w->cos_phi + i), lanes_load(w->sin_phi + i), lanes_load(w->spread + i),
-                         lanes_all()};
+    vndf_incidence at = {
+        lanes_load(w->ax + i),      lanes_load(w->ay + i),      lanes_load(w->s + i),      lanes_load(w->c + i),
+        lanes_load(w->cos_phi + i), lanes_load(w->sin_phi + i), lanes_load(w->spread + i), lanes_all()};
     return at;
 }
 

@@ -100,7 +100,8 @@ double vndf_pdf_bounded(const vndf_view *view, const double bounds[VNDF_BOUNDS],
 {
     if (!is_drawn(view) || !(wm.z > 0.0))
         return 0.0;
-    double facing = view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z, square = wm.x * wm.x + wm.y * wm.y + wm.z * wm.z;
+    double facing = view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z,
+           square = wm.x * wm.x + wm.y * wm.y + wm.z * wm.z;
     if (!(2.0 * facing * wm.z > (1.0 - 1e-6) * (view->wi.z * square))) /* by more than roundings */
         return 0.0;
     vndf_bounded_factors at = factors_at(view, bounds, wm, facing);

@@ -31,7 +31,6 @@
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
 
-
 /* The unit problem in double. M0 = (across of M0, its z), as the other members in the stretched, turned frame. */
 typedef struct frame {
     double ax, ay, s, c, cos_phi, sin_phi;
@@ -54,8 +53,8 @@ static frame frame_of(const vndf_view *view)
 {
     vndf_stretched w = vndf_stretched_of(view);
     double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
-    frame f = {view->alpha_x, view->alpha_y, w.s, w.c, across > 0.0 ? w.x * per : 1.0, w.y * per,
-               {0.0, 0.0, 0.0}, 0.0};
+    frame f = {view->alpha_x, view->alpha_y,   w.s, w.c, across > 0.0 ? w.x * per : 1.0,
+               w.y * per,     {0.0, 0.0, 0.0}, 0.0};
     f.m0 = stretched(&f, w.s, 0.0, w.c);
     f.c0 = w.c * (dot(f.m0, f.m0) - 2.0);
     return f;
@@ -176,8 +175,9 @@ vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bou
     double length = sqrt(cosine * cosine + sine * sine), per = length > 0.0 ? 1.0 / length : 0.0;
     cosine = length > 0.0 ? cosine * per : 1.0;
     chord h = chord_at(&f, cosine, sine * per);
-    vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing),
-                               h.part * law_of(view, bounds, law)[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
+    vndf_bounded_factors at = {
+        vndf_normal_visible(view, wm, facing),
+        h.part * law_of(view, bounds, law)[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
     return at;
 }
 

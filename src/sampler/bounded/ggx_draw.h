@@ -32,8 +32,8 @@ enum { VNDF_GGX_S2 = 5, VNDF_GGX_Q, VNDF_GGX_E12, VNDF_GGX_E2, VNDF_GGX_C0 };
 VNDF_INLINE vndf_outlook vndf_outlook_of(const vndf_view *v)
 {
     const float *of = v->closed;
-    vndf_outlook o = {of[0], of[1], of[2], of[VNDF_GGX_S2], of[VNDF_GGX_Q], of[VNDF_GGX_E12], of[VNDF_GGX_E2],
-                      of[VNDF_GGX_C0]};
+    vndf_outlook o = {of[0],           of[1],          of[2], of[VNDF_GGX_S2], of[VNDF_GGX_Q], of[VNDF_GGX_E12],
+                      of[VNDF_GGX_E2], of[VNDF_GGX_C0]};
     return o;
 }
 
@@ -42,7 +42,8 @@ VNDF_INLINE vndf_outlook vndf_outlook_set(vndf_view *v)
 {
     float x = v->closed[0], y = v->closed[1], c = v->closed[2], a2 = v->ax * v->ax, b2 = v->ay * v->ay;
     float x2 = x * x, y2 = y * y, s2 = x2 + y2, e1 = a2 * x2 + b2 * y2, c2 = c * c;
-    vndf_outlook o = {x, y, c, s2, c2 * e1 + s2 * s2, (b2 - a2) * (x * y), a2 * y2 + b2 * x2, c * (e1 + (c2 - 2.0f))};
+    vndf_outlook o = {
+        x, y, c, s2, c2 * e1 + s2 * s2, (b2 - a2) * (x * y), a2 * y2 + b2 * x2, c * (e1 + (c2 - 2.0f))};
     v->closed[VNDF_GGX_S2] = o.s2;
     v->closed[VNDF_GGX_Q] = o.q;
     v->closed[VNDF_GGX_E12] = o.e12;
@@ -105,7 +106,8 @@ VNDF_INLINE vndf_ggx_azimuth vndf_ggx_draw_azimuth(const vndf_outlook *o, const 
 {
     float part = fabsf(half), turned = lanes_most(part * law->slow, 1.0f - (1.0f - part) * law->fast);
     vndf_half_azimuth turn = vndf_half_azimuth_at(turned);
-    float ahead = vndf_is_positive(0.5f - turned), behind = 1.0f - ahead, x = (ahead + behind * o->c) * turn.cosine;
+    float ahead = vndf_is_positive(0.5f - turned), behind = 1.0f - ahead,
+          x = (ahead + behind * o->c) * turn.cosine;
     vndf_ggx_azimuth a = {x, copysignf(turn.sine, half), o->s2 * (x * x + turn.sine * turn.sine),
                           o->s2 * turn.square * (ahead * law->in_front + behind * law->in_wedge)};
     return a;
@@ -167,7 +169,8 @@ VNDF_INLINE int vndf_ggx_is_settled(const vndf_view *v, const vndf_outlook *o, c
     float n2 = drawn->at.n2, n = sqrtf(n2), e2 = v->ax * v->ax + v->ay * v->ay, sine = reach * drawn->sine;
     float gain = o->c * (0.7f + 0.7f * e2) + (0.5f + 0.5f * o->s2), matrix = n2 * e2;
     float change = h->rest * (2.0f * h->root * (h->square + matrix) + gain * h->square * n);
-    int calm = change < 150.0f * (sine * n) * h->root * h->square && 1e-12f < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
+    int calm = change < 150.0f * (sine * n) * h->root * h->square &&
+               1e-12f < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
     return calm && 0.01f < sine * n && matrix < 100.0f * h->square;
 }
 

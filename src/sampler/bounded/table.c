@@ -37,7 +37,8 @@ static double kept_on(const vndf_engine_ray *ray, double q)
 vndf_bounded_factors vndf_bounded_table_at(const vndf_view *view, vndf_normal wm, double facing)
 {
     vndf_engine_ray ray = vndf_engine_ray_of(view, wm);
-    vndf_bounded_factors at = {vndf_engine_density_on(view, &ray, wm, facing), kept_on(&ray, stretch_at(view, wm))};
+    vndf_bounded_factors at = {vndf_engine_density_on(view, &ray, wm, facing),
+                               kept_on(&ray, stretch_at(view, wm))};
     return at;
 }
 
@@ -85,8 +86,8 @@ static border border_beside(const vndf_radial_law *law, float total, border at, 
 
 /* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by
  * 1e-7 of s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
-VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law,
-                             int whole, lanes_m *plain)
+VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law, int whole,
+                             lanes_m *plain)
 {
     const vndf_distribution *d = law->table;
     float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c);

@@ -26,8 +26,8 @@ VNDF_INLINE doubles_m vndf_direction_is_valid(const vndf_direction *w)
     doubles square = w->x * w->x + w->y * w->y + w->z * w->z;
     doubles_m low = doubles_both(doubles_at_most(least, w->ax), doubles_at_most(least, w->ay));
     doubles_m high = doubles_both(doubles_at_most(w->ax, most), doubles_at_most(w->ay, most));
-    doubles_m usable = doubles_both(doubles_less(doubles_set(0.0), square),
-                                    doubles_less(square, doubles_set(HUGE_VAL)));
+    doubles_m usable =
+        doubles_both(doubles_less(doubles_set(0.0), square), doubles_less(square, doubles_set(HUGE_VAL)));
     return doubles_both(doubles_both(low, high), usable);
 }
 

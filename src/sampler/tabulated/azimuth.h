@@ -53,8 +53,11 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row
     lanes_four c = lanes_load_four(lines, 2 * stride);
     lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(w, 0, j);
     lanes_f h = vndf_azimuth_q(w, 1, j) - q;
-    vndf_azimuth_cell cell = {{(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h,
-                               u * a.b + v * b.b + t * c.b}, u * a.a + v * b.a + t * c.a, q, h};
+    vndf_azimuth_cell cell = {
+        {(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h, u * a.b + v * b.b + t * c.b},
+        u * a.a + v * b.a + t * c.a,
+        q,
+        h};
     return cell;
 }
 

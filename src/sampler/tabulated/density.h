@@ -114,7 +114,8 @@ VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bar
 }
 
 /* The same for a weighted cell (math/weighted_cell.h) whose V is W: all of them beyond the cut. */
-VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_spot *at, const vndf_bare *n, doubles c, doubles k)
+VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_spot *at, const vndf_bare *n, doubles c,
+                                                      doubles k)
 {
     doubles_four f = doubles_load_four(&at->line, 0);
     doubles w0 = doubles_positive(c * at->z0 + k * at->x0), w1 = doubles_positive(c * at->z1 + k * at->x1);

@@ -99,7 +99,13 @@ typedef struct vndf_incidence {
 
 VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
 {
-    vndf_incidence w = {ax, ay, aim->s, aim->c, aim->cos_phi, aim->sin_phi, aim->area * (ax * ay),
+    vndf_incidence w = {ax,
+                        ay,
+                        aim->s,
+                        aim->c,
+                        aim->cos_phi,
+                        aim->sin_phi,
+                        aim->area * (ax * ay),
                         vndf_aim_is_plain(ax, ay, aim->c)};
     return w;
 }
@@ -107,9 +113,9 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
 /* Of a view, the same in all lanes. */
 VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 {
-    vndf_incidence w = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(v->s), lanes_set(v->c),
-                        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->spread),
-                        v->plain ? lanes_all() : lanes_none()};
+    vndf_incidence w = {
+        lanes_set(v->ax),      lanes_set(v->ay),      lanes_set(v->s),      lanes_set(v->c),
+        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
     return w;
 }
 
@@ -141,9 +147,9 @@ VNDF_INLINE lanes_m vndf_sector_is_plain(const vndf_sector *sector, lanes_f fron
 /* A sample whose azimuth is drawn: what its radius and its normal take. */
 typedef struct vndf_bearing {
     vndf_level level;
-    lanes_f cosine, c, k;    /* of the azimuth; weights of the law of the radius */
-    lanes_f total, density;  /* the law's mass; mass per radian of the azimuth, in the wedge */
-    lanes_u code;            /* of the window where the radius is */
+    lanes_f cosine, c, k;   /* of the azimuth; weights of the law of the radius */
+    lanes_f total, density; /* the law's mass; mass per radian of the azimuth, in the wedge */
+    lanes_u code;           /* of the window where the radius is */
 } vndf_bearing;
 
 /* ---- in front of wi ---- */
@@ -155,8 +161,13 @@ VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_
     vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(sector->apart), sector->mass, &near);
     lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
     k = w->s * a.c;
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, sector->apart), a.c, w->c, k,
-                      vndf_radial_total(d, w->c, k), a.c, code};
+    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, sector->apart),
+                      a.c,
+                      w->c,
+                      k,
+                      vndf_radial_total(d, w->c, k),
+                      a.c,
+                      code};
     return b;
 }
 
@@ -195,7 +206,12 @@ VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_
 {
     lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
     vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, sector->apart),
-                      cosine, c, k, c, a->density * sector->mass, vndf_window_of(d, c, k, u2)};
+                      cosine,
+                      c,
+                      k,
+                      c,
+                      a->density * sector->mass,
+                      vndf_window_of(d, c, k, u2)};
     return b;
 }
 

@@ -63,8 +63,13 @@ static mixed_row wedge_row(const vndf_wedge *w, double y)
     double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
     size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
     const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;
-    mixed_row row = {{mass, mass + cells, mass + 2 * cells}, {density, density + ends, density + 2 * ends}, w->q,
-                     {rest * rest, 2.0 * rest * m, m * m}, 0.0, 0.0, w->cell_count};
+    mixed_row row = {{mass, mass + cells, mass + 2 * cells},
+                     {density, density + ends, density + 2 * ends},
+                     w->q,
+                     {rest * rest, 2.0 * rest * m, m * m},
+                     0.0,
+                     0.0,
+                     w->cell_count};
     for (size_t n = 0; n < 3; n++) {
         row.p += row.share[n] * w->aspect_p[first + n];
         row.r += row.share[n] * w->aspect_r[first + n];
@@ -85,7 +90,8 @@ static double row_density(const mixed_row *row, double cosine, double sine)
     double from = row->q[j], to = row->q[j + 1], h = to - from;
     double xi = (q - from) / h, eta = (rest - (1.0 - to)) / h;
     double per_q = rational_density(mixed(row, row->density, j) * h, mixed(row, row->density, j + 1) * h,
-                                    mixed(row, row->mass, j), xi, eta) / h;
+                                    mixed(row, row->mass, j), xi, eta) /
+                   h;
     double x = row->p * rest * (1.0 + q), y = 2.0 * row->r * q;
     return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
 }
@@ -317,7 +323,8 @@ double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_p
     place at = {j, xi, eta};
     double x = eta * k->x[j] + xi * k->x[j + 1], w = ray->k * x + ray->c * (eta * k->z[j] + xi * k->z[j + 1]);
     return w > 0.0 && p->length > 0.0 && ray->mass > 0.0
-               ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass : 0.0;
+               ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass
+               : 0.0;
 }
 
 /* Mass of the law before knot j, c >= 0. */

@@ -32,14 +32,14 @@
  * by `gain`. */
 typedef struct vndf_radial_law {
     const vndf_distribution *table;
-    lanes_f c, k;               /* weights of Z and X */
-    lanes_f scale;              /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
-    lanes_f gain;               /* factor of all masses: 1 above the horizon */
-    lanes_u cut;                /* the cell that holds the cut; radial_count if there is none */
-    lanes_f part;               /* length of that cell's visible part in xi; without a cut 0 */
-    lanes_f part_mass;          /* its mass, less the gain */
-    lanes_f part_f0, part_f1;   /* f times that length at its ends, from the pole outwards */
-    lanes_f part_w0, part_w1;   /* W there */
+    lanes_f c, k;             /* weights of Z and X */
+    lanes_f scale;            /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
+    lanes_f gain;             /* factor of all masses: 1 above the horizon */
+    lanes_u cut;              /* the cell that holds the cut; radial_count if there is none */
+    lanes_f part;             /* length of that cell's visible part in xi; without a cut 0 */
+    lanes_f part_mass;        /* its mass, less the gain */
+    lanes_f part_f0, part_f1; /* f times that length at its ends, from the pole outwards */
+    lanes_f part_w0, part_w1; /* W there */
 } vndf_radial_law;
 
 /* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
@@ -52,8 +52,8 @@ VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *lines)
 {
     lanes_four f = lanes_load_four(lines, 0), knots = lanes_load_four(lines, 4);
     lanes_four whole = lanes_load_four(lines, 8), cut = lanes_load_four(lines, 12);
-    vndf_radial_lanes cell = {f.a, f.b, f.c, f.d, knots.a, knots.b, knots.c, knots.d,
-                              whole.a, whole.b, whole.c, whole.d, cut.a, cut.b, cut.c, cut.d};
+    vndf_radial_lanes cell = {f.a,     f.b,     f.c,     f.d,     knots.a, knots.b, knots.c, knots.d,
+                              whole.a, whole.b, whole.c, whole.d, cut.a,   cut.b,   cut.c,   cut.d};
     return cell;
 }
 

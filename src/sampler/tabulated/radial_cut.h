@@ -85,7 +85,11 @@ VNDF_INLINE vndf_radial_piece vndf_radial_piece_cut(const vndf_radial_law *law)
 {
     float w0 = law->part_w0, w1 = law->part_w1, half = law->gain * (0.5f * (w0 + w1));
     vndf_radial_piece piece = {{law->part_f0 * half, law->part_f1 * half, law->gain * law->part_mass},
-                               1, w0, w1, law->c < 0.0f ? 1.0f - law->part : 0.0f, law->part};
+                               1,
+                               w0,
+                               w1,
+                               law->c < 0.0f ? 1.0f - law->part : 0.0f,
+                               law->part};
     return piece;
 }
 

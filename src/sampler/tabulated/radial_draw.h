@@ -14,8 +14,8 @@ typedef struct vndf_radial_drawn {
 } vndf_radial_drawn;
 
 /* How many have more than `target` beyond them (c < 0). */
-VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n,
-                                              float c, float k, float target)
+VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k,
+                                              float target)
 {
     const float *z = knots->z + from, *x = knots->x + from, *s = knots->s + from, *t = knots->t + from;
     uint32_t count = 0;
@@ -67,8 +67,7 @@ VNDF_INLINE vndf_radial_drawn vndf_radial_draw_whole(const vndf_distribution *d,
     vndf_radial_law law = vndf_radial_law_whole(d, c, k);
     law = vndf_radial_scaled(law, total);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j),
-                               u - vndf_radial_before_whole(&law, &cell));
+    return vndf_radial_draw_in(&law, j, vndf_radial_piece_of(&law, j), u - vndf_radial_before_whole(&law, &cell));
 }
 
 /* c > 0 > k. */

@@ -135,8 +135,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
     if (!plain)
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
-    vndf_drawn n = sector.in_front ? draw_in_front(d, &w, &sector, u2, &plain)
-                                   : draw_in_wedge(d, &w, &sector, u2, &plain);
+    vndf_drawn n =
+        sector.in_front ? draw_in_front(d, &w, &sector, u2, &plain) : draw_in_wedge(d, &w, &sector, u2, &plain);
     if (!plain)
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
     if (pdf)
@@ -205,8 +205,7 @@ typedef struct portion {
 /* Of the wedge's mass before an azimuth. */
 static portion before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view),
-                                          !vndf_is_below(view) ? view->c : view->s);
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
     lanes_lines lines = lanes_lines_at(&row.wedge->row_cell->before, 4, row.row * row.wedge->stride + j);

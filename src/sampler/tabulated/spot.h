@@ -16,7 +16,7 @@ enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
 
 typedef struct vndf_spot {
     doubles_u cell;
-    doubles_lines line;     /* the cell's members */
+    doubles_lines line; /* the cell's members */
     doubles inner, outer;
     doubles x0, x1, z0, z1; /* the knots */
 } vndf_spot;

@@ -70,10 +70,10 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
 typedef struct vndf_engine_ray {
     const vndf_distribution *table;
-    double c, k;        /* k = s cos a */
-    double azimuth;     /* density of the azimuth, per radian */
-    double mass, part;  /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
-    uint32_t cut;       /* that cell; radial_count if there is none */
+    double c, k;       /* k = s cos a */
+    double azimuth;    /* density of the azimuth, per radian */
+    double mass, part; /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
+    uint32_t cut;      /* that cell; radial_count if there is none */
 } vndf_engine_ray;
 vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
 

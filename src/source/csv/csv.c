@@ -23,14 +23,14 @@ typedef struct csv_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
     vndf_csv_first first;
     vndf_csv_second second;
-    vndf_curve curve;   /* over asinh(x/scale) */
+    vndf_curve curve; /* over asinh(x/scale) */
     double scale;
-    int logarithmic;    /* the curve is the logarithm of the second column */
-    double last_slope;  /* where the tail begins; infinite if the rows reach 90 degrees */
+    int logarithmic;   /* the curve is the logarithm of the second column */
+    double last_slope; /* where the tail begins; infinite if the rows reach 90 degrees */
     double last_p22;
-    double tail;        /* beyond it P22 falls as r^-tail */
-    double *breaks;     /* owned */
-    vndf_rows rows;     /* P22 r^2 over log r, where there are more than BREAKS; else empty */
+    double tail;    /* beyond it P22 falls as r^-tail */
+    double *breaks; /* owned */
+    vndf_rows rows; /* P22 r^2 over log r, where there are more than BREAKS; else empty */
 } csv_source;
 
 /* cos(theta)^4 at the slope r: P22 = D c^4. */
@@ -142,7 +142,9 @@ static void fill_rows(csv_source *source, const vndf_csv_rows *given)
             continue;
         rows->u[rows->count] = log(r);
         rows->f[rows->count] = f;
-        rows->bend[rows->count++] = bend * (source->logarithmic ? f : given->value[i] > 0 ? f / given->value[i] : 0);
+        rows->bend[rows->count++] = bend * (source->logarithmic   ? f
+                                            : given->value[i] > 0 ? f / given->value[i]
+                                                                  : 0);
     }
 }
 
@@ -163,7 +165,7 @@ static double rounding_of(const csv_source *source)
 static char *describe(const char *name, const char *text, size_t size, vndf_error *error)
 {
     char checksum[32];
-    vndf_text words = { NULL, 0, 0, 0 };
+    vndf_text words = {NULL, 0, 0, 0};
     snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)vndf_crc32(0, text, size));
     vndf_text_add_word(&words, "--csv");
     vndf_text_add_word(&words, name ? name : "unnamed");
@@ -176,8 +178,8 @@ static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_erro
 {
     csv_source *source = calloc(1, sizeof *source);
     if (source) {
-        source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .description = description,
-                                      .operations = OPERATIONS, .reach = reach };
+        source->base = (vndf_source){
+            .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS, .reach = reach};
         source->breaks = malloc(BREAKS * sizeof *source->breaks);
     }
     int many = rows->count > BREAKS;
@@ -205,7 +207,7 @@ static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_erro
 vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error)
 {
     vndf_csv_rows rows;
-    vndf_error inner = { VNDF_OK, "" };
+    vndf_error inner = {VNDF_OK, ""};
     if (!text) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
         return NULL;

@@ -12,8 +12,8 @@
 
 static const double right_angle = 1.57079632679489661923;
 
-static const char *const first_names[] = { "theta_deg", "theta", "slope" };
-static const char *const second_names[] = { "ndf", "p22" };
+static const char *const first_names[] = {"theta_deg", "theta", "slope"};
+static const char *const second_names[] = {"ndf", "p22"};
 
 typedef struct span {
     const char *text;
@@ -62,7 +62,7 @@ static int equals(span s, const char *word)
 static span cut(span *s, char separator)
 {
     const char *end = s->size > 0 ? memchr(s->text, separator, s->size) : NULL;
-    span head = { s->text, end ? (size_t)(end - s->text) : s->size };
+    span head = {s->text, end ? (size_t)(end - s->text) : s->size};
     size_t used = head.size + (end != NULL);
     s->text += used;
     s->size -= used;
@@ -83,7 +83,7 @@ static vndf_status next_line(reader *r, span *line)
         if (line->size > 0 && line->text[0] != '#')
             return VNDF_OK;
     }
-    *line = (span){ NULL, 0 };
+    *line = (span){NULL, 0};
     return VNDF_OK;
 }
 
@@ -106,7 +106,7 @@ static vndf_status split(reader *r, span line, span field[2])
 static vndf_status read_header(reader *r)
 {
     char excerpt[VNDF_EXCERPT];
-    span line, field[2] = { { NULL, 0 }, { NULL, 0 } };
+    span line, field[2] = {{NULL, 0}, {NULL, 0}};
     size_t first = 0, second = 0;
     vndf_status status = next_line(r, &line);
     r->line += status == VNDF_OK && r->line == 0; /* of an empty file: where it should be */
@@ -162,8 +162,8 @@ static vndf_status convert_angle(reader *r, double *x)
     if (grazing && r->rows->second == VNDF_CSV_P22)
         return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
     if (!grazing && *x >= limit)
-        return refuse(r, "%s is %.10g; angles from the normal are at most %.10g",
-                      first_names[r->rows->first], *x, limit);
+        return refuse(r, "%s is %.10g; angles from the normal are at most %.10g", first_names[r->rows->first], *x,
+                      limit);
     *x = grazing ? right_angle : degrees ? *x * (right_angle / 90) : *x;
     return VNDF_OK;
 }
@@ -191,7 +191,7 @@ static vndf_status append(reader *r, double x, double value)
 
 static vndf_status read_row(reader *r, span line)
 {
-    span field[2] = { { NULL, 0 }, { NULL, 0 } };
+    span field[2] = {{NULL, 0}, {NULL, 0}};
     double x = 0, value = 0;
     vndf_csv_rows *rows = r->rows;
     char excerpt[VNDF_EXCERPT];
@@ -207,8 +207,7 @@ static vndf_status read_row(reader *r, span line)
     /* Closer rows could not be told apart by the abscissa of the interpolation. */
     if (rows->count > 0 && !(x > rows->x[rows->count - 1] * (1 + 1e-12)))
         return refuse(r, "%s is %s, which is not above that of line %zu; rows must ascend and not repeat",
-                      first_names[rows->first], vndf_excerpt(excerpt, field[0].text, field[0].size),
-                      r->last_row);
+                      first_names[rows->first], vndf_excerpt(excerpt, field[0].text, field[0].size), r->last_row);
     return append(r, x, value);
 }
 
@@ -226,15 +225,15 @@ static vndf_status read_all(reader *r)
             status = read_row(r, line);
     }
     if (status == VNDF_OK && r->rows->count < 2)
-        return refuse(r, "the text ends with %zu row%s; at least two are needed",
-                      r->rows->count, r->rows->count == 1 ? "" : "s");
+        return refuse(r, "the text ends with %zu row%s; at least two are needed", r->rows->count,
+                      r->rows->count == 1 ? "" : "s");
     return status;
 }
 
 vndf_status vndf_csv_read(const char *text, size_t size, vndf_csv_rows *rows, vndf_error *error)
 {
-    reader r = { { text, size }, 0, 0, 0, rows, error };
-    *rows = (vndf_csv_rows){ VNDF_CSV_SLOPE, VNDF_CSV_P22, NULL, NULL, 0 };
+    reader r = {{text, size}, 0, 0, 0, rows, error};
+    *rows = (vndf_csv_rows){VNDF_CSV_SLOPE, VNDF_CSV_P22, NULL, NULL, 0};
     if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) { /* spreadsheets mark UTF-8 so */
         r.rest.text += 3;
         r.rest.size -= 3;

@@ -6,7 +6,7 @@
 
 int vndf_curve_allocate(vndf_curve *curve, size_t count)
 {
-    *curve = (vndf_curve){ NULL, NULL, NULL, 0 };
+    *curve = (vndf_curve){NULL, NULL, NULL, 0};
     if (count > (size_t)-1 / (3 * sizeof *curve->x))
         return 0;
     curve->x = malloc(3 * count * sizeof *curve->x);
@@ -21,7 +21,7 @@ int vndf_curve_allocate(vndf_curve *curve, size_t count)
 void vndf_curve_free(vndf_curve *curve)
 {
     free(curve->x);
-    *curve = (vndf_curve){ NULL, NULL, NULL, 0 };
+    *curve = (vndf_curve){NULL, NULL, NULL, 0};
 }
 
 static double secant(const vndf_curve *curve, size_t i)

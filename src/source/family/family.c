@@ -25,7 +25,7 @@ static const char mix_usage[] = "mix:(W,S,FAMILY)+(W,S,FAMILY), as in mix:(0.8,0
 typedef struct lobe {
     const vndf_family_form *form;
     double parameter[VNDF_FAMILY_PARAMETERS];
-    double factor, scale; /* factor * P22(r/scale) */
+    double factor, scale;    /* factor * P22(r/scale) */
     vndf_expression formula; /* owned; of P22 */
 } lobe;
 
@@ -83,9 +83,9 @@ static void destroy(vndf_source *self)
 static part cut(part *rest, char separator)
 {
     const char *end = memchr(rest->text, separator, rest->size);
-    part head = { rest->text, end ? (size_t)(end - rest->text) : rest->size, rest->column };
+    part head = {rest->text, end ? (size_t)(end - rest->text) : rest->size, rest->column};
     size_t used = head.size + (end != NULL);
-    *rest = (part){ rest->text + used, rest->size - used, rest->column + used };
+    *rest = (part){rest->text + used, rest->size - used, rest->column + used};
     return head;
 }
 
@@ -105,8 +105,8 @@ static vndf_status check_range(const vndf_family_range *range, double value, con
     if (value <= range->high && (range->open ? value > range->low : value >= range->low))
         return VNDF_OK;
     return vndf_fail(error, VNDF_ERROR_SYNTAX, "%s: %s is %s; it must be %s %g and at most %g%s%s", what,
-                     range->name, vndf_number_print(text, value), range->open ? "above" : "at least",
-                     range->low, range->high, reason[0] ? ": " : "", reason);
+                     range->name, vndf_number_print(text, value), range->open ? "above" : "at least", range->low,
+                     range->high, reason[0] ? ": " : "", reason);
 }
 
 /* ---- one lobe --------------------------------------------------------------------------------- */
@@ -175,7 +175,7 @@ static int is_material(const vndf_family_form *form, part rest)
 static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
 {
     part rest = whole, name = cut(&rest, ':');
-    *l = (lobe){ vndf_family_form_find(name.text, name.size), { 0, 0 }, 1, 1, { NULL, 0 } };
+    *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 1, 1, {NULL, 0}};
     if (!l->form)
         return unknown_family(name, error);
     return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
@@ -196,8 +196,8 @@ static vndf_status bad_mix(part at, vndf_error *error)
 /* "(W,S,FAMILY)" at the start of rest, which is moved behind it. */
 static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
 {
-    static const vndf_family_range weights = { "the weight W", 0, 1e12, 1, 0 };
-    static const vndf_family_range scales = { "the scale S", 1e-9, 1e9, 0, 0 };
+    static const vndf_family_range weights = {"the weight W", 0, 1e12, 1, 0};
+    static const vndf_family_range scales = {"the scale S", 1e-9, 1e9, 0, 0};
     double weight = 0, scale = 0;
     part open = cut(rest, '(');
     if (open.size > 0 || rest->size == 0 || !memchr(rest->text, ')', rest->size))
@@ -238,7 +238,7 @@ static vndf_status read_mix(part rest, family_source *source, vndf_error *error)
 
 static vndf_status read_specification(const char *specification, family_source *source, vndf_error *error)
 {
-    part whole = { specification, strlen(specification), 1 };
+    part whole = {specification, strlen(specification), 1};
     if (whole.size > VNDF_LIMIT_FAMILY_LENGTH)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %zu characters; at most %d are possible",
                          whole.size, VNDF_LIMIT_FAMILY_LENGTH);
@@ -251,9 +251,9 @@ static vndf_status read_specification(const char *specification, family_source *
 
 static vndf_status compile(lobe *l, vndf_error *error)
 {
-    static const char *const variables[] = { "r" };
-    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = { { "a", l->parameter[0] }, { "b", l->parameter[1] } };
-    vndf_names names = { variables, 1, parameters, VNDF_FAMILY_PARAMETERS };
+    static const char *const variables[] = {"r"};
+    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = {{"a", l->parameter[0]}, {"b", l->parameter[1]}};
+    vndf_names names = {variables, 1, parameters, VNDF_FAMILY_PARAMETERS};
     return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
 }
 
@@ -267,7 +267,7 @@ static vndf_status compile_all(family_source *source, vndf_error *error)
 
 vndf_source *vndf_source_family(const char *specification, vndf_error *error)
 {
-    vndf_text words = { NULL, 0, 0, 0 };
+    vndf_text words = {NULL, 0, 0, 0};
     family_source *source = calloc(1, sizeof *source);
     if (!specification || !source) {
         free(source);
@@ -275,7 +275,7 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
                   specification ? "no memory for a source" : "the family's name is NULL");
         return NULL;
     }
-    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .rebuildable = 1, .reach = reach };
+    source->base = (vndf_source){.p22 = p22, .destroy = destroy, .rebuildable = 1, .reach = reach};
     if (read_specification(specification, source, error) == VNDF_OK && compile_all(source, error) == VNDF_OK) {
         vndf_text_add_word(&words, "--family");
         vndf_text_add_word(&words, specification);

@@ -21,7 +21,7 @@ typedef struct vndf_family_form {
     const char *name, *usage; /* "gtr", "gtr:GAMMA[,ALPHA]" */
     size_t required, count;   /* parameters that must, and that may be given */
     vndf_family_range range[VNDF_FAMILY_PARAMETERS];
-    const char *reason;       /* of the limits, for messages */
+    const char *reason;                               /* of the limits, for messages */
     double (*p22)(const double *parameter, double r); /* any scale, finite for 0 <= r <= 1e75 */
     double (*mass)(const double *parameter);          /* 2 pi integral P22(r) r dr */
     const char *formula;                              /* p22 in r, with the parameters a and b: for bounds */

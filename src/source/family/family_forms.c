@@ -136,6 +136,7 @@ static double phong_mass(const double *parameter)
     return 2 * pi / (parameter[0] + 2);
 }
 
+/* clang-format off */
 static const vndf_family_form forms[] = {
     { "ggx", "ggx", 0, 0, { { NULL, 0, 0, 0, 0 } }, "", ggx_p22, unit_mass,
       "1/(pi*(1+r^2)^2)" },
@@ -162,6 +163,7 @@ static const vndf_family_form forms[] = {
     { "phong", "phong:N", 1, 1, { { "N", 0, 1e9, 0, 0 } }, "N = 0 is a constant D", phong_p22, phong_mass,
       "exp(-(a+4)/2*log(1+r^2))" },
 };
+/* clang-format on */
 
 const vndf_family_form *vndf_family_form_at(size_t index)
 {

@@ -55,7 +55,7 @@ static void insert_nearest(size_t distance, size_t material, size_t distances[SH
 
 const char *vndf_material_nearest(char out[VNDF_MATERIAL_NEAREST], const char *name, size_t size)
 {
-    size_t distances[SHOWN] = { (size_t)-1, (size_t)-1, (size_t)-1 }, nearest[SHOWN] = { 0, 0, 0 };
+    size_t distances[SHOWN] = {(size_t)-1, (size_t)-1, (size_t)-1}, nearest[SHOWN] = {0, 0, 0};
     size = size < LONGEST ? size : LONGEST;
     for (size_t i = 0; i < VNDF_MATERIAL_COUNT; i++)
         insert_nearest(edit_distance(name, size, vndf_materials[i].name), i, distances, nearest);

@@ -9,6 +9,7 @@
  * tables/merl_abc.csv, from which this list was made; tests/source/test_family.c compares them. */
 #include "source/family/materials.h"
 
+/* clang-format off */
 const vndf_material vndf_materials[VNDF_MATERIAL_COUNT] = {
     { "sgd:alum-bronze/r", { 0.014832, 0.459076 } },
     { "sgd:alum-bronze/g", { 0.0300126, 0.450056 } },
@@ -323,3 +324,4 @@ const vndf_material vndf_materials[VNDF_MATERIAL_COUNT] = {
     { "abc:purple-paint", { 408.684145, 1.776584 } },
     { "abc:two-layer-gold", { 481560.753, 0.631262 } },
 };
+/* clang-format on */

@@ -22,27 +22,27 @@ static double larger(double x, double y)
 }
 
 static const vndf_function functions[] = {
-    { "exp", exp, NULL, VNDF_KINK_NONE, vndf_jet_exp, NULL },
-    { "log", log, NULL, VNDF_KINK_NONE, vndf_jet_log, NULL },
-    { "sqrt", sqrt, NULL, VNDF_KINK_NONE, vndf_jet_sqrt, NULL },
-    { "sin", sin, NULL, VNDF_KINK_NONE, vndf_jet_sin, NULL },
-    { "cos", cos, NULL, VNDF_KINK_NONE, vndf_jet_cos, NULL },
-    { "tan", tan, NULL, VNDF_KINK_NONE, vndf_jet_tan, NULL },
-    { "asin", asin, NULL, VNDF_KINK_NONE, vndf_jet_asin, NULL },
-    { "acos", acos, NULL, VNDF_KINK_NONE, vndf_jet_acos, NULL },
-    { "atan", atan, NULL, VNDF_KINK_NONE, vndf_jet_atan, NULL },
-    { "sinh", sinh, NULL, VNDF_KINK_NONE, vndf_jet_sinh, NULL },
-    { "cosh", cosh, NULL, VNDF_KINK_NONE, vndf_jet_cosh, NULL },
-    { "tanh", tanh, NULL, VNDF_KINK_NONE, vndf_jet_tanh, NULL },
-    { "erf", erf, NULL, VNDF_KINK_NONE, vndf_jet_erf, NULL },
-    { "erfc", erfc, NULL, VNDF_KINK_NONE, vndf_jet_erfc, NULL },
-    { "lgamma", lgamma, NULL, VNDF_KINK_NONE, vndf_jet_lgamma, NULL },
-    { "gamma", tgamma, NULL, VNDF_KINK_NONE, vndf_jet_gamma, NULL },
-    { "abs", fabs, NULL, VNDF_KINK_ZERO, vndf_jet_abs, NULL },
-    { "min", NULL, smaller, VNDF_KINK_EQUAL, NULL, vndf_jet_min },
-    { "max", NULL, larger, VNDF_KINK_EQUAL, NULL, vndf_jet_max },
-    { "pow", NULL, pow, VNDF_KINK_NONE, NULL, vndf_jet_pow },
-    { "step", step, NULL, VNDF_KINK_ZERO, vndf_jet_step, NULL },
+    {"exp", exp, NULL, VNDF_KINK_NONE, vndf_jet_exp, NULL},
+    {"log", log, NULL, VNDF_KINK_NONE, vndf_jet_log, NULL},
+    {"sqrt", sqrt, NULL, VNDF_KINK_NONE, vndf_jet_sqrt, NULL},
+    {"sin", sin, NULL, VNDF_KINK_NONE, vndf_jet_sin, NULL},
+    {"cos", cos, NULL, VNDF_KINK_NONE, vndf_jet_cos, NULL},
+    {"tan", tan, NULL, VNDF_KINK_NONE, vndf_jet_tan, NULL},
+    {"asin", asin, NULL, VNDF_KINK_NONE, vndf_jet_asin, NULL},
+    {"acos", acos, NULL, VNDF_KINK_NONE, vndf_jet_acos, NULL},
+    {"atan", atan, NULL, VNDF_KINK_NONE, vndf_jet_atan, NULL},
+    {"sinh", sinh, NULL, VNDF_KINK_NONE, vndf_jet_sinh, NULL},
+    {"cosh", cosh, NULL, VNDF_KINK_NONE, vndf_jet_cosh, NULL},
+    {"tanh", tanh, NULL, VNDF_KINK_NONE, vndf_jet_tanh, NULL},
+    {"erf", erf, NULL, VNDF_KINK_NONE, vndf_jet_erf, NULL},
+    {"erfc", erfc, NULL, VNDF_KINK_NONE, vndf_jet_erfc, NULL},
+    {"lgamma", lgamma, NULL, VNDF_KINK_NONE, vndf_jet_lgamma, NULL},
+    {"gamma", tgamma, NULL, VNDF_KINK_NONE, vndf_jet_gamma, NULL},
+    {"abs", fabs, NULL, VNDF_KINK_ZERO, vndf_jet_abs, NULL},
+    {"min", NULL, smaller, VNDF_KINK_EQUAL, NULL, vndf_jet_min},
+    {"max", NULL, larger, VNDF_KINK_EQUAL, NULL, vndf_jet_max},
+    {"pow", NULL, pow, VNDF_KINK_NONE, NULL, vndf_jet_pow},
+    {"step", step, NULL, VNDF_KINK_ZERO, vndf_jet_step, NULL},
 };
 
 const vndf_function *vndf_function_find(const char *name, size_t size)
@@ -71,8 +71,7 @@ static double combine(const vndf_instruction *instruction, double x, double y)
     }
 }
 
-double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables,
-                           double *below)
+double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables, double *below)
 {
     double stack[VNDF_EXPRESSION_STACK];
     size_t top = 0; /* number of operands */
@@ -98,5 +97,5 @@ double vndf_expression_run(const vndf_expression *expression, size_t count, cons
 void vndf_expression_free(vndf_expression *expression)
 {
     free(expression->program);
-    *expression = (vndf_expression){ NULL, 0 };
+    *expression = (vndf_expression){NULL, 0};
 }

@@ -17,7 +17,7 @@
 #include "vndf_build.h"
 
 enum {
-    VNDF_EXPRESSION_STACK = 320      /* operands that wait: at most 4 for each level of depth, see the grammar */
+    VNDF_EXPRESSION_STACK = 320 /* operands that wait: at most 4 for each level of depth, see the grammar */
 };
 
 /* Where a function is not smooth: nowhere that is found, where its argument changes sign, or where its

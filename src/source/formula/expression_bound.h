@@ -6,7 +6,6 @@
 #include "source/interval/jet.h"
 #include "source/source.h"
 
-
 /* r itself. */
 vndf_jet vndf_jet_of_slope(double low, double high);
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRID = 2048 };            /* grid points per call: 2% apart */
+enum { GRID = 2048 };                /* grid points per call: 2% apart */
 static const size_t work = 10000000; /* instructions that all scans together may cost: about 0.1 s */
 
 static const double grid_first = 1e-9, grid_last = 1e9;
@@ -96,7 +96,7 @@ int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_
         const vndf_instruction *at = &expression->program[i];
         if (at->operation != VNDF_CALL || at->function->kink == VNDF_KINK_NONE)
             continue;
-        call c = { expression, variables, i, at->function->kink, &done };
+        call c = {expression, variables, i, at->function->kink, &done};
         *count = scan(&c, points, breaks, *count, limit);
     }
     free(points);

@@ -80,12 +80,12 @@ static int emit(parser *p, vndf_instruction instruction, int change)
 
 static int emit_operation(parser *p, vndf_operation operation, int change)
 {
-    return emit(p, (vndf_instruction){ operation, 0, 0, NULL }, change);
+    return emit(p, (vndf_instruction){operation, 0, 0, NULL}, change);
 }
 
 static int emit_number(parser *p, double value)
 {
-    return emit(p, (vndf_instruction){ VNDF_PUSH_NUMBER, 0, value, NULL }, 1);
+    return emit(p, (vndf_instruction){VNDF_PUSH_NUMBER, 0, value, NULL}, 1);
 }
 
 static int enter(parser *p)
@@ -138,7 +138,7 @@ static int name(parser *p, size_t size)
     for (size_t i = 0; i < n->variable_count; i++)
         if (strlen(n->variables[i]) == size && memcmp(n->variables[i], text, size) == 0) {
             p->at += size;
-            return emit(p, (vndf_instruction){ VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL }, 1);
+            return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
         }
     for (size_t i = 0; i < n->parameter_count; i++)
         if (strlen(n->parameters[i].name) == size && memcmp(n->parameters[i].name, text, size) == 0) {
@@ -186,7 +186,7 @@ static int call(parser *p, size_t size, size_t open)
         return unexpected(p, "this function takes one argument");
     }
     return close_parenthesis(p, open) &&
-           emit(p, (vndf_instruction){ VNDF_CALL, 0, 0, function }, function->two ? -1 : 0);
+           emit(p, (vndf_instruction){VNDF_CALL, 0, 0, function}, function->two ? -1 : 0);
 }
 
 static int name_or_call(parser *p)
@@ -305,8 +305,8 @@ static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error)
 {
-    parser p = { text, text ? strlen(text) : 0, 0, 0, 0, names, expression, error };
-    *expression = (vndf_expression){ NULL, 0 };
+    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, expression, error};
+    *expression = (vndf_expression){NULL, 0};
     if (!text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");
     if (p.length > VNDF_LIMIT_EXPRESSION_LENGTH)

@@ -106,7 +106,7 @@ static void destroy(vndf_source *self)
 /* "--slope 'exp(-a*r)' --set a=0.3" */
 static char *describe(const char *option, const char *text, const vndf_names *names, vndf_error *error)
 {
-    vndf_text words = { NULL, 0, 0, 0 };
+    vndf_text words = {NULL, 0, 0, 0};
     vndf_text_add_word(&words, option);
     vndf_text_add_word(&words, text);
     for (size_t i = 0; i < names->parameter_count; i++) {
@@ -145,7 +145,7 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
                          vndf_error *error)
 {
     vndf_expression expression;
-    vndf_names names = { of->names, of->count, parameters, count };
+    vndf_names names = {of->names, of->count, parameters, count};
     if (vndf_expression_parse(text, &names, &expression, error) != VNDF_OK)
         return NULL;
     expression_source *source = calloc(1, sizeof *source);
@@ -157,8 +157,12 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base = (vndf_source){ .p22 = p22, .destroy = destroy, .description = description, .rebuildable = 1,
-                                  .operations = operations_of(&expression), .reach = reach };
+    source->base = (vndf_source){.p22 = p22,
+                                 .destroy = destroy,
+                                 .description = description,
+                                 .rebuildable = 1,
+                                 .operations = operations_of(&expression),
+                                 .reach = reach};
     source->form = of;
     source->expression = expression;
     if (find_breaks(source, of->variables))
@@ -171,13 +175,13 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
 vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                         vndf_error *error)
 {
-    static const form ndf = { "--ndf", { "c", "theta", "t" }, 3, ndf_variables, ndf_p22, ndf_jet };
+    static const form ndf = {"--ndf", {"c", "theta", "t"}, 3, ndf_variables, ndf_p22, ndf_jet};
     return make(&ndf, text, parameters, count, error);
 }
 
 vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                           vndf_error *error)
 {
-    static const form slope = { "--slope", { "r" }, 1, slope_variables, slope_p22, slope_jet };
+    static const form slope = {"--slope", {"r"}, 1, slope_variables, slope_p22, slope_jet};
     return make(&slope, text, parameters, count, error);
 }

@@ -4,8 +4,8 @@
 
 #include <float.h>
 
-static const double ROUNDING = 3e-16;  /* of + - * /: more than half a unit in the last place */
-static const double LIBRARY = 3e-15;   /* of functions of the C library: many units in the last place */
+static const double ROUNDING = 3e-16;    /* of + - * /: more than half a unit in the last place */
+static const double LIBRARY = 3e-15;     /* of functions of the C library: many units in the last place */
 static const double EXPONENTIAL = 1e-15; /* of an exponent that exp() is taken of */
 static const double LOG_2 = 0.69314718055994531;
 static const double PI = 3.14159265358979323846;
@@ -177,7 +177,7 @@ vndf_interval vndf_interval_product(vndf_interval a, vndf_interval b)
     double p = a.low.m * b.low.m, q = a.low.m * b.high.m, r = a.high.m * b.low.m, s = a.high.m * b.high.m;
     double low = least_of(least_of(p, q), least_of(r, s)), high = most_of(most_of(p, q), most_of(r, s));
     return p + q + r + s - (p + q + r + s) == 0 && widened_plainly(low, high, &product) ? product
-                                                                                       : product_of_wides(a, b);
+                                                                                        : product_of_wides(a, b);
 }
 
 static vndf_interval reciprocal(vndf_interval b)

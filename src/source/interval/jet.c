@@ -313,8 +313,9 @@ vndf_jet vndf_jet_lgamma(const vndf_jet *x)
     vndf_interval cross = vndf_interval_scaled(vndf_interval_product(x->at[1], x->at[2]), 2);
     y.at[1] = vndf_interval_product(t1, x->at[1]);
     y.at[2] = vndf_interval_sum(vndf_interval_product(t1, x->at[2]), vndf_interval_product(t2, square));
-    y.at[3] = vndf_interval_sum(vndf_interval_product(t1, x->at[3]),
-                                vndf_interval_sum(vndf_interval_product(t2, cross), vndf_interval_product(t3, cube)));
+    y.at[3] =
+        vndf_interval_sum(vndf_interval_product(t1, x->at[3]),
+                          vndf_interval_sum(vndf_interval_product(t2, cross), vndf_interval_product(t3, cube)));
     return y;
 }
 

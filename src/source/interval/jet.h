@@ -9,7 +9,7 @@
 enum { VNDF_JET = 3 }; /* the last coefficient */
 
 typedef struct vndf_jet {
-    int constant;                 /* coefficients beyond the value are 0 */
+    int constant; /* coefficients beyond the value are 0 */
     vndf_interval at[VNDF_JET + 1];
 } vndf_jet;
 

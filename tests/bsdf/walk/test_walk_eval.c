@@ -33,8 +33,7 @@ static vndf_vec3 propose(const vndf_walk *walk, const vndf_view *view, unsigned 
                        : walk_propose_event(walk, view, below, u[0], u[1]);
 }
 
-static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[],
-                      size_t hits[])
+static void eval_bins(const vndf_walk *walk, const vndf_view *view, size_t count, walk_mean bins[], size_t hits[])
 {
     unsigned long long state = 32;
     for (size_t i = 0; i < count; i++) {
@@ -72,8 +71,8 @@ static void test_bins(const vndf_walk *walk, const vndf_view *view, const char *
         compared += sampled[b].sum;
         if (!TEST(walk_agree(&sampled[b], &evaluated[b], 5.0, 0.0)))
             fprintf(stderr, "  %s, alpha %g %g, cos %g, eta %g, bin %d: sample %g, eval %g +- %g\n", name,
-                    view->alpha_x, view->alpha_y, (double)view->wi.z, walk->transmits ? (double)walk->eta : 0.0,
-                    b, walk_value(&sampled[b]), walk_value(&evaluated[b]), sqrt(walk_variance(&evaluated[b])));
+                    view->alpha_x, view->alpha_y, (double)view->wi.z, walk->transmits ? (double)walk->eta : 0.0, b,
+                    walk_value(&sampled[b]), walk_value(&evaluated[b]), sqrt(walk_variance(&evaluated[b])));
     }
     if (!TEST(compared > part * all))
         fprintf(stderr, "  %s, alpha %g %g, cos %g: compared %g\n", name, view->alpha_x, view->alpha_y,
@@ -85,7 +84,7 @@ typedef struct setting {
     double cosine, least;   /* and of the energy this part has to be compared */
 } setting;
 
-static const setting SETTINGS[] = {{1, 1, 0.95, 0.9}, {0.3f, 0.3f, 0.6, 0.9},   {1, 1, 0.3, 0.9},
+static const setting SETTINGS[] = {{1, 1, 0.95, 0.9},   {0.3f, 0.3f, 0.6, 0.9},  {1, 1, 0.3, 0.9},
                                    {0.1f, 1, 0.5, 0.8}, {0.5f, 0.5f, 1e-3, 0.8}, {0.05f, 0.05f, 0.8, 0.5}};
 enum { SETTING_COUNT = 6, WALK_COUNT = 3 };
 

@@ -58,7 +58,7 @@ typedef struct setting {
     double cosine, distance;
 } setting;
 
-static const setting SETTINGS[] = {{1, 1, 0.95, 0.42}, {0.3f, 0.3f, 0.6, 0.42},   {1, 1, 0.2, 0.42},
+static const setting SETTINGS[] = {{1, 1, 0.95, 0.42},   {0.3f, 0.3f, 0.6, 0.42},  {1, 1, 0.2, 0.42},
                                    {0.1f, 1, 0.5, 0.42}, {0.5f, 0.5f, 0.05, 0.42}, {0.1f, 0.1f, 0.9, 0.05}};
 enum { SETTING_COUNT = 6, WALK_COUNT = 4 };
 

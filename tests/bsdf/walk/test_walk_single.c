@@ -163,9 +163,9 @@ static void test_table(int subject)
 
 int main(void)
 {
-    static const model models[] = {{0, 0.3f, 0.3f, 0},    {0, 1, 1, 0},           {0, 0.4f, 1, 0},
-                                   {1, 0.5f, 0.5f, 0},    {0, 0.5f, 0.5f, 1.5f},  {1, 0.7f, 0.7f, 1.5f},
-                                   {0, 1, 1, 1.0f / 1.5f},   {0, 0.4f, 0.7f, 2.4f}};
+    static const model models[] = {{0, 0.3f, 0.3f, 0},     {0, 1, 1, 0},          {0, 0.4f, 1, 0},
+                                   {1, 0.5f, 0.5f, 0},     {0, 0.5f, 0.5f, 1.5f}, {1, 0.7f, 0.7f, 1.5f},
+                                   {0, 1, 1, 1.0f / 1.5f}, {0, 0.4f, 0.7f, 2.4f}};
     static const double cosines[] = {1.0, 0.5, 0.15};
     enum { MODELS = sizeof models / sizeof *models, COSINES = 3 };
     for (int i = 0; i < MODELS; i++)

@@ -18,10 +18,12 @@ enum { WALK_SUBJECTS = 17, WALK_FEW = 8 };
 
 static inline const char *walk_subject_name(int i)
 {
+    /* clang-format off */
     static const char *const names[WALK_SUBJECTS] = {
         "ggx", "beckmann", "student-t-1.8", "hazy", "epd-0.6", "abc-two-layer-gold", "sgd-nickel-g",
         "student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "student-t-6", "gtr-1.5", "example",
         "sgd-alum-bronze-r", "sgd-blue-metallic-paint-b", "sgd-red-fabric-r", "sgd-specular-black-phenolic-g"};
+    /* clang-format on */
     return names[i];
 }
 

@@ -10,8 +10,9 @@
 #include "sampler/bounded/bounded.h"
 #include "harness/test.h"
 
-static const float ALPHA[][2] = {{1e-6f, 1e-6f}, {1e-6f, 1e-2f}, {0.01f, 0.01f}, {0.2f, 0.2f}, {0.5f, 0.5f},
-                                 {1, 1}, {1, 0.1f}, {2, 2}, {3, 0.3f}, {10, 10}, {10, 1e-3f}, {1e-3f, 10}};
+static const float ALPHA[][2] = {{1e-6f, 1e-6f}, {1e-6f, 1e-2f}, {0.01f, 0.01f}, {0.2f, 0.2f},
+                                 {0.5f, 0.5f},   {1, 1},         {1, 0.1f},      {2, 2},
+                                 {3, 0.3f},      {10, 10},       {10, 1e-3f},    {1e-3f, 10}};
 static const double COSINE[] = {1, 0.999999999998, 0.866, 0.5, 0.0871557, 1.7e-3, 1e-7};
 
 static double reflected_z(vndf_vec3 wi, vndf_vec3 wm)
@@ -88,8 +89,8 @@ static void test_samples(const char *name, const vndf_distribution *d, unsigned 
             double mean = s.kept / count, part = (double)s.plain / count, spread = s.kept2 / count - mean * mean;
             double error2 = (mean * (1 - mean) + (spread > 0 ? spread : 0)) / count + 1e-10;
             if (!TEST(fabs(mean - part) <= 5 * sqrt(error2) + 1.0 / count))
-                fprintf(stderr, "  %s, alpha %g %g, cos %g: kept %g, upwards %g\n", name, ALPHA[a][0],
-                        ALPHA[a][1], COSINE[c], mean, part);
+                fprintf(stderr, "  %s, alpha %g %g, cos %g: kept %g, upwards %g\n", name, ALPHA[a][0], ALPHA[a][1],
+                        COSINE[c], mean, part);
         }
 }
 
@@ -164,7 +165,8 @@ static double largest_jump(const subject *s, int second, float fixed)
     for (int i = 0; i < HALVES; i++) {
         width /= 2;
         from = gap(s, second, fixed, from + width, from + 2 * width) > gap(s, second, fixed, from, from + width)
-                   ? from + width : from;
+                   ? from + width
+                   : from;
     }
     return gap(s, second, fixed, from, from + width);
 }

@@ -115,8 +115,8 @@ typedef struct setting {
     double cosine;
 } setting;
 
-static const setting SETTINGS[] = {{0.5f, 0.5f, 0.999}, {1, 1, 0.5}, {1, 1, 0.0872}, {0.8f, 0.2f, 0.3},
-                                   {2, 0.5f, 0.3}};
+static const setting SETTINGS[] = {
+    {0.5f, 0.5f, 0.999}, {1, 1, 0.5}, {1, 1, 0.0872}, {0.8f, 0.2f, 0.3}, {2, 0.5f, 0.3}};
 enum { SETTING_COUNT = 5, SUBJECT_COUNT = 4 };
 
 static void test_setting(const char *name, const vndf_distribution *d, setting is, unsigned long long seed)

@@ -263,8 +263,9 @@ static void test_subject(const char *name, const vndf_distribution *d)
     for (int a = 0; a < wanted; a++)
         for (int c = 0; c < 4; c++) {
             subject g = subject_of(d, alpha[a], cosine[c]);
-            double sum = d == vndf_ggx() ? integral_ggx(&g) : d == vndf_beckmann() ? integral_beckmann(&g)
-                                                                                  : integral_table(&g);
+            double sum = d == vndf_ggx()        ? integral_ggx(&g)
+                         : d == vndf_beckmann() ? integral_beckmann(&g)
+                                                : integral_table(&g);
             if (!TEST_NEAR(sum, 1, 1e-5))
                 fprintf(stderr, "  %s, alpha %g %g, cos %g\n", name, alpha[a][0], alpha[a][1], cosine[c]);
         }
@@ -278,8 +279,8 @@ int main(int arguments, char **argument)
     if (oracle_wanted(arguments, argument, 1, "beckmann"))
         test_subject("beckmann", vndf_beckmann());
     for (size_t i = 2; i < 4; i++) {
-        const char *path = i == 2 ? VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf"
-                                  : VNDF_SOURCE_DIR "/tables/epd-0.6.vndf";
+        const char *path =
+            i == 2 ? VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf" : VNDF_SOURCE_DIR "/tables/epd-0.6.vndf";
         if (!oracle_wanted(arguments, argument, i, path))
             continue;
         vndf_distribution *table = vndf_load(path, &error);

@@ -55,8 +55,8 @@ static long double log_visible(const closed_form *form, const vndf_view *view, v
     long double ax = view->alpha_x, ay = view->alpha_y, x = view->wi.x, y = view->wi.y, z = view->wi.z;
     long double facing = x * wm.x + y * wm.y + z * wm.z, across = hypotl(ax * x, ay * y);
     long double sx = wm.x / (ax * wm.z), sy = wm.y / (ay * wm.z);
-    return logl(facing) + form->log_ndf(sx * sx + sy * sy, wm.z) - logl(ax * ay) - logl(across)
-           - form->log_area(z / across);
+    return logl(facing) + form->log_ndf(sx * sx + sy * sy, wm.z) - logl(ax * ay) - logl(across) -
+           form->log_area(z / across);
 }
 
 static vndf_vec3 direction_at(double theta, double phi)
@@ -137,7 +137,8 @@ static void density_is_right_where_the_area_underflows(const closed_form *form)
         {109.17597336184808, 260.50097223434693, 0.0174253341, 0.0372402631},
         {109.17597336184808, 260.50097223434693, 0.00174253341, 0.00372402631},
         {150.0, 10.0, 0.02, 0.01},
-        {179.0, 45.0, 1.0, 0.5}, {179.99, 45.0, 3.0, 5.0},
+        {179.0, 45.0, 1.0, 0.5},
+        {179.99, 45.0, 3.0, 5.0},
     };
     unsigned long long state = 4;
     findings found = {0.0, 0, 0};
@@ -203,8 +204,8 @@ static void hard_input_has_finite_results(const closed_form *form)
 
 static double distance(vndf_vec3 a, vndf_vec3 b)
 {
-    return sqrt(((double)a.x - b.x) * ((double)a.x - b.x) + ((double)a.y - b.y) * ((double)a.y - b.y)
-                + ((double)a.z - b.z) * ((double)a.z - b.z));
+    return sqrt(((double)a.x - b.x) * ((double)a.x - b.x) + ((double)a.y - b.y) * ((double)a.y - b.y) +
+                ((double)a.z - b.z) * ((double)a.z - b.z));
 }
 
 /* A step of u2 moves normals of the far tail by more than 1e-5; there the numbers themselves have to come back. */
@@ -214,8 +215,8 @@ static int leads_back(const vndf_view *view, float u1, float u2)
     vndf_vec3 wm = vndf_sample(view, u1, u2, NULL), back;
     vndf_invert(view, wm, &v1, &v2);
     back = vndf_sample(view, v1, v2, NULL);
-    return distance(wm, back) <= 1e-5
-           || (fabs((double)v1 - u1) <= 4.0 * 0x1p-24 && fabs((double)v2 - u2) <= 4.0 * 0x1p-24);
+    return distance(wm, back) <= 1e-5 ||
+           (fabs((double)v1 - u1) <= 4.0 * 0x1p-24 && fabs((double)v2 - u2) <= 4.0 * 0x1p-24);
 }
 
 /* Only where the projected area is above 1e-12: below, all normals of a Beckmann lie within the rounding of

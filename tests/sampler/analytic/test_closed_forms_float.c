@@ -66,8 +66,8 @@ static void beckmann_meets_its_first_number(void)
         for (int i = 0; i < 1300; i++) {
             double end = pow(10.0, -0.3 - i % 100 * 0.06);
             float u = (float)(i < 100 ? end : i < 200 ? 1.0 - end : (i - 199.5) / 1100.0);
-            vndf_beckmann_incidence w = vndf_beckmann_aim(1.0f, 1.0f, (float)(1.0 / hypot(1.0, k)), 0.0f,
-                                                          (float)(k / hypot(1.0, k)));
+            vndf_beckmann_incidence w =
+                vndf_beckmann_aim(1.0f, 1.0f, (float)(1.0 / hypot(1.0, k)), 0.0f, (float)(k / hypot(1.0, k)));
             vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u), u);
             all++;
             if (!is_plain(&w, &at, u))
@@ -101,8 +101,8 @@ static void half_azimuth_is_accurate(void)
         float u = (float)i * 0x1p-20f;
         vndf_half_azimuth half = vndf_half_azimuth_at(u);
         worst = fmax(worst, fabs(atan2((double)half.sine, (double)half.cosine) - pi * (double)u));
-        TEST_RELATIVE((double)half.square, (double)half.sine * (double)half.sine +
-                      (double)half.cosine * (double)half.cosine, 2e-7);
+        TEST_RELATIVE((double)half.square,
+                      (double)half.sine * (double)half.sine + (double)half.cosine * (double)half.cosine, 2e-7);
     }
     fprintf(stderr, "half azimuth: error %.2g\n", worst);
     TEST(worst < 2e-7);

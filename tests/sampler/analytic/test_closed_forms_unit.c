@@ -203,8 +203,8 @@ static void moments_agree(const closed_form *form)
 /* ---- both: hard directions and numbers ------------------------------------------------------------- */
 
 static const float hard_uniforms[] = {
-    0.0f, 1e-45f, 1.17549435e-38f, 1e-20f, 0x1p-24f, 1e-3f, 0.25f, 0.49999997f, 0.5f, 0.50000006f, 0.75f, 0.999f,
-    1.0f - 0x1p-23f, 1.0f - 0x1p-24f, 1.0f,
+    0.0f, 1e-45f,      1.17549435e-38f, 1e-20f, 0x1p-24f,        1e-3f,           0.25f, 0.49999997f,
+    0.5f, 0.50000006f, 0.75f,           0.999f, 1.0f - 0x1p-23f, 1.0f - 0x1p-24f, 1.0f,
 };
 enum { HARD_UNIFORMS = sizeof hard_uniforms / sizeof *hard_uniforms, HARD_DIRECTIONS = 48 };
 
@@ -213,8 +213,8 @@ static direction hard_direction(int i)
 {
     static const double angles[] = {0.0, 1e-7, 1e-4, 0.01, 1.0, 30.0, 45.0, 60.0, 85.0, 89.0, 89.9, 89.9999};
     static const direction others[] = {
-        {1.0f, 0.0f}, {1.0f, 1e-7f}, {1.0f, 1e-20f}, {1.0f, 1e-40f}, {1.0f, 0x1p-24f}, {1e-7f, 1.0f},
-        {1e-20f, 1.0f}, {1e-30f, 1.0f}, {1e-40f, 1.0f}, {0.6f, 0.8f}, {0.8f, 0.6f}, {0.1f, 0.99498744f},
+        {1.0f, 0.0f},   {1.0f, 1e-7f},  {1.0f, 1e-20f}, {1.0f, 1e-40f}, {1.0f, 0x1p-24f}, {1e-7f, 1.0f},
+        {1e-20f, 1.0f}, {1e-30f, 1.0f}, {1e-40f, 1.0f}, {0.6f, 0.8f},   {0.8f, 0.6f},     {0.1f, 0.99498744f},
     };
     direction w = i / 2 < 12 ? direction_at(angles[i / 2]) : others[i / 2 - 12];
     return i % 2 ? mirror(w) : w;
@@ -223,9 +223,8 @@ static direction hard_direction(int i)
 static int is_visible_normal(direction w, vndf_vec3 n)
 {
     vndf_normal m = unit(n); /* NaN if n is zero, infinite or NaN */
-    return fabs(m.x * m.x + m.y * m.y + m.z * m.z - 1.0) < 1e-9 && n.z >= 0.0f
-           && (double)w.s * n.x + (double)w.c * n.z >= 0.0
-           && w.s * n.x + w.c * n.z >= 0.0f;
+    return fabs(m.x * m.x + m.y * m.y + m.z * m.z - 1.0) < 1e-9 && n.z >= 0.0f &&
+           (double)w.s * n.x + (double)w.c * n.z >= 0.0 && w.s * n.x + w.c * n.z >= 0.0f;
 }
 
 static void check_sample(const closed_form *form, direction w, float u1, float u2)

@@ -11,8 +11,8 @@ typedef struct setting {
     double theta, phi;
 } setting;
 
-static const setting SETTINGS[] = {{1, 1, 30, 0}, {0.05f, 0.4f, 80, 55}, {1e-3f, 1, 60, 0},
-                                   {0.5f, 0.5f, 120, 200}};
+static const setting SETTINGS[] = {
+    {1, 1, 30, 0}, {0.05f, 0.4f, 80, 55}, {1e-3f, 1, 60, 0}, {0.5f, 0.5f, 120, 200}};
 enum { SETTING_COUNT = 4, SUBJECT_COUNT = 5 };
 
 static void test_subject(const vndf_distribution *d, const char *name, uint64_t seed)
@@ -25,7 +25,7 @@ static void test_subject(const vndf_distribution *d, const char *name, uint64_t 
         vndf_vec3 wi = oracle_direction(SETTINGS[i].theta, SETTINGS[i].phi);
         TEST(chi_square_test(&surface, wi, samples, seed + i, &result));
         int good = TEST(result.p > level) & TEST(result.unclaimed == 0) &
-            TEST(result.blind || fabs(result.mass - 1) < 2e-6);
+                   TEST(result.blind || fabs(result.mass - 1) < 2e-6);
         if (!good)
             fprintf(stderr, "  %s, alpha %g %g, theta %g: p %.3g, mass %.9g, %lu unclaimed\n", name,
                     surface.alpha_x, surface.alpha_y, SETTINGS[i].theta, result.p, result.mass,

@@ -15,10 +15,9 @@ static int is_zero(const vndf_surface *surface, vndf_vec3 wi)
     vndf_vec3 wm = vndf_sample(&view, 0.3f, 0.7f, &pdf), again = vndf_sample(&view, 0.3f, 0.7f, NULL);
     vndf_invert(&view, tilted, &u1, &u2);
     return wm.x == 0 && wm.y == 0 && wm.z == 1 && again.z == 1 && pdf == 0 && u1 == 0 && u2 == 0 &&
-        vndf_pdf(&view, tilted) == 0 &&
-           vndf_visible(&view, tilted) == 0 && vndf_projected_area(surface, wi) == 0 &&
-               vndf_lambda(surface, wi) == 0 &&
-           vndf_g1(surface, wi) == 0 && vndf_g2(surface, wi, up, VNDF_G2_SEPARABLE) == 0 &&
+           vndf_pdf(&view, tilted) == 0 && vndf_visible(&view, tilted) == 0 &&
+           vndf_projected_area(surface, wi) == 0 && vndf_lambda(surface, wi) == 0 && vndf_g1(surface, wi) == 0 &&
+           vndf_g2(surface, wi, up, VNDF_G2_SEPARABLE) == 0 &&
            vndf_g2(surface, up, wi, VNDF_G2_HEIGHT_CORRELATED) == 0;
 }
 
@@ -57,7 +56,7 @@ static void test_normals(const vndf_distribution *d)
 {
     vndf_surface surface = {d, 0.5f, 0.2f};
     vndf_vec3 wi = {0.6f, 0, 0.8f}, below = {0, 0.6f, -0.8f}, nan = {NAN, 0, 1}, away = {-0.8f, 0, 0.6f},
-        zero = {0, 0, 0};
+              zero = {0, 0, 0};
     vndf_view view = vndf_view_from(&surface, wi);
     const vndf_vec3 all[] = {below, nan, zero};
     float u1 = -1, u2 = -1;

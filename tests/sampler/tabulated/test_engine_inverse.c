@@ -94,8 +94,7 @@ static int test_point(const frame *f, float u1, float u2)
     good &= TEST(moved1 <= 0x1p-20 * (1 + j.inverse1)) & TEST(moved2 <= 0x1p-20 * (1 + j.inverse2));
     if (!good)
         fprintf(stderr, "  u %.9g %.9g -> %.9g %.9g, normal moved %.3g, rates %.3g %.3g %.3g\n", u1, u2, v1, v2,
-                moved,
-                j.map, j.inverse1, j.inverse2);
+                moved, j.map, j.inverse1, j.inverse2);
     return good;
 }
 
@@ -205,8 +204,8 @@ static int test_line(const frame *f, int which, double fixed)
     double left = left_of_step(f, which, where - 1.0 / STEPS, where, fixed);
     int good = TEST(forward) & TEST(left <= 1e-3);
     if (!good)
-        fprintf(stderr, "  along u%d, the other %g: step %.3g at %g, %.3g of it left\n", which + 1, fixed,
-                largest, where, left);
+        fprintf(stderr, "  along u%d, the other %g: step %.3g at %g, %.3g of it left\n", which + 1, fixed, largest,
+                where, left);
     return good;
 }
 
@@ -229,8 +228,8 @@ static void test_distribution(const vndf_distribution *d, const char *name)
             frame f = frame_of(d, a, THETAS[i], 33);
             if (f.view.area > 1e-10f && !test_frame(&f, &state))
                 fprintf(stderr, "  %s (%lu bytes), alpha %g %g, theta %g\n", name,
-                        (unsigned long)vndf_distribution_info(d).bytes,
-                        f.surface.alpha_x, f.surface.alpha_y, THETAS[i]);
+                        (unsigned long)vndf_distribution_info(d).bytes, f.surface.alpha_x, f.surface.alpha_y,
+                        THETAS[i]);
         }
 }
 

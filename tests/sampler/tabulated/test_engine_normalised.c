@@ -46,7 +46,7 @@ static double pdf_per_slope(const integral *g, double r, double cos_a, double si
 {
     double ax = g->surface.alpha_x, ay = g->surface.alpha_y;
     double x = ax * r * (g->cos_phi * cos_a - g->sin_phi * sin_a),
-        y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
+           y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
     double z = 1 / sqrt(1 + x * x + y * y);
     vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
     return vndf_pdf(&g->view, wm) * ax * ay * z * z * z;
@@ -73,8 +73,8 @@ static double slope_of(const integral *g, uint32_t j)
 
 static void add_azimuth(integral *g, double a, double weight)
 {
-    double cos_a = cos(a), sin_a = g->count++ % 2 ? sin(a) : -sin(a), k = g->s * cos_a, cut = g->c * k < 0 ?
-        -g->c / k : 0;
+    double cos_a = cos(a), sin_a = g->count++ % 2 ? sin(a) : -sin(a), k = g->s * cos_a,
+           cut = g->c * k < 0 ? -g->c / k : 0;
     for (uint32_t j = 0; j < g->table->radial_count; j++) {
         double r0 = slope_of(g, j), r1 = slope_of(g, j + 1);
         if (g->c > 0 && k < 0)
@@ -112,7 +112,10 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
     const vndf_wedge *side = vndf_wedge_of(g.table, (double)wi.z);
     vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(g.view.s, g.view.c));
-    g.parts = g.table->radial_count < 16 ? 24 : g.table->radial_count < 64 ? 6 : g.table->radial_count < 128 ? 2 : 1;
+    g.parts = g.table->radial_count < 16    ? 24
+              : g.table->radial_count < 64  ? 6
+              : g.table->radial_count < 128 ? 2
+                                            : 1;
     g.s = hypot(x, y);
     g.c = wi.z;
     if (g.s > 0) {

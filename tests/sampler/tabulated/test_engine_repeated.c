@@ -114,10 +114,12 @@ typedef struct subject {
     size_t bytes;
 } subject;
 
+/* clang-format off */
 static const subject subjects[] = {
     {"ggx", 0}, {"beckmann", 0}, {"(1+r*r)^-2.5", 16384}, {"(1+r*r)^-1.55", 2048}, {"step(1-r)", 4096},
     {"exp(-r^8)", 4096}, {"exp(-((r-1)/0.1)^2)", 16384}, {"exp(-r)*(1-0.85*step(r-0.8))", 65536},
     {"r^-1.75*exp(-r)", 4096}, {"exp(-1e9*r)", 2048}};
+/* clang-format on */
 
 static void test_table(const subject *s)
 {

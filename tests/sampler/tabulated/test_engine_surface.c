@@ -37,7 +37,7 @@ static void test_area(const subject *t, const vndf_surface *surface)
     for (double theta = 0; theta <= 125; theta += oracle_quick() ? 25 : 5) {
         vndf_vec3 wi = oracle_direction(theta, 33), back = {-wi.x, -wi.y, -wi.z};
         double area = oracle_surface_area(t->o, surface, wi),
-            up = (double)wi.z / sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + (double)wi.z * wi.z);
+               up = (double)wi.z / sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + (double)wi.z * wi.z);
         if (area < 1e-10 * oracle_surface_area(t->o, surface, oracle_direction(90, 33)))
             continue;
         double got = vndf_projected_area(surface, wi), lambda = vndf_lambda(surface, wi);
@@ -65,7 +65,7 @@ static void test_g2(const vndf_surface *surface)
         double u = (double)test_uniform(&state), v = (double)test_uniform(&state);
         vndf_vec3 wo = oracle_direction(90 * sqrt(u), 360 * v);
         float apart = vndf_g2(surface, wi, wo, VNDF_G2_SEPARABLE),
-            joint = vndf_g2(surface, wi, wo, VNDF_G2_HEIGHT_CORRELATED);
+              joint = vndf_g2(surface, wi, wo, VNDF_G2_HEIGHT_CORRELATED);
         float gi = vndf_g1(surface, wi), go = vndf_g1(surface, wo);
         double lambdas = (double)vndf_lambda(surface, wi) + (double)vndf_lambda(surface, wo);
         TEST(apart >= 0 && apart <= 1 && joint >= 0 && joint <= 1 && gi >= 0 && gi <= 1);
@@ -89,7 +89,7 @@ static void test_ndf(const subject *t, const vndf_surface *surface)
         double r = scale * 3 * test_uniform_double(&state), a = 2 * PI * test_uniform_double(&state);
         float x = (float)(ax * r * cos(a)), y = (float)(ay * r * sin(a));
         double z = 1 / sqrt(1 + (double)x * x + (double)y * y),
-            truth = oracle_p22(t->o, hypot(x / ax, y / ay)) / (ax * ay);
+               truth = oracle_p22(t->o, hypot(x / ax, y / ay)) / (ax * ay);
         double most = oracle_p22(t->o, scale) / (ax * ay);
         vndf_vec3 wm = {(float)(-x * z), (float)(-y * z), (float)z};
         double got = vndf_p22(surface, x, y);
@@ -157,9 +157,11 @@ int main(int arguments, char **argument)
     oracle ggx = oracle_get(ORACLE_GGX), beckmann = oracle_get(ORACLE_BECKMANN), disc = oracle_get(ORACLE_DISC);
     vndf_distribution *tables[] = {oracle_build(&ggx, 0, NULL), oracle_build(&beckmann, 0, NULL),
                                    oracle_build(&disc, 0, NULL)};
-    subject subjects[] = {{&ggx, vndf_ggx(), 1e-6, 1e-6}, {&beckmann, vndf_beckmann(), 1e-6, 2e-6},
+    subject subjects[] = {{&ggx, vndf_ggx(), 1e-6, 1e-6},
+                          {&beckmann, vndf_beckmann(), 1e-6, 2e-6},
                           {&ggx, tables[0], 2e-6, 2e-4},
-                          {&beckmann, tables[1], 2e-6, 2e-4}, {&disc, tables[2], 2e-6, 2e-4}};
+                          {&beckmann, tables[1], 2e-6, 2e-4},
+                          {&disc, tables[2], 2e-6, 2e-4}};
     for (int i = 0; i < 5; i++)
         if (oracle_wanted(arguments, argument, (size_t)i, NULL))
             test_subject(&subjects[i]);

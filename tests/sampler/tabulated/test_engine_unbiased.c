@@ -24,9 +24,8 @@ static void test_table(const oracle *o, const vndf_distribution *table, const or
     for (int i = 0; i < ORACLE_FUNCTIONS; i++)
         if (!TEST_NEAR(average[i].mean, expected->truth[i], 4 * average[i].error + 2e-6))
             fprintf(stderr, "  %s, %lu bytes, alpha %g %g, wi.z %g, function %d: standard error %.3g\n",
-                    oracle_name(o),
-                    (unsigned long)vndf_distribution_info(table).bytes, expected->alpha_x, expected->alpha_y,
-                    expected->wi.z, i, average[i].error);
+                    oracle_name(o), (unsigned long)vndf_distribution_info(table).bytes, expected->alpha_x,
+                    expected->alpha_y, expected->wi.z, i, average[i].error);
 }
 
 static void test_distribution(const oracle *o, int sizes)

@@ -11,7 +11,7 @@
 #include "bench/effects/effects.h"
 
 typedef struct caps_hit {
-    vndf_vec3 wi, w;  /* w: stretched, of unit length */
+    vndf_vec3 wi, w;           /* w: stretched, of unit length */
     float ax, ay, area, scale; /* scale: 1/(pi ax ay) */
 } caps_hit;
 
@@ -24,7 +24,11 @@ static inline float stretched(float ax, float ay, vndf_vec3 w)
 static inline caps_hit hit_from(const vndf_surface *s, vndf_vec3 wi)
 {
     float ax = s->alpha_x, ay = s->alpha_y, length = stretched(ax, ay, wi), per = 1.0f / length;
-    caps_hit hit = {wi, {ax * wi.x * per, ay * wi.y * per, wi.z * per}, ax, ay, 0.5f * (wi.z + length),
+    caps_hit hit = {wi,
+                    {ax * wi.x * per, ay * wi.y * per, wi.z * per},
+                    ax,
+                    ay,
+                    0.5f * (wi.z + length),
                     1.0f / (method_pi * ax * ay)};
     return hit;
 }

@@ -11,15 +11,16 @@
 void effects_print_csv(FILE *file, const effects_list *list)
 {
     fputs("set,distribution,alpha_x,alpha_y,directions_theta,weight_theta,wrong,ns,ns_low,ns_high,to_bare,"
-          "shared_ns,eval_ns,pdf_ns,instructions,mean,noise,lost,max_weight,variance,efficiency\n", file);
+          "shared_ns,eval_ns,pdf_ns,instructions,mean,noise,lost,max_weight,variance,efficiency\n",
+          file);
     for (size_t i = 0; i < list->count; i++) {
         const effects_entry *e = &list->entry[i];
         const effects_row *r = &e->row;
         const vndf_surface *s = &e->subject.surface;
         const double given[] = {(double)s->alpha_x, (double)s->alpha_y, e->theta, e->worth_theta, r->wrong};
-        const double found[] = {r->ns, r->ns_low, r->ns_high, r->to_bare, r->shared_ns, r->eval_ns, r->pdf_ns,
-                                r->instructions, r->mean, r->noise, r->lost, r->max_weight, r->variance,
-                                r->efficiency};
+        const double found[] = {r->ns,      r->ns_low,     r->ns_high,      r->to_bare,   r->shared_ns,
+                                r->eval_ns, r->pdf_ns,     r->instructions, r->mean,      r->noise,
+                                r->lost,    r->max_weight, r->variance,     r->efficiency};
         if (!e->shown)
             continue;
         csv_text(file, e->subject.set->name);
@@ -94,8 +95,8 @@ static void put_worth(FILE *file, const effects_row *r)
     cell(file, "%.2f", r ? r->efficiency : NAN);
 }
 
-static void put_cost_row(FILE *file, const effects_list *list, const char *set,
-                         const char *const *of, size_t count)
+static void put_cost_row(FILE *file, const effects_list *list, const char *set, const char *const *of,
+                         size_t count)
 {
     const effects_entry *last = NULL;
     size_t found = 0;
@@ -162,7 +163,8 @@ static void print_variances(FILE *file, const effects_list *list)
             continue;
         if (!begun)
             fputs("| distribution | alpha | theta | lost: visible | bounded | variance: visible | bounded |"
-                  " ns: visible | bounded | eff |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n", file);
+                  " ns: visible | bounded | eff |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+                  file);
         begun = 1;
         put_pair(file, e);
     }

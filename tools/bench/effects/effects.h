@@ -24,10 +24,10 @@
 /* ---- sets --------------------------------------------------------------------------------------- */
 
 typedef enum effects_kind {
-    EFFECTS_LIBRARY,   /* vndf_bsdf_at */
-    EFFECTS_ROUGH,     /* vndf_bsdf_rough, a roughness for each hit */
-    EFFECTS_BY_HAND,   /* bare reflection written over vndf.h */
-    EFFECTS_BY_CAPS,   /* bare reflection of GGX written without the library */
+    EFFECTS_LIBRARY, /* vndf_bsdf_at */
+    EFFECTS_ROUGH,   /* vndf_bsdf_rough, a roughness for each hit */
+    EFFECTS_BY_HAND, /* bare reflection written over vndf.h */
+    EFFECTS_BY_CAPS, /* bare reflection of GGX written without the library */
     EFFECTS_KINDS
 } effects_kind;
 
@@ -35,9 +35,9 @@ typedef struct effects_set {
     const char *name;
     effects_kind kind;
     vndf_effects effects;
-    int stretched;        /* alpha_y is a quarter of alpha_x */
-    int inside;           /* wi comes from below */
-    const char *visible;  /* the set with visible normals that efficiency is compared with; NULL: none */
+    int stretched;       /* alpha_y is a quarter of alpha_x */
+    int inside;          /* wi comes from below */
+    const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effects_set;
 
 extern const effects_set effects_sets[];
@@ -71,7 +71,7 @@ typedef struct effects_subject {
 typedef struct effects_job {
     const effects_subject *of;
     const effects_input *in;
-    vndf_scattered *out;   /* eval leaves its values in weight, pdf in density */
+    vndf_scattered *out; /* eval leaves its values in weight, pdf in density */
     size_t count;
 } effects_job;
 
@@ -115,15 +115,15 @@ effects_job effects_job_of(effects_block *block, const effects_subject *subject)
 
 /* NaN is what does not apply or was not measured. */
 typedef struct effects_row {
-    int wrong;                  /* 1: its results failed verification, so nothing was timed */
-    double ns, ns_low, ns_high; /* vndf_bsdf_at and vndf_bsdf_sample: median and quartiles of the turns */
-    double to_bare;             /* ns more than bare reflection: median over the turns of the difference */
+    int wrong;                         /* 1: its results failed verification, so nothing was timed */
+    double ns, ns_low, ns_high;        /* vndf_bsdf_at and vndf_bsdf_sample: median and quartiles of the turns */
+    double to_bare;                    /* ns more than bare reflection: median over the turns of the difference */
     double shared_ns, eval_ns, pdf_ns; /* where EFFECTS_SHARE samples, values or densities share a hit */
-    double instructions;        /* for a sample, with its hit */
-    double mean, noise;         /* of the weight, of the first wavelength, and its standard error */
-    double lost;                /* part of samples */
+    double instructions;               /* for a sample, with its hit */
+    double mean, noise;                /* of the weight, of the first wavelength, and its standard error */
+    double lost;                       /* part of samples */
     double max_weight, variance;
-    double efficiency;          /* 1/(variance ns) over that of visible normals */
+    double efficiency; /* 1/(variance ns) over that of visible normals */
 } effects_row;
 
 enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 48 * EFFECTS_DISTRIBUTIONS_MAX };
@@ -131,11 +131,11 @@ enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 4
 typedef struct effects_entry {
     effects_subject subject;
     const char *distribution;
-    double theta;               /* of the directions that are timed; NaN: all over the hemisphere */
-    double worth_theta;         /* of the direction that variance is measured for */
-    int of_variance;            /* belongs to the second table */
-    int shown, needed;          /* what is not shown may be needed as a yardstick */
-    int bare, visible;          /* entries that to_bare and efficiency refer to, or EFFECTS_NONE */
+    double theta;       /* of the directions that are timed; NaN: all over the hemisphere */
+    double worth_theta; /* of the direction that variance is measured for */
+    int of_variance;    /* belongs to the second table */
+    int shown, needed;  /* what is not shown may be needed as a yardstick */
+    int bare, visible;  /* entries that to_bare and efficiency refer to, or EFFECTS_NONE */
     effects_row row;
 } effects_entry;
 
@@ -146,7 +146,7 @@ typedef struct effects_list {
 
 typedef struct effects_named {
     const char *name;
-    const char *path;           /* what another process opens: "ggx", "beckmann", a file; NULL: there is none */
+    const char *path; /* what another process opens: "ggx", "beckmann", a file; NULL: there is none */
     const vndf_distribution *distribution;
 } effects_named;
 
@@ -154,8 +154,8 @@ typedef struct effects_plan {
     effects_named of[EFFECTS_DISTRIBUTIONS_MAX];
     size_t count;
     float alpha_x, alpha_y;
-    double theta;               /* of the direction that variance is measured for */
-    const char *only;           /* NULL, or a part of the name of a set or distribution, or "variance" */
+    double theta;     /* of the direction that variance is measured for */
+    const char *only; /* NULL, or a part of the name of a set or distribution, or "variance" */
     double seconds;
     int (*go_on)(double done, const char *what, void *user); /* 0 stops */
     void *user;

@@ -28,8 +28,8 @@ static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vnd
 }
 
 /* The view is not part of a struct with wi and the area: to be copied there it would be waited for. */
-static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area,
-                          const float u[3], vndf_scattered *out, hand_kind kind)
+static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area, const float u[3],
+                          vndf_scattered *out, hand_kind kind)
 {
     float pdf, quotient = area;
     vndf_vec3 wm = vndf_sample(view, u[0], u[1], &pdf);

@@ -75,15 +75,27 @@ static double collect(char *const argv[], int *failed)
 
 typedef struct worker {
     char program[PATH_LENGTH];
-    const char *path;   /* of the distribution */
+    const char *path; /* of the distribution */
     char alpha[WORD];
 } worker;
 
 static double count_passes(const worker *w, const effects_set *set, const char *passes, int *failed)
 {
-    const char *argv[ARGUMENTS] = {"valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", w->program,
-                                   "bench", "effects", "--run", set->name, "--passes", passes,
-                                   "--distribution", w->path, "--alpha", w->alpha, NULL};
+    const char *argv[ARGUMENTS] = {"valgrind",
+                                   "--tool=callgrind",
+                                   "--callgrind-out-file=/dev/null",
+                                   w->program,
+                                   "bench",
+                                   "effects",
+                                   "--run",
+                                   set->name,
+                                   "--passes",
+                                   passes,
+                                   "--distribution",
+                                   w->path,
+                                   "--alpha",
+                                   w->alpha,
+                                   NULL};
     return collect((char *const *)argv, failed);
 }
 

@@ -136,8 +136,10 @@ static vndf_status make(effects_list *list, const effects_plan *plan, vndf_error
     }
     if (mark(list, plan->only))
         return VNDF_OK;
-    snprintf(error->message, sizeof error->message, "no set of effects or distribution has '%s' in its name, and "
-             "it is no part of '%s'", plan->only, variance_name);
+    snprintf(error->message, sizeof error->message,
+             "no set of effects or distribution has '%s' in its name, and "
+             "it is no part of '%s'",
+             plan->only, variance_name);
     return VNDF_ERROR_ARGUMENT;
 }
 

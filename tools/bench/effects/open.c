@@ -20,14 +20,16 @@ static int save_built(effects_opened *o, const char *command)
 {
     vndf_error error = {VNDF_OK, ""};
     const char *folder = getenv("TMPDIR");
-    int length = snprintf(o->path, sizeof o->path, "%s/vndf-effects-XXXXXX", folder && *folder ? folder : P_tmpdir);
+    int length =
+        snprintf(o->path, sizeof o->path, "%s/vndf-effects-XXXXXX", folder && *folder ? folder : P_tmpdir);
     int file = length > 0 && (size_t)length < sizeof o->path ? mkstemp(o->path) : -1;
     if (file >= 0 && close(file) == 0 && vndf_save(o->built, o->path, &error) == VNDF_OK)
         return 1;
     if (file >= 0)
         remove(o->path);
     o->path[0] = '\0';
-    complain(command, "no temporary table for valgrind: %s", file < 0 ? "no file can be made in the folder of TMPDIR" : error.message);
+    complain(command, "no temporary table for valgrind: %s",
+             file < 0 ? "no file can be made in the folder of TMPDIR" : error.message);
     return 0;
 }
 

@@ -12,12 +12,12 @@ typedef struct cells {
     char of[COLUMNS][CELL];
 } cells;
 
-static const char *const cost_headings[COLUMNS] = {"ns", "spread", "to bare", "shared", "eval", "pdf", "instr",
-                                                   "mean", "lost", "max", "variance", "eff"};
-static const char *const variance_headings[COLUMNS] = {"alpha", "theta", "mean", "lost", "lost", "variance",
-                                                       "variance", "ratio", "ns", "ns", "eff", "max"};
-static const char *const variance_of[COLUMNS] = {"", "", "", "visible", "bounded", "visible",
-                                                 "bounded", "", "visible", "bounded", "", "bounded"};
+static const char *const cost_headings[COLUMNS] = {"ns",    "spread", "to bare", "shared", "eval",     "pdf",
+                                                   "instr", "mean",   "lost",    "max",    "variance", "eff"};
+static const char *const variance_headings[COLUMNS] = {"alpha",    "theta", "mean", "lost", "lost", "variance",
+                                                       "variance", "ratio", "ns",   "ns",   "eff",  "max"};
+static const char *const variance_of[COLUMNS] = {"",        "", "",        "visible", "bounded", "visible",
+                                                 "bounded", "", "visible", "bounded", "",        "bounded"};
 
 static const char cost_legend[] =
     "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies\n"

@@ -31,10 +31,12 @@ static inline float ladder(const float *coefficient, int count, float w)
 
 static inline float erf_inverse(float x)
 {
-    static const float middle[] = {2.81022636e-08f, 3.43273939e-07f, -3.5233877e-06f, -4.39150654e-06f,
-                                   0.00021858087f,  -0.00125372503f, -0.00417768164f, 0.246640727f, 1.50140941f};
-    static const float tail[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f, -0.00367342844f,
-                                 0.00573950773f,   -0.0076224613f,  0.00943887047f, 1.00167406f, 2.83297682f};
+    static const float middle[] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
+                                   -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
+                                   -0.00417768164f,  0.246640727f,    1.50140941f};
+    static const float tail[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
+                                 -0.00367342844f,  0.00573950773f,  -0.0076224613f,
+                                 0.00943887047f,   1.00167406f,     2.83297682f};
     float w = -logf((1.0f - x) * (1.0f + x));
     return x * (w < 5.0f ? ladder(middle, 9, w - 2.5f) : ladder(tail, 9, sqrtf(w) - 3.0f));
 }
@@ -113,6 +115,10 @@ static void shared(const method *m, const method_inputs *in, const method_output
 
 method method_beckmann_newton(void)
 {
-    return (method){.name = "Newton on erf (2014)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                    .one = one, .each = each, .shared = shared};
+    return (method){.name = "Newton on erf (2014)",
+                    .instructions = "scalar",
+                    .kind = BENCH_PUBLISHED,
+                    .one = one,
+                    .each = each,
+                    .shared = shared};
 }

@@ -61,6 +61,10 @@ static void shared(const method *m, const method_inputs *in, const method_output
 
 method method_ggx_caps(void)
 {
-    return (method){.name = "spherical caps (2023)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                    .one = one, .each = each, .shared = shared};
+    return (method){.name = "spherical caps (2023)",
+                    .instructions = "scalar",
+                    .kind = BENCH_PUBLISHED,
+                    .one = one,
+                    .each = each,
+                    .shared = shared};
 }

@@ -25,22 +25,27 @@ static caps_code code_for(vndf_instructions set)
 
 const char *method_instructions_name(vndf_instructions set)
 {
-    return set == VNDF_INSTRUCTIONS_AVX512   ? "avx512"
-           : set == VNDF_INSTRUCTIONS_AVX2   ? "avx2"
+    return set == VNDF_INSTRUCTIONS_AVX512     ? "avx512"
+           : set == VNDF_INSTRUCTIONS_AVX2     ? "avx2"
            : set == VNDF_INSTRUCTIONS_PORTABLE ? "portable"
-                                             : "scalar";
+                                               : "scalar";
 }
 
 method method_ggx_caps_batch(vndf_instructions set)
 {
     caps_code code = code_for(set);
-    return (method){.name = "spherical caps (2023), batch", .instructions = method_instructions_name(set),
-                    .kind = BENCH_PUBLISHED, .each = code.each, .shared = code.shared};
+    return (method){.name = "spherical caps (2023), batch",
+                    .instructions = method_instructions_name(set),
+                    .kind = BENCH_PUBLISHED,
+                    .each = code.each,
+                    .shared = code.shared};
 }
 
 method method_move(vndf_instructions set)
 {
     caps_code code = code_for(set);
-    return (method){.name = "moving 36 bytes", .instructions = method_instructions_name(set), .kind = BENCH_MOVE,
+    return (method){.name = "moving 36 bytes",
+                    .instructions = method_instructions_name(set),
+                    .kind = BENCH_MOVE,
                     .each = code.move};
 }

@@ -15,7 +15,7 @@
 #include "bench/methods/lanes.h"
 
 typedef struct caps_lanes {
-    lanes x, y, z; /* unit, of the unit problem */
+    lanes x, y, z;    /* unit, of the unit problem */
     lanes alpha, cap; /* pi alpha^2 (1 + z) */
 } caps_lanes;
 
@@ -82,8 +82,8 @@ static inline method_inputs caps_rest_load(caps_rest *rest, const method_inputs 
     for (size_t k = 0; k < CAPS_IN; k++)
         for (size_t j = 0; j < LANES; j++)
             rest->in[k][j] = from[k][k < shared ? 0 : i + j < in->count ? i + j : i];
-    return (method_inputs){LANES, rest->in[0], rest->in[1], rest->in[2], rest->in[3], rest->in[4], rest->in[5],
-                           NULL, NULL, NULL, NULL, NULL};
+    return (method_inputs){LANES,       rest->in[0], rest->in[1], rest->in[2], rest->in[3], rest->in[4],
+                           rest->in[5], NULL,        NULL,        NULL,        NULL,        NULL};
 }
 
 static inline void caps_rest_store(const caps_rest *rest, const method_outputs *out, size_t i, size_t count)
@@ -97,8 +97,8 @@ static inline void caps_rest_store(const caps_rest *rest, const method_outputs *
 
 /* Not inlined: the same code, hence the same bits, for whole vectors and for the rest. */
 
-__attribute__((noinline))
-static void caps_each_whole(const method_inputs *in, const method_outputs *out, size_t count)
+__attribute__((noinline)) static void caps_each_whole(const method_inputs *in, const method_outputs *out,
+                                                      size_t count)
 {
     for (size_t i = 0; i < count; i += LANES) {
         caps_lanes v = caps_view(lanes_load(in->alpha + i), lanes_load(in->wi_x + i), lanes_load(in->wi_y + i),
@@ -108,11 +108,11 @@ static void caps_each_whole(const method_inputs *in, const method_outputs *out, 
     }
 }
 
-__attribute__((noinline))
-static void caps_shared_whole(const method_inputs *in, const method_outputs *out, size_t count)
+__attribute__((noinline)) static void caps_shared_whole(const method_inputs *in, const method_outputs *out,
+                                                        size_t count)
 {
-    caps_lanes v = caps_view(lanes_all(in->alpha[0]), lanes_all(in->wi_x[0]), lanes_all(in->wi_y[0]),
-                             lanes_all(in->wi_z[0]));
+    caps_lanes v =
+        caps_view(lanes_all(in->alpha[0]), lanes_all(in->wi_x[0]), lanes_all(in->wi_y[0]), lanes_all(in->wi_z[0]));
     for (size_t i = 0; i < count; i += LANES) {
         caps_drawn drawn = caps_draw(&v, lanes_load(in->u1 + i), lanes_load(in->u2 + i));
         caps_store(out, i, &drawn);

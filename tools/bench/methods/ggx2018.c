@@ -73,6 +73,10 @@ static void shared(const method *m, const method_inputs *in, const method_output
 
 method method_ggx_2018(void)
 {
-    return (method){.name = "GGX disc (2018)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                    .one = one, .each = each, .shared = shared};
+    return (method){.name = "GGX disc (2018)",
+                    .instructions = "scalar",
+                    .kind = BENCH_PUBLISHED,
+                    .one = one,
+                    .each = each,
+                    .shared = shared};
 }

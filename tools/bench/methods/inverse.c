@@ -21,8 +21,8 @@ enum { FINE = 1024, CUT = 16 };
 typedef struct inverse_tables {
     size_t side;
     float scale;
-    float p22[FINE + 1];  /* P22 (1 + r)^4 over q = r/(1 + r) */
-    float area[FINE + 1]; /* over cos(theta) */
+    float p22[FINE + 1];   /* P22 (1 + r)^4 over q = r/(1 + r) */
+    float area[FINE + 1];  /* over cos(theta) */
     float *along, *across; /* rows theta and x, columns u */
 } inverse_tables;
 
@@ -170,7 +170,11 @@ static inverse_tables *tables_of(size_t side, float scale)
 
 method method_inverse_tables(const method_truth *truth, size_t side)
 {
-    method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = one, .biased = 1,
+    method m = {.instructions = "scalar",
+                .kind = BENCH_PUBLISHED,
+                .release = release,
+                .one = one,
+                .biased = 1,
                 .turned = 1};
     inverse_tables *t = tables_of(side, truth->scale);
     double *mass = malloc(2 * FINE * sizeof *mass);

@@ -42,14 +42,14 @@ struct method {
     const char *instructions;
     bench_kind kind;
     size_t bytes;
-    const void *state;              /* what was prepared */
-    void (*release)(void *state);   /* NULL: somebody else's */
-    vndf_instructions limit;        /* for batches of ours */
-    method_one *one;                /* NULL: a batch */
-    method_run *each, *shared;      /* shared may be NULL */
-    method_run *same_bits;          /* what `each` must equal to the bit, or NULL */
-    int biased;                     /* the density that it tells is not that with which it draws */
-    int turned;                     /* some normals face away from wi */
+    const void *state;            /* what was prepared */
+    void (*release)(void *state); /* NULL: somebody else's */
+    vndf_instructions limit;      /* for batches of ours */
+    method_one *one;              /* NULL: a batch */
+    method_run *each, *shared;    /* shared may be NULL */
+    method_run *same_bits;        /* what `each` must equal to the bit, or NULL */
+    int biased;                   /* the density that it tells is not that with which it draws */
+    int turned;                   /* some normals face away from wi */
 };
 
 /* What any-D methods are prepared from: a table so fine that it stands for the truth, and the scale that brings

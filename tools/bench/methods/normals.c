@@ -142,20 +142,33 @@ static vndf_vec3 one_any(const method *m, const method_input *in, float *pdf)
 
 method method_ggx_all_normals(void)
 {
-    return (method){.name = "all normals (2007)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                    .one = one_ggx, .each = each_ggx, .turned = 1};
+    return (method){.name = "all normals (2007)",
+                    .instructions = "scalar",
+                    .kind = BENCH_PUBLISHED,
+                    .one = one_ggx,
+                    .each = each_ggx,
+                    .turned = 1};
 }
 
 method method_beckmann_all_normals(void)
 {
-    return (method){.name = "all normals (2007)", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                    .one = one_beckmann, .each = each_beckmann, .turned = 1};
+    return (method){.name = "all normals (2007)",
+                    .instructions = "scalar",
+                    .kind = BENCH_PUBLISHED,
+                    .one = one_beckmann,
+                    .each = each_beckmann,
+                    .turned = 1};
 }
 
 method method_any_all_normals(const method_truth *truth)
 {
-    method m = {.name = "all normals (2007), radial CDF", .instructions = "scalar", .kind = BENCH_PUBLISHED,
-                .bytes = sizeof(radial_cdf), .release = free, .one = one_any, .turned = 1};
+    method m = {.name = "all normals (2007), radial CDF",
+                .instructions = "scalar",
+                .kind = BENCH_PUBLISHED,
+                .bytes = sizeof(radial_cdf),
+                .release = free,
+                .one = one_any,
+                .turned = 1};
     radial_cdf *t = malloc(sizeof *t);
     double *mass = malloc((FINE + 1) * sizeof *mass);
     if (t && mass) {

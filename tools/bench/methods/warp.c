@@ -132,8 +132,7 @@ static inline mix rows_of(const float *table, size_t stride, size_t at, size_t s
 static inline mix four_rows(const float *table, size_t n, size_t slice, float t, size_t i, float v)
 {
     const float *low = table + slice * n * n + i * n, *high = low + n * n;
-    return (mix){{low, low + n, high, high + n},
-                 {(1 - t) * (1 - v), (1 - t) * v, t * (1 - v), t * v}, 4};
+    return (mix){{low, low + n, high, high + n}, {(1 - t) * (1 - v), (1 - t) * v, t * (1 - v), t * v}, 4};
 }
 
 /* A place on the square and its density there. */

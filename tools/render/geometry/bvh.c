@@ -14,8 +14,8 @@
 
 enum {
     BINS = 16,
-    LEAF_MAX = 8,       /* larger leaves are split whatever they cost */
-    PLANES_DEPTH = 60   /* deeper nodes are halved: 60 + log2(2^32) < BVH_DEPTH_MAX */
+    LEAF_MAX = 8,     /* larger leaves are split whatever they cost */
+    PLANES_DEPTH = 60 /* deeper nodes are halved: 60 + log2(2^32) < BVH_DEPTH_MAX */
 };
 
 /* Of walking a node, in tests of a shape. */

@@ -19,9 +19,9 @@ typedef struct hit {
     float distance;
     vndf_vec3 place, normal;
     frame shading;
-    float u, v;          /* for textures, from the left and the top where the shape has an upright */
-    float error;         /* of `place`, beyond its rounding to float: for ray_from */
-    uint32_t shape;      /* index of the shape */
+    float u, v;     /* for textures, from the left and the top where the shape has an upright */
+    float error;    /* of `place`, beyond its rounding to float: for ray_from */
+    uint32_t shape; /* index of the shape */
     int material;
 } hit;
 

@@ -65,8 +65,10 @@ static int read_corner(obj_reader *r, corner *c)
         if (!read_index(r, &at, &r->vn, &c->vn))
             return -1;
     }
-    return *at == '\0' ? 1 : obj_complain(&r->text, "'%s' should end after '%.*s'", r->text.word,
-                                          (int)(at - r->text.word), r->text.word) - 1;
+    return *at == '\0' ? 1
+                       : obj_complain(&r->text, "'%s' should end after '%.*s'", r->text.word,
+                                      (int)(at - r->text.word), r->text.word) -
+                             1;
 }
 
 static vndf_vec3 row_of(const obj_table *t, long long index)

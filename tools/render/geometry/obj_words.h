@@ -14,7 +14,7 @@ typedef struct obj_text {
     unsigned long long line; /* from 1 */
     char *message;           /* of the error, `size` bytes */
     size_t size;
-    size_t at, end, bytes;   /* of the block; of all that was read, after OBJ_BYTES_MAX of which the file ends */
+    size_t at, end, bytes; /* of the block; of all that was read, after OBJ_BYTES_MAX of which the file ends */
     char word[OBJ_WORD_MAX + 1];
     unsigned char block[1 << 15];
 } obj_text;

@@ -12,7 +12,7 @@
 #include "render/geometry/shape.h"
 
 #ifdef __clang__ /* a fused product would break the antisymmetry of `turn`; gcc does not fuse in ISO mode */
-#pragma STDC FP_CONTRACT OFF
+#  pragma STDC FP_CONTRACT OFF
 #endif
 
 int line_from(line *l, const ray *r)
@@ -22,7 +22,7 @@ int line_from(line *l, const ray *r)
     z = fabs(d[z]) > fabs(d[2]) ? z : 2;
     const int x = (z + 1) % 3, y = (z + 2) % 3;
     const line made = {widen(r->origin), widen(r->direction), (double)r->from, {x, y, z},
-                       d[x] / d[z], d[y] / d[z], 1.0 / d[z]};
+                       d[x] / d[z],      d[y] / d[z],         1.0 / d[z]};
     *l = made;
     return fabs(d[x] + d[y] + d[z] + wide_dot(made.origin, made.origin)) < HUGE_VAL && d[z] != 0.0;
 }

@@ -19,7 +19,7 @@ typedef struct line {
 /* The nearest so far. */
 typedef struct meeting {
     double distance;
-    double a, b;    /* rectangle: u, v; triangle: weights of corners 1 and 2 */
+    double a, b; /* rectangle: u, v; triangle: weights of corners 1 and 2 */
     uint32_t shape;
 } meeting;
 

@@ -207,9 +207,9 @@ typedef struct pattern {
 } pattern;
 
 static const pattern patterns[] = {
-    {"checks", shade_checks, 32, 16}, {"tiles", shade_tiles, 8, 8},     {"stripes", shade_stripes, 64, 1},
-    {"grid", shade_grid, 16, 8},      {"studio", shade_studio, 1, 1},   {"stars", shade_night, 1, 1},
-    {"noise", shade_noise, 1, 1},     {"blots", shade_blots, 1, 1},     {"brushed", shade_brushed, 1, 1},
+    {"checks", shade_checks, 32, 16}, {"tiles", shade_tiles, 8, 8},   {"stripes", shade_stripes, 64, 1},
+    {"grid", shade_grid, 16, 8},      {"studio", shade_studio, 1, 1}, {"stars", shade_night, 1, 1},
+    {"noise", shade_noise, 1, 1},     {"blots", shade_blots, 1, 1},   {"brushed", shade_brushed, 1, 1},
     {"ramp", shade_ramp, 1, 1},
 };
 enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
@@ -260,8 +260,7 @@ static const pattern *find_pattern(const char *name, image_error *error)
     const char *near = nearest_word(name, names, PATTERNS);
     int length = snprintf(error->message, sizeof error->message, "there is no pattern '%.64s'", name);
     if (near)
-        snprintf(error->message + length, sizeof error->message - (size_t)length, "; did you mean '%s'?",
-                 near);
+        snprintf(error->message + length, sizeof error->message - (size_t)length, "; did you mean '%s'?", near);
     else
         snprintf(error->message + length, sizeof error->message - (size_t)length,
                  "; there are checks, tiles, stripes, grid, studio, stars, noise, blots, brushed and ramp");

@@ -21,8 +21,8 @@ static const double even = 2; /* the contrast below which drawing costs more tha
  * for an eighth of it, within 3e-8. */
 static inline float turn_of(float side, float ahead)
 {
-    static const float c[8] = {0.159154924f,   -0.0530492275f,  0.0317784067f,   -0.0222869285f,
-                               0.0157067872f,  -0.00936304601f, 0.00378478708f, -0.000725713434f};
+    static const float c[8] = {0.159154924f,  -0.0530492275f,  0.0317784067f,  -0.0222869285f,
+                               0.0157067872f, -0.00936304601f, 0.00378478708f, -0.000725713434f};
     float a = fabsf(side), b = fabsf(ahead), large = a > b ? a : b, small = a > b ? b : a;
     float q = large > 0.0f ? small / large : 0.0f, s = q * q, sum = c[7];
     for (int i = 6; i >= 0; i--)

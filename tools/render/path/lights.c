@@ -238,8 +238,8 @@ int path_lights_draw(const path_lights *lights, const light_view *v, uint64_t ch
         probability = v->part[at];
     }
     const path_light *l = &lights->lights[at];
-    int seen = l->kind == SHAPE_SPHERE ? draw_sphere(l, v->place, u[1], u[2], s)
-                                       : draw_flat(l, v->place, u[1], u[2], s);
+    int seen =
+        l->kind == SHAPE_SPHERE ? draw_sphere(l, v->place, u[1], u[2], s) : draw_flat(l, v->place, u[1], u[2], s);
     if (!seen)
         return 0;
     s->density *= probability;

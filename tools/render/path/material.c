@@ -143,14 +143,10 @@ static void make_glass(path_material *m)
 static float reflectance(const vndf_description *is, int i)
 {
     switch (is->effects.fresnel) {
-    case VNDF_FRESNEL_SCHLICK:
-        return is->f0[i];
-    case VNDF_FRESNEL_DIELECTRIC:
-        return vndf_fresnel_dielectric(1.0f, is->eta);
-    case VNDF_FRESNEL_CONDUCTOR:
-        return vndf_fresnel_conductor(1.0f, is->conductor_eta[i], is->conductor_k[i]);
-    case VNDF_FRESNEL_NONE:
-        break;
+    case VNDF_FRESNEL_SCHLICK: return is->f0[i];
+    case VNDF_FRESNEL_DIELECTRIC: return vndf_fresnel_dielectric(1.0f, is->eta);
+    case VNDF_FRESNEL_CONDUCTOR: return vndf_fresnel_conductor(1.0f, is->conductor_eta[i], is->conductor_k[i]);
+    case VNDF_FRESNEL_NONE: break;
     }
     return 1.0f;
 }
@@ -175,18 +171,10 @@ static int make_kind(path_material *m, const path_choice *choice, char *message,
             return path_rough_make(m, choice, message, size);
         make_smooth(m);
         break;
-    case MATERIAL_MATTE:
-        make_matte(m);
-        break;
-    case MATERIAL_MIRROR:
-        make_mirror(m);
-        break;
-    case MATERIAL_GLASS:
-        make_glass(m);
-        break;
-    case MATERIAL_LIGHT:
-        m->emits = 1;
-        break;
+    case MATERIAL_MATTE: make_matte(m); break;
+    case MATERIAL_MIRROR: make_mirror(m); break;
+    case MATERIAL_GLASS: make_glass(m); break;
+    case MATERIAL_LIGHT: m->emits = 1; break;
     }
     return 1;
 }

@@ -30,8 +30,8 @@ typedef struct path_material path_material;
 typedef struct path_point {
     const path_material *material;
     const hit *hit;
-    frame frame;         /* of shading, or geometric where they differ about the side of the ray */
-    vndf_vec3 wi;        /* in it */
+    frame frame;  /* of shading, or geometric where they differ about the side of the ray */
+    vndf_vec3 wi; /* in it */
     const float *colour;
     float mapped[3];     /* the colour of a map */
     vndf_bsdf bsdf;      /* of rough materials */
@@ -39,10 +39,10 @@ typedef struct path_point {
 } path_point;
 
 typedef struct bounce {
-    vndf_vec3 wo;        /* in the frame */
-    float weight[3];     /* f |cos| / density */
-    float density;       /* 0: a Dirac, that nothing else finds */
-    float carried;       /* what refraction makes of radiance, a part of the weight: 1 or 1/eta^2 */
+    vndf_vec3 wo;    /* in the frame */
+    float weight[3]; /* f |cos| / density */
+    float density;   /* 0: a Dirac, that nothing else finds */
+    float carried;   /* what refraction makes of radiance, a part of the weight: 1 or 1/eta^2 */
 } bounce;
 
 typedef struct path_routines {
@@ -57,18 +57,18 @@ struct path_material {
     const material *is;
     vndf_material bsdf;
     float colour[3];
-    float eta;                /* of smooth dielectrics */
-    vndf_roughness roughness; /* its rotation, and alpha where no map changes it */
+    float eta;                   /* of smooth dielectrics */
+    vndf_roughness roughness;    /* its rotation, and alpha where no map changes it */
     const path_perfect *perfect; /* of rough ones that are perfectly sampled; else NULL */
     int emits, absorbs;
-    path_routines run, once;  /* once: see repeat.c */
+    path_routines run, once; /* once: see repeat.c */
 };
 
 /* Perfect sampling of all BSDFs of a scene. */
 typedef struct path_perfects {
     path_perfect **list;
     size_t count;
-    double seconds;           /* that making them took */
+    double seconds; /* that making them took */
 } path_perfects;
 
 void path_perfects_free(path_perfects *all);
@@ -77,7 +77,7 @@ void path_perfects_free(path_perfects *all);
 typedef struct path_choice {
     path_sampler sampler;
     unsigned without;
-    path_perfects *perfects;  /* for the materials to share */
+    path_perfects *perfects; /* for the materials to share */
 } path_choice;
 
 /* 0 and a message if the library refuses, or perfect sampling does. */
@@ -91,7 +91,7 @@ unsigned path_material_effects(const material *is);
 /* ---- lights ---- */
 
 typedef struct light_sample {
-    vndf_vec3 direction;   /* towards the light, unit */
+    vndf_vec3 direction; /* towards the light, unit */
     float distance;
     float density;         /* per steradian */
     const float *radiance; /* NULL: what the environment has there */
@@ -106,7 +106,7 @@ typedef struct path_light {
     vndf_vec3 normal;    /* of rectangles and triangles */
     float area;
     float radiance[3];
-    float power;         /* radiance times what is seen of the area from far away */
+    float power; /* radiance times what is seen of the area from far away */
 } path_light;
 
 /* More lights than LIGHTS_SEEN are chosen by power alone, wherever they are. */
@@ -115,7 +115,7 @@ enum { LIGHTS_SEEN = 16 };
 typedef struct path_lights {
     path_light *lights;
     uint32_t count;
-    int32_t *of_shape;   /* index of a shape's light, -1 for others; NULL if there are none */
+    int32_t *of_shape;     /* index of a shape's light, -1 for others; NULL if there are none */
     alias_place *by_power; /* of more lights than LIGHTS_SEEN */
 } path_lights;
 
@@ -155,7 +155,7 @@ typedef struct path_environment {
     unsigned shift;         /* cells have 2^shift pixels a side */
     uint32_t columns, rows; /* of cells */
     environment_row *limits;
-    alias_place *cells;     /* with densities per steradian; NULL: not drawn */
+    alias_place *cells; /* with densities per steradian; NULL: not drawn */
     /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
     void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
 } path_environment;
@@ -179,7 +179,7 @@ struct path_plan {
     path_perfects perfects;
     path_lights lights;
     path_environment environment;
-    void (*trace)(path_walk *w);   /* the loop that this scene needs; see path.c */
+    void (*trace)(path_walk *w); /* the loop that this scene needs; see path.c */
 };
 
 /* For measurements: every call of the library is made twice from now on, with the same result. */

@@ -12,10 +12,10 @@ struct path_walk {
     random_stream random;
     ray ray;
     float throughput[3], radiance[3];
-    float carried;       /* what refraction alone made of the throughput */
-    float density;       /* of the direction, if lights could have drawn it too; else 0 */
-    light_view view;     /* the lights from where it was drawn, if they could */
-    path_media media;    /* of scenes that absorb */
+    float carried;    /* what refraction alone made of the throughput */
+    float density;    /* of the direction, if lights could have drawn it too; else 0 */
+    light_view view;  /* the lights from where it was drawn, if they could */
+    path_media media; /* of scenes that absorb */
 };
 
 static void draw(path_walk *w, float u[3])
@@ -263,8 +263,11 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
                 float rgb[3])
 {
     uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
-    path_walk w = {.plan = plan, .counts = counts, .random = stream_of(seed, pixel, index),
-                   .throughput = {1, 1, 1}, .carried = 1};
+    path_walk w = {.plan = plan,
+                   .counts = counts,
+                   .random = stream_of(seed, pixel, index),
+                   .throughput = {1, 1, 1},
+                   .carried = 1};
     float dx = random_float(&w.random), dy = random_float(&w.random);
     w.ray = ray_of(plan, (float)x + dx, (float)y + dy);
     counts->paths++;

@@ -10,7 +10,11 @@
 /* How normals are drawn by all microfacet materials of a scene; MATERIAL: as each says. PERFECT: directions are,
  * by tables made for the whole BSDF of each (perfect.h). */
 typedef enum path_sampler {
-    SAMPLER_MATERIAL, SAMPLER_ALL, SAMPLER_VISIBLE, SAMPLER_BOUNDED, SAMPLER_PERFECT
+    SAMPLER_MATERIAL,
+    SAMPLER_ALL,
+    SAMPLER_VISIBLE,
+    SAMPLER_BOUNDED,
+    SAMPLER_PERFECT
 } path_sampler;
 
 enum { SAMPLERS = SAMPLER_PERFECT + 1 };
@@ -18,12 +22,19 @@ extern const char *const path_sampler_names[SAMPLERS];
 
 /* Effects of a scene, a bit each: what has to run. --explain lists them. */
 enum {
-    EFFECT_MICROFACETS = 1, EFFECT_REFRACTION = 2, EFFECT_MULTIPLE = 4, EFFECT_TEXTURED_ALPHA = 8,
-    EFFECT_LIGHTS = 16,       /* emitting shapes, sampled */
-    EFFECT_ENVIRONMENT = 32,  /* any light from far away */
+    EFFECT_MICROFACETS = 1,
+    EFFECT_REFRACTION = 2,
+    EFFECT_MULTIPLE = 4,
+    EFFECT_TEXTURED_ALPHA = 8,
+    EFFECT_LIGHTS = 16,          /* emitting shapes, sampled */
+    EFFECT_ENVIRONMENT = 32,     /* any light from far away */
     EFFECT_ENVIRONMENT_MAP = 64, /* an image, sampled */
-    EFFECT_ABSORPTION = 128, EFFECT_MATTE = 256, EFFECT_SPECULAR = 512, EFFECT_COLOUR_MAPS = 1024,
-    EFFECT_MESHES = 2048, EFFECT_ROTATED_AXES = 4096
+    EFFECT_ABSORPTION = 128,
+    EFFECT_MATTE = 256,
+    EFFECT_SPECULAR = 512,
+    EFFECT_COLOUR_MAPS = 1024,
+    EFFECT_MESHES = 2048,
+    EFFECT_ROTATED_AXES = 4096
 };
 
 typedef struct path_plan path_plan;
@@ -37,7 +48,7 @@ unsigned path_effects(const path_plan *plan);
 
 /* What perfect sampling took to prepare; all 0 with other samplers. */
 typedef struct path_precomputed {
-    size_t count, bytes;     /* BSDFs: materials that share one count once */
+    size_t count, bytes; /* BSDFs: materials that share one count once */
     double seconds;
 } path_precomputed;
 

@@ -114,8 +114,8 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, 
         return NULL;
     }
     plan->effects &= ~without;
-    plan->trace = path_loop(plan->lights.count || plan->environment.cells,
-                            (plan->effects & EFFECT_ABSORPTION) != 0);
+    plan->trace =
+        path_loop(plan->lights.count || plan->environment.cells, (plan->effects & EFFECT_ABSORPTION) != 0);
     return plan;
 }
 

@@ -11,19 +11,19 @@
 #include "vndf_bsdf.h"
 
 typedef struct path_perfect {
-    vndf_description is;               /* its axes along x and y */
-    vndf_material material;            /* the same, visible normals */
+    vndf_description is;    /* its axes along x and y */
+    vndf_material material; /* the same, visible normals */
     perfect_table table;
 } path_perfect;
 
 /* A direction that light goes along, and all that depends on it: a plain value, valid while the sampler lives. */
 typedef struct perfect_hit {
     const path_perfect *is;
-    float xx, xy, yx, yy;              /* the frame of the table: x' = xx x + xy y, y' = yx x + yy y */
-    vndf_vec3 wi;                      /* in it: x, y >= 0 */
-    float eta;                         /* index on the other side over that on the side of wi */
+    float xx, xy, yx, yy; /* the frame of the table: x' = xx x + xy y, y' = yx x + yy y */
+    vndf_vec3 wi;         /* in it: x, y >= 0 */
+    float eta;            /* index on the other side over that on the side of wi */
     vndf_bsdf bsdf;
-    vndf_view view;                    /* of wi turned up */
+    vndf_view view; /* of wi turned up */
     perfect_place place;
 } perfect_hit;
 

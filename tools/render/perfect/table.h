@@ -27,7 +27,7 @@ typedef struct perfect_table {
     float alpha_x, alpha_y; /* of the stretch; > 0 */
     float critical[2];      /* of each side: sine of the angle from which a mirror reflects totally; 0: none */
     int lobes, sides, turns;
-    float *nodes;           /* of each: sums of its rows, of the cells in each row; of two lobes, shares of one */
+    float *nodes; /* of each: sums of its rows, of the cells in each row; of two lobes, shares of one */
 } perfect_table;
 
 /* The nodes about a direction, and what each counts. */
@@ -39,8 +39,8 @@ typedef struct perfect_place {
 
 /* What the table has at (u1, u2). */
 typedef struct perfect_cell {
-    float density;          /* over the unit square it makes 1 */
-    float share;            /* in (0, 1): worth of reflection over that of both lobes, where both are as likely */
+    float density; /* over the unit square it makes 1 */
+    float share;   /* in (0, 1): worth of reflection over that of both lobes, where both are as likely */
 } perfect_cell;
 
 /* Room for the nodes, none of them filled, with alpha, critical, lobes and sides as they are set; 0 if there is no

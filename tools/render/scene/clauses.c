@@ -18,8 +18,7 @@ static clause *find_clause(const word *w, clause *clauses, size_t count)
     return NULL;
 }
 
-static int unknown_clause(scene_reader *r, const statement *s, const word *at, const clause *clauses,
-                          size_t count)
+static int unknown_clause(scene_reader *r, const statement *s, const word *at, const clause *clauses, size_t count)
 {
     const char *names[32];
     char what[64];

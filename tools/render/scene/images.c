@@ -54,9 +54,13 @@ int reader_within(scene_reader *r, const word *at, const image *map, const image
             image_at(map, x, y, rgb);
             for (int i = 0; i < range->channels; i++)
                 if (!((double)rgb[i] >= range->low && (double)rgb[i] <= range->high))
-                    return reader_refuse(r, at, "as %s the image must be from %g to %g; %s is %g in column %d of "
-                                                "row %d (from the top, from 0)", range->what, range->low,
-                                         range->high, i == 0 ? "red" : i == 1 ? "green" : "blue",
+                    return reader_refuse(r, at,
+                                         "as %s the image must be from %g to %g; %s is %g in column %d of "
+                                         "row %d (from the top, from 0)",
+                                         range->what, range->low, range->high,
+                                         i == 0   ? "red"
+                                         : i == 1 ? "green"
+                                                  : "blue",
                                          (double)rgb[i], x, y);
         }
     return 1;

@@ -10,10 +10,12 @@
 enum { CONDUCTOR, DIELECTRIC, REFLECTOR, SHAPE, MATTE, MIRROR, GLASS, LIGHT, KINDS };
 static const char *const kinds[KINDS] = {"conductor", "dielectric", "reflector", "shape",
                                          "matte",     "mirror",     "glass",     "light"};
+/* clang-format off */
 enum {
     OF, ETA, K, F0, INDEX, LOBES, DISTRIBUTION, BYTES, ALPHA, ALPHA_MAP, ALPHA_X_MAP, ALPHA_Y_MAP, ROTATION,
     MASKING, NORMALS, SCATTERING, ORDER, ABSORB, COLOUR, COLOUR_MAP, RADIANCE, CLAUSES
 };
+/* clang-format on */
 
 /* A bit for each kind. */
 enum {
@@ -35,8 +37,8 @@ static const rule rules[CLAUSES] = {
     [F0] = {"f0", "R G B", 3, 3, 1 << REFLECTOR, 1 << REFLECTOR},
     [INDEX] = {"index", "N", 1, 1, THROUGH | 1 << GLASS, 1 << DIELECTRIC | 1 << GLASS},
     [LOBES] = {"lobes", "reflection|transmission|both", 1, 1, THROUGH, 0},
-    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2,
-                      ROUGH, ROUGH},
+    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2, ROUGH,
+                      ROUGH},
     [BYTES] = {"bytes", "COUNT", 1, 1, ROUGH, 0},
     [ALPHA] = {"alpha", "A or AX AY", 1, 2, ROUGH, 0},
     [ALPHA_MAP] = {"alpha-map", "IMAGE", 1, 1, ROUGH, 0},
@@ -67,8 +69,8 @@ static int refuse_clause(scene_reader *r, const clause *c, unsigned kind, unsign
 static int find_clauses(scene_reader *r, const statement *s, unsigned kind, clause c[CLAUSES])
 {
     for (size_t i = 0; i < CLAUSES; i++)
-        c[i] = (clause){.keyword = rules[i].keyword, .takes = rules[i].takes, .least = rules[i].least,
-                        .most = rules[i].most};
+        c[i] = (clause){
+            .keyword = rules[i].keyword, .takes = rules[i].takes, .least = rules[i].least, .most = rules[i].most};
     if (!reader_clauses(r, s, 3, c, CLAUSES))
         return 0;
     for (size_t i = 0; i < CLAUSES; i++) {
@@ -114,8 +116,11 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
         return reader_refuse(r, c[ABSORB].at, "'absorb' is of what light passes, this material only reflects");
     if (scattering == VNDF_SCATTERING_SINGLE && c[ORDER].at)
         return reader_refuse(r, c[ORDER].at, "'order' goes with 'scattering multiple'");
-    *e = (vndf_effects){.lobes = (vndf_lobes)lobes, .fresnel = fresnel[kind], .masking = (vndf_masking)masking,
-                        .normals = (vndf_normals_drawn)normals, .scattering = (vndf_scattering)scattering};
+    *e = (vndf_effects){.lobes = (vndf_lobes)lobes,
+                        .fresnel = fresnel[kind],
+                        .masking = (vndf_masking)masking,
+                        .normals = (vndf_normals_drawn)normals,
+                        .scattering = (vndf_scattering)scattering};
     return 1;
 }
 
@@ -140,8 +145,9 @@ static int read_roughness(scene_reader *r, const clause c[CLAUSES], material *m)
     if (alpha->count == 2 && !reader_number(r, alpha, 1, 1e-6, 1e3, &m->alpha_y.value))
         return 0;
     if (both->at && (c[ALPHA_X_MAP].at || c[ALPHA_Y_MAP].at))
-        return reader_refuse(r, both->at, "'alpha-map' is of x and y; leave it out beside 'alpha-x-map' or "
-                                          "'alpha-y-map'");
+        return reader_refuse(r, both->at,
+                             "'alpha-map' is of x and y; leave it out beside 'alpha-x-map' or "
+                             "'alpha-y-map'");
     if (!read_map(r, both, &c[ALPHA_X_MAP], &m->alpha_x) || !read_map(r, both, &c[ALPHA_Y_MAP], &m->alpha_y))
         return 0;
     m->is_textured = m->alpha_x.map || m->alpha_y.map;
@@ -188,8 +194,7 @@ static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSE
     if (!read_effects(r, c, kind, &m->is.effects) ||
         (kind == CONDUCTOR && !read_metal(r, &s->words[2], &c[OF], &c[ETA], &c[K], &m->is)) ||
         (c[F0].at && !reader_three(r, &c[F0], 0, 1, m->is.f0)) || !read_roughness(r, c, m) ||
-        !read_table(r, c, m) ||
-        (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)))
+        !read_table(r, c, m) || (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)))
         return 0;
     return resolve(r, s, m);
 }
@@ -216,8 +221,8 @@ static int read_colours(scene_reader *r, const clause c[CLAUSES], material *m)
 static int read_kind(scene_reader *r, const statement *s, material *m)
 {
     static const material_kind made[KINDS] = {MATERIAL_MICROFACET, MATERIAL_MICROFACET, MATERIAL_MICROFACET,
-                                              MATERIAL_MICROFACET, MATERIAL_MATTE, MATERIAL_MIRROR,
-                                              MATERIAL_GLASS, MATERIAL_LIGHT};
+                                              MATERIAL_MICROFACET, MATERIAL_MATTE,      MATERIAL_MIRROR,
+                                              MATERIAL_GLASS,      MATERIAL_LIGHT};
     const clause all = {.keyword = "material", .at = &s->words[0], .values = &s->words[2], .count = 1};
     clause c[CLAUSES];
     unsigned kind;

@@ -13,11 +13,14 @@
 
 /* Against files that mean harm. */
 enum {
-    SCENE_BYTES_MAX = 1 << 22, SCENE_MATERIALS_MAX = 4096, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64,
-    SCENE_NAME_MAX = 64,                /* letters of a name */
+    SCENE_BYTES_MAX = 1 << 22,
+    SCENE_MATERIALS_MAX = 4096,
+    SCENE_IMAGES_MAX = 64,
+    SCENE_TABLES_MAX = 64,
+    SCENE_NAME_MAX = 64,                    /* letters of a name */
     SCENE_PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
-#define SCENE_FAR 1e6 /* the largest coordinate or size */
+#define SCENE_FAR 1e6   /* the largest coordinate or size */
 #define SCENE_NEAR 1e-6 /* the smallest size */
 
 typedef struct word {
@@ -27,17 +30,17 @@ typedef struct word {
 } word;
 
 typedef struct scene_reader {
-    const char *name;           /* of the file, for messages */
-    size_t folder;              /* the first letters of the name that are the folder, its slash included */
-    char *message;              /* room for `size`: where a refusal goes */
+    const char *name; /* of the file, for messages */
+    size_t folder;    /* the first letters of the name that are the folder, its slash included */
+    char *message;    /* room for `size`: where a refusal goes */
     size_t size;
-    word *words;                /* owned */
+    word *words; /* owned */
     size_t count, room;
     scene *made;
-    unsigned seen;              /* a bit for each statement that may stand once */
-    size_t pixels;              /* of all images so far */
-    int gives_light;            /* a shape has a light for its material */
-    scene_tables tables;        /* in place of what materials say */
+    unsigned seen;       /* a bit for each statement that may stand once */
+    size_t pixels;       /* of all images so far */
+    int gives_light;     /* a shape has a light for its material */
+    scene_tables tables; /* in place of what materials say */
 } scene_reader;
 
 /* words[0] says what it is. */
@@ -51,7 +54,7 @@ typedef struct clause {
     const char *keyword, *takes;
     size_t least, most;
     int needed;
-    const word *at, *values;    /* found: the keyword and what follows it; else NULL */
+    const word *at, *values; /* found: the keyword and what follows it; else NULL */
     size_t count;
 } clause;
 

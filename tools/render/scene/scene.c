@@ -15,10 +15,17 @@ typedef struct statement_kind {
 } statement_kind;
 
 static const statement_kind statements[] = {
-    {"title", read_title, 1}, {"film", read_film, 1}, {"camera", read_camera, 1},
-    {"integrator", read_integrator, 1}, {"environment", read_environment, 1}, {"image", read_image, 0},
+    {"title", read_title, 1},
+    {"film", read_film, 1},
+    {"camera", read_camera, 1},
+    {"integrator", read_integrator, 1},
+    {"environment", read_environment, 1},
+    {"image", read_image, 0},
     {"material", read_material, 0},
-    {"sphere", read_sphere, 0}, {"rectangle", read_rectangle, 0}, {"box", read_box, 0}, {"mesh", read_mesh, 0},
+    {"sphere", read_sphere, 0},
+    {"rectangle", read_rectangle, 0},
+    {"box", read_box, 0},
+    {"mesh", read_mesh, 0},
 };
 enum { STATEMENTS = sizeof statements / sizeof statements[0] };
 
@@ -73,9 +80,15 @@ static size_t folder_of(const char *name)
 static int read_text(scene *made, const char *name, const scene_tables *tables, char *text, size_t length,
                      char *message, size_t size)
 {
-    scene_reader r = {.name = name, .folder = folder_of(name), .message = message, .size = size, .made = made,
+    scene_reader r = {.name = name,
+                      .folder = folder_of(name),
+                      .message = message,
+                      .size = size,
+                      .made = made,
                       .tables = *tables};
-    *made = (scene){.camera = {.up = {0.0f, 1.0f, 0.0f}, .field = 40.0f}, .width = 640, .height = 360,
+    *made = (scene){.camera = {.up = {0.0f, 1.0f, 0.0f}, .field = 40.0f},
+                    .width = 640,
+                    .height = 360,
                     .integrator = {.depth = 12, .roulette = 4, .samples = 64, .exposure = 1.0f},
                     .environment = {.scale = 1.0f}};
     int good = reader_split(&r, text, length) && read_statements(&r) && check_whole(&r);
@@ -116,8 +129,10 @@ int scene_resize(scene *s, int width, char *message, size_t size)
 {
     double height = floor((double)s->height * width / s->width + 0.5);
     if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX)) {
-        snprintf(message, size, "a film of %d x %d pixels becomes %d x %.0f: it has 1 to %d rows and %d pixels at "
-                                "most", s->width, s->height, width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+        snprintf(message, size,
+                 "a film of %d x %d pixels becomes %d x %.0f: it has 1 to %d rows and %d pixels at "
+                 "most",
+                 s->width, s->height, width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
         return 0;
     }
     s->height = (int)height;

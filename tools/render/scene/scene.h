@@ -9,49 +9,49 @@
 
 typedef struct camera {
     vndf_vec3 from, to, up;
-    float field;            /* of view, degrees, across the height of the film */
+    float field; /* of view, degrees, across the height of the film */
 } camera;
 
 typedef struct integrator {
-    unsigned depth;         /* surfaces on a path at most */
-    unsigned roulette;      /* from this surface on paths are ended at random */
-    unsigned samples;       /* a pixel */
-    float exposure;         /* of the PNG */
+    unsigned depth;    /* surfaces on a path at most */
+    unsigned roulette; /* from this surface on paths are ended at random */
+    unsigned samples;  /* a pixel */
+    float exposure;    /* of the PNG */
 } integrator;
 
 /* A number that may be a map: value, times the map where there is one. */
 typedef struct textured {
     float value;
-    const image *map;       /* of the scene's images; NULL: constant */
+    const image *map; /* of the scene's images; NULL: constant */
 } textured;
 
 typedef enum material_kind {
-    MATERIAL_MICROFACET,    /* conductor, dielectric, ...: vndf_bsdf.h */
-    MATERIAL_MATTE,         /* Lambert */
-    MATERIAL_MIRROR,        /* smooth, colour */
-    MATERIAL_GLASS,         /* smooth dielectric, eta */
-    MATERIAL_LIGHT          /* emits, reflects nothing */
+    MATERIAL_MICROFACET, /* conductor, dielectric, ...: vndf_bsdf.h */
+    MATERIAL_MATTE,      /* Lambert */
+    MATERIAL_MIRROR,     /* smooth, colour */
+    MATERIAL_GLASS,      /* smooth dielectric, eta */
+    MATERIAL_LIGHT       /* emits, reflects nothing */
 } material_kind;
 
 typedef struct material {
-    char *name;             /* owned */
+    char *name; /* owned */
     material_kind kind;
-    vndf_description is;    /* MICROFACET: the library takes it; GLASS: eta */
+    vndf_description is; /* MICROFACET: the library takes it; GLASS: eta */
     textured alpha_x, alpha_y;
-    int is_textured;        /* either has a map: vndf_bsdf_rough at each hit */
-    float colour[3];        /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
+    int is_textured; /* either has a map: vndf_bsdf_rough at each hit */
+    float colour[3]; /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
     const image *colour_map;
-    float absorb[3];        /* inside, per unit of length; all 0: none */
+    float absorb[3]; /* inside, per unit of length; all 0: none */
 } material;
 
 typedef struct environment {
     float constant[3];
-    const image *map;       /* longitude over latitude, y up; NULL: constant alone */
-    float scale, turn;      /* of the map; degrees about y */
+    const image *map;  /* longitude over latitude, y up; NULL: constant alone */
+    float scale, turn; /* of the map; degrees about y */
 } environment;
 
 typedef struct scene {
-    char *title;            /* owned; may be NULL */
+    char *title; /* owned; may be NULL */
     camera camera;
     int width, height;
     integrator integrator;

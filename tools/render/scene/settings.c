@@ -43,8 +43,9 @@ int read_camera(scene_reader *r, const statement *s)
         return reader_refuse(r, c[1].at, "the camera looks nowhere: 'to' is the same place as 'from'");
     vndf_vec3 side = cross(along, made->up);
     if (!(dot(side, side) > 1e-8f * dot(along, along) * dot(made->up, made->up)))
-        return reader_refuse(r, c[2].at ? c[2].at : c[1].at, "the camera looks along 'up', so nothing says which "
-                                                            "way is up; give another, as in 'up 0 0 1'");
+        return reader_refuse(r, c[2].at ? c[2].at : c[1].at,
+                             "the camera looks along 'up', so nothing says which "
+                             "way is up; give another, as in 'up 0 0 1'");
     return 1;
 }
 

@@ -48,8 +48,9 @@ static int add_table(scene_reader *r, const word *at, char *key, vndf_distributi
     if (!s->tables || !s->table_names || s->table_count == SCENE_TABLES_MAX) {
         vndf_free(table);
         free(key);
-        return reader_refuse(r, at, s->table_count == SCENE_TABLES_MAX ? "these are more than %d tables"
-                                                                       : "there is no memory for %d tables",
+        return reader_refuse(r, at,
+                             s->table_count == SCENE_TABLES_MAX ? "these are more than %d tables"
+                                                                : "there is no memory for %d tables",
                              SCENE_TABLES_MAX);
     }
     s->table_names[s->table_count] = key;
@@ -84,8 +85,7 @@ static int table_of(scene_reader *r, unsigned form, const word *text, unsigned b
             *found = s->tables[i];
             return 1;
         }
-    vndf_distribution *table =
-        form == FORM_TABLE ? load(r, text, &error) : build(form, text->text, bytes, &error);
+    vndf_distribution *table = form == FORM_TABLE ? load(r, text, &error) : build(form, text->text, bytes, &error);
     *found = table;
     if (table)
         return add_table(r, text, key, table);

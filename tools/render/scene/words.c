@@ -120,8 +120,8 @@ static int take_word(scene_reader *r, place *p)
     w->end = column_of(p, p->at);
     if (p->at < p->end && !strchr(" \t\r\n#", *p->at)) {
         const word here = {p->at, p->line, w->end, w->end, 0, 0};
-        return reader_refuse(r, &here, *p->at == '"' || w->quoted ? "a blank is missing before this"
-                                                                  : "a byte that is no text");
+        return reader_refuse(
+            r, &here, *p->at == '"' || w->quoted ? "a blank is missing before this" : "a byte that is no text");
     }
     return 1;
 }
@@ -168,7 +168,8 @@ int reader_split(scene_reader *r, char *text, size_t size)
             return 0;
         end_word(&p);
         if (!r->words[0].begins)
-            return reader_refuse(r, &r->words[0], "a statement begins in the first column; lines that begin with "
-                                                  "a blank go on with the one before");
+            return reader_refuse(r, &r->words[0],
+                                 "a statement begins in the first column; lines that begin with "
+                                 "a blank go on with the one before");
     }
 }
