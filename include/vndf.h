@@ -1,40 +1,40 @@
 /* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
  *
- * A renderer links this header's library; it needs the C library and nothing else. A distribution of
- * microfacet normals is a table made offline (vndf_build.h, or `vndf build`), or one of the closed
- * forms vndf_ggx() and vndf_beckmann(). Everything below treats all of them alike.
+ * A renderer links the library of this header, which needs the C library and nothing else. A distribution of
+ * microfacet normals is a table that was made offline (vndf_build.h, or `vndf build`), or one of the closed
+ * forms vndf_ggx() and vndf_beckmann(). Every function below treats all of them alike.
  *
  * Conventions. Local frame: z is the geometric normal, x the axis of alpha_x. Directions are unit
- * vectors that point away from the surface; wi is the known one, wm a microfacet normal (wm.z >= 0).
+ * vectors that point away from the surface; wi is the known direction, wm a microfacet normal (wm.z >= 0).
  * The slope of wm is (x, y) = (-wm.x/wm.z, -wm.y/wm.z). The density of normals D is per steradian with
  * integral D(wm) cos(theta_m) dwm = 1, and P22(x, y) = D cos^4(theta_m) is the density of slopes.
  * A roughness (alpha_x, alpha_y) stretches the distribution that the table was built from:
  *
  *     D(wm) = P22(x/alpha_x, y/alpha_y) / (alpha_x alpha_y cos^4(theta_m)),
  *
- * so alpha = 1 is the distribution exactly as it was given to the builder. The visible normals from wi
+ * so alpha = 1 is the distribution exactly as the builder received it. The visible normals from wi
  * (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible
  * Normals", EGSR 2014) have the density  Dv(wm) = max(0, wi.wm) D(wm) / A(wi)  per steradian, where
  * A(wi) = integral max(0, wi.wm) D(wm) dwm is the projected area of the microsurface.
  *
  * Incident directions from 0 to 180 degrees are all valid: below the horizon the visible normals are
- * those that a ray inside the microsurface meets.
+ * the normals that a ray inside the microsurface meets.
  *
- * Errors. Calls that allocate, read or write take a vndf_error* that the caller owns and that may be
- * NULL. Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and the one
- * result for invalid input is stated with vndf_view_from. Nothing here keeps state: distributions are
- * immutable, every function may be called from any number of threads at once.
+ * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be
+ * NULL. Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and vndf_view_from
+ * states the one result of invalid input. The library keeps no state: distributions are immutable, and any
+ * number of threads may call every function at once.
  *
- * Reproducible. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt,
- * comparisons, conversions and the bits of numbers - elementary functions are its own - compiled without
- * contraction: the same bits for every compiler, optimisation level, C library and machine with IEEE 754 floats
- * and doubles in the default rounding mode that keep denormals. The sources refuse to compile where intermediate
- * results have more digits (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A
- * caller that flushes denormals to zero, or has them read as zero, gets the same bits as long as none occurs, and
- * all else that is promised here even then, of the numbers that are left: a denormal component of wi or wm is 0 to
- * it, as a denormal D is. tests/corpus/same_bits.txt has hashes to compare machines by. Not promised:
- * vndf_build.h, whose tables depend on the C library's exp, log and pow in their last digits - a table file, once
- * built, gives the same bits everywhere. */
+ * Same bits everywhere. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt,
+ * comparisons, conversions and the bits of numbers, and has its own elementary functions; it is compiled without
+ * contraction. So the bits are the same for every compiler, optimisation level, C library and machine, provided
+ * that floats and doubles are IEEE 754, rounding has its default mode, and denormals are kept. The sources refuse
+ * to compile where intermediate results have more digits (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with
+ * -msse2 -mfpmath=sse). A caller may flush denormals to zero or read them as zero: it gets the same bits as long
+ * as none occurs. Where one occurs it counts as zero, in a component of wi or wm as in D, and every other promise
+ * of this header holds for the numbers that are left. tests/corpus/same_bits.txt holds hashes to compare machines
+ * by. vndf_build.h does not promise the same bits: the last digits of its tables depend on exp, log and pow of the
+ * C library. A table file, once built, gives the same bits everywhere. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -69,10 +69,10 @@ typedef enum vndf_status {
     VNDF_ERROR_TABLE,        /* the bytes are not a vndf table of a version this library reads */
     VNDF_ERROR_SYNTAX,       /* an expression, CSV or family name cannot be read; the message says where */
     VNDF_ERROR_DISTRIBUTION, /* the input cannot be the normals of a microsurface; the message says why */
-    VNDF_ERROR_TARGET        /* the accuracy or size that was asked for cannot be met; the message says what was */
+    VNDF_ERROR_TARGET        /* no table meets the accuracy or size asked for; the message says what was reached */
 } vndf_status;
 
-/* What went wrong, for people. The caller owns it; a successful call leaves it untouched. */
+/* What went wrong, in words for people. The caller owns it; a successful call leaves it untouched. */
 typedef struct vndf_error {
     vndf_status status;
     char message[512];
@@ -84,41 +84,42 @@ typedef struct vndf_vec3 {
 
 /* ---- distributions ---------------------------------------------------------------------------- */
 
-/* A distribution of normals: a loaded or built table, or a closed form. Immutable, shared freely. */
+/* A distribution of normals: a loaded or built table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* A larger file is no table; those that vndf_build makes have 1 MiB at most. */
+/* A larger file is not a table. Tables that vndf_build makes have at most 1 MiB. */
 enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
 
-/* Reads a table file. NULL and an error if it cannot be read or is not a whole, consistent table. The
- * bytes are not trusted: no file crashes the loader. Free the result with vndf_free. */
+/* Reads a table file. Returns NULL and an error if the file cannot be read or is not a whole, consistent table.
+ * The loader does not trust the bytes: no file crashes it. Free the result with vndf_free. */
 VNDF_API vndf_distribution *vndf_load(const char *path, vndf_error *error);
 
-/* The same from memory; the bytes are copied and may be freed at once. */
+/* The same from memory. The bytes are copied; the caller may free them at once. */
 VNDF_API vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error);
 
-/* Frees a table; NULL and the closed forms are ignored. */
+/* Frees a table; does nothing for NULL and the closed forms. */
 VNDF_API void vndf_free(vndf_distribution *distribution);
 
 /* GGX (Trowbridge-Reitz), P22(r) = 1/(pi (1 + r^2)^2), sampled by spherical caps (Dupuy & Benyoub,
- * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) in half angles, which leave no NaN. Exact;
- * not to be freed. */
+ * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) in half angles, which leave no NaN. Exact. It need
+ * not be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: erf-based Lambda and an inversion of the slope CDF, continuous but for
- * rounding, whose error in u is below 2e-7 before the normal is rounded to float. Not to be freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the slope CDF. The inverse is
+ * continuous but for rounding; its error in u is below 2e-7 before the normal is rounded to float. It need not be
+ * freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
-/* What the builder measured on a table, after rounding to float, against quadrature of the D it was
- * given, over incident directions from 0 to 180 degrees where the projected area at alpha = 1 exceeds 1e-10 of
- * its value at grazing incidence (1e-14 / scale of it for a median slope, vndf_info.scale, below 1e-4). It looks
- * where errors peak: between azimuth rows, inside radial cells, and at the edge of what is seen. All zero for the
- * closed forms.
+/* What the builder measured: the table, after rounding to float, against quadrature of the given D. It measures
+ * over incident directions from 0 to 180 degrees where the projected area at alpha = 1 exceeds 1e-10 of its value
+ * at grazing incidence (1e-14 / scale of that value if the median slope, vndf_info.scale, is below 1e-4). It looks
+ * where errors peak: between azimuth rows, inside radial cells, and at the edge of the visible part. All members
+ * are zero for the closed forms.
  *
- * hidden and finest say how well the builder knew D. Of a formula it has a proof, of a family and a CSV it knows
- * every scale: finest is 0, and no more than `hidden` of the mass or of the area at grazing incidence can have
- * escaped it. A callback can only be sampled: hidden is 1, and what is narrower than `finest` times its slope may
- * have escaped. */
+ * hidden and finest say how well the builder knew D. It bounds a formula by a proof, and knows every scale of a
+ * family and of a CSV: finest is 0, and at most `hidden` of the mass, or of the area at grazing incidence, can
+ * have escaped. A callback can only be sampled: hidden is 1, and a feature narrower than `finest` times its slope
+ * may have escaped. */
 typedef struct vndf_certificate {
     float tv;       /* largest total variation distance between sampled and true visible normals */
     float tv_theta; /* the incident angle where it was found, degrees */
@@ -129,13 +130,13 @@ typedef struct vndf_certificate {
     float area_error;     /* largest relative error of the projected area, hence of Lambda and G1 */
     float consistency;    /* largest |integral of the pdf - 1| */
     float ndf_error;      /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
-    float hidden;         /* part that may have escaped, in [0, 1]: see above */
-    float finest;         /* relative width of slope; 0 if nothing narrower escapes either */
-    float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, so that angular grids of a
-                          * host cannot resolve it; 0 if D is bounded there */
+    float hidden;         /* the part that may have escaped, in [0, 1]: see above */
+    float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
+    float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, where the angular grid of a
+                           * host cannot resolve it; 0 if D is bounded there */
 } vndf_certificate;
 
-/* What a distribution is. Strings belong to the distribution. */
+/* What a distribution is. The strings belong to the distribution. */
 typedef struct vndf_info {
     const char *source;   /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
     const char *tool;     /* version that made it, "vndf 0.1.0" */
@@ -148,7 +149,7 @@ typedef struct vndf_info {
     vndf_certificate certificate;
 } vndf_info;
 
-/* Of NULL: empty texts and zeros. */
+/* For NULL: empty texts and zeros. */
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
@@ -159,8 +160,8 @@ typedef struct vndf_surface {
     float alpha_x, alpha_y;
 } vndf_surface;
 
-/* Everything that depends on the surface and wi alone; a plain value, valid while the distribution
- * lives. Its members are private, and may change between versions. */
+/* Everything that depends on the surface and wi alone: a plain value, valid while the distribution
+ * lives. Its members are private and may change between versions. */
 typedef struct vndf_view {
     const vndf_distribution *distribution; /* NULL marks an invalid view */
     vndf_vec3 wi;                          /* as given: a rounding to unit length would move the horizon */
@@ -174,46 +175,50 @@ typedef struct vndf_view {
     float area, spread;           /* projected area of the unit problem; times ax ay */
 } vndf_view;
 
-/* wi need not be unit: any length that floats have will do. alpha_x and alpha_y may be as far apart as their range
- * allows. Invalid input - NULL, a direction that is zero or not finite, alpha times the distribution's scale
- * (vndf_info; 1 for closed forms) not in [1e-18, 1e18] - gives an invalid view: vndf_sample then returns (0, 0, 1)
- * with density 0, and every other function 0.
+/* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
+ * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha
+ * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-18, 1e18]. From an invalid view
+ * vndf_sample returns (0, 0, 1) with density 0, and every other function returns 0.
  *
- * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: Dv is D(wm) cos(theta_m), and vndf_sample
- * draws from all normals, as the microsurface has them. There wi has no azimuth for u1 to count from, and x takes
- * its place; beside it u1 counts from the azimuth of the stretched wi, whatever that is, so that the same numbers
- * give a normal turned about z, while densities hardly change. Straight from below, wi.x = wi.y = 0 > wi.z, every
- * normal is turned away: samples are horizontal normals with density 0. */
+ * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
+ * the density Dv = D(wm) cos(theta_m). There wi has no azimuth, so u1 counts from x. Beside that direction u1
+ * counts from the azimuth of the stretched wi, whatever it is: the same numbers give a normal that is turned about
+ * z, while densities hardly change. Straight from below, wi.x = wi.y = 0 > wi.z, every normal is turned away:
+ * samples are horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
-/* A visible normal from two uniform numbers in [0, 1] (outside: clamped; NaN: 0). Unit length within 4 ulps of
- * 2^-23, wm.z >= 0, wi.wm > 0 for wi as it was given. *pdf, if not NULL, receives the density per steradian
- * with which it was really drawn; it is what vndf_pdf returns for that normal, to 1e-5, and within [FLT_MIN,
- * FLT_MAX]: what would underflow, on the rim of a lobe, is FLT_MIN. The map is continuous, and monotone in each
- * number but for roundings: 1e-6 of the slope (Beckmann: of the slope plus alpha); 2e-4 of it where 1e-6 of the
- * mass is beyond, or at u2 = 0 below the horizon.
- * Tables: u1 turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the
- * side of wi (1/2) and round again (1); u2 moves the normal away from z. GGX: the same of the direction that is wi
- * mirrored at the normal. Beckmann: u1 moves the slope along wi, u2 the slope across. */
+/* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). The normal has unit
+ * length within 4 ulps of 2^-23, wm.z >= 0, and wi.wm > 0 for wi as it was given. *pdf, if pdf is not NULL,
+ * receives the density per steradian with which the normal was really drawn. vndf_pdf returns the same for that
+ * normal, to 1e-5. It is within [FLT_MIN, FLT_MAX]: a density that would underflow, on the rim of a lobe, is
+ * FLT_MIN.
+ *
+ * The map is continuous, and monotone in each number but for rounding: 1e-6 of the slope (Beckmann: of the slope
+ * plus alpha); 2e-4 of it where at most 1e-6 of the mass lies beyond, or at u2 = 0 below the horizon. Tables: u1
+ * turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of wi
+ * (1/2) and round again (1); u2 moves the normal away from z. GGX: u1 and u2 move the direction that
+ * the normal mirrors wi to, in the same way. Beckmann: u1 moves the slope along wi, u2 the slope across it. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The density per steradian with which vndf_sample draws wm, which is unit; 0 where wm.z < 0, as no normal points
- * below the surface, and where wi.wm <= 0, elsewhere >= FLT_MIN. Of a table: within 1e-5, relative, of what its
- * numbers define, wherever that is above 1e-30; so are area, lambda, g1 and ndf. For a table this is close to, not
- * equal to, vndf_visible: the ratio vndf_visible/vndf_pdf is the weight that makes an estimator exact, and its
- * maximum stands in the certificate. */
+/* The density per steradian with which vndf_sample draws wm, a unit vector. It is 0 where wm.z < 0, since no
+ * normal points below the surface, and where wi.wm <= 0; elsewhere it is at least FLT_MIN. For a table it is
+ * within 1e-5, relative, of the density that the numbers of the table define, wherever that is above 1e-30; the
+ * same holds for area, lambda, g1 and ndf. It is close to vndf_visible, not equal to it: the ratio
+ * vndf_visible/vndf_pdf is the weight that makes an estimator exact. The certificate holds the largest ratio. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm, or nearly: a normal that it drew comes back within 1e-5 -
- * the distance of unit normals whose slopes are over alpha - or, in far tails and gaps of D where steps of the
- * numbers themselves lead farther than that, within what four steps of 2^-24 of u1 and u2 make; the numbers may be
- * others by as many steps, or by what the rounding of wm is worth. Three places give no more than numbers in [0,
- * 1]: the border of the unit square within 2^-22 (all of u1 gives one normal at u2 = 0; where u1 = 0 and 1 lie at
- * a right angle to wi all of u2 changes with the last bit of the normal), directions below the horizon that see
- * less than 1e-10 of what they would at grazing incidence, and the view that sees nothing. */
+/* The uniform numbers that vndf_sample turns into wm, or nearly. A normal that vndf_sample drew comes back within
+ * 1e-5, the distance between unit normals whose slopes are over alpha. In far tails and gaps of D a step of the
+ * numbers leads farther than that: there the normal comes back within the change that four steps of 2^-24 of u1
+ * and u2 make. The numbers themselves may differ by as many steps, or by as much as the rounding of wm moves them.
+ *
+ * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0
+ * every u1 gives one normal; where u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of
+ * the normal), for directions below the horizon that see less than 1e-10 of the area at grazing incidence, and for
+ * the view that sees nothing. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
-/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian; 0 where wm.z < 0. For the closed forms this is vndf_pdf,
+/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian; 0 where wm.z < 0. For the closed forms it equals vndf_pdf,
  * FLT_MIN included. */
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
@@ -221,25 +226,25 @@ VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* The instruction sets that batches are compiled for. */
 typedef enum vndf_instructions {
-    VNDF_INSTRUCTIONS_BEST,     /* the best that this machine has */
-    VNDF_INSTRUCTIONS_PORTABLE, /* what the compiler was told to use for all */
+    VNDF_INSTRUCTIONS_BEST,     /* the best set of this machine */
+    VNDF_INSTRUCTIONS_PORTABLE, /* the set that the compiler uses for all code */
     VNDF_INSTRUCTIONS_AVX2,     /* 8 lanes */
     VNDF_INSTRUCTIONS_AVX512    /* 16 lanes; needs AVX-512 F, DQ, BW and VL */
 } vndf_instructions;
 
-/* What a batch runs on if it may go up to `limit`: one of the last three. */
+/* The set that a batch runs on if it may go up to `limit`: one of the last three. */
 VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
 
-/* `count` surfaces and incident directions, structure of arrays: what vndf_view_from takes. An array is of `count`
- * numbers, or, where `shared` has its bit, points to the one number that serves all. A plain value; no array needs
- * an alignment. */
+/* `count` surfaces and incident directions, the arguments of vndf_view_from, as a structure of arrays. An array
+ * holds `count` numbers; if its bit in `shared` is set, it points to one number that serves all elements. The
+ * batch is a plain value; no array needs an alignment. */
 enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
 
 typedef struct vndf_batch {
     const vndf_distribution *distribution;
     size_t count;
     unsigned shared;         /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
-    vndf_instructions limit; /* 0: the best there is; results are the same */
+    vndf_instructions limit; /* 0: the best set of this machine; results are the same */
     const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
 } vndf_batch;
@@ -249,11 +254,11 @@ typedef struct vndf_normals {
     float *x, *y, *z;
 } vndf_normals;
 
-/* Element i is to the bit what the call of one gives for element i: vndf_sample, vndf_pdf and so on, of
- * vndf_view_from or of the surface. In place is allowed: an array of results may be one of those that are read,
- * if that is not shared; otherwise arrays must not overlap. `pdf` of vndf_sample_n may be NULL. Where the
- * direction and roughness are shared the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n,
- * vndf_g1_n and vndf_projected_area_n are of the directions wi. */
+/* Element i equals, to the bit, the result of the call for one element: vndf_sample, vndf_pdf and so on, with the
+ * view or the surface of element i. An array of results may be an array of inputs that is not shared; apart from
+ * that arrays must not overlap. `pdf` of vndf_sample_n may be NULL. If direction and roughness are shared, the
+ * view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as
+ * their direction. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
                             float *pdf);
 VNDF_API void vndf_pdf_n(const vndf_batch *batch, vndf_normals wm, float *pdf);
@@ -272,26 +277,26 @@ VNDF_API float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm);
 /* P22 at the slope (x, y), per unit of slope area. */
 VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
 
-/* A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere; in [0, inf). Far below the horizon
- * it may underflow to 0 although the view is valid and vndf_sample and vndf_pdf are right there. */
+/* A(w) = integral max(0, w.wm) D(wm) dwm for any w on the sphere; in [0, inf). Far below the horizon
+ * it may underflow to 0, although the view is valid and vndf_sample and vndf_pdf are right there. */
 VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
 
-/* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). Infinity is
- * never returned: at cos(theta) = 0 it is the largest float, with the sign of the side. */
+/* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). It is never
+ * infinite: at cos(theta) = 0 it is the largest float, with the sign of the side. */
 VNDF_API float vndf_lambda(const vndf_surface *surface, vndf_vec3 w);
 
-/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w) in [0, 1] above the horizon; below it,
- * 0. The factor for w.wm > 0 is the caller's. */
+/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w): in [0, 1] above the horizon, 0 below it.
+ * The caller multiplies by the factor that is 1 for w.wm > 0, else 0. */
 VNDF_API float vndf_g1(const vndf_surface *surface, vndf_vec3 w);
 
-/* How masking and shadowing are correlated in G2 (Heitz, "Understanding the Masking-Shadowing Function
+/* How G2 correlates masking and shadowing (Heitz, "Understanding the Masking-Shadowing Function
  * in Microfacet-Based BRDFs", JCGT 2014). */
 typedef enum vndf_g2_model {
     VNDF_G2_SEPARABLE,        /* G1(wi) G1(wo), eq. 98 */
     VNDF_G2_HEIGHT_CORRELATED /* 1/(1 + Lambda(wi) + Lambda(wo)), eq. 99 */
 } vndf_g2_model;
 
-/* Masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */
+/* G2: masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */
 VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
 /* vndf_bsdf.h - reflection and refraction on a rough surface of any distribution of normals.
  *
  * A material is a distribution (table, GGX, Beckmann), its roughness, its optics and a set of effects. The set is
- * resolved once, to routines made for it: an effect that is not chosen is not looked at when a ray arrives. At a
- * hit vndf_bsdf_at forms all that depends on the incident direction alone; from it come samples, values and
- * densities.
+ * resolved once, to routines made for it: an effect that is not chosen costs nothing when a ray arrives. At a hit
+ * vndf_bsdf_at forms everything that depends on the incident direction alone; samples, values and densities start
+ * from that.
  *
  *     vndf_material material;
  *     vndf_description glass = {.distribution = vndf_ggx(), .alpha_x = 0.1f, .alpha_y = 0.1f, .eta = 1.5f,
@@ -14,9 +14,9 @@
  *     vndf_bsdf_at(&bsdf, &material, wi);
  *     vndf_bsdf_sample(&bsdf, u, &s);         weight s.weight, direction s.wo, density s.density
  *
- * Conventions are those of vndf.h: z is the geometric normal, directions are unit and point away from the surface,
- * wi is the known one and wo the chosen one. Unlike there a direction with z < 0 is one on the other side of the
- * surface, in the second medium, and not one below the horizon. Both sides have the same microsurface.
+ * The conventions of vndf.h hold: z is the geometric normal, directions are unit and point away from the surface,
+ * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 is on the other side of
+ * the surface, in the second medium; it is not below the horizon. Both sides have the same microsurface.
  *
  * The model (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
  * "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 2014). With the microfacet normal
@@ -26,23 +26,23 @@
  *     transmission  f = (1 - F) G2 D(wm) |wi.wm| |wo.wm| / (|cos_i| |cos_o| (wi.wm + r wo.wm)^2),
  *                                                                                          wm ~ +-(wi + r wo)
  *
- * per steradian. This carries radiance, from wo to wi; importance has the factor r^2 more in transmission.
- * D and Lambda are those of the distribution (vndf_ndf, vndf_lambda), not the ones that a table draws with: the
- * small ratio is in the weight, and estimators are exact for a table of any size.
+ * per steradian. This carries radiance, from wo to wi; in transmission importance has another factor r^2. D and
+ * Lambda belong to the given distribution (vndf_ndf, vndf_lambda), not to the density that a table draws with: the
+ * weight holds the small ratio, so estimators are exact for a table of any size.
  *
- * Three wavelengths - red, green and blue, or whatever the caller takes them for - are carried at once; what does
- * not depend on the wavelength is three times the same. Dispersion and absorption belong to the renderer.
+ * A call carries three wavelengths at once: red, green and blue, or any other three. Numbers that do not depend on
+ * the wavelength are the same three times. Dispersion and absorption belong to the renderer.
  *
- * Errors and invalid input. vndf_material_resolve refuses, by name, what makes no sense: a conductor that
- * transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit, V-cavity normals
- * without that masking, a walk with other masking or normals than its own or with transmission alone. Calls on
- * values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and invalid roughness scatter nothing (lobe 0,
- * weights, values and densities 0); of lengths between these, and of cosine and sine that are not of one angle,
- * nothing is promised but finite numbers. A material has to have been resolved. No state, no NaN, and the same
- * bits everywhere, as vndf.h says.
+ * Errors and invalid input. vndf_material_resolve refuses sets that make no sense, and names the reason: a
+ * conductor that transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit,
+ * V-cavity normals without V-cavity masking, a walk with masking or normals other than its own or with
+ * transmission alone. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and invalid
+ * roughness scatter nothing (lobe 0; weights, values and densities 0). For lengths between these that are not 1,
+ * and for a cosine and a sine of different angles, only finite numbers are promised. The material must have been
+ * resolved. No state, no NaN, and the same bits everywhere, as vndf.h says.
  *
- * There is no smooth limit: a mirror is the caller's (alpha from 1e-4 on keeps all digits). A description that is
- * zero but for its distribution and roughness is a white mirror, rough: no Fresnel term. */
+ * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
+ * nothing set but distribution and roughness is a rough white mirror: it has no Fresnel term. */
 #ifndef VNDF_BSDF_H
 #define VNDF_BSDF_H
 
@@ -58,47 +58,48 @@ enum { VNDF_WAVELENGTHS = 3 };
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
-/* What light does at the surface. Of both, one is chosen per sample, reflection with the probability F (the mean of
- * the wavelengths). */
+/* What light does at the surface. With both, a sample chooses one: reflection with the probability F (the mean
+ * over the wavelengths). */
 typedef enum vndf_lobes { VNDF_LOBES_REFLECTION, VNDF_LOBES_TRANSMISSION, VNDF_LOBES_BOTH } vndf_lobes;
 
 typedef enum vndf_fresnel {
-    VNDF_FRESNEL_NONE, /* F = 1 for reflection, 0 for transmission, but 1 in total reflection: the shape alone */
-    VNDF_FRESNEL_SCHLICK,    /* f0 + (1 - f0) (1 - cos)^5; with transmission the cosine in the thinner medium */
+    VNDF_FRESNEL_NONE, /* the shape alone: F = 1 for reflection, 0 for transmission, but 1 in total reflection */
+    VNDF_FRESNEL_SCHLICK,    /* f0 + (1 - f0) (1 - cos)^5; with transmission cos is taken in the thinner medium */
     VNDF_FRESNEL_DIELECTRIC, /* unpolarised, index ratio eta */
     VNDF_FRESNEL_CONDUCTOR   /* unpolarised, complex index conductor_eta + i conductor_k; reflection alone */
 } vndf_fresnel;
 
-/* G2, masking and shadowing. Smith's are of the distribution's own Lambda. */
+/* G2, masking and shadowing. Smith's models use the Lambda of the distribution. */
 typedef enum vndf_masking {
     VNDF_MASKING_HEIGHT_CORRELATED, /* reflection 1/(1 + Lambda_i + Lambda_o), transmission the Beta function of
                                      * 1 + Lambda_i and 1 + Lambda_o (Heitz et al. 2016) */
     VNDF_MASKING_SEPARABLE,         /* G1(wi) G1(wo) */
-    VNDF_MASKING_V_CAVITIES,        /* of G1 = min(1, 2 |wm.z w.z|/(w.wm)): the smaller one, and in transmission
+    VNDF_MASKING_V_CAVITIES,        /* with G1 = min(1, 2 |wm.z w.z|/(w.wm)): the smaller G1, in transmission
                                      * max(0, G1(wi) + G1(wo) - 1) */
-    VNDF_MASKING_NONE               /* 1: energy is not conserved */
+    VNDF_MASKING_NONE               /* 1: does not conserve energy */
 } vndf_masking;
 
 /* How wm is drawn. */
 typedef enum vndf_normals_drawn {
-    /* Those that wi sees: weights are F G2/G1; with both lobes, and a Fresnel term that depends on the wavelength,
-     * times F over its mean. */
+    /* Normals that wi sees: weights are F G2/G1; with both lobes, and a Fresnel term that depends on the
+     * wavelength, times F over its mean. */
     VNDF_NORMALS_VISIBLE,
-    /* Those of them that reflect wi to above the horizon: no sample is lost. Weights are those of visible normals
-     * times the part of them that is left where wm is drawn; for GGX of anisotropic roughness up to 1.7 of that. */
+    /* Visible normals that reflect wi to above the horizon: no sample is lost. The weight is that of a visible
+     * normal times the part of the visible normals that is left where wm is drawn; for GGX of anisotropic
+     * roughness up to 1.7 times that. */
     VNDF_NORMALS_BOUNDED,
-    VNDF_NORMALS_ALL,     /* D cos(theta_m), as before visible normals were used: weights are unbounded */
-    VNDF_NORMALS_V_CAVITY /* those that wi sees in V-cavities; for that masking only */
+    VNDF_NORMALS_ALL,     /* D cos(theta_m), the way before visible normals: weights are unbounded */
+    VNDF_NORMALS_V_CAVITY /* normals that wi sees in V-cavities; for V-cavity masking only */
 } vndf_normals_drawn;
 
 typedef enum vndf_scattering {
     VNDF_SCATTERING_SINGLE,
     VNDF_SCATTERING_MULTIPLE /* Smith's random walk (Heitz et al., "Multiple-Scattering Microfacet BSDFs with the
-                              * Smith Model", SIGGRAPH 2016): no energy is lost between the microfacets, but
-                              * with walks longer than order_limit */
+                              * Smith Model", SIGGRAPH 2016): only walks longer than order_limit lose energy
+                              * between the microfacets */
 } vndf_scattering;
 
-/* What is carried along wi. */
+/* What a path carries along wi. */
 typedef enum vndf_transport {
     VNDF_TRANSPORT_RADIANCE,  /* paths from the eye */
     VNDF_TRANSPORT_IMPORTANCE /* paths from the light */
@@ -122,33 +123,34 @@ typedef struct vndf_effects {
 
 /* ---- materials ---------------------------------------------------------------------------------- */
 
-/* What a material is made of. What the effects do not ask for is not read. */
+/* The parts of a material. A member that the effects do not need is not read. */
 typedef struct vndf_description {
     const vndf_distribution *distribution; /* not owned; must outlive the material */
     vndf_effects effects;
-    float alpha_x, alpha_y;                /* roughness where a hit brings none, > 0 */
+    float alpha_x, alpha_y;                /* roughness of hits that bring none, > 0 */
     float rotation;                        /* angle from x to the axis of alpha_x, radians, within 1e4 */
     float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
-    float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at right angles, 0 to 1 */
-    float conductor_eta[VNDF_WAVELENGTHS]; /* over the index on the side of z, 0 to 1000, */
-    float conductor_k[VNDF_WAVELENGTHS];   /* and its imaginary part, the same; one of them > 0 */
-    /* Scattering events in a walk at most; 0: 64. Walks that have not left by then are lost: of GGX none in 40000
-     * up to alpha 10, but 1% of a heavy-tailed table there, 0.7% of eta 1.001 at grazing, and all at alpha 1000. */
+    float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at normal incidence, 0 to 1 */
+    float conductor_eta[VNDF_WAVELENGTHS]; /* index over that on the side of z: real part, 0 to 1000, */
+    float conductor_k[VNDF_WAVELENGTHS];   /* and imaginary part, 0 to 1000; one of the two > 0 */
+    /* The most scattering events of a walk; 0: 64. A walk that has not left by then is lost: up to alpha 10 none
+     * of 40000 walks on GGX, but 1% on a heavy-tailed table at alpha 10, 0.7% with eta 1.001 at grazing incidence,
+     * and all at alpha 1000. */
     unsigned order_limit;
 } vndf_description;
 
-/* The roughness of one hit, as from a texture. The cosine and sine of the rotation are read where axes are rotated;
- * they are unit within rounding. */
+/* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if axes are rotated;
+ * they must be unit within rounding. */
 typedef struct vndf_roughness {
     float alpha_x, alpha_y;
     float cos_rotation, sin_rotation;
 } vndf_roughness;
 
-/* A material, resolved: a plain value, valid while its distribution lives. Its members are private. */
+/* A resolved material: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
-    const struct vndf_routines *routines;  /* made for its effects, */
-    const struct vndf_routines *unrotated; /* and in the frame of the roughness */
+    const struct vndf_routines *routines;  /* made for its effects */
+    const struct vndf_routines *unrotated; /* the same in the frame of the roughness */
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
@@ -156,15 +158,15 @@ typedef struct vndf_material {
     int steep; /* F changes faster than directions are rounded */
 } vndf_material;
 
-/* VNDF_OK, or VNDF_ERROR_ARGUMENT with the combination or number that is refused; *material is then unusable but
- * safe: it scatters nothing. */
+/* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material is
+ * then safe to use: it scatters nothing. */
 VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, vndf_material *material,
                                            vndf_error *error);
 
 /* ---- one hit ------------------------------------------------------------------------------------ */
 
-/* Everything that depends on the material and wi alone; a plain value, valid while the material lives and is not
- * moved. Its members are private. */
+/* Everything that depends on the material and wi alone: a plain value, valid while the material lives. It points
+ * to the material, which must not move. Its members are private. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
     vndf_view view; /* of wi in the frame of the roughness, turned up */
@@ -176,50 +178,53 @@ typedef struct vndf_bsdf {
     double bounds[8]; /* bounded normals: what their law takes of the direction */
 } vndf_bsdf;
 
-/* With the roughness of the material. wi is unit within 2e-6. Materials that do not transmit and have no Fresnel
- * term for a dielectric are seen from z > 0 only; others from both sides. 0 if nothing is scattered from there. (By
- * a pointer: what is returned would be copied, and waited for.) */
+/* Prepares a hit with the roughness of the material. wi is unit within 2e-6. A material that does not transmit and
+ * has no Fresnel term for a dielectric is seen from z > 0 only, any other from both sides. Returns 0 if the
+ * material scatters nothing from there. (The result goes through a pointer: a returned struct would be copied, and
+ * reading it back would stall on store forwarding.) */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
-/* With the roughness of the hit; NULL: that of the material. */
+/* The same with the roughness of the hit; NULL: the roughness of the material. */
 VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness,
                              vndf_vec3 wi);
 
-/* Which way light went. */
+/* Which way the light went. */
 typedef enum vndf_lobe {
     VNDF_LOBE_NONE, /* nowhere: the sample is lost, its weight is 0 */
     VNDF_LOBE_REFLECTION,
     VNDF_LOBE_TRANSMISSION,
-    /* eta = 1: on along -wi, unbent, with the weight of masking (1 for walks). A Dirac, towards which there is
-     * nothing else to sample: density is 1, vndf_bsdf_eval and _pdf 0. */
+    /* eta = 1: straight on along -wi, with the weight of masking (1 for walks). This is a Dirac, the only
+     * direction to sample: density is 1, vndf_bsdf_eval and vndf_bsdf_pdf are 0. */
     VNDF_LOBE_STRAIGHT
 } vndf_lobe;
 
 typedef struct vndf_scattered {
     vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23 */
     float weight[VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1 */
-    float density;                  /* per steradian; what vndf_bsdf_pdf gives for wo, to 1e-5; at least FLT_MIN */
+    float density;                  /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
     vndf_lobe lobe;
 } vndf_scattered;
 
-/* A direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random walk takes
- * the numbers after them from a hash of all three, so points that are well spread are so in its first event
- * alone; its weight is the throughput of the walk and its density an estimate (vndf_bsdf_pdf). */
+/* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random
+ * walk takes all further numbers from a hash of the three, so low-discrepancy points help its first event only.
+ * The weight of a walk is its throughput, and its density an estimate (vndf_bsdf_pdf). */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
-/* f of the wavelengths, without the cosine; 0 where wo.z = 0. `seed` is for random walks, whose f is a random
- * number with the right mean; no others read it. */
+/* f of each wavelength, without the cosine; 0 where wo.z = 0. Only random walks read `seed`: their f is a random
+ * number with the right mean. */
 VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
 
-/* The density per steradian with which vndf_bsdf_sample draws wo. For random walks a density near it, positive
- * wherever f is, of integral 1 over the directions above the horizon: fit for multiple importance sampling. */
+/* The density per steradian with which vndf_bsdf_sample draws wo. For random walks it is a density near that one:
+ * positive wherever f is, with integral 1 over the directions above the horizon, so multiple importance sampling
+ * may use it. */
 VNDF_API float vndf_bsdf_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
 /* ---- many at once ------------------------------------------------------------------------------- */
 
-/* `count` hits of one material, structure of arrays; `shared` and `limit` as in vndf_batch. alpha_x and alpha_y may
- * be NULL, both: the roughness of the material. cos_rotation and sin_rotation are read where axes are rotated and
- * go with VNDF_SHARED_ALPHA; NULL, both: the rotation of the material. */
+/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. alpha_x and
+ * alpha_y may both be NULL: every hit then has the roughness of the material. cos_rotation and sin_rotation are
+ * read if axes are rotated, and shared if VNDF_SHARED_ALPHA is set; both may be NULL: the rotation of the
+ * material. */
 typedef struct vndf_bsdf_batch {
     const vndf_material *material;
     size_t count;
@@ -230,7 +235,7 @@ typedef struct vndf_bsdf_batch {
     const float *wi_x, *wi_y, *wi_z;
 } vndf_bsdf_batch;
 
-/* Results of sampling, `count` each. */
+/* Results of sampling: arrays of `count` elements. */
 typedef struct vndf_scattered_n {
     vndf_normals wo;
     float *weight[VNDF_WAVELENGTHS];
@@ -238,8 +243,8 @@ typedef struct vndf_scattered_n {
     uint8_t *lobe; /* vndf_lobe */
 } vndf_scattered_n;
 
-/* Element i is to the bit what the call of one gives. No array of results may overlap one that is read. `seed` may
- * be NULL where the material is no random walk. */
+/* Element i equals, to the bit, the result of the call for one element. No array of results may overlap an array
+ * of inputs. `seed` may be NULL unless the material is a random walk. */
 VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3],
                                  vndf_scattered_n scattered);
 VNDF_API void vndf_bsdf_eval_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
@@ -249,7 +254,8 @@ VNDF_API void vndf_bsdf_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, flo
 /* ---- Fresnel ------------------------------------------------------------------------------------ */
 
 /* Reflectance of unpolarised light at a smooth interface, in [0, 1]; `cosine` is |cos| of the angle of incidence.
- * eta: index beyond the interface over that before it; 1 in total reflection. Relative error below 1e-6. */
+ * eta is the index beyond the interface over the index before it; in total reflection the result is 1. Relative
+ * error below 1e-6. */
 VNDF_API float vndf_fresnel_dielectric(float cosine, float eta);
 VNDF_API float vndf_fresnel_conductor(float cosine, float eta, float k);
 VNDF_API float vndf_fresnel_schlick(float cosine, float f0);

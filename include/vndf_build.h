@@ -1,8 +1,8 @@
 /* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
  *
  * A *source* is a distribution of normals that a user brings: a formula, a CSV, a named family or a C
- * callback, at any scale, normalised or not. vndf_build turns it into a table and measures what the
- * table is worth; vndf_save writes it. Conventions are those of vndf.h. */
+ * callback, at any scale, normalised or not. vndf_build turns it into a table and measures how good the
+ * table is; vndf_save writes it. The conventions of vndf.h hold. */
 #ifndef VNDF_BUILD_H
 #define VNDF_BUILD_H
 
@@ -24,19 +24,19 @@ typedef struct vndf_parameter {
 
 /* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses, numbers, pi,
  * parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
- * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. NULL and an error that
- * points at the column if it cannot be read. The text and parameters are copied; parameters that the formula does
- * not use are no error here (`vndf build --set` refuses them). */
+ * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. If the text cannot be read,
+ * returns NULL and an error that points at the column. The text and parameters are copied. A parameter that the
+ * formula does not use is no error here (`vndf build --set` refuses it). */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                                  vndf_error *error);
 
-/* P22 as a formula in r = tan(theta_m), the slope length; otherwise as above. */
+/* P22 as a formula in r = tan(theta_m), the slope length; the rest is as above. */
 VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters,
                                                    size_t count, vndf_error *error);
 
 /* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
- * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped. Rows
- * are joined by shape-preserving interpolation; see src/source/csv/csv.h for the rule of the tail. */
+ * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped.
+ * Shape-preserving interpolation joins the rows; src/source/csv/csv.h has the rule for the tail. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 
@@ -51,37 +51,38 @@ VNDF_API const char *vndf_family_help(void);
  * last. */
 VNDF_API const char *vndf_family_material(size_t index);
 
-/* A C function: D(cos theta_m), or P22(r) (better for narrow distributions: 1 - cos loses digits). It
- * must return the same value for the same argument. name is copied into the table as its provenance. A function can
- * only be sampled: features narrower than vndf_build_options.finest can hide, unless its breaks tell of them. */
+/* A C function: D(cos theta_m), or P22(r), which is better for narrow distributions (1 - cos loses digits). It
+ * must return the same value for the same argument. name is copied into the table as its provenance. A function
+ * can only be sampled: a feature narrower than vndf_build_options.finest can hide, unless a break marks it. */
 typedef double vndf_density_function(double x, void *user);
 VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
                                                vndf_error *error);
 VNDF_API vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user, const char *name,
                                                  vndf_error *error);
 
-/* The source that a table was built from, made again from its provenance (expressions and families;
- * for others NULL and VNDF_ERROR_ARGUMENT with the reason). */
+/* The source that a table was built from, made again from the table's provenance. This works for expressions and
+ * families; for other sources it returns NULL and VNDF_ERROR_ARGUMENT with the reason. */
 VNDF_API vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error);
 
-/* The source as given, before normalisation: P22(r), r >= 0. */
+/* P22(r) of the source as it was given, before normalisation; r >= 0. */
 VNDF_API double vndf_source_p22(const vndf_source *source, double r);
 
-/* How it was given, as arguments of `vndf build`; belongs to the source. */
+/* How the source was given, as arguments of `vndf build`. The text belongs to the source. */
 VNDF_API const char *vndf_source_description(const vndf_source *source);
 
 VNDF_API void vndf_source_free(vndf_source *source);
 
 /* ---- limits ------------------------------------------------------------------------------------ */
 
-/* What is beyond a limit is refused with an error that names it. Builds are bounded by the operations they
- * take, not by seconds, so that the same input gives the same result on every machine: an evaluation of P22
- * counts as 8 operations (16 for a mix), for a formula as 4, 8 for each power and function in it but abs, min, max
- * and step, and one for each of these, of the numbers, names and other operators. An operation takes some 4 to 12
- * ns, so that no formula takes more than minutes; the time of a callback is its own. Memory stays below 512 MiB. */
+/* An input beyond a limit is refused with an error that names the limit. Builds are bounded by operations, not by
+ * seconds, so that the same input gives the same result on every machine. An evaluation of P22 counts as 8
+ * operations, of a mix as 16. An evaluation of a formula counts as 4, plus 8 for each power and each function but
+ * abs, min, max and step, plus 1 for each of these four and each number, name and other operator. An operation
+ * takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own time. Memory stays below
+ * 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096, /* characters */
-    VNDF_LIMIT_EXPRESSION_DEPTH = 64,    /* parentheses, calls, signs and powers inside each other */
+    VNDF_LIMIT_EXPRESSION_DEPTH = 64,    /* parentheses, calls, signs and powers inside one another */
     VNDF_LIMIT_PARAMETERS = 64,          /* of an expression */
     VNDF_LIMIT_PARAMETER_NAME = 64,      /* characters */
     VNDF_LIMIT_FAMILY_LENGTH = 4096,     /* characters of a family's specification */
@@ -96,61 +97,65 @@ enum {
 
 /* ---- building ---------------------------------------------------------------------------------- */
 
-/* Called when a build begins something else, and at least every 2^18 operations (see limits), some
- * milliseconds, with the part done in [0, 1] and what is being done; returns 0 to go on, anything else to stop
- * the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
+/* The builder calls this when a new stage begins, and at least every 2^18 operations (see limits), which take some
+ * milliseconds. `done` is the part that is done, in [0, 1]; `what` names the stage. Return 0 to go on, any other
+ * value to stop the build (VNDF_ERROR_ARGUMENT, "interrupted"). */
 typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults.
  *
- * Narrow features. A formula and a family are bounded between all points by interval arithmetic, a CSV is looked at
- * in every row: from slope 1e-30 to 1e30 no more than 1e-5 of the mass, or of the area at grazing incidence, can hide
- * from a table of these, in all and however narrow - the rest is resolved, or refused with the slope where it may be
- * (VNDF_ERROR_DISTRIBUTION). What is narrower than the spacing of doubles is no feature. A callback can only be
- * sampled: what is narrower than `finest` of its slope may hide, whole, unless a break is given there. The certificate
- * says which it was (vndf_certificate: hidden, finest). */
+ * Size. If max_bytes and max_tv are both 0 a table may grow up to 32768 bytes where that brings the total
+ * variation below 1e-3: for oscillations, say.
+ *
+ * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and looks
+ * at every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
+ * can hide from it: all hidden features together, however narrow. Anything larger is resolved, or refused with the
+ * slope where it may be (VNDF_ERROR_DISTRIBUTION). A feature narrower than the spacing of doubles does not count.
+ * A callback can only be sampled: a feature narrower than `finest` of its slope may hide completely, unless a
+ * break is given there. The certificate says which case it was (vndf_certificate: hidden, finest).
+ *
+ * Breaks are slopes where a feature begins, ends, or has its peak: beside them the builder looks at P22 to 1e-12
+ * of the slope. finest is the width of the features that samples have to find, and costs 280/finest evaluations. A
+ * formula that cannot be bounded is refused; if finest is given it is sampled. */
 typedef struct vndf_build_options {
-    size_t max_bytes;        /* size of the file at most, from 2048 to 1 MiB; 0: 16384, or with no max_tv either up
-                               * to 32768 where that brings the total variation below 1e-3: oscillations, say */
-    double max_tv;           /* a total variation to reach: the smallest table that does; 0: the best that fits */
+    size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 16384, see above */
+    double max_tv;    /* build the smallest table that reaches this total variation; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
-    const double *breaks; /* slopes, in the source's unit, where something begins, ends, or has its peak: beside */
-    size_t break_count;   /* them P22 is looked at to 1e-12 of the slope; for any source; kept in the provenance */
-    double finest;        /* width, relative to the slope, of what samples have to find, from 1e-9 to 1; 0: 1e-3.
-                                 Costs 280/finest evaluations. A formula that cannot be bounded, and would be refused,
-                                 is sampled if finest is given */
+    const double *breaks; /* slopes in the unit of the source, for any source; kept in the provenance */
+    size_t break_count;
+    double finest; /* relative width in slope, from 1e-9 to 1; 0: 1e-3 */
 } vndf_build_options;
 
-/* Builds a table. options and certificate may be NULL. NULL and an error if the source cannot be the
+/* Builds a table. options and certificate may be NULL. Returns NULL and an error if the source cannot be the
  * normals of a microsurface (VNDF_ERROR_DISTRIBUTION, with the reason) or if the target cannot be met
- * (VNDF_ERROR_TARGET, with what was reached). Deterministic. Free the result with vndf_free. */
+ * (VNDF_ERROR_TARGET, with the value that was reached). Deterministic. Free the result with vndf_free. */
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 
-/* Measures a table against a source: the certificate that vndf_build would write. Breaks and finest are those that
- * the table was built with: its provenance ends with them, as --break R and --finest W. */
+/* Measures a table against a source: the certificate that vndf_build would write. It uses the breaks and finest
+ * that the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
-/* The truth by adaptive quadrature of the source, in double: normalised P22 and the projected area of the unit
- * problem at the angle theta (radians, 0 to pi), to 1e-8 of it where P22 is smooth. Narrow features: as a build with
- * zeroed options. An oracle; slow. */
+/* The truth by adaptive quadrature of the source, in double: normalised P22, and the projected area of the unit
+ * problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
+ * features that a build with zeroed options finds. A slow oracle. */
 typedef struct vndf_truth vndf_truth;
 VNDF_API vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error);
 VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
 VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
 VNDF_API void vndf_truth_free(vndf_truth *truth);
 
-/* Writes the table to a file: to a temporary beside it (NAME.PROCESS.tmp, a long name cut; another number
- * where that is taken), flushed to the disk, then renamed over path. If that fails the old file is whole and
- * no temporary is left. A file that is replaced keeps its permissions, and where path is a symbolic link, the
- * file that it leads to is replaced, or made, and the link stays; other hard links keep the old file. What is
- * no regular file - a device, a pipe - is refused. A signal that ends the process meanwhile may leave a
- * temporary: block it, as `vndf build` does. */
+/* Writes the table to a file: first to a temporary file beside it, which is flushed to the disk, then renamed over
+ * path. The temporary is called NAME.PROCESS.tmp; a long name is cut, and another number taken if a file has that
+ * name. If a step fails, the old file is whole and no temporary is left. A file that is replaced keeps its
+ * permissions. If path is a symbolic link, the file that it leads to is replaced, or made, and the link stays;
+ * other hard links keep the old file. A device, a pipe or anything else that is no regular file is refused. A
+ * signal that ends the process meanwhile may leave a temporary: block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
-/* The same to memory, for vndf_load_memory: `size` bytes, as vndf_distribution_info tells them. */
+/* The same to memory, for vndf_load_memory: `size` bytes, which is `bytes` of vndf_distribution_info. */
 VNDF_API vndf_status vndf_save_memory(const vndf_distribution *distribution, void *bytes, size_t size,
                                       vndf_error *error);
 

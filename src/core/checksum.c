@@ -1,5 +1,5 @@
-/* CRC-32 by half bytes: the remainder of each of the 16 values of four bits, so that the table is
- * short enough to be checked by eye and nothing has to be set up. What is summed here is KiB long. */
+/* CRC-32 by half bytes: a table holds the remainder of each of the 16 values of four bits. The table is short
+ * enough to check by eye, and needs no setting up. The inputs are some KiB long. */
 #include "core/checksum.h"
 
 static const uint32_t remainders[16] = {

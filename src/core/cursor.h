@@ -1,5 +1,5 @@
-/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`, writes past
- * the end only count, so that a first pass with capacity 0 measures what a second pass writes. */
+/* A bounded little-endian cursor over bytes. Reads past the end give zeros and set `failed`. Writes past the end
+ * only count, so a first pass with capacity 0 measures how much a second pass writes. */
 #ifndef VNDF_CORE_CURSOR_H
 #define VNDF_CORE_CURSOR_H
 
@@ -17,7 +17,7 @@ typedef struct vndf_writer {
     size_t capacity, at;
 } vndf_writer;
 
-/* The next n bytes, or NULL (and failed) if there are not as many. */
+/* The next n bytes, or NULL (and failed) if fewer are left. */
 const unsigned char *vndf_read_bytes(vndf_reader *reader, size_t n);
 uint32_t vndf_read_u32(vndf_reader *reader);
 float vndf_read_f32(vndf_reader *reader);

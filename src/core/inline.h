@@ -1,11 +1,11 @@
-/* What every file of the run time is compiled under.
+/* Two rules for every file of the run time.
  *
- * Functions of the hot path are always part of their caller, so that the small structures they return stay in
- * registers; those beside it, which must not take registers there, never are.
+ * Inlining. Functions of the hot path are always inlined into their caller, so that the small structures they
+ * return stay in registers. Rare functions are never inlined, so that they take no registers from it.
  *
- * Arithmetic is done in the type it is written in: where intermediate floats are held in more digits, as on the
- * x87, the bits would be others, and the bounds that were measured would be nobody's. 16 is 0 with a
- * half-precision type. */
+ * Arithmetic happens in the type it is written in. A machine that holds intermediate floats in more digits, as the
+ * x87 does, would give other bits, for which no bound was measured. (FLT_EVAL_METHOD 16 is 0 with a half-precision
+ * type.) */
 #ifndef VNDF_CORE_INLINE_H
 #define VNDF_CORE_INLINE_H
 

@@ -1,12 +1,12 @@
 /* exp, log, log1p, erfc and atan2 from + - * / and sqrt alone, so that closed forms give the same bits with every
- * C library. Relative errors, measured by tests/core/test_elementary.c against long double: exp and log below 4e-16
- * (exp beyond 700 either way 1e-15), log1p and atan2 below 8e-16, half_erfc below 3e-9.
+ * C library. Relative errors, measured by tests/core/test_elementary.c against long double: exp and log below
+ * 4e-16 (exp beyond 700 either way 1e-15), log1p and atan2 below 8e-16, half_erfc below 3e-9.
  *
  *   exp    x = k log 2 + r, |r| <= (log 2)/2: 1 + r + r^2 times a polynomial of degree 9 (error 1.6e-17),
  *          times 2^k.
  *   log    x = 2^k m, 1/sqrt(2) <= m < sqrt(2); log m = 2 atanh f with f = (m - 1)/(m + 1), |f| < 0.1716:
  *          2 f (1 + s times a polynomial of degree 6 in s = f^2, error 4.4e-18).
- *   log1p  log(1 + x) times what the rounding of 1 + x did to x (Higham, "Accuracy and Stability of Numerical
+ *   log1p  log(1 + x) times x over the rounded x, (1 + x) - 1 (Higham, "Accuracy and Stability of Numerical
  *          Algorithms", SIAM 2002, 1.14.1).
  *   atan2  the smaller part over the larger, its angle halved twice: |t| < 0.199, twelve terms.
  *
@@ -39,7 +39,7 @@ VNDF_INLINE doubles vndf_exp_near(doubles x)
 
 #if VNDF_LANES == 1 /* the rest is for one */
 
-/* Any x: infinity above 1400, where the square of exp(x/2) is that, 0 below -1400, NaN for NaN. */
+/* Any x: infinity above 1400, where exp(x/2) squared overflows, 0 below -1400, NaN for NaN. */
 static inline double vndf_exp_far(double x)
 {
     double root = fabs(x) <= 1400.0 ? vndf_exp_near(0.5 * x) : x > 0.0 ? HUGE_VAL : x < 0.0 ? 0.0 : x;
@@ -51,7 +51,8 @@ VNDF_INLINE double vndf_exp(double x)
     return fabs(x) <= 700.0 ? vndf_exp_near(x) : vndf_exp_far(x);
 }
 
-/* x > 0, finite and not denormal. Taking the bits of 1/sqrt(2) away from those of x leaves k in the exponent. */
+/* x > 0, finite and not denormal. Subtracting the bits of 1/sqrt(2) from the bits of x leaves k in the
+ * exponent. */
 VNDF_INLINE double vndf_log(double x)
 {
     uint64_t bits, least = 0x3FE6A09E667F3BCDu;

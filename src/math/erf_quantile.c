@@ -1,6 +1,6 @@
 /* With t = 2u - 1 = erf y, the ratio y/t is a smooth even function of t, best written in
  * w = -log(1 - t^2) = -log(4 u (1 - u)) (Giles, "Approximating the erfinv function", GPU Computing Gems 2, 2011);
- * w is taken from u, so nothing is lost in the tails. w < 6 (99.9% of the mass): a polynomial of degree 10,
+ * w comes from u, so nothing is lost in the tails. w < 6 (99.9% of the mass): a polynomial of degree 10,
  * relative error 5.1e-9. Beyond: y/(t sqrt(w)) is a polynomial in 1/sqrt(w) with error 1.6e-6, and one Newton
  * step on erfc|y| = 2 min(u, 1 - u) squares it. Both fitted for the least largest relative error against 40
  * digits. */
@@ -10,7 +10,7 @@
 
 #include "math/elementary.h"
 
-/* Even and odd powers apart: two short chains instead of one long one, here and in erfc_remainder.h. */
+/* Even and odd powers are summed apart, here and in erfc_remainder.h: two short chains instead of a long one. */
 static double middle(double w)
 {
     double q = w - 3.0, q2 = q * q;

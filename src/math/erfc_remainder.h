@@ -1,9 +1,9 @@
 /* The tail of the error function without cancellation, underflow or a second division.
  *
  * For z >= 0 write  sqrt(pi) exp(z^2) erfc(z) = 1/(z + N(z)). N is the remainder of the continued fraction,
- * N = (1/2)/(z + 1/(z + (3/2)/(z + ...))): positive, 1/sqrt(pi) at 0, 1/(2z) for large z. All that a Gaussian
- * slope distribution needs is then a sum of positive terms; above all  1 - z sqrt(pi) exp(z^2) erfc(z) =
- * N/(z + N),  which is about 1/(2 z^2) and which no difference of erfc could give.
+ * N = (1/2)/(z + 1/(z + (3/2)/(z + ...))): positive, 1/sqrt(pi) at 0, 1/(2z) for large z. A Gaussian
+ * slope distribution then needs sums of positive terms only; above all  1 - z sqrt(pi) exp(z^2) erfc(z) =
+ * N/(z + N),  which is about 1/(2 z^2): a difference of erfc would lose all its digits.
  *
  * N is one ratio of polynomials, relative error below 2.3e-9 for all z in [0, inf) (fitted for the least largest
  * relative error against 90 digits; its limit z N -> 1/2 holds to 1e-9). z up to 1e40 overflows nothing. */
@@ -12,7 +12,7 @@
 
 #include "simd/doubles.h"
 
-/* N = above/below, for those who divide by other things too. */
+/* N = above/below, for callers that divide by another number too. */
 typedef struct vndf_erfc_quotient {
     doubles above, below;
 } vndf_erfc_quotient;

@@ -6,11 +6,11 @@
  *     F(xi)  = m (xi^2 + e0/m xi eta) / (1 + (k - 2) xi eta),              F(0) = 0, F(1) = m
  *     F'(xi) = (e1 xi^2 + 2 m xi eta + e0 eta^2) / (1 + (k - 2) xi eta)^2.
  *
- * F' > 0 inside for any e0, e1, so a cell never has a hole; F is inverted by one square root; and F'
- * follows a smooth density to third order in the cell's width, where a linear one reaches the second.
+ * F' > 0 inside for any e0, e1, so a cell never has a hole. One square root inverts F. F' follows a smooth density
+ * to third order in the width of the cell; a linear density would reach the second.
  *
- * All quotients are multiplied by m, so that none has to wait for k: with e = e0 + e1 the denominator is
- * m + (e - 2 m) xi eta. */
+ * All quotients are multiplied by m, so that none depends on the division in k: with e = e0 + e1 the denominator
+ * is m + (e - 2 m) xi eta. */
 #ifndef VNDF_MATH_RATIONAL_CELL_H
 #define VNDF_MATH_RATIONAL_CELL_H
 
@@ -20,13 +20,13 @@ typedef struct vndf_rational_cell {
     lanes_f e0, e1, mass;
 } vndf_rational_cell;
 
-/* (m + (e - 2 m) xi eta); > 0 but for a cell without mass and density. */
+/* m + (e - 2 m) xi eta: positive unless the cell has neither mass nor density. */
 VNDF_INLINE lanes_f vndf_rational_below(const vndf_rational_cell *cell, lanes_f w)
 {
     return cell->mass + (cell->e0 + cell->e1 - 2.0f * cell->mass) * w;
 }
 
-/* m over that, 0 in an empty cell. */
+/* m over vndf_rational_below; 0 in an empty cell. */
 VNDF_INLINE lanes_f vndf_rational_part(const vndf_rational_cell *cell, lanes_f w)
 {
     lanes_f below = vndf_rational_below(cell, w), nothing = lanes_set(0.0f);
@@ -47,40 +47,40 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* The same, 0 where 2^-20 or less of mass lies between xi and an end. */
+/* The same, but 0 where at most 2^-20 of mass lies between xi and an end. */
 VNDF_INLINE lanes_f vndf_rational_inner_density(const vndf_rational_cell *cell, lanes_f xi)
 {
     lanes_f before = vndf_rational_cdf(cell, xi), least = lanes_least(before, cell->mass - before);
     return lanes_keep(lanes_less(lanes_set(0x1p-20f), least), vndf_rational_density(cell, xi));
 }
 
-/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below: quotients that are
- * left to those who have others to form. */
+/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below. The caller forms this
+ * quotient together with its own. */
 typedef struct vndf_rational_place {
     lanes_f xi, over, under, per_under, root, below;
 } vndf_rational_place;
 
-/* xi with mass t >= 0 before it, that of the cell where rounding has brought more: the root in [0, 1] of
- * a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b; the discriminant b^2 + 4 a t is written as
- * (b - 2 t)^2 + 4 t (m - t), which needs fewer steps one after the other. Its root is the derivative of
- * a xi^2 + b xi, hence F'(xi) = root/(1 + (k - 2) xi eta). b and root stand here times m. */
+/* The xi with mass t >= 0 before it; a t that rounding made larger than the mass counts as the mass. xi is the
+ * root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b. The discriminant b^2 + 4 a t is
+ * written as (b - 2 t)^2 + 4 t (m - t), a shorter chain. Its root is the derivative of a xi^2 + b xi, hence F'(xi)
+ * = root/(1 + (k - 2) xi eta). The code holds b and root times m. */
 VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, lanes_f t)
 {
     lanes_f m = cell->mass, nothing = lanes_set(0.0f);
-    t = lanes_least(t, m); /* a root beyond the end would not be the density there */
+    t = lanes_least(t, m); /* beyond the end the root would not be the density */
     lanes_f twice = 2.0f * t * m;
     lanes_f middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
     lanes_f square = middle * middle + twice * (2.0f * m * (m - t));
     lanes_f root = lanes_root(square);
     lanes_m rising = lanes_at_most(nothing, b);
-    lanes_f above = lanes_pick(rising, twice, root - b); /* no difference of equals */
+    lanes_f above = lanes_pick(rising, twice, root - b); /* never a difference of equal numbers */
     lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
     lanes_m whole = lanes_less(nothing, below);
     lanes_f under = lanes_pick(whole, below, lanes_set(1.0f));
     lanes_f over = lanes_least(lanes_keep(whole, above), under), per = 1.0f / under;
     lanes_f xi = lanes_least(over * per, lanes_set(1.0f));
     vndf_rational_place place = {xi, over, under, per, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
-    return place; /* 1e-37: of an empty cell the quotient is 0 */
+    return place; /* 1e-37: the quotient of an empty cell is 0 */
 }
 
 #endif

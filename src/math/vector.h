@@ -1,5 +1,5 @@
-/* Vectors, and the few scalar operations that every room of the run time needs. All inline, all exact in
- * the sense of the promise: + - * / sqrt and comparisons only. */
+/* Vectors, and the few scalar operations that every room of the run time needs. All are inline, and use only
+ * + - * / sqrt and comparisons, so that bits are the same everywhere. */
 #ifndef VNDF_MATH_VECTOR_H
 #define VNDF_MATH_VECTOR_H
 
@@ -11,8 +11,8 @@
 
 #include "vndf.h"
 
-/* A vector to be passed or returned: gcc 12 writes x and y apart and reads both at once, which waits for the
- * stores, unless they are put together in a register. */
+/* A vector to pass or return. gcc 12 would write x and y apart and read both at once, which defeats store
+ * forwarding; here they are put together in a register. */
 VNDF_INLINE vndf_vec3 vndf_vec3_of(float x, float y, float z)
 {
     vndf_vec3 v = {x, y, z};
@@ -30,7 +30,8 @@ VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
 }
 
 /* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in
- * double, and so is what the first sum loses (Knuth's TwoSum): one rounding is left, however much cancels. */
+ * double, and Knuth's TwoSum gives the rounding of the first sum exactly: one rounding is left, however much
+ * cancels. */
 VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
 {
     double x = (double)a.x * b.x, y = (double)a.y * b.y, z = (double)a.z * b.z, level = x + y, back = level - x;
@@ -57,8 +58,8 @@ VNDF_INLINE int vndf_is_plain(float square)
     return square > 1e-30f && square < 1e30f;
 }
 
-/* v / |v| for a finite v that is not zero; scaled first where squares overflow or vanish: the reciprocal of a
- * denormal is infinite, and that of what is near FLT_MAX is a denormal, which may count as 0. */
+/* v / |v| for a finite v that is not zero. Where squares overflow or vanish, v is scaled first: the reciprocal of
+ * a denormal is infinite, and the reciprocal of a number near FLT_MAX is a denormal, which may count as 0. */
 VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
     float square = vndf_dot(v, v);
@@ -84,21 +85,20 @@ VNDF_INLINE float vndf_length2(float x, float y)
     return big > 0.0f ? big * sqrtf(1.0f + ratio * ratio) : 0.0f;
 }
 
-/* A density that is a number: the largest float for infinity, 0 for the NaN of 0/0 or 0 times infinity. */
+/* A finite density: the largest float for infinity, 0 for the NaN of 0/0 or 0 times infinity. */
 VNDF_INLINE float vndf_finite(float x)
 {
     return x < 3.402823466e38f ? x : (x > 0.0f ? 3.402823466e38f : 0.0f);
 }
 
-/* The density of a normal that is drawn: as above, but at least the least normal float, so that no sample comes
- * with density 0 and no quotient by it is infinite. What is smaller is the rim of a lobe, or lost to single
- * precision. */
+/* The density of a drawn normal: as above, but at least FLT_MIN, so that no sample has density 0 and no quotient
+ * by it is infinite. Smaller densities occur on the rim of a lobe, or where single precision loses them. */
 VNDF_INLINE float vndf_positive(float x)
 {
     return x > 1.17549435e-38f ? vndf_finite(x) : 1.17549435e-38f;
 }
 
-/* A density as a float: the largest one for what is larger, 0 for NaN. */
+/* A density as a float: a larger one becomes FLT_MAX, NaN becomes 0. */
 VNDF_INLINE float vndf_density_from(double density)
 {
     return density > 0.0 ? (density < (double)FLT_MAX ? (float)density : FLT_MAX) : 0.0f;

@@ -3,8 +3,9 @@
  *
  *     zeta = (W^2 - w0^2) / (w1^2 - w0^2) = xi (w0 + W) / (w0 + w1),      dzeta = 2 W / (w0 + w1) dxi
  *
- * the density is that of f alone, and a rational cell (rational_cell.h) through f's end values follows it
- * to third order. So: end densities f0 (w0 + w1)/2 and f1 (w0 + w1)/2 per unit of zeta, the mass as it is. */
+ * the density is f alone, times (w0 + w1)/2, and a rational cell (rational_cell.h) through its end values follows
+ * it to third order. So the end densities are f0 (w0 + w1)/2 and f1 (w0 + w1)/2 per unit of zeta; the mass
+ * stays. */
 #ifndef VNDF_MATH_WEIGHTED_CELL_H
 #define VNDF_MATH_WEIGHTED_CELL_H
 

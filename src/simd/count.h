@@ -1,5 +1,5 @@
-/* How many of eight neighbours in tables satisfy a condition: the inner loop of searches, for one lane.
- * Compilers that see it written out with AVX2 count lane by lane. */
+/* How many of eight neighbours in a table satisfy a condition: the inner loop of searches, for one lane.
+ * Compilers that vectorise the plain loop for AVX2 count lane by lane; intrinsics take its place there. */
 #ifndef VNDF_SIMD_COUNT_H
 #define VNDF_SIMD_COUNT_H
 

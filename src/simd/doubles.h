@@ -1,7 +1,7 @@
-/* Doubles side by side: what lanes.h is for floats. What is written once for `doubles` is compiled for one double,
- * for 4 (AVX2) and for 8 (AVX-512), VNDF_DOUBLES of them, and gives the same bits in each lane. + - * / between
- * them are the compiler's own. Beside them stand as many floats (doubles_f), which tables hold, and indices
- * (doubles_u). The rules of lanes.h hold. */
+/* Lanes of doubles, as lanes.h has lanes of floats. Code that uses `doubles` is compiled for one double, for 4
+ * (AVX2) and for 8 (AVX-512), VNDF_DOUBLES of them, and gives the same bits in each lane. The compiler provides
+ * + - * / between them. doubles_f holds as many floats, the numbers of tables, and doubles_u as many indices. The
+ * rules of lanes.h hold. */
 #ifndef VNDF_SIMD_DOUBLES_H
 #define VNDF_SIMD_DOUBLES_H
 
@@ -24,7 +24,7 @@ typedef struct doubles_two {
     doubles a, b;
 } doubles_two;
 
-/* Where lanes begin to read: at[lane] numbers after the base. */
+/* Where each lane begins to read: at[lane] numbers after the base. */
 typedef struct doubles_lines {
     const float *base;
     uint32_t at[VNDF_DOUBLES];

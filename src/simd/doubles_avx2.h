@@ -55,7 +55,7 @@ VNDF_INLINE void doubles_store_u(uint32_t *to, doubles_u x)
     _mm_storeu_si128((__m128i *)to, (__m128i)x);
 }
 
-/* To be read one by one, from memory: taken out of the register they cost more. */
+/* For reading the lanes one by one: from memory they cost less than from the register. */
 VNDF_INLINE void doubles_spill_u(uint32_t to[VNDF_DOUBLES], doubles_u x)
 {
     doubles_store_u(to, x);
@@ -140,7 +140,7 @@ VNDF_INLINE doubles doubles_power_of_two(doubles shifted)
     return _mm256_castsi256_pd(_mm256_slli_epi64(sum, 52));
 }
 
-/* Loads put together one by one: gathers take twice the time. */
+/* Single loads, put together: a gather takes twice the time. */
 VNDF_INLINE doubles doubles_gather(const float *base, doubles_u index)
 {
     uint32_t at[VNDF_DOUBLES];

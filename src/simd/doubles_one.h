@@ -65,7 +65,7 @@ VNDF_INLINE doubles_m doubles_at_most_u(doubles_u a, doubles_u b)
     return a <= b;
 }
 
-/* Whether they do in any lane. */
+/* Whether a and b differ in any lane. */
 VNDF_INLINE int doubles_differ_u(doubles_u a, doubles_u b)
 {
     return a != b;

@@ -1,6 +1,6 @@
-/* exp, log and the error function's kin in float, for one or for lanes: what a Gaussian distribution of slopes is
- * drawn with where all is of plain size. Errors before rounding, which adds some 1e-7; each polynomial was fitted
- * for the least largest error of its kind, by weighted least squares.
+/* exp, log and relatives of the error function in float, for one or for lanes. Samples of a Gaussian distribution
+ * of slopes use them where no number is extreme. The errors below are before rounding, which adds some 1e-7. Each
+ * polynomial was fitted for the least largest error of its kind, by weighted least squares.
  *
  *   exp       |x| <= 80. 2^(k + r): k + 127 appears in the low bits of a sum that is too large for fractions, and
  *             goes from there to the exponent. Relative error 4e-9, and 6e-8 x from the product with log2(e).
@@ -33,7 +33,7 @@ VNDF_INLINE lanes_f vndf_exp_lanes(lanes_f x)
     return e.scale + e.scale * e.more;
 }
 
-/* exp(x) - 1, no matter how small. */
+/* exp(x) - 1 with all digits, however small it is. */
 VNDF_INLINE lanes_f vndf_exp_less_one_lanes(lanes_f x)
 {
     vndf_exp_parts e = vndf_exp_parts_lanes(x);

@@ -1,9 +1,9 @@
-/* Numbers side by side: what is written once for `lanes_f` is compiled for one float, for 8 (AVX2) and for 16
- * (AVX-512), as VNDF_LANES says, and gives the same bits in each lane. + - * / between lanes are the
- * compiler's own, here is the rest. Bits of a float >= 0 are compared as unsigned integers.
+/* Lanes of floats. Code that uses `lanes_f` is compiled for one float, for 8 (AVX2) and for 16 (AVX-512), as
+ * VNDF_LANES says, and gives the same bits in each lane. The compiler provides + - * / between lanes; the headers
+ * lanes_*.h provide the rest. Bits of a float >= 0 are compared as unsigned integers.
  *
- * Both sides of a choice are computed; what is only right in some lanes is masked, and lanes of no use hold
- * numbers that reach nothing. An index is within its array in every lane. */
+ * Code computes both sides of a choice and masks a result that is right in some lanes only. Unused lanes hold
+ * numbers that reach no result. Every lane keeps its index within the array. */
 #ifndef VNDF_SIMD_LANES_H
 #define VNDF_SIMD_LANES_H
 

@@ -1,5 +1,5 @@
-/* Sixteen lanes, AVX-512 F, DQ, BW and VL: see lanes.h. lanes_f is a vector of floats to the compiler, so that
- * operators work; lanes_u likewise, of integers. */
+/* Sixteen lanes, AVX-512 F, DQ, BW and VL: see lanes.h. To the compiler lanes_f is a vector of floats and
+ * lanes_u a vector of integers, so that operators work. */
 #ifndef VNDF_SIMD_LANES_AVX512_H
 #define VNDF_SIMD_LANES_AVX512_H
 
@@ -165,7 +165,7 @@ VNDF_INLINE lanes_f lanes_float(lanes_u x)
     return _mm512_cvtepi32_ps((__m512i)x);
 }
 
-/* gcc's macros, which it has in place of functions where it does not optimise, convert their own mask. */
+/* Where gcc does not optimise, it has macros in place of functions; these convert their own mask. */
 #if defined(__GNUC__)
 #  pragma GCC diagnostic push
 #  pragma GCC diagnostic ignored "-Wsign-conversion"

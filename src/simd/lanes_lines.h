@@ -1,16 +1,16 @@
-/* Loading four neighbours for each lane and turning them, so that each of the four stands side by side for all
- * lanes: loads of 16 bytes cost less than a gather for every number. */
+/* Loads four neighbours for each lane and transposes them: four vectors, each with one of the four for all lanes.
+ * Loads of 16 bytes cost less than a gather for every number. */
 #ifndef VNDF_SIMD_LANES_LINES_H
 #define VNDF_SIMD_LANES_LINES_H
 
 #include "simd/lanes.h"
 
-/* Members one after the other, lane by lane. */
+/* Four members, each lane by lane. */
 typedef struct lanes_four {
     lanes_f a, b, c, d;
 } lanes_four;
 
-/* Where lanes begin to read: `index` times `stride` floats on, found once for all members. */
+/* Where each lane begins to read: `index` times `stride` floats after the base, found once for all members. */
 typedef struct lanes_lines {
     const float *at[VNDF_LANES];
 } lanes_lines;
@@ -43,8 +43,8 @@ VNDF_INLINE lanes_lines lanes_lines_at(const float *base, uint32_t stride, lanes
     return lines;
 }
 
-/* The same for indices that have long been in memory: of those just made compilers take the vector apart, or
- * loads wait for its store. */
+/* The same for indices that have been in memory for long. For indices just made compilers would take the vector
+ * apart, or the loads would stall on store forwarding. */
 VNDF_INLINE lanes_lines lanes_lines_from(const float *base, uint32_t stride, const uint32_t *index)
 {
     lanes_lines lines;

@@ -100,7 +100,7 @@ VNDF_INLINE lanes_f lanes_pick(lanes_m m, lanes_f yes, lanes_f no)
     return m ? yes : no;
 }
 
-/* The second where m, without a branch that nothing would foresee. */
+/* pair[1] where m is set, else pair[0], without a branch, which would be mispredicted. */
 VNDF_INLINE lanes_f lanes_one_of(const float *pair, lanes_m m)
 {
     return pair[m];
@@ -111,7 +111,7 @@ VNDF_INLINE lanes_u lanes_pick_u(lanes_m m, lanes_u yes, lanes_u no)
     return m ? yes : no;
 }
 
-/* One more in the lanes of m. */
+/* x, plus 1 in the lanes of m. */
 VNDF_INLINE lanes_u lanes_count(lanes_u x, lanes_m m)
 {
     return x + (uint32_t)m;
@@ -166,7 +166,7 @@ VNDF_INLINE lanes_u lanes_gather_u(const uint32_t *base, lanes_u index)
     return base[index];
 }
 
-/* Reads a half word more than it gives. */
+/* May read one half word beyond the number it returns. */
 VNDF_INLINE lanes_u lanes_gather_u16(const uint16_t *base, lanes_u index)
 {
     return base[index];

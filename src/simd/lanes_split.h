@@ -1,7 +1,7 @@
-/* Lanes of two kinds sorted as they are put into an array: those of a mask from its beginning on, the others from
- * its end down. What is stored beyond either kind is overwritten by what comes next, as long as all of the array
- * is filled, whole vectors at a time; so each member of a record takes a permutation and two stores. The way back
- * takes loads of the same places. */
+/* Sorts lanes of two kinds into an array: the lanes of a mask from the beginning of the array on, the other lanes
+ * from its end down. Each member of a record takes one permutation and two stores of whole vectors. A store writes
+ * beyond its kind; the next store overwrites that, as long as the whole array is filled, a vector at a time. The
+ * way back loads the same places. */
 #ifndef VNDF_SIMD_LANES_SPLIT_H
 #define VNDF_SIMD_LANES_SPLIT_H
 
@@ -9,13 +9,13 @@
 
 #if VNDF_LANES == 16
 
-/* `order` is the lane of each place, `place` the place of each lane, 16 more for the others. */
+/* `order` holds the lane of each place, `place` the place of each lane; lanes outside the mask have 16 added. */
 typedef struct lanes_split {
     __m512i order, place;
     uint32_t low, high; /* the places are low, low + 1, ..., and ..., high - 2, high - 1 */
 } lanes_split;
 
-/* *low and *high, between which the array is free, come closer. */
+/* The array is free from *low to *high; both move towards each other. */
 VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 {
     const __m512i lane = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
@@ -38,7 +38,7 @@ VNDF_INLINE void lanes_split_store(const lanes_split *split, float *to, lanes_f 
     lanes_store(to + (split->high - 16), sorted);
 }
 
-/* Those of the mask from one array, the others from another. */
+/* Loads the lanes of the mask from the array `low`, the others from `high`. */
 VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low, const float *high)
 {
     return _mm512_permutex2var_ps(lanes_load(low + split->low), split->place,
@@ -47,8 +47,8 @@ VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low,
 
 #elif VNDF_LANES == 8
 
-/* Of four lanes for each mask: the lane of each place, and the place of each lane, a hexadecimal digit each, the
- * last for the first. */
+/* For each mask of four lanes: the lane of each place, and the place of each lane, as hexadecimal digits, the last
+ * digit for the first. */
 static const uint16_t LANES_ORDER[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3102, 0x3120, 0x3021, 0x3210,
                                          0x2103, 0x2130, 0x2031, 0x2310, 0x1032, 0x1320, 0x0321, 0x3210};
 static const uint16_t LANES_PLACE[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3021, 0x3120, 0x3102, 0x3210,
@@ -60,14 +60,14 @@ typedef struct lanes_split {
     uint32_t low, high;
 } lanes_split;
 
-/* One digit to a lane; instructions that permute heed three bits of it. */
+/* One digit to each lane; permutations read three bits of it. */
 VNDF_INLINE __m256i lanes_split_digits(uint32_t digits)
 {
     return _mm256_srlv_epi32(_mm256_set1_epi32((int)digits), _mm256_set_epi32(28, 24, 20, 16, 12, 8, 4, 0));
 }
 
-/* Of eight: `lower` of the lower four and `upper` of the upper are in the mask. The places of all four kinds move
- * by as many as come before. */
+/* For eight lanes: `lower` of the lower four and `upper` of the upper four are in the mask. The places of each of
+ * the four kinds move by the number of lanes before them. */
 VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 {
     uint32_t bits = lanes_mask_bits(m), a = LANES_ORDER[bits & 15], b = LANES_ORDER[bits >> 4] | 0x4444u;
