@@ -5,6 +5,7 @@
 
 #include "bench/parts.h"
 #include "measure/bins.h"
+#include "measure/pearson.h"
 #include "cli/distribution.h"
 #include "oracle/oracle.h"
 #include "cli/random.h"
@@ -13,11 +14,11 @@
 
 static const double level = 1e-6;
 
-enum { BLOCKS = 100, QUICK_BLOCKS = 10, POOL = 5 };
+enum { BLOCKS = 100, QUICK_BLOCKS = 10 };
 
 static size_t blocks(void)
 {
-    return oracle_quick() ? QUICK_BLOCKS : BLOCKS;
+    return test_quick() ? QUICK_BLOCKS : BLOCKS;
 }
 
 /* ---- chi-square of visible normals ------------------------------------------------------------- */
@@ -43,49 +44,51 @@ static void count_samples(const method *m, bench_block *b, const bin_map *map, d
     }
 }
 
-/* Neighbours of few expected samples are pooled; the last, incomplete pool goes with the one before. */
-static double p_value(const double *count, const double *probability, double samples)
+/* Bins for the visible normals of a view, and what is expected of a method's samples. */
+typedef struct expectation {
+    vndf_vec3 wi;
+    float alpha;
+    bin_map map;
+    double counts[BINS_COUNT];
+} expectation;
+
+static const expectation *expect(const vndf_distribution *d, double theta, float alpha)
 {
-    double statistic = 0, expected = 0, observed = 0;
-    size_t classes = 0;
-    for (size_t i = 0; i < BINS_COUNT; i++) {
-        expected += samples * probability[i];
-        observed += count[i];
-        if (expected >= POOL) {
-            statistic += (observed - expected) * (observed - expected) / expected;
-            expected = observed = 0;
-            classes++;
-        }
-    }
-    return statistics_chi_square_p(statistic, classes - 1);
+    static expectation e;
+    vndf_surface surface = {d, alpha, alpha};
+    e.wi = direction_from(theta, 25);
+    e.alpha = alpha;
+    e.map = bins_for(&surface, e.wi, 3);
+    vndf_view view = vndf_view_from(&surface, e.wi);
+    bins_integrate(&e.map, &view, e.counts);
+    for (size_t i = 0; i < BINS_COUNT; i++)
+        e.counts[i] *= (double)blocks() * BENCH_BLOCK;
+    return &e;
 }
 
-static double chi_square_of(const method *m, const vndf_distribution *d, double theta, float alpha)
+static double chi_square_of(const method *m, const expectation *e)
 {
-    static double count[BINS_COUNT], probability[BINS_COUNT];
-    vndf_surface surface = {d, alpha, alpha};
-    vndf_vec3 wi = direction_from(theta, 25);
-    vndf_view view = vndf_view_from(&surface, wi);
-    bin_map map = bins_for(&surface, wi, 3);
+    double *count = calloc(BINS_COUNT, sizeof *count);
     bench_block *b = calloc(1, sizeof *b);
-    bins_integrate(&map, &view, probability);
-    for (size_t i = 0; i < BINS_COUNT; i++)
-        count[i] = 0;
-    if (TEST(b != NULL)) {
-        bench_block_aim(b, wi, alpha);
-        count_samples(m, b, &map, count);
+    pearson found = {0, 0, 0, 0};
+    if (TEST(b && count)) {
+        bench_block_aim(b, e->wi, e->alpha);
+        count_samples(m, b, &e->map, count);
+        found = pearson_of(e->counts, count, NULL, BINS_COUNT, 5);
     }
     free(b);
-    return p_value(count, probability, (double)blocks() * BENCH_BLOCK);
+    free(count);
+    return found.p;
 }
 
-static void test_visible(method m, const vndf_distribution *d)
+static void test_visible(const method *methods, size_t count, const vndf_distribution *d)
 {
     static const double thetas[] = {5, 60, 88};
-    for (size_t i = 0; m.each && i < 3; i++) {
-        double p = chi_square_of(&m, d, thetas[i], i == 1 ? 0.1f : 0.7f);
-        if (!TEST(p > level))
-            fprintf(stderr, "  %s, %s: p = %g at %g degrees\n", m.name, m.instructions, p, thetas[i]);
+    for (size_t i = 0; i < 3; i++) {
+        const expectation *e = expect(d, thetas[i], i == 1 ? 0.1f : 0.7f);
+        for (const method *m = methods; m < methods + count; m++)
+            if (m->each && !TEST(chi_square_of(m, e) > level))
+                fprintf(stderr, "  %s, %s: at %g degrees\n", m->name, m->instructions, thetas[i]);
     }
 }
 
@@ -93,17 +96,11 @@ static void test_visible(method m, const vndf_distribution *d)
 static void test_notices(void)
 {
     method caps = method_ggx_caps(), normals = method_ggx_all_normals();
-    TEST(chi_square_of(&caps, vndf_beckmann(), 60, 0.5f) < level);
-    TEST(chi_square_of(&normals, vndf_ggx(), 60, 0.5f) < level);
+    TEST(chi_square_of(&caps, expect(vndf_beckmann(), 60, 0.5f)) < level);
+    TEST(chi_square_of(&normals, expect(vndf_ggx(), 60, 0.5f)) < level);
 }
 
 /* ---- all normals ------------------------------------------------------------------------------- */
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static double law_of_ggx(double slope2)
 {
@@ -136,7 +133,7 @@ static void test_all_normals(method m, const vndf_surface *surface, double law(d
         mean += ratio / BENCH_BLOCK;
         worst = fmax(worst, fabs(ratio - 1));
     }
-    qsort(value, BENCH_BLOCK, sizeof *value, ascending);
+    bins_sort(value, BENCH_BLOCK);
     for (size_t i = 0; i < BENCH_BLOCK; i++)
         distance = fmax(distance, fabs(value[i] - ((double)i + 0.5) / BENCH_BLOCK));
     TEST(statistics_kolmogorov_p(distance, BENCH_BLOCK) > level);
@@ -312,11 +309,12 @@ int main(void)
     test_fresnel();
     test_verify();
     test_notices();
-    test_visible(method_ggx_caps(), vndf_ggx());
-    test_visible(method_ggx_2018(), vndf_ggx());
-    test_visible(method_beckmann_newton(), vndf_beckmann());
-    for (vndf_instructions set = VNDF_INSTRUCTIONS_PORTABLE; set <= VNDF_INSTRUCTIONS_AVX512; set++)
-        test_visible(method_ggx_caps_batch(set), vndf_ggx());
+    const method newton = method_beckmann_newton();
+    const method of_ggx[] = {
+        method_ggx_caps(), method_ggx_2018(), method_ggx_caps_batch(VNDF_INSTRUCTIONS_PORTABLE),
+        method_ggx_caps_batch(VNDF_INSTRUCTIONS_AVX2), method_ggx_caps_batch(VNDF_INSTRUCTIONS_AVX512)};
+    test_visible(of_ggx, sizeof of_ggx / sizeof *of_ggx, vndf_ggx());
+    test_visible(&newton, 1, vndf_beckmann());
     test_all_normals(method_ggx_all_normals(), &(vndf_surface){vndf_ggx(), 0.3f, 0.3f}, law_of_ggx, 1e-3);
     test_all_normals(method_beckmann_all_normals(), &(vndf_surface){vndf_beckmann(), 0.3f, 0.3f}, law_of_beckmann,
                      1e-3);

@@ -3,6 +3,7 @@
 #ifndef TESTS_BSDF_BSDF_CASE_H
 #define TESTS_BSDF_BSDF_CASE_H
 
+#include "harness/constants.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_bsdf.h"
 #include "harness/test.h"
@@ -45,7 +46,7 @@ static inline vndf_vec3 bsdf_direction(unsigned long long *state)
     double cosine = test_uniform_double(state), which = 10 * test_uniform_double(state);
     double z = which < 1 ? 1e-3 : which < 2 ? 1e-6 : which < 3 ? 1 : which < 4 ? cosine * cosine * cosine : cosine;
     double side = test_uniform(state) < 0.5f ? -1 : 1;
-    return oracle_toward(side * z, 6.283185307179586 * test_uniform_double(state));
+    return oracle_toward(side * z, 2 * PI * test_uniform_double(state));
 }
 
 static inline void bsdf_numbers(unsigned long long *state, float u[3])

@@ -3,7 +3,7 @@
  * conserves energy, for lossless reflection and glass that carries importance; weights of visible normals never
  * exceed Fresnel's term, for tables times the certificate's largest weight, and bounded normals lose nothing.
  * Prints the largest weights side by side, and what single scattering loses. */
-#include "bsdf/bsdf_chi_square.h"
+#include "bsdf/bsdf_case.h"
 
 typedef struct tally {
     double sum, square, largest, lost;
@@ -35,10 +35,10 @@ static double albedo_by_quadrature(const vndf_bsdf *bsdf)
         for (int j = 0; j < TURNS; j++) {
             float f[VNDF_WAVELENGTHS];
             double z = 2 * (i + 0.5) / RINGS - 1;
-            vndf_bsdf_eval(bsdf, oracle_toward(z, 2 * SPHERE_PI * (j + 0.5) / TURNS), 0, f);
+            vndf_bsdf_eval(bsdf, oracle_toward(z, 2 * PI * (j + 0.5) / TURNS), 0, f);
             sum += (double)f[0] * fabs(z);
         }
-    return sum * 4 * SPHERE_PI / (RINGS * TURNS);
+    return sum * 4 * PI / (RINGS * TURNS);
 }
 
 static vndf_description material_of(const oracle_ndf *ndf, vndf_normals_drawn normals, int glass, float alpha)
@@ -56,7 +56,7 @@ static vndf_description material_of(const oracle_ndf *ndf, vndf_normals_drawn no
 static tally check_one(const oracle_ndf *ndf, const vndf_description *is, double z, unsigned long long seed)
 {
     unsigned long long state = seed;
-    size_t samples = oracle_quick() ? 5000 : 40000;
+    size_t samples = test_quick() ? 5000 : 40000;
     vndf_info info = vndf_distribution_info(ndf->distribution);
     vndf_certificate certificate = info.certificate;
     double scale = (double)is->alpha_x * info.scale; /* of slopes: what a quadrature of even cosines resolves */

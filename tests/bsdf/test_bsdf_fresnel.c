@@ -35,7 +35,7 @@ static void test_grid(void)
     for (int i = 0; i < COSINE_COUNT; i++)
         for (int j = 0; j < INDEX_COUNT; j++)
             check_one(COSINES[i], INDICES[j]);
-    for (int i = 0; i < (oracle_quick() ? 2000 : 20000); i++) {
+    for (int i = 0; i < (test_quick() ? 2000 : 20000); i++) {
         float cosine = test_uniform(&state);
         check_one(cosine, (float)exp(4 * test_uniform_double(&state) - 2));
         check_one((float)pow((double)cosine, 8), (float)exp(9.2 * test_uniform_double(&state) - 4.6));

@@ -143,7 +143,7 @@ static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigne
     static const float alphas[] = {1e-3f, 0.3f, 1, 1e-18f, 1e18f, 30};
     static const float etas[] = {1, 0.01f, 100, 1.5f, 1.0000001f};
     unsigned long long state = seed;
-    for (int k = 0; k < (oracle_quick() ? 4 : 12); k++) {
+    for (int k = 0; k < (test_quick() ? 4 : 12); k++) {
         vndf_description is = bsdf_material(ndf, effects, alphas, k % 2 ? 3 : 6, &state);
         vndf_material material;
         is.order_limit = 8;

@@ -88,7 +88,7 @@ static void check_at(oracle_bsdf *o, const vndf_bsdf *bsdf, vndf_vec3 wi, vndf_v
 static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigned long long seed, finding *found)
 {
     unsigned long long state = seed;
-    for (int k = 0; k < (oracle_quick() ? 20 : 100); k++) {
+    for (int k = 0; k < (test_quick() ? 20 : 100); k++) {
         oracle_bsdf o = {ndf, bsdf_material(ndf, effects, ALPHAS, ALPHA_COUNT, &state), 0};
         vndf_vec3 wi = bsdf_direction(&state);
         vndf_material material;

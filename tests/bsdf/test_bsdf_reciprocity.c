@@ -65,7 +65,7 @@ static void test_ndf(const char *name, unsigned long long seed)
         if (!oracle_effects_sensible(&effects) || effects.scattering != VNDF_SCATTERING_SINGLE ||
             effects.normals != VNDF_NORMALS_VISIBLE || effects.axes != VNDF_AXES_FIXED)
             continue;
-        for (int k = 0; k < (oracle_quick() ? 100 : 1000); k++) {
+        for (int k = 0; k < (test_quick() ? 100 : 1000); k++) {
             vndf_description is = bsdf_material(&ndf, &effects, ALPHAS, ALPHA_COUNT, &state);
             vndf_vec3 wi = bsdf_direction(&state), wo = bsdf_direction(&state);
             if (!oracle_bsdf_two_sided(&effects)) {

@@ -83,7 +83,7 @@ static void check_sample(const vndf_description *is, const char *name, vndf_vec3
 static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigned long long seed, finding *found)
 {
     unsigned long long state = seed;
-    for (int k = 0; k < (oracle_quick() ? 40 : 200); k++) {
+    for (int k = 0; k < (test_quick() ? 40 : 200); k++) {
         vndf_description is = bsdf_material(ndf, effects, ALPHAS, ALPHA_COUNT, &state);
         vndf_vec3 wi = bsdf_direction(&state);
         float u[3];

@@ -140,7 +140,7 @@ static void try_subject(const subject *s)
 {
     const run_setting open = {.in = "normals.csv"};
     if (s->needs & RARELY) {
-        if (!getenv("VNDF_TEST_QUICK"))
+        if (!test_quick())
             try_closed(s, ALL);
         return;
     }

@@ -288,7 +288,7 @@ int main(void)
     if (!TEST(mkdtemp(folder) != NULL && chdir(folder) == 0))
         return test_done();
     TEST(run_put("ball.scene", run_scene) && mkdir("folder", 0777) == 0);
-    for (int i = 0; i < (getenv("VNDF_TEST_QUICK") ? WRITERS - 1 : WRITERS); i++) {
+    for (int i = 0; i < (test_quick() ? WRITERS - 1 : WRITERS); i++) {
         char name[16];
         snprintf(name, sizeof name, "a%s", writers[i].ending);
         test_mode(&writers[i], name);

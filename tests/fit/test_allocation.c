@@ -240,19 +240,19 @@ static void try_all(const char *what, operation *run, const subject *of, long ev
             of->make ? of->name : "shipped table", n, tries);
 }
 
-/* With any argument every allocation of every build fails, else all of the first kind of source and some of the
- * others. */
-int main(int count, char **arguments)
+/* In long_allocation every allocation of every build fails, else all of those that make a source or a truth and some
+ * of a build's. */
+int main(void)
 {
     const subject table = {shipped, NULL, 0};
-    int quick = oracle_quick(), all = count > 1 && arguments[1][0];
+    int all = test_long();
+    long step = (long)test_amount(97, 97, 1);
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
         try_all("source", make_alone, &sources[i], 1000, 1);
         try_all("truth", truth, &sources[i], 1000, 1);
-        int whole = all || (i == 0 && !quick);
-        try_all("build", build, &sources[i], whole ? 1000 : 25, whole ? 1 : quick ? 97 : 13);
+        try_all("build", build, &sources[i], all ? 1000 : 25, step);
     }
-    try_all("build", build, &to_target, all ? 1000 : 25, all ? 1 : quick ? 97 : 23);
+    try_all("build", build, &to_target, all ? 1000 : 25, step);
     try_all("load", load, &table, 1000, 1);
     try_all("load_memory", load_memory, &table, 1000, 1);
     try_all("save", save, &table, 1000, 1);

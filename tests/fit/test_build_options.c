@@ -18,7 +18,7 @@ static void test_sizes(void)
     const size_t sizes[] = {2048, 4096, 10000, 16384, 65536, 1048576};
     oracle o = oracle_get(ORACLE_GGX);
     double last = 1;
-    for (int i = 0; i < (oracle_quick() ? 2 : 6); i++) {
+    for (int i = 0; i < (int)test_amount(2, 4, 6); i++) {
         vndf_certificate claim = {0};
         vndf_distribution *table = oracle_build(&o, sizes[i], &claim);
         vndf_certificate held = vndf_distribution_info(table).certificate;
@@ -33,7 +33,7 @@ static void test_sizes(void)
 
 static void test_same_bytes(void)
 {
-    for (size_t i = 0; i < ORACLE_COUNT; i += 3) {
+    for (size_t i = 0; i < ORACLE_COUNT; i += test_long() ? 3 : 5) {
         oracle o = oracle_get(i);
         vndf_distribution *a = oracle_build(&o, 8192, NULL), *b = oracle_build(&o, 8192, NULL);
         TEST(a && b && checksum_of(a) == checksum_of(b));
@@ -56,7 +56,7 @@ static void test_target(void)
 {
     const double targets[] = {0.1, 0.01, 1e-3, 3e-4};
     size_t last = 0;
-    for (int i = 0; i < (oracle_quick() ? 2 : 4); i++) {
+    for (int i = 0; i < (int)test_amount(2, 3, 4); i++) {
         vndf_certificate claim = {.tv = 1};
         vndf_error error = {VNDF_OK, ""};
         vndf_distribution *table = build(0, targets[i], &claim, &error);

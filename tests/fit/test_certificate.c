@@ -11,10 +11,9 @@
 #include <string.h>
 
 #include "fit/certificate/survey.h"
+#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf_build.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* A slope expression or a family; the most that the default table may have as total variation, 0: not said; and
  * whether it is tried without `all`. */
@@ -234,12 +233,11 @@ static void test_horizon(void)
     }
 }
 
-int main(int arguments, char **argument)
+int main(void)
 {
-    int all = arguments > 1 && strcmp(argument[1], "all") == 0, quick = getenv("VNDF_TEST_QUICK") != NULL;
     for (size_t i = 0; i < sizeof SUBJECTS / sizeof *SUBJECTS; i++)
-        if (all || SUBJECTS[i].quick)
-            test_subject(&SUBJECTS[i], all ? 1300 : quick ? 20 : 120);
+        if (test_long() || SUBJECTS[i].quick)
+            test_subject(&SUBJECTS[i], (int)test_amount(20, 60, 1300));
     test_needles();
     test_edge();
     test_horizon();

@@ -1,14 +1,13 @@
 /* No feature of a formula hides: needles of any kind, at any slope, of relative width 1e-2 to 1e-12 and with 0.1% to
  * 90% of the mass, are found - the truth of the distribution has the mass that an integration has which knows where
  * they are - or refused with their place. An argument: how many needles, 120 without. */
+#include "harness/constants.h"
 #include "harness/test.h"
 
 #include <stdlib.h>
 
 #include "fit/profile/gauss.h"
 #include "vndf_build.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* A formula with a needle at a, of width s and height k; in what variable a and s are. */
 typedef enum variable { SLOPE, TANGENT, THETA, COSINE } variable;
@@ -147,7 +146,7 @@ static double between(unsigned long long *state, double low, double high)
 
 int main(int argc, char **argv)
 {
-    int count = argc > 1 ? atoi(argv[1]) : 120;
+    int count = argc > 1 ? atoi(argv[1]) : (int)test_amount(60, 60, 2500);
     unsigned long long state = 20261;
     for (int i = 0; i < count; i++) {
         needle n = {.form = &forms[i % FORMS],

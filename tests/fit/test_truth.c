@@ -1,9 +1,8 @@
 /* The oracle of vndf_build.h agrees with the closed forms of GGX and Beckmann at any scale and factor: P22, and
  * the projected area from straight above far below the horizon, to 1e-8 of them. */
+#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf_build.h"
-
-static const double PI = 3.14159265358979323846;
 
 static double ggx_p22(double r)
 {
@@ -65,7 +64,7 @@ static void test_deep_areas(void)
     vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
     vndf_truth *truth = source ? vndf_truth_from(source, NULL) : NULL;
     for (size_t i = 0; TEST(truth != NULL) && i < sizeof deep / sizeof *deep; i++)
-        TEST_RELATIVE(vndf_truth_area(truth, deep[i].theta * 3.14159265358979323846 / 180), deep[i].area, 1e-9);
+        TEST_RELATIVE(vndf_truth_area(truth, deep[i].theta * PI / 180), deep[i].area, 1e-9);
     vndf_truth_free(truth);
     vndf_source_free(source);
 }

@@ -95,7 +95,7 @@ static void run_mutations(const input *seed, input *work, size_t count)
 
 int main(int count, char **paths)
 {
-    const size_t mutations = getenv("VNDF_TEST_QUICK") ? QUICK_MUTATIONS : MUTATIONS;
+    const size_t mutations = test_quick() ? QUICK_MUTATIONS : MUTATIONS;
     input seed = {malloc(CAPACITY), 0}, work = {malloc(CAPACITY), 0};
 
     TEST(seed.bytes != NULL && work.bytes != NULL && count > 1);

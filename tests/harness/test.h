@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int test_checks, test_failures;
@@ -40,6 +41,25 @@ static inline int test_done(void)
 {
     fprintf(stderr, "%d checks, %d failed\n", test_checks, test_failures);
     return test_checks == 0 || test_failures != 0;
+}
+
+/* How much is asked for: VNDF_TEST_QUICK=1, as little as still sees the defects of tests/house/mutants.txt;
+ * VNDF_TEST_LONG=1, everything, in the tests long_NAME; otherwise what a programmer waits for. */
+static inline int test_quick(void)
+{
+    const char *quick = getenv("VNDF_TEST_QUICK");
+    return quick && *quick;
+}
+
+static inline int test_long(void)
+{
+    const char *all = getenv("VNDF_TEST_LONG");
+    return all && *all && !test_quick();
+}
+
+static inline size_t test_amount(size_t quick, size_t usual, size_t whole)
+{
+    return test_quick() ? quick : test_long() ? whole : usual;
 }
 
 /* xorshift64*: reproducible uniform numbers on [0, 1) with 24 or 53 bits; the state must not be 0. */

@@ -2,8 +2,9 @@
 # that is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text
 # that is no longer found exactly once is an error too: the list has to follow the sources.
 #
-# The copy is configured once with -O1; a defect costs what depends on its file, and one test. LONG=ON
-# (long_mutants) plants all, otherwise those marked `always`.
+# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those whose
+# mark matches MARK, `always` unless it is said: long_mutants plants those marked `often` as well, long_all_mutants
+# all.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)
@@ -29,11 +30,14 @@ function(member block name result)
     set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
 endfunction()
 
+if(NOT MARK)
+    set(MARK always)
+endif()
 set(chosen "")
 set(checks "")
 foreach(block IN LISTS blocks)
     member("${block}" fails check)
-    if(LONG OR "\n${block}\n" MATCHES "\nalways\n")
+    if("\n${block}\n" MATCHES "\n(${MARK})\n" OR MARK STREQUAL ".")
         list(APPEND chosen "${block}")
         list(APPEND checks "${check}")
     endif()
@@ -60,9 +64,10 @@ if(NOT status EQUAL 0)
 endif()
 
 # "engine_surface 2" is the program test_engine_surface with the argument 2.
-function(build_check check)
-    string(REGEX MATCH "^[^ ]+" name "${check}")
-    execute_process(COMMAND ${CMAKE_COMMAND} --build ${copy}/build --target test_${name} --parallel 2
+function(build_checks)
+    list(TRANSFORM ARGN REPLACE "^([^ ]+).*$" "test_\\1" OUTPUT_VARIABLE targets)
+    list(REMOVE_DUPLICATES targets)
+    execute_process(COMMAND ${CMAKE_COMMAND} --build ${copy}/build --target ${targets} --parallel 2
         RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "the copy cannot be built:\n${output}")
@@ -81,8 +86,8 @@ endfunction()
 
 # A test that cannot run on this machine says so, and its defects are not planted.
 set(skipped "")
+build_checks(${checks})
 foreach(check IN LISTS checks)
-    build_check("${check}")
     run_check("${check}" status)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "without a defect '${check}' fails:\n${output}")
@@ -114,7 +119,7 @@ foreach(block IN LISTS chosen)
     endif()
     string(REPLACE "${old}" "${new}" unsound "${sound}")
     file(WRITE ${copy}/${file} "${unsound}")
-    build_check("${check}")
+    build_checks("${check}")
     string(TIMESTAMP begin "%s")
     run_check("${check}" status)
     string(TIMESTAMP end "%s")

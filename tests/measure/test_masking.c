@@ -3,9 +3,8 @@
  * implicit, Kelemen and Schlick-Smith are not. */
 #include "measure/masking.h"
 #include "oracle/oracle_survey.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- GGX over the sphere ---- */
 

@@ -1,11 +1,10 @@
+#include "harness/constants.h"
 #include "oracle/oracle.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- the distributions ---- */
 
@@ -207,10 +206,4 @@ int oracle_wanted(int arguments, char **argument, size_t index, const char *name
     char number[24];
     snprintf(number, sizeof number, "%lu", (unsigned long)index);
     return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
-}
-
-int oracle_quick(void)
-{
-    const char *quick = getenv("VNDF_TEST_QUICK");
-    return quick && *quick;
 }

@@ -50,9 +50,6 @@ double oracle_area(const oracle *o, double s, double c);
  * name is its first argument. test_mutants.cmake asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
 
-/* VNDF_TEST_QUICK is set: a fifth of the work is enough, since a sanitizer watches. */
-int oracle_quick(void);
-
 /* integral of f over [a, b], smooth inside but for the ends; relative error about 1e-12. */
 typedef double oracle_function(double x, const void *user);
 double oracle_integrate(oracle_function *f, const void *user, double a, double b);

@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/constants.h"
 #include "oracle/oracle_bsdf.h"
-
-static const double PI = 3.14159265358979323846;
 
 int oracle_ndf_open(oracle_ndf *ndf, const char *name)
 {

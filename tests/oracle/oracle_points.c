@@ -4,9 +4,8 @@
 #include <float.h>
 
 #include "oracle/oracle_float.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 static double uniform(unsigned long long *state, double from, double to)
 {

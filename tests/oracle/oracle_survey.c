@@ -1,8 +1,7 @@
+#include "harness/constants.h"
 #include "oracle/oracle_survey.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Gauss-Legendre with three points on [0, 1]. */
 static const double NODE[3] = {0.1127016653792583, 0.5, 0.8872983346207417};

@@ -8,11 +8,10 @@
  * zeta = xi (v0 + V)/(v0 + v1) of a linear V(xi) and the end densities are those of f W/V. V is W, but for the
  * knot towards the cut of the second cell inside it: there it is 16 h of the way to W of the other knot, h the
  * visible part of the cell of the cut, all of it from 1/16 on. */
+#include "harness/constants.h"
 #include "oracle/oracle_table.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* The direction over s + |c|, and the normal over its length, as oracle_table.h has them. */
 typedef struct seen {

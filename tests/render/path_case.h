@@ -20,11 +20,6 @@ typedef struct case_mean {
     double value, sigma;
 } case_mean;
 
-static inline int case_quick(void)
-{
-    return getenv("VNDF_TEST_QUICK") != NULL;
-}
-
 /* Nothing yet, seen from `from` towards `to` through a field so narrow that all pixels see one point. */
 static inline void case_begin(render_case *c, vndf_vec3 from, vndf_vec3 to)
 {
@@ -92,7 +87,7 @@ static inline case_mean case_render(const render_case *c, path_sampler sampler, 
 {
     path_plan *plan = case_plan(c, sampler, without);
     film f;
-    film_run run = {.samples = case_quick() ? (samples + 3) / 4 : samples, .threads = 1, .seed = seed};
+    film_run run = {.samples = test_quick() ? (samples + 3) / 4 : samples, .threads = 1, .seed = seed};
     TEST(film_make(&f, c->scene.width, c->scene.height));
     TEST(film_render(&f, plan, &run));
     TEST(f.counts.samples_lost == 0);

@@ -5,13 +5,14 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/constants.h"
 #include "render/geometry/geometry.h"
 #include "harness/test.h"
 
 /* How many of them, less in quick mode. */
 static inline int rays(int most)
 {
-    return getenv("VNDF_TEST_QUICK") ? most / 10 : most;
+    return test_quick() ? most / 10 : most;
 }
 
 static inline float between(unsigned long long *state, float low, float high)
@@ -49,8 +50,8 @@ static inline triangle bare_triangle(vndf_vec3 a, vndf_vec3 b, vndf_vec3 c)
 /* Corner of a sphere of `radius` about the origin, cut into rows x 2 rows: the same bits for all neighbours. */
 static inline vndf_vec3 globe_corner(int rows, int row, int column, float radius)
 {
-    const double pi = 3.14159265358979323846, theta = pi * row / rows;
-    const double phi = pi * (column % (2 * rows)) / rows, s = row % rows == 0 ? 0.0 : sin(theta);
+    const double theta = PI * row / rows;
+    const double phi = PI * (column % (2 * rows)) / rows, s = row % rows == 0 ? 0.0 : sin(theta);
     const double r = (double)radius;
     return vec((float)(r * s * sin(phi)), (float)(r * cos(theta)), (float)(r * s * cos(phi)));
 }

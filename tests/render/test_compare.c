@@ -4,16 +4,15 @@
  * to fail by chance, 14 of them. */
 #include "compare/comparison.h"
 #include "render/scene_text.h"
+#include "harness/constants.h"
 #include "harness/test.h"
 
 enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT };
 
-static const double pi = 3.14159265358979323846;
-
 static double normal(unsigned long long *state)
 {
     double u = (double)test_uniform(state), v = (double)test_uniform(state);
-    return sqrt(-2 * log(1 - u)) * cos(2 * pi * v);
+    return sqrt(-2 * log(1 - u)) * cos(2 * PI * v);
 }
 
 /* Grey light that differs over the film. */

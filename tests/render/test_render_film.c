@@ -2,10 +2,9 @@
  * another one for another seed; an interrupt leaves whole passes. Plans say what a scene calls for and refuse what
  * a material of a shape cannot have. An image of the surroundings brings its energy, seen where it should be,
  * drawn or met: within 4.5 sigma, 7e-6 each to fail by chance. */
+#include "harness/constants.h"
 #include "render/path_case.h"
 #include "render/path/parts.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* A glass ball and a metal one over a matte floor, with a lamp. */
 static void room_begin(render_case *c)
@@ -198,10 +197,10 @@ static void test_image(void)
     surround(&c, &map);
     case_is("even", case_render(&c, SAMPLER_MATERIAL, 0, 64, 51), 0.5 * 2);
     brighten(&map, 10, 8, 1000.0f);
-    double theta = pi * 8.5 / 32, solid = 2 * pi * pi / (64.0 * 32.0) * sin(theta);
+    double theta = PI * 8.5 / 32, solid = 2 * PI * PI / (64.0 * 32.0) * sin(theta);
     case_mean drawn = case_render(&c, SAMPLER_MATERIAL, 0, 256, 52);
     case_mean met = case_render(&c, SAMPLER_MATERIAL, EFFECT_ENVIRONMENT_MAP, 4096, 53);
-    double truth = 0.5 * 2 * (1 + 999 * solid * cos(theta) / pi);
+    double truth = 0.5 * 2 * (1 + 999 * solid * cos(theta) / PI);
     TEST_NEAR(drawn.value, truth, 0.01 * truth + 4.5 * drawn.sigma);
     TEST(drawn.sigma < met.sigma);
     case_agree("drawn and met", drawn, met);

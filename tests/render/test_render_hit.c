@@ -1,7 +1,6 @@
 /* What a hit says of its place is true: u and v, frames, normals, for shapes of each kind. */
+#include "harness/constants.h"
 #include "render/render_case.h"
-
-#define PI 3.14159265358979323846
 
 static void check_frame(const hit *h)
 {

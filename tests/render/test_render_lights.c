@@ -3,31 +3,31 @@
  * chosen by what they send and many that are chosen by power, against the density of what a ray meets and
  * against paths that only meet them; what stands right before a light bars it. Two chi-squares of level 1e-5 / 2;
  * means within 4.5 sigma, 7e-6 each. */
+#include "harness/constants.h"
 #include "render/path_case.h"
 #include "render/path/parts.h"
+#include "measure/pearson.h"
 #include "measure/statistics.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* ---- the environment ---- */
 
 /* Longitude and latitude from the left and the top, in pixels. */
 static void place_of(const image *map, float turn, vndf_vec3 w, double *x, double *y)
 {
-    double u = 0.5 + atan2((double)w.x, -(double)w.z) / (2 * pi) + (double)turn / 360;
+    double u = 0.5 + atan2((double)w.x, -(double)w.z) / (2 * PI) + (double)turn / 360;
     *x = (u - floor(u)) * map->width;
-    *y = atan2(sqrt((double)(w.x * w.x + w.z * w.z)), (double)w.y) / pi * map->height;
+    *y = atan2(sqrt((double)(w.x * w.x + w.z * w.z)), (double)w.y) / PI * map->height;
 }
 
 static vndf_vec3 direction_of(const image *map, float turn, double x, double y)
 {
-    double longitude = 2 * pi * (x / map->width - 0.5 - (double)turn / 360), theta = pi * y / map->height;
+    double longitude = 2 * PI * (x / map->width - 0.5 - (double)turn / 360), theta = PI * y / map->height;
     return vec((float)(sin(theta) * sin(longitude)), (float)cos(theta), (float)(-sin(theta) * cos(longitude)));
 }
 
 static double height_of(const image *map, double y)
 {
-    return cos(pi * y / map->height);
+    return cos(PI * y / map->height);
 }
 
 /* What is expected in a bin for each pixel and half of its height: its density times its solid angle. */
@@ -40,7 +40,7 @@ static double expect(const path_environment *e, float turn, int bin_pixels, doub
             float rgb[3], density;
             e->radiance(e, direction_of(map, turn, x + 0.5, y + 0.5), rgb, &density);
             double middle = 0.5 * (height_of(map, y) + height_of(map, y + 1));
-            double half = (height_of(map, y) - middle) * 2 * pi / map->width * (double)density;
+            double half = (height_of(map, y) - middle) * 2 * PI / map->width * (double)density;
             size_t bin = (size_t)(y / bin_pixels) * columns + (size_t)(x / bin_pixels);
             bins[2 * bin] += half;
             bins[2 * bin + 1] += half;
@@ -56,23 +56,6 @@ static size_t bin_of(const image *map, float turn, vndf_vec3 w, int bin_pixels, 
     int row = (int)fmin(y, map->height - 1), column = (int)fmin(x, map->width - 1);
     double middle = 0.5 * (height_of(map, row) + height_of(map, row + 1));
     return 2 * ((size_t)(row / bin_pixels) * columns + (size_t)(column / bin_pixels)) + ((double)w.y < middle);
-}
-
-/* Bins that expect few go together. */
-static double chi_square(const double *expected, const double *found, size_t count, double samples)
-{
-    double statistic = 0, want = 0, have = 0;
-    size_t bins = 0;
-    for (size_t i = 0; i < count; i++) {
-        want += expected[i] * samples;
-        have += found[i];
-        if (want < 10)
-            continue;
-        statistic += (have - want) * (have - want) / want;
-        want = have = 0;
-        bins++;
-    }
-    return statistics_chi_square_p(statistic, bins - 1);
 }
 
 static void test_environment(int width, int height, int bin_pixels)
@@ -105,7 +88,9 @@ static void test_environment(int width, int height, int bin_pixels)
             if (fabsf(u[0] - 0.5f) < 0.49f && fabsf(u[1] - 0.5f) < 0.49f) /* not on the border of two cells */
                 TEST_RELATIVE((double)density, (double)s.density, 1e-5);
         }
-        TEST(chi_square(expected, found, count, SAMPLES) > statistics_sidak(1e-5, 2));
+        for (size_t i = 0; i < count; i++)
+            expected[i] *= SAMPLES;
+        TEST(pearson_of(expected, found, NULL, count, 10).p > statistics_sidak(1e-5, 2));
     }
     free(expected);
     free(found);

@@ -142,7 +142,7 @@ static void test_endless(void)
 {
     geometry g = {0};
     char message[256];
-    FILE *device = getenv("VNDF_TEST_QUICK") ? NULL : fopen("/dev/zero", "rb");
+    FILE *device = test_quick() ? NULL : fopen("/dev/zero", "rb");
     if (!device)
         return;
     TEST(!geometry_read_obj(&g, device, "endless", &as_is, 0, message, sizeof message));

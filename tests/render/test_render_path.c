@@ -1,11 +1,11 @@
 /* Paths bring the light that is there: nothing is seen in a white furnace; spheres and rectangles light a matte
  * plate as closed forms say; materials alone, lights alone and both together agree; so do all samplers. Means of
  * independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of some 30 to fail by chance. */
+#include "harness/constants.h"
 #include "render/path_case.h"
 #include "render/path/parts.h"
 
 static const vndf_vec3 origin = {0.0f, 0.0f, 0.0f};
-static const double pi = 3.14159265358979323846;
 
 /* ---- white furnaces ---- */
 
@@ -83,7 +83,7 @@ static void test_sphere_light(void)
 static double corner_factor(double a, double b)
 {
     double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
-    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * pi);
+    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * PI);
 }
 
 static void test_rectangle_light(void)
@@ -142,7 +142,7 @@ static case_mean lights_alone(const render_case *c, unsigned samples)
     vndf_bsdf bsdf;
     unsigned long long state = 77;
     double sum = 0, square = 0;
-    unsigned count = 256 * (case_quick() ? samples / 4 : samples);
+    unsigned count = 256 * (test_quick() ? samples / 4 : samples);
     TEST(path_lights_make(&lights, &c->scene) && lights.count == 2);
     path_lights_look(&lights, 0.0f, origin, vec(0, 0, 1), &v);
     TEST(vndf_material_resolve(&c->materials[0].is, &made, NULL) == VNDF_OK);

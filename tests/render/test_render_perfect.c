@@ -6,10 +6,12 @@
  * of the bins are means over visible normals, level 1e-3 for all.
  *
  * Means, and how much is reflected, are compared within 4.5 sigma: 7e-6 for each of 38 to fail by chance. */
+#include "harness/constants.h"
 #include "oracle/oracle_bsdf.h"
 #include "render/path_case.h"
 #include "render/perfect/perfect.h"
 #include "measure/statistics.h"
+#include "statistics/grid.h"
 
 enum { BIN_SIDE = 12, BINS = BIN_SIDE * BIN_SIDE + 1, PILOTS = 4000 };
 
@@ -87,7 +89,7 @@ static void test_variance(const twin *t, const char *name, vndf_vec3 wi, unsigne
     double perfect, visible;
     case_mean drawn = mean_weight(t, 1, count, &perfect), mean = mean_weight(t, 0, count, &visible);
     case_agree(name, drawn, mean);
-    if (!case_quick()) /* a few samples of large weight make up a good part of it */
+    if (!test_quick()) /* a few samples of large weight make up a good part of it */
         TEST(perfect < 0.02 && perfect < fmax(0.5 * visible, 0.001));
     printf("%-24s z %5.2f  albedo %.4f  variance of visible %.2e, perfect %.2e\n", name, (double)wi.z, mean.value,
            visible, perfect);
@@ -116,97 +118,67 @@ static void test_density(const twin *t, unsigned count)
 
 /* ---- drawn with the density ---- */
 
-typedef struct bins {
-    float z[BIN_SIDE - 1], phi[BIN_SIDE - 1]; /* quantiles of what is drawn */
-} bins;
-
-static int ascending(const void *a, const void *b)
+static double azimuth(const twin *t, vndf_vec3 wo)
 {
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
+    return (double)atan2f(t->wi.x * wo.y - t->wi.y * wo.x, t->wi.x * wo.x + t->wi.y * wo.y);
 }
 
-static float azimuth(const twin *t, vndf_vec3 wo)
+static void place_bins(const twin *t, grid *g)
 {
-    return atan2f(t->wi.x * wo.y - t->wi.y * wo.x, t->wi.x * wo.x + t->wi.y * wo.y);
-}
-
-static bins place_bins(const twin *t)
-{
-    static float z[PILOTS], phi[PILOTS];
+    static double z[PILOTS], phi[PILOTS];
     size_t count = 0;
-    bins b;
+    grid_even(g, BIN_SIDE, -1, 1, BIN_SIDE, -PI, PI);
     for (int i = 0; i < PILOTS; i++) {
         vndf_scattered s;
         draw(t, 1, &s);
         if (s.lobe == VNDF_LOBE_NONE)
             continue;
-        z[count] = s.wo.z;
+        z[count] = (double)s.wo.z;
         phi[count++] = azimuth(t, s.wo);
     }
-    qsort(z, count, sizeof *z, ascending);
-    qsort(phi, count, sizeof *phi, ascending);
-    for (size_t i = 1; i < BIN_SIDE; i++) {
-        b.z[i - 1] = z[i * count / BIN_SIDE];
-        b.phi[i - 1] = phi[i * count / BIN_SIDE];
-    }
-    return b;
+    grid_quantiles(g->x, BIN_SIDE, z, count);
+    grid_quantiles(g->y, BIN_SIDE, phi, count);
 }
 
-static size_t bin_of(const bins *b, const twin *t, const vndf_scattered *s)
+static size_t bin_of(const grid *g, const twin *t, const vndf_scattered *s)
 {
-    size_t row = 0, column = 0;
-    if (s->lobe == VNDF_LOBE_NONE)
-        return BINS - 1;
-    for (size_t i = 0; i < BIN_SIDE - 1; i++) {
-        row += s->wo.z >= b->z[i];
-        column += azimuth(t, s->wo) >= b->phi[i];
-    }
-    return row * BIN_SIDE + column;
+    return s->lobe == VNDF_LOBE_NONE ? grid_elsewhere(g) : grid_bin(g, (double)s->wo.z, azimuth(t, s->wo));
 }
 
-/* Visible normals count by the ratio of the densities; what they miss of 1 is the bin of what is lost. */
-typedef struct tally {
-    double seen[BINS], expected[BINS], noise[BINS];
-} tally;
-
-static void count_bins(twin *t, const bins *b, unsigned count, tally *c)
+/* Visible normals count by the ratio of the densities; what they miss of 1 is what is lost. An expectation is a mean,
+ * so its own variance counts as well. */
+static void count_bins(twin *t, unsigned count, grid *g, double *variance)
 {
-    *c = (tally){.expected[BINS - 1] = count};
+    const size_t lost = grid_elsewhere(g);
+    g->expected[lost] = count;
     for (unsigned i = 0; i < count; i++) {
         vndf_scattered s;
         draw(t, 1, &s);
-        c->seen[bin_of(b, t, &s)] += 1;
+        g->observed[bin_of(g, t, &s)] += 1;
         t->reflected += s.lobe == VNDF_LOBE_REFLECTION;
         t->variance += s.lobe == VNDF_LOBE_REFLECTION;
         draw(t, 0, &s);
         if (s.lobe == VNDF_LOBE_NONE)
             continue;
         double ratio = (double)path_perfect_pdf(&t->perfect, s.wo) / (double)s.density;
-        c->expected[bin_of(b, t, &s)] += ratio;
-        c->noise[bin_of(b, t, &s)] += ratio * ratio;
-        c->expected[BINS - 1] -= ratio;
-        c->noise[BINS - 1] += (ratio - 1) * (ratio - 1);
+        g->expected[bin_of(g, t, &s)] += ratio;
+        variance[bin_of(g, t, &s)] += ratio * ratio;
+        g->expected[lost] -= ratio;
+        variance[lost] += (ratio - 1) * (ratio - 1);
         t->reflected -= s.lobe == VNDF_LOBE_REFLECTION ? ratio : 0;
         t->variance += s.lobe == VNDF_LOBE_REFLECTION ? ratio * ratio : 0;
     }
+    for (size_t i = 0; i <= lost; i++)
+        variance[i] += fmax(g->expected[i], 0);
 }
 
 static double test_chi_square(twin *t, unsigned count)
 {
-    static tally c;
-    const bins b = place_bins(t);
-    double statistic = 0;
-    size_t classes = 0;
-    count_bins(t, &b, count, &c);
-    for (size_t i = 0; i < BINS; i++) {
-        double off = c.seen[i] - c.expected[i];
-        if (c.seen[i] + c.expected[i] < 50)
-            continue;
-        statistic += off * off / (fmax(c.expected[i], 0) + c.noise[i]);
-        classes++;
-    }
-    return statistics_chi_square_p(statistic, classes);
+    static grid g;
+    double variance[BINS] = {0};
+    place_bins(t, &g);
+    count_bins(t, count, &g, variance);
+    return pearson_of(g.expected, g.observed, variance, BINS, 25).p;
 }
 
 /* ---- subjects ---- */
@@ -214,7 +186,7 @@ static double test_chi_square(twin *t, unsigned count)
 static void test_subject(const subject *s, const vndf_distribution *table, double level)
 {
     static const float heights[] = {0.96f, 0.71f, 0.33f, 0.06f, -0.93f, -0.72f, -0.41f, -0.12f};
-    unsigned count = case_quick() ? 4000 : 20000;
+    unsigned count = test_quick() ? 4000 : 20000;
     vndf_description is = describe(s, table);
     vndf_error error = {VNDF_OK, ""};
     path_perfect *perfect = path_perfect_make(&is, &error);

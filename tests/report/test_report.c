@@ -391,7 +391,7 @@ static void test_full_disk(const char *folder)
 int main(void)
 {
     char scratch[] = "report-XXXXXX", path[PATH_SIZE];
-    int quick = getenv("VNDF_TEST_QUICK") != NULL;
+    int quick = test_quick();
     if (!TEST(mkdtemp(scratch) != NULL))
         return test_done();
     test_checkers();

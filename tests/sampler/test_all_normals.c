@@ -11,9 +11,9 @@
 #include "sampler/surface.h"
 #include "sampler/all_normals/v_cavity.h"
 #include "measure/statistics.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
+#include "statistics/grid.h"
 
 /* ---- subjects ---- */
 
@@ -97,7 +97,7 @@ static void check_all_samples(const law *l, const char *name, unsigned long long
     const float edge[] = {0, 0x1p-30f, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f, 1, -1, 2, (float)NAN};
     const size_t edges = sizeof edge / sizeof edge[0];
     unsigned long long state = seed;
-    int random = oracle_quick() ? 100 : 500;
+    int random = (int)test_amount(100, 200, 500);
     for (size_t i = 0; i < edges; i++)
         for (size_t j = 0; j < edges; j++)
             check_sample(l, name, edge[i], edge[j]);
@@ -152,15 +152,13 @@ static double stretched_density(const law *l, double x, double a)
     return density(l, wm) * (l->ax / length) * (l->ay / length) * (x / length);
 }
 
-/* Over [x0, x1] times [a0, a1] by Gauss's rule in `panels` by `panels`. */
-static double integrate_cell(const law *l, double x0, double x1, double a0, double a1, int panels)
+/* Over [x0, x1] times [a0, a1] by Gauss's rule. */
+static double integrate_cell(const law *l, double x0, double x1, double a0, double a1)
 {
-    double sum = 0, h = 0.5 * (x1 - x0) / panels, k = 0.5 * (a1 - a0) / panels;
-    for (int i = 0; i < 25 * panels * panels; i++) {
-        int n = i % 5, m = i / 5 % 5, p = i / 25 % panels, q = i / 25 / panels;
-        double x = x0 + h * (2 * p + 1 + NODE[n]), a = a0 + k * (2 * q + 1 + NODE[m]);
-        sum += WEIGHT[n] * WEIGHT[m] * h * k * stretched_density(l, x, a);
-    }
+    double sum = 0, h = 0.5 * (x1 - x0), k = 0.5 * (a1 - a0);
+    for (int i = 0; i < 25; i++)
+        sum += WEIGHT[i % 5] * WEIGHT[i / 5] * h * k *
+               stretched_density(l, x0 + h * (1 + NODE[i % 5]), a0 + k * (1 + NODE[i / 5]));
     return sum;
 }
 
@@ -178,7 +176,7 @@ static double integral(const law *l, uint32_t turns)
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = 0; j < turns; j++)
             sum += integrate_cell(l, knot_at(l, i, count), knot_at(l, i + 1, count), 2 * PI * j / turns,
-                                  2 * PI * (j + 1) / turns, 1);
+                                  2 * PI * (j + 1) / turns);
     return sum;
 }
 
@@ -239,15 +237,6 @@ static void test_definitions(void)
 
 /* ---- chi-square ---- */
 
-enum { RADII = 40, AZIMUTHS = 48, BINS = RADII * AZIMUTHS };
-
-/* Even in azimuth; in radius by quantiles of a pilot, so that all bins are filled. */
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void place(const law *l, vndf_vec3 wm, double *x, double *a)
 {
     double lx = wm.x / l->ax, ly = wm.y / l->ay, r = sqrt(lx * lx + ly * ly);
@@ -255,55 +244,35 @@ static void place(const law *l, vndf_vec3 wm, double *x, double *a)
     *a = atan2(ly, lx);
 }
 
-static void find_borders(const law *l, double border[RADII + 1])
+static double placed_density(double x, double a, const void *of)
 {
-    enum { PILOT = 20 * RADII };
-    double x[PILOT], a;
-    unsigned long long state = 11;
-    for (int i = 0; i < PILOT; i++)
-        place(l, draw(l, test_uniform(&state), test_uniform(&state), NULL), &x[i], &a);
-    qsort(x, PILOT, sizeof x[0], ascending);
-    for (int i = 1; i < RADII; i++)
-        border[i] = x[i * 20];
-    border[0] = 0;
-    border[RADII] = 1;
+    return stretched_density(of, x, a);
 }
 
-static double chi_square_of(const law *l, int samples, unsigned long long seed)
+static double chi_square_of(const law *l, size_t samples, unsigned long long seed)
 {
-    static double observed[BINS];
-    double border[RADII + 1], statistic = 0, open = 0, got = 0;
-    size_t classes = 0;
-    memset(observed, 0, sizeof observed);
-    find_borders(l, border);
-    for (int i = 0; i < samples; i++) {
-        double x, a;
-        int row = 0;
+    enum { RADII = 40, AZIMUTHS = 48, PILOT = 20 * RADII };
+    static grid g;
+    unsigned long long state = 11;
+    double pilot[PILOT], x, a;
+    grid_even(&g, RADII, 0, 1, AZIMUTHS, -PI, PI);
+    for (int i = 0; i < PILOT; i++)
+        place(l, draw(l, test_uniform(&state), test_uniform(&state), NULL), &pilot[i], &a);
+    grid_quantiles(g.x, RADII, pilot, PILOT);
+    grid_expect(&g, placed_density, l, (double)samples, 1e-7);
+    for (size_t i = 0; i < samples; i++) {
         place(l, draw(l, test_uniform(&seed), test_uniform(&seed), NULL), &x, &a);
-        while (row + 1 < RADII && border[row + 1] <= x)
-            row++;
-        int column = (int)((a + PI) / (2 * PI) * AZIMUTHS);
-        observed[row * AZIMUTHS + (column < AZIMUTHS ? column : AZIMUTHS - 1)] += 1;
+        g.observed[grid_bin(&g, x, a)] += 1;
     }
-    for (int i = 0; i < BINS; i++) {
-        int row = i / AZIMUTHS, column = i % AZIMUTHS;
-        open += samples * integrate_cell(l, border[row], border[row + 1], 2 * PI * column / AZIMUTHS - PI,
-                                         2 * PI * (column + 1) / AZIMUTHS - PI, row + 1 < RADII ? 3 : 12);
-        got += observed[i];
-        if (open < 5)
-            continue;
-        statistic += (got - open) * (got - open) / open;
-        open = got = 0;
-        classes++;
-    }
-    return classes > 100 ? statistics_chi_square_p(statistic, classes - 1) : 0;
+    pearson found = grid_test(&g);
+    return found.classes > 100 ? found.p : 0;
 }
 
 static void test_chi_square(void)
 {
     const float alphas[][2] = {{0.3f, 0.3f}, {1e-4f, 0.1f}, {2, 0.5f}};
-    const int tests = SUBJECTS * 3 * 4, samples = oracle_quick() ? 100000 : 500000;
-    double level = statistics_sidak(0.01, (size_t)tests), least = 1;
+    const size_t tests = SUBJECTS * 3 * 4, samples = test_amount(100000, 200000, 500000);
+    double level = statistics_sidak(0.01, tests), least = 1;
     for (int i = 0; i < SUBJECTS; i++) {
         subject s = subject_at(i);
         for (int j = 0; s.d && j < 3; j++)
@@ -316,7 +285,7 @@ static void test_chi_square(void)
             }
         vndf_free(s.owned);
     }
-    fprintf(stderr, "least p of %d: %.2g (level %.2g)\n", tests, least, level);
+    fprintf(stderr, "least p of %zu: %.2g (level %.2g)\n", tests, least, level);
 }
 
 /* ---- the azimuth of V-cavities ---- */

@@ -68,10 +68,10 @@ static void put(numbers *n, size_t i, const vndf_surface *surface, vndf_vec3 wi,
 }
 
 /* One in twenty has a number that is odd. The first are ordinary: they serve all where they are shared. */
-static void fill(numbers *n, const vndf_distribution *d, unsigned long long seed)
+static void fill(numbers *n, const vndf_distribution *d, size_t count, unsigned long long seed)
 {
     unsigned long long state = seed;
-    for (size_t i = 0; i < COUNT_MOST; i++) {
+    for (size_t i = 0; i < count; i++) {
         float alpha = random_alpha(&state), other = random_alpha(&state), kind = test_uniform(&state);
         vndf_surface surface = {d, alpha, kind < 0.4f ? alpha : kind < 0.8f ? 1e4f * alpha : other};
         vndf_vec3 wi = random_direction(&state);
@@ -163,7 +163,7 @@ static void test_call(kind which, const vndf_distribution *d, const char *name, 
     static const size_t counts[] = {0, 1, 2, 7, 15, 17, 255, 256, 257, COUNT_MOST - 1};
     static numbers given, made;
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-        fill(&given, d, 99 + c);
+        fill(&given, d, counts[c] + 1, 99 + c);
         for (unsigned shared = 0; shared < 4; shared++) {
             size_t seen = 0, count = counts[c];
             made = given;
@@ -185,7 +185,7 @@ static void test_in_place(kind which, const vndf_distribution *d, vndf_instructi
     static numbers given, made;
     size_t seen = 0;
     for (int over = ALPHA_X; over <= X; over += X - ALPHA_X) {
-        fill(&given, d, 5);
+        fill(&given, d, COUNT_MOST, 5);
         made = given;
         vndf_batch apart = batch_of(d, &given, COUNT_MOST - 1, 0, limit);
         vndf_batch b = batch_of(d, &made, COUNT_MOST - 1, 0, limit);
@@ -209,7 +209,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, vndf
 static void test_unread(const vndf_distribution *d)
 {
     static numbers given;
-    fill(&given, d, 3);
+    fill(&given, d, 101, 3);
     vndf_batch b = batch_of(d, &given, 100, 0, VNDF_INSTRUCTIONS_BEST);
     vndf_batch no_wi = b;
     float with[100], without[100];

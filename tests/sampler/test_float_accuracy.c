@@ -41,7 +41,7 @@ static void test_subject(const char *name, double most[FLOAT_COUNT], size_t *poi
 {
     float_subject subject;
     float_worst worst[FLOAT_COUNT] = {0};
-    size_t part = oracle_quick() ? 20 : 1;
+    size_t part = test_quick() ? 20 : 1;
     if (!TEST(float_subject_open(&subject, name, scratch)))
         return;
     float_run(worst, &subject, 5000 / part, 4000 / part, 2000 / part, 20240501);

@@ -5,9 +5,8 @@
  * certificate's area_error, but for the disc, whose four cells do not know its edge as well as the spline does. */
 #include "oracle/oracle.h"
 #include "oracle/oracle_float.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Gauss-Legendre, eight points; and panels of a cell, narrow at its ends, where rational densities bend. */
 static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -148,7 +147,7 @@ int main(void)
         float_subject subject;
         if (!TEST(float_subject_open(&subject, names[i], "")))
             continue;
-        for (size_t j = 0; j < (oracle_quick() ? 1 : sizeof angles / sizeof *angles); j++)
+        for (size_t j = 0; j < (test_quick() ? 1 : sizeof angles / sizeof *angles); j++)
             test_view(&subject, angles[j]);
         float_subject_close(&subject);
     }

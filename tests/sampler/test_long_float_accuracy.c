@@ -27,7 +27,7 @@ enum {
 int main(int argc, char **argv)
 {
     float_worst most[FLOAT_COUNT] = {0};
-    size_t part = oracle_quick() ? 100 : 1;
+    size_t part = test_quick() ? 100 : 1;
     unsigned long long seed = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
     for (int i = 0; i < SUBJECTS; i++) {
         float_subject subject;

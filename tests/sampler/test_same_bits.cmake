@@ -3,9 +3,10 @@
 # through qemu, all compared with tests/corpus/same_bits.txt, so that machines that never met are compared too.
 # Only the rooms of the run time are compiled here, so they do not need the offline ones.
 #
-# The optimised builds for this machine take 1e6 samples of every distribution, the slow ones - not optimised,
-# emulated, or 32-bit - the first 2e4 of the same. What cannot be built or run here is named on a line
-# "not here: ...".
+# LONG=ON (long_same_bits) does all of this: the optimised builds for this machine take 1e6 samples of every
+# distribution, the slow ones - not optimised, emulated, or 32-bit - the first 2e4 of the same. Without it three of
+# them take 2e4: the library as it was built here, a compiler that did not build it with all that the processor
+# has, and one machine through qemu, big-endian if it can be. What cannot be built or run here is named on a line "not here: ...".
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
 # runs this with -DRENEW=ON and writes the file anew, if all builds agree.
@@ -15,7 +16,10 @@ set(expected_file ${SOURCE}/tests/corpus/same_bits.txt)
 set(machines aarch64-linux-gnu arm-linux-gnueabihf riscv64-linux-gnu s390x-linux-gnu) # the last is big-endian
 set(prefix 20000)
 set(whole 1000000)
-if(NOT "$ENV{VNDF_TEST_QUICK}" STREQUAL "")
+if(RENEW)
+    set(LONG ON)
+endif()
+if(NOT LONG OR NOT "$ENV{VNDF_TEST_QUICK}" STREQUAL "")
     set(whole ${prefix})
 endif()
 
@@ -23,7 +27,8 @@ file(GLOB tables ${SOURCE}/tables/*.vndf)
 if(NOT tables)
     message(FATAL_ERROR "no tables in ${SOURCE}/tables")
 endif()
-set(sources ${SOURCE}/tests/sampler/same_bits.c)
+set(program ${SOURCE}/tests/sampler/same_bits.c)
+set(sources ${program})
 foreach(room core math table sampler bsdf)
     file(GLOB_RECURSE room_sources ${SOURCE}/src/${room}/*.c)
     list(APPEND sources ${room_sources})
@@ -68,8 +73,13 @@ endif()
 
 # run_build(NAME COUNT EMULATOR COMPILER FLAG...): EMULATOR may be empty.
 function(run_build who count emulator)
+    run_sources("${who}" ${count} "${emulator}" "${sources}" ${ARGN})
+endfunction()
+
+# The same of SOURCES, which may end in a library.
+function(run_sources who count emulator parts)
     string(TIMESTAMP begin "%s")
-    execute_process(COMMAND ${ARGN} ${flags} ${sources} -o ${OUT}/same_bits -lm
+    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm
         RESULT_VARIABLE status ERROR_VARIABLE errors)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "${who} cannot build the run time:\n${errors}")
@@ -110,6 +120,9 @@ endfunction()
 # ---- this machine -------------------------------------------------------------------------------
 
 get_filename_component(compilers ${C_COMPILER} REALPATH) # cc and gcc may be one
+if(SANITIZE STREQUAL "")
+    run_sources("the library of this build" ${prefix} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
+endif()
 foreach(name gcc clang)
     find_program(found_${name} ${name})
     if(found_${name})
@@ -120,9 +133,15 @@ foreach(name gcc clang)
     endif()
 endforeach()
 list(REMOVE_DUPLICATES compilers)
+if(NOT LONG)
+    list(POP_BACK compilers others) # another than the one of this build, if there is one
+    set(compilers ${others})
+endif()
 foreach(compiler IN LISTS compilers)
-    run_build("${compiler} -O2" ${whole} "" ${compiler} -O2)
-    run_build("${compiler} -O0" ${prefix} "" ${compiler} -O0)
+    if(LONG)
+        run_build("${compiler} -O2" ${whole} "" ${compiler} -O2)
+        run_build("${compiler} -O0" ${prefix} "" ${compiler} -O0)
+    endif()
     can_run(native "" ${compiler} -march=native)
     if(native)
         run_build("${compiler} -O3 -march=native" ${whole} "" ${compiler} -O3 -march=native)
@@ -136,9 +155,9 @@ endforeach()
 # Distributions that have compilers for other machines too keep the kernel's headers apart.
 set(small gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/x86_64-linux-gnu)
 can_run(found "" ${small})
-if(found)
+if(found AND LONG)
     run_build("gcc -m32 -msse2 -mfpmath=sse -O2" ${prefix} "" ${small} -O2)
-else()
+elseif(NOT found)
     message("not here: gcc -m32 (Debian: gcc-multilib)")
 endif()
 
@@ -157,6 +176,9 @@ endif()
 
 # ---- other machines -----------------------------------------------------------------------------
 
+if(NOT LONG)
+    list(REVERSE machines)
+endif()
 foreach(machine IN LISTS machines)
     string(REGEX MATCH "^[^-]+" processor ${machine})
     find_program(emulator_${processor} NAMES qemu-${processor} qemu-${processor}-static)
@@ -165,6 +187,9 @@ foreach(machine IN LISTS machines)
         # In ISO mode gcc for s390x keeps floats as doubles, which the sources refuse, unless it is told not to.
         run_build("${machine}-gcc -O2" ${prefix} ${emulator_${processor}} ${machine}-gcc -static -O2
             -fexcess-precision=fast)
+        if(NOT LONG)
+            break()
+        endif()
     else()
         message("not here: ${machine}-gcc with qemu-${processor}")
     endif()

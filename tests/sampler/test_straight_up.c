@@ -2,6 +2,7 @@
  * that of sampling is the same for closed forms and near it for tables, x takes the place of wi's azimuth, and the
  * numbers are parts of the law of all slopes, in polar (GGX) or Cartesian coordinates (Beckmann). Normals below the
  * surface have the density 0 from everywhere, though wi faces them, by the calls of one and by batches. */
+#include "harness/constants.h"
 #include "sampler/batch_case.h"
 #include "oracle/oracle.h"
 
@@ -44,7 +45,7 @@ static void test_place(const vndf_surface *surface, const vndf_view *view, float
         TEST_NEAR(0.5 * erfc(y / (double)wm.z), (double)u2, 1e-6);
         return;
     }
-    TEST_NEAR(atan2(y, x) / 3.14159265358979324, 2 * (double)u1 - 1, 2e-3); /* tables: TV of a uniform azimuth */
+    TEST_NEAR(atan2(y, x) / PI, 2 * (double)u1 - 1, 2e-3); /* tables: TV of a uniform azimuth */
     if (surface->distribution == vndf_ggx())
         TEST_NEAR(r2 / (1 + r2), (double)u2, 1e-6);
 }

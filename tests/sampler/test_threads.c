@@ -102,7 +102,7 @@ static void compare(const vndf_distribution *d, const char *name, const char *pa
     if (!TEST(d != NULL))
         return;
     for (int i = 0; i < THREADS; i++) {
-        const task one = {&surface, &view, path, 40u + (unsigned)i, 0, getenv("VNDF_TEST_QUICK") ? 4000 : 40000};
+        const task one = {&surface, &view, path, 40u + (unsigned)i, 0, test_quick() ? 4000 : 40000};
         tasks[i] = one;
     }
     while (started < THREADS && start_thread(&threads[started], &tasks[started]))

@@ -1,5 +1,6 @@
 /* A CSV of D or P22 becomes a curve that meets its rows, stays between neighbouring rows, never goes below
  * zero and has the tail that csv.h states; what is not such a CSV is refused with the number of the line. */
+#include "harness/constants.h"
 #include "harness/test.h"
 
 #include <stdlib.h>
@@ -7,8 +8,6 @@
 #include "core/checksum.h"
 #include "source/csv/csv.h"
 #include "source/source.h"
-
-static const double pi = 3.14159265358979323846;
 
 static vndf_source *read_text(const char *text)
 {
@@ -23,7 +22,7 @@ static vndf_source *read_text(const char *text)
 static double ggx(double r)
 {
     double q = 1 + r * r / 0.09;
-    return 1 / (0.09 * pi * q * q);
+    return 1 / (0.09 * PI * q * q);
 }
 
 /* The same curve in every unit; comments, blanks, CRLF, a byte order mark, and no newline at the end. */
@@ -68,8 +67,8 @@ static void test_accuracy(void)
     static char text[1 << 20];
     size_t used = (size_t)sprintf(text, "theta_deg,ndf\n");
     for (int i = 0; i <= 180; i++) {
-        double theta = i * pi / 360, c = cos(theta);
-        used = add_row(text, used, i * 0.5, i == 180 ? 0.09 / pi : ggx(tan(theta)) / (c * c * c * c));
+        double theta = i * PI / 360, c = cos(theta);
+        used = add_row(text, used, i * 0.5, i == 180 ? 0.09 / PI : ggx(tan(theta)) / (c * c * c * c));
     }
     vndf_source *even = read_text(text);
     used = (size_t)sprintf(text, "slope,p22\n0,%.17g\n", ggx(0));

@@ -1,5 +1,6 @@
 /* Every family is its published formula, its mass is the integral of its P22, every parameter in its range and
  * every measured material gives finite values at all slopes, and whatever is out of range is refused. */
+#include "harness/constants.h"
 #include "harness/test.h"
 
 #include <stdlib.h>
@@ -8,8 +9,6 @@
 #include "source/family/materials.h"
 #include "source/provenance.h"
 #include "source/source.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* At ends and in the middle of all ranges. */
 /* clang-format off */
@@ -159,7 +158,7 @@ static double mass(const vndf_source *source, double low, double high)
         double r = low * exp(i * h);
         sum += vndf_source_p22(source, r) * r * r * (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2);
     }
-    return 2 * pi * sum * h / 3;
+    return 2 * PI * sum * h / 3;
 }
 
 /* Weights are shares of the projected area, whatever the families and scales. */
@@ -193,10 +192,10 @@ static void test_closed_masses(void)
     for (double a = 1e-4; a < 1; a *= 2.3) {
         double half[] = {a, 0.5}, none[] = {a, 0}, B = 1 / a;
         /* p = 1/2: pi alpha e^alpha alpha^p Gamma(1/2, alpha) */
-        TEST_RELATIVE(forms[0]->mass(half), pi * a * exp(a) * sqrt(a) * sqrt(pi) * erfc(sqrt(a)), 1e-13);
-        TEST_RELATIVE(forms[0]->mass(none), pi * a, 1e-13);
+        TEST_RELATIVE(forms[0]->mass(half), PI * a * exp(a) * sqrt(a) * sqrt(PI) * erfc(sqrt(a)), 1e-13);
+        TEST_RELATIVE(forms[0]->mass(none), PI * a, 1e-13);
         /* C = 3: 2 pi integral (1 + B v)^-3 (1 - v) dv over [0, 1] = pi / (1 + B) */
-        TEST_RELATIVE(forms[1]->mass((double[]){B, 3}), pi / (1 + B), 1e-13);
+        TEST_RELATIVE(forms[1]->mass((double[]){B, 3}), PI / (1 + B), 1e-13);
     }
 }
 

@@ -1,12 +1,11 @@
 /* Narrow features of what is no formula: a callback shows those as wide as vndf_build_options.finest or beside a
  * break, a CSV every row, a family its lobes at any scale; and a table is measured as closely as it was built. */
+#include "harness/constants.h"
 #include "harness/test.h"
 
 #include <stdlib.h>
 
 #include "fit/profile/profile.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* exp(-r) and a ring at `at`; masses are 2 pi and 2 pi^1.5 height at^2 width. */
 typedef struct ring {
@@ -184,7 +183,7 @@ static void test_family(const char *specification)
 
 int main(void)
 {
-    test_finest(1e-3, 0, 1e-3, 60);
+    test_finest(1e-3, 0, 1e-3, (int)test_amount(20, 20, 60));
     test_finest(1e-4, 1e-4, 1e-4, 12);
     test_breaks(1e-5);
     test_breaks(1e-9);

@@ -9,7 +9,7 @@ int main(void)
 {
     static unsigned char bytes[DAMAGE_BYTES_MAX + 8];
     const char *path = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
-    size_t step = oracle_quick() ? 5 : 1;
+    size_t step = test_quick() ? 5 : 1;
     test_refused(path, bytes, step);
     test_mended(path, bytes, step);
     return test_done();

@@ -38,7 +38,7 @@ int main(void)
     oracle o = oracle_get(ORACLE_LAPLACE);
     vndf_distribution *table = oracle_build(&o, 2048, NULL);
     size_t size = vndf_table_encode(table, bytes, sizeof bytes);
-    long taken = 0, unsafe = 0, tries = oracle_quick() ? 4000 : 20000;
+    long taken = 0, unsafe = 0, tries = test_quick() ? 4000 : 20000;
     TEST(table && size <= sizeof bytes);
     for (long i = 0; size <= sizeof bytes && i < tries; i++) {
         unsigned long long before = state;

@@ -43,7 +43,7 @@ static float part(unsigned long long *state)
 static void test_table(const vndf_distribution *d, const char *name)
 {
     unsigned long long state = 11;
-    size_t missed = 0, draws = oracle_quick() ? 100000 : 1000000;
+    size_t missed = 0, draws = test_quick() ? 100000 : 1000000;
     for (size_t i = 0; i < draws; i++) {
         float c = 1 / (1 + ratio(&state)), k = test_uniform(&state) < 0.5f ? 1 - c : c - 1, u = part(&state);
         missed += !is_found(d, c, k, u, test_uniform(&state));

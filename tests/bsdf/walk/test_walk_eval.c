@@ -57,7 +57,7 @@ static void test_bins(const vndf_walk *walk, const vndf_view *view, const char *
 {
     size_t count = walk_count(100000), drawn[WALK_BINS] = {0}, seen[WALK_BINS] = {0};
     walk_mean sampled[WALK_BINS], evaluated[WALK_BINS];
-    double all = 0.0, compared = 0.0, part = getenv("VNDF_TEST_QUICK") ? 0.6 * least : least;
+    double all = 0.0, compared = 0.0, part = test_long() ? least : 0.6 * least;
     for (int b = 0; b < WALK_BINS; b++) {
         walk_mean none = {0, 0, (double)count, 0};
         sampled[b] = evaluated[b] = none;

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "bsdf/walk/walk.h"
+#include "measure/pearson.h"
 #include "measure/statistics.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double walk_pi = 3.14159265358979323846;
 
 /* ---- distributions ---- */
 
@@ -123,9 +123,9 @@ static inline void walk_numbers(unsigned long long *state, float u[3])
         u[i] = test_uniform(state);
 }
 
-static inline size_t walk_count(size_t usual)
+static inline size_t walk_count(size_t whole)
 {
-    return getenv("VNDF_TEST_QUICK") ? usual / 5 : usual;
+    return test_amount(whole / 5, whole / 4, whole);
 }
 
 /* ---- means and their errors ---- */
@@ -167,7 +167,7 @@ enum { WALK_HEIGHTS = 12, WALK_TURNS = 8, WALK_BINS = WALK_HEIGHTS * WALK_TURNS 
 static inline int walk_bin(vndf_vec3 w)
 {
     int height = (int)((w.z + 1.0) * 0.5 * WALK_HEIGHTS);
-    int turn = (int)((atan2((double)w.y, (double)w.x) + walk_pi) / (2.0 * walk_pi) * WALK_TURNS);
+    int turn = (int)((atan2((double)w.y, (double)w.x) + PI) / (2.0 * PI) * WALK_TURNS);
     height = height < 0 ? 0 : height >= WALK_HEIGHTS ? WALK_HEIGHTS - 1 : height;
     turn = turn < 0 ? 0 : turn >= WALK_TURNS ? WALK_TURNS - 1 : turn;
     return height * WALK_TURNS + turn;

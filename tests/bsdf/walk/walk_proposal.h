@@ -27,7 +27,7 @@ static inline double walk_refracted_density(const vndf_view *view, vndf_vec3 wo,
 static inline double walk_proposal_density(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
 {
     vndf_vec3 mirrored = {wo.x, wo.y, -wo.z};
-    double cosine = fabs((double)wo.z) / walk_pi, event = walk_reflected_density(view, wo);
+    double cosine = fabs((double)wo.z) / PI, event = walk_reflected_density(view, wo);
     if (!walk->transmits)
         return 0.5 * (event + walk_reflected_density(view, mirrored) + cosine);
     return 0.25 * (event + walk_refracted_density(view, wo, walk->eta) + cosine);
@@ -35,7 +35,7 @@ static inline double walk_proposal_density(const vndf_walk *walk, const vndf_vie
 
 static inline vndf_vec3 walk_propose_cosine(int below, double u1, double u2)
 {
-    return walk_direction((below ? -1.0 : 1.0) * sqrt(u1), 2.0 * walk_pi * u2);
+    return walk_direction((below ? -1.0 : 1.0) * sqrt(u1), 2.0 * PI * u2);
 }
 
 /* Mirrored in wm, or refracted there (NaN in total reflection). */

@@ -76,7 +76,7 @@ static subject subject_of(const char *name, const vndf_distribution *d, const fl
 static void test_samples(const char *name, const vndf_distribution *d, unsigned long long seed)
 {
     const float border[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f, 1};
-    int count = oracle_quick() ? 400 : 4000;
+    int count = test_quick() ? 400 : 4000;
     for (size_t a = 0; a < sizeof ALPHA / sizeof *ALPHA; a++)
         for (size_t c = 0; c < sizeof COSINE / sizeof *COSINE; c++) {
             subject s = subject_of(name, d, ALPHA[a], COSINE[c]);

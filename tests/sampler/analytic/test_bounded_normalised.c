@@ -7,9 +7,8 @@
 #include "oracle/oracle.h"
 #include "sampler/bounded/bounded.h"
 #include "sampler/tabulated/wedge.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Real slopes are A R (x, y): the stretched frame turned to the stretched wi. */
 typedef struct subject {
@@ -259,7 +258,7 @@ static void test_subject(const char *name, const vndf_distribution *d)
 {
     const float alpha[][2] = {{1, 1}, {0.7f, 0.1f}, {2, 2}, {10, 10}, {0.5f, 0.5f}};
     const double cosine[] = {1, 0.7, 0.3, 0.05};
-    int wanted = oracle_quick() ? 4 : 5;
+    int wanted = test_quick() ? 4 : 5;
     for (int a = 0; a < wanted; a++)
         for (int c = 0; c < 4; c++) {
             subject g = subject_of(d, alpha[a], cosine[c]);

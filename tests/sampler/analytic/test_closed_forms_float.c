@@ -3,9 +3,8 @@
  * all samples are drawn so. The oracles are the C library's functions in long double. */
 #include "sampler/analytic/beckmann_draw.h"
 #include "sampler/analytic/ggx_draw.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double pi = 3.14159265358979324;
 
 /* ---- exp, log and the error function's kin ---- */
 
@@ -15,7 +14,7 @@ static void elementary_functions_are_accurate(void)
     for (int i = -100000; i <= 100000; i++) {
         float x = (float)i * 1.2e-4f, z = fabsf(x) / 3.0f;
         vndf_erfc_ratio e = vndf_erfc_lanes(z);
-        double tail = sqrt(pi) * exp((double)z * z) * erfc(z), size = 1.0 + fabs((double)x);
+        double tail = sqrt(PI) * exp((double)z * z) * erfc(z), size = 1.0 + fabs((double)x);
         worst[0] = fmax(worst[0], fabs((double)vndf_exp_lanes(x) / exp(x) - 1.0) / size);
         if (i != 0)
             worst[1] = fmax(worst[1], fabs((double)vndf_exp_less_one_lanes(x) / expm1(x) - 1.0) / size);
@@ -41,7 +40,7 @@ static void log_is_accurate(void)
 /* F(x)/F(K): the mass below x, or what is missing of it. */
 static long double mass_below(long double x, long double k)
 {
-    long double root = sqrtl((long double)pi), all = root * k * erfcl(-k) + expl(-k * k);
+    long double root = sqrtl((long double)PI), all = root * k * erfcl(-k) + expl(-k * k);
     return (root * k * erfcl(-x) + expl(-x * x)) / all;
 }
 
@@ -100,7 +99,7 @@ static void half_azimuth_is_accurate(void)
     for (int i = 0; i <= 1 << 20; i++) {
         float u = (float)i * 0x1p-20f;
         vndf_half_azimuth half = vndf_half_azimuth_at(u);
-        worst = fmax(worst, fabs(atan2((double)half.sine, (double)half.cosine) - pi * (double)u));
+        worst = fmax(worst, fabs(atan2((double)half.sine, (double)half.cosine) - PI * (double)u));
         TEST_RELATIVE((double)half.square,
                       (double)half.sine * (double)half.sine + (double)half.cosine * (double)half.cosine, 2e-7);
     }
@@ -114,7 +113,7 @@ static void ggx_meets_its_numbers(void)
     unsigned long long state = 11;
     double worst1 = 0.0, worst2 = 0.0;
     for (int i = 0; i < 400000; i++) {
-        double part = test_uniform_double(&state), theta = 0.5 * pi * (i % 2 ? part : pow(10.0, -4.0 * part));
+        double part = test_uniform_double(&state), theta = 0.5 * PI * (i % 2 ? part : pow(10.0, -4.0 * part));
         float u1 = test_uniform(&state), u2 = test_uniform(&state), s = (float)sin(theta), c = (float)cos(theta);
         vndf_ggx_incidence w = vndf_ggx_aim(1.0f, 1.0f, s, 0.0f, c);
         lanes_m plain;
@@ -125,10 +124,10 @@ static void ggx_meets_its_numbers(void)
         double twice = 2.0 * ((double)s * n.x + (double)c * n.z) / square;
         double x = twice * n.x - s, y = twice * n.y, z = twice * n.z - c;
         worst2 = fmax(worst2, fabs(1.0 - z - u2 * (1.0 + c)));
-        worst1 = fmax(worst1, fabs(remainder(0.5 + atan2(y, x) / (2.0 * pi) - u1, 1.0)) * hypot(x, y));
+        worst1 = fmax(worst1, fabs(remainder(0.5 + atan2(y, x) / (2.0 * PI) - u1, 1.0)) * hypot(x, y));
     }
-    fprintf(stderr, "ggx: mirrored direction off by %.2g in azimuth, %.2g in height\n", 2.0 * pi * worst1, worst2);
-    TEST(2.0 * pi * worst1 < 2e-6);
+    fprintf(stderr, "ggx: mirrored direction off by %.2g in azimuth, %.2g in height\n", 2.0 * PI * worst1, worst2);
+    TEST(2.0 * PI * worst1 < 2e-6);
     TEST(worst2 < 2e-6);
 }
 

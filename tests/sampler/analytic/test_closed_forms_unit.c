@@ -8,9 +8,8 @@
 #include "sampler/analytic/beckmann.h"
 #include "sampler/tabulated/theory.h"
 #include "sampler/analytic/ggx.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double pi = 3.14159265358979324;
 
 typedef struct direction {
     float s, c;
@@ -41,7 +40,7 @@ static const closed_form forms[] = {
 
 static direction direction_at(double degrees)
 {
-    double theta = degrees * pi / 180.0;
+    double theta = degrees * PI / 180.0;
     direction w = {(float)sin(theta), (float)cos(theta)};
     return w;
 }
@@ -139,7 +138,7 @@ static void areas_are_exact(void)
     double worst[2] = {0.0, 0.0};
     for (double degrees = 0.01; degrees < 179.99; degrees += 0.37) {
         direction w = direction_at(degrees);
-        double k = (double)w.c / w.s, want = w.s / sqrt(pi), delta = atan2(w.s, -w.c);
+        double k = (double)w.c / w.s, want = w.s / sqrt(PI), delta = atan2(w.s, -w.c);
         want *= simpson(distance_density, &k, k > 8.0 ? k - 8.0 : 0.0, largest_distance(k), 2000);
         want *= k < 0.0 ? exp(-k * k) : 1.0;
         if (want > 1e-37)
@@ -169,10 +168,10 @@ static void moments_of_density(const closed_form *form, direction w, double *sum
     enum { RINGS = 600, SECTORS = 600 };
     for (int i = 0; i < RINGS; i++)
         for (int j = 0; j < SECTORS; j++) {
-            double theta = 0.5 * pi * (i + 0.5) / RINGS, phi = 2.0 * pi * (j + 0.5) / SECTORS;
+            double theta = 0.5 * PI * (i + 0.5) / RINGS, phi = 2.0 * PI * (j + 0.5) / SECTORS;
             double x = sin(theta) * cos(phi), y = sin(theta) * sin(phi), z = cos(theta);
             vndf_normal n = {x, y, z};
-            double cosine = w.s * x + w.c * z, cell = sin(theta) * pi * pi / RINGS / SECTORS;
+            double cosine = w.s * x + w.c * z, cell = sin(theta) * PI * PI / RINGS / SECTORS;
             if (cosine > 0.0)
                 moments_of(x, y, z, cosine * form->ndf(1.0, 1.0, n) * cell / form->area(w.s, w.c), sum);
         }
@@ -292,10 +291,10 @@ static void ggx_mirrored_direction_has_its_uniforms(void)
         double x = twice * n.x - w.s, y = twice * n.y, z = twice * n.z - w.c;
         double across = sqrt(x * x + y * y);
         worst2 = fmax(worst2, fabs((1.0 - z) / (1.0 + w.c) - u2) * (1.0 + w.c));
-        worst1 = fmax(worst1, fabs(remainder(0.5 + atan2(y, x) / (2.0 * pi) - u1, 1.0)) * across);
+        worst1 = fmax(worst1, fabs(remainder(0.5 + atan2(y, x) / (2.0 * PI) - u1, 1.0)) * across);
     }
-    fprintf(stderr, "ggx: mirrored direction off by %.2g in azimuth, %.2g in height\n", 2.0 * pi * worst1, worst2);
-    TEST(2.0 * pi * worst1 < 2e-6);
+    fprintf(stderr, "ggx: mirrored direction off by %.2g in azimuth, %.2g in height\n", 2.0 * PI * worst1, worst2);
+    TEST(2.0 * PI * worst1 < 2e-6);
     TEST(worst2 < 2e-6);
 }
 
@@ -307,7 +306,7 @@ static void half_turn_is_accurate(void)
     for (int i = 0; i <= 1 << 20; i++) {
         float u = (float)i * 0x1p-20f;
         vndf_turn turn = vndf_half_turn(u);
-        worst = fmax(worst, fmax(fabs(turn.sine - sin(pi * u)), fabs(turn.cosine - cos(pi * u))));
+        worst = fmax(worst, fmax(fabs(turn.sine - sin(PI * u)), fabs(turn.cosine - cos(PI * u))));
     }
     fprintf(stderr, "half turn: error %.2g\n", worst);
     TEST(worst < 2.1e-7);
@@ -318,7 +317,7 @@ static void quantile_inverts_erf(void)
     double worst = 0.0;
     for (int i = 0; i < 6400; i++) {
         double u = ldexp(1.0 + (i % 100) / 100.0, -2 - i / 100 * 62 / 64), y = vndf_erf_quantile(u);
-        double slope = exp(-y * y) / sqrt(pi);
+        double slope = exp(-y * y) / sqrt(PI);
         worst = fmax(worst, fabs((0.5 * erfc(-y) - u) / (slope * fmax(fabs(y), 1e-9))));
         TEST(vndf_erf_quantile(1.0 - 0x1p-26 * (i + 1)) == -vndf_erf_quantile(0x1p-26 * (i + 1)));
     }
@@ -330,20 +329,20 @@ static void densities_are_finite_and_normalised(void)
 {
     vndf_normal rim = {1.0, 0.0, 0.0}, pole = {0.0, 0.0, 1.0};
     TEST(vndf_ggx_p22(1e113) < 1e-220 && vndf_beckmann_p22(1e113) == 0.0);
-    TEST_RELATIVE(vndf_ggx_p22(3.0), 1.0 / (16.0 * pi), 1e-14);
-    TEST_RELATIVE(vndf_beckmann_p22(3.0), exp(-3.0) / pi, 1e-14);
+    TEST_RELATIVE(vndf_ggx_p22(3.0), 1.0 / (16.0 * PI), 1e-14);
+    TEST_RELATIVE(vndf_beckmann_p22(3.0), exp(-3.0) / PI, 1e-14);
     for (int i = 0; i < 2; i++) {
         double sum = 0.0;
         for (int j = 0; j < 4000; j++) { /* integral of D cos over sin^2, pi times */
             double q = (j + 0.5) / 4000.0;
             vndf_normal n = {sqrt(q), 0.0, sqrt(1.0 - q)};
-            sum += pi * forms[i].ndf(1.0, 1.0, n) / 4000.0;
+            sum += PI * forms[i].ndf(1.0, 1.0, n) / 4000.0;
         }
         TEST_NEAR(sum, 1.0, 1e-5);
-        TEST_RELATIVE(forms[i].ndf(1.0, 1.0, pole), 1.0 / pi, 1e-14);
-        TEST_RELATIVE(forms[i].ndf(1e-18, 1e-18, pole), 1e36 / pi, 1e-14);
+        TEST_RELATIVE(forms[i].ndf(1.0, 1.0, pole), 1.0 / PI, 1e-14);
+        TEST_RELATIVE(forms[i].ndf(1e-18, 1e-18, pole), 1e36 / PI, 1e-14);
     }
-    TEST_RELATIVE(vndf_ggx_ndf(1.0, 1.0, rim), 1.0 / pi, 1e-14);
+    TEST_RELATIVE(vndf_ggx_ndf(1.0, 1.0, rim), 1.0 / PI, 1e-14);
     TEST(vndf_beckmann_ndf(1.0, 1.0, rim) == 0.0 && vndf_beckmann_ndf(1e18, 1e-18, rim) == 0.0);
 }
 

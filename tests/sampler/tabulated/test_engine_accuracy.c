@@ -7,13 +7,14 @@
  * the grid have an error of about 2% of the total variation, and the float direction is taken as it is, so the
  * area's error includes rounding of the direction by the library. */
 #include "oracle/oracle_survey.h"
+#include "harness/constants.h"
 #include "harness/test.h"
 
 static const double ANGLES[] = {0, 30, 60, 80, 85, 89, 89.9, 90, 100, 130};
 
 static int is_promised(const oracle *o, double theta)
 {
-    double t = theta * 3.14159265358979323846 / 180;
+    double t = theta * PI / 180;
     return oracle_area(o, sin(t), cos(t)) > 1e-10 * oracle_area(o, 1, 0);
 }
 
@@ -31,7 +32,7 @@ static double ndf_error(const oracle *o, const vndf_distribution *table)
     return worst;
 }
 
-static void test_table(const oracle *o)
+static void test_table(const oracle *o, size_t first)
 {
     vndf_certificate claim = {0};
     vndf_distribution *table = oracle_build(o, 0, &claim);
@@ -39,7 +40,7 @@ static void test_table(const oracle *o)
     double most = 0, area = 0, heavy = 1 + 1.25 * ((double)claim.max_weight - 1) + 1e-6;
     if (!TEST(table != NULL))
         return;
-    for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i += oracle_quick() ? 3 : 1) {
+    for (size_t i = test_quick() ? 0 : first; i < sizeof ANGLES / sizeof *ANGLES; i += test_amount(3, 3, 1)) {
         if (!is_promised(o, ANGLES[i]))
             continue;
         oracle_finding f = oracle_survey(o, &surface, oracle_direction(ANGLES[i], 0), heavy);
@@ -65,7 +66,7 @@ int main(int arguments, char **argument)
     for (size_t i = 0; i < ORACLE_COUNT; i++) {
         oracle o = oracle_get(i);
         if (oracle_wanted(arguments, argument, i, oracle_name(&o)))
-            test_table(&o);
+            test_table(&o, test_long() ? 0 : i % 3);
     }
     return test_done();
 }

@@ -15,11 +15,11 @@ static const setting SETTINGS[] = {
     {1, 1, 30, 0}, {0.05f, 0.4f, 80, 55}, {1e-3f, 1, 60, 0}, {0.5f, 0.5f, 120, 200}};
 enum { SETTING_COUNT = 4, SUBJECT_COUNT = 5 };
 
-static void test_subject(const vndf_distribution *d, const char *name, uint64_t seed)
+static void test_subject(const vndf_distribution *d, const char *name, uint64_t seed, size_t first)
 {
     double level = statistics_sidak(0.01, SETTING_COUNT * SUBJECT_COUNT);
-    size_t samples = oracle_quick() ? 200000 : 1000000;
-    for (size_t i = 0; TEST(d != NULL) && i < SETTING_COUNT; i++) {
+    size_t samples = test_amount(200000, 1000000, 1000000);
+    for (size_t i = first; TEST(d != NULL) && i < SETTING_COUNT; i += test_amount(1, 2, 1)) {
         chi_square result;
         vndf_surface surface = {d, SETTINGS[i].alpha_x, SETTINGS[i].alpha_y};
         vndf_vec3 wi = oracle_direction(SETTINGS[i].theta, SETTINGS[i].phi);
@@ -37,15 +37,15 @@ int main(int arguments, char **argument)
 {
     const size_t kinds[] = {ORACLE_STUDENT, ORACLE_HAZE, ORACLE_RING};
     if (oracle_wanted(arguments, argument, 0, "ggx"))
-        test_subject(vndf_ggx(), "closed ggx", 100);
+        test_subject(vndf_ggx(), "closed ggx", 100, 0);
     if (oracle_wanted(arguments, argument, 1, "beckmann"))
-        test_subject(vndf_beckmann(), "closed beckmann", 200);
+        test_subject(vndf_beckmann(), "closed beckmann", 200, test_amount(0, 1, 0));
     for (size_t i = 0; i < 3; i++) {
         oracle o = oracle_get(kinds[i]);
         if (!oracle_wanted(arguments, argument, i + 2, oracle_name(&o)))
             continue;
         vndf_distribution *table = oracle_build(&o, i == 1 ? 2048 : 0, NULL);
-        test_subject(table, oracle_name(&o), 300 + 100 * i);
+        test_subject(table, oracle_name(&o), 300 + 100 * i, test_amount(0, i % 2, 0));
         vndf_free(table);
     }
     return test_done();

@@ -10,9 +10,8 @@
 #include "sampler/tabulated/theory.h"
 #include "sampler/frame.h"
 #include "sampler/stretch.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- passing a knot ---- */
 

@@ -2,9 +2,8 @@
  * mass beyond it, A b + B (1 - cos b) for b = pi/2 - a, is in double what was asked for within 3e-7 of the whole
  * (measured: 2.0e-7), whatever the ratio of A and B; and its density is that at the azimuth. */
 #include "sampler/tabulated/front.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Error of the mass, with the angle (A, B) = (cos, sin). */
 static double error_at(vndf_front front, double u)

@@ -10,10 +10,10 @@
  * there is density. The parts of [0, 1] within 2^-7 of the ends, where tails run to infinity, are left out of
  * that. */
 #include "oracle/oracle.h"
+#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf_build.h"
 
-static const double PI = 3.14159265358979323846;
 static const double THETAS[] = {0, 5, 30, 60, 80, 89, 90, 91, 100, 120};
 static const float ALPHAS[][2] = {{1, 1}, {0.05f, 0.4f}, {1e-4f, 1e-4f}, {0.5f, 1e-3f}};
 enum { POINTS = 400, HARD = 2000, STEPS = 512 };
@@ -223,7 +223,7 @@ static void test_distribution(const vndf_distribution *d, const char *name)
     unsigned long long state = 7;
     if (!TEST(d != NULL))
         return;
-    for (size_t a = 0; a < sizeof ALPHAS / sizeof *ALPHAS; a += oracle_quick() ? 3 : 1)
+    for (size_t a = 0; a < sizeof ALPHAS / sizeof *ALPHAS; a += test_quick() ? 3 : 1)
         for (size_t i = 0; i < sizeof THETAS / sizeof *THETAS; i++) {
             frame f = frame_of(d, a, THETAS[i], 33);
             if (f.view.area > 1e-10f && !test_frame(&f, &state))

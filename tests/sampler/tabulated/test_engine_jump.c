@@ -89,7 +89,7 @@ static void test_view(const vndf_surface *surface, vndf_vec3 wi, double jump, un
 {
     vndf_view view = vndf_view_from(surface, wi);
     tried t = {0, 0, 0};
-    for (int i = 0; i < (oracle_quick() ? 100 : 1000); i++)
+    for (int i = 0; i < (test_quick() ? 100 : 1000); i++)
         if (jump > 0)
             try_azimuth(surface, &view, test_uniform(state), jump, 0.01, &t);
         else
@@ -107,7 +107,7 @@ static void test_knots(const char *p22)
     vndf_build_options options = {.max_bytes = 65536};
     vndf_source *source = vndf_source_slope_expression(p22, NULL, 0, NULL);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, NULL) : NULL;
-    for (int i = 0; TEST(table != NULL) && i < (oracle_quick() ? 1000 : 5000); i++) {
+    for (int i = 0; TEST(table != NULL) && i < (test_quick() ? 1000 : 5000); i++) {
         double z = 0.2 + 0.8 * test_uniform_double(&state);
         double knot = table->radial_count * test_uniform_double(&state);
         vndf_surface surface = {table, 0.5f, 0.5f};

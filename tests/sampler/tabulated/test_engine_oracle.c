@@ -1,9 +1,8 @@
 /* The oracle itself is right: its areas agree with the closed forms of GGX, Beckmann and the disc, from both
  * sides of the horizon, and A(w) - A(-w) is the cosine for every distribution. */
 #include "oracle/oracle.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* A = (c + sqrt(c^2 + s^2))/2 (Smith's Lambda of GGX, Walter et al. 2007); below the horizon by its conjugate. */
 static double ggx_area(double s, double c)

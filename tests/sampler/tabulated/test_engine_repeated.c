@@ -5,9 +5,8 @@
  * numbers at the ends and the middle of [0, 1] by powers of ten, or such that the normal is at a right angle from
  * wi. Densities below 1e-30 do not count. With a number or a name as its argument it looks at that one. */
 #include "oracle/oracle.h"
+#include "harness/constants.h"
 #include "harness/test.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Beside 0, by powers of ten down to 1e-least, or anywhere in [0, 1]. */
 static double beside(unsigned long long *state, double least)
@@ -100,7 +99,7 @@ static void test_distribution(const vndf_distribution *d, const char *name)
 {
     unsigned long long state = 71;
     findings found = {0, 0};
-    for (int i = 0; i < (oracle_quick() ? 2000 : 40000); i++) {
+    for (int i = 0; i < (int)test_amount(2000, 15000, 40000); i++) {
         vndf_surface surface = random_surface(d, &state);
         try_view(&surface, random_direction(&surface, &state), &state, &found);
     }

@@ -5,9 +5,9 @@
  * 1e-6. On top comes what the rounding of the stretched direction to float, 2^-23 of it, does to the area: much,
  * in the tail below the horizon. */
 #include "oracle/oracle_survey.h"
+#include "harness/constants.h"
 #include "harness/test.h"
 
-static const double PI = 3.14159265358979323846;
 static const float ALPHAS[][2] = {{1, 1}, {0.05f, 0.4f}, {3, 0.5f}};
 
 /* A distribution under test: its oracle, what it is held as, and how well. */
@@ -34,7 +34,7 @@ static double rounding(const oracle *o, const vndf_surface *surface, vndf_vec3 w
 
 static void test_area(const subject *t, const vndf_surface *surface)
 {
-    for (double theta = 0; theta <= 125; theta += oracle_quick() ? 25 : 5) {
+    for (double theta = 0; theta <= 125; theta += (double)test_amount(25, 15, 5)) {
         vndf_vec3 wi = oracle_direction(theta, 33), back = {-wi.x, -wi.y, -wi.z};
         double area = oracle_surface_area(t->o, surface, wi),
                up = (double)wi.z / sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + (double)wi.z * wi.z);
@@ -147,7 +147,7 @@ static void test_subject(const subject *t)
         test_g2(&surface);
         test_ndf(t, &surface);
         test_pole(&surface);
-        if (i == 0 || !oracle_quick())
+        if (i == 0 || !test_quick())
             test_normalised(&surface, t->o);
     }
 }

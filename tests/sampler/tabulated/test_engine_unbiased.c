@@ -20,7 +20,7 @@ static void test_table(const oracle *o, const vndf_distribution *table, const or
 {
     unsigned long long state = 11;
     oracle_average average[ORACLE_FUNCTIONS];
-    oracle_averages(o, table, expected, oracle_quick() ? 20000 : 200000, &state, average);
+    oracle_averages(o, table, expected, test_amount(20000, 60000, 200000), &state, average);
     for (int i = 0; i < ORACLE_FUNCTIONS; i++)
         if (!TEST_NEAR(average[i].mean, expected->truth[i], 4 * average[i].error + 2e-6))
             fprintf(stderr, "  %s, %lu bytes, alpha %g %g, wi.z %g, function %d: standard error %.3g\n",
@@ -50,9 +50,9 @@ static void test_distribution(const oracle *o, int sizes)
 
 int main(void)
 {
-    for (size_t i = 0; i < sizeof KINDS / sizeof *KINDS; i += oracle_quick() ? 2 : 1) {
+    for (size_t i = 0; i < sizeof KINDS / sizeof *KINDS; i += test_quick() ? 2 : 1) {
         oracle o = oracle_get(KINDS[i]);
-        test_distribution(&o, !oracle_quick() && (KINDS[i] == ORACLE_GGX || KINDS[i] == ORACLE_DISC) ? 3 : 2);
+        test_distribution(&o, !test_quick() && (KINDS[i] == ORACLE_GGX || KINDS[i] == ORACLE_DISC) ? 3 : 2);
     }
     return test_done();
 }

@@ -1,0 +1,93 @@
+#include "statistics/grid.h"
+
+#include <math.h>
+#include <string.h>
+
+static void place_evenly(double *border, size_t parts, double low, double high)
+{
+    for (size_t i = 0; i <= parts; i++)
+        border[i] = low + (high - low) * (double)i / (double)parts;
+}
+
+void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1)
+{
+    memset(g, 0, sizeof *g);
+    g->rows = rows;
+    g->columns = columns;
+    place_evenly(g->x, rows, x0, x1);
+    place_evenly(g->y, columns, y0, y1);
+}
+
+/* From the least to the largest: beyond them a quadrature that looks at few places may find nothing. */
+void grid_quantiles(double *border, size_t parts, double *pilot, size_t count)
+{
+    size_t steps = (parts - 1) / 2 - 1;
+    bins_sort(pilot, count);
+    for (size_t i = 2; i < parts && count; i += 2)
+        border[i] = pilot[(count - 1) * (i / 2 - 1) / steps];
+    bins_sort(border, parts + 1);
+}
+
+size_t grid_bin(const grid *g, double x, double y)
+{
+    return bins_interval(g->x, g->rows, x) * g->columns + bins_interval(g->y, g->columns, y);
+}
+
+size_t grid_elsewhere(const grid *g)
+{
+    return g->rows * g->columns;
+}
+
+/* ---- integrals ---- */
+
+typedef struct integrand {
+    grid_density *density;
+    const void *of;
+} integrand;
+
+/* Gauss-Legendre with three points in both. */
+static double rule(const integrand *f, const double x[2], const double y[2])
+{
+    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5, 8, 5};
+    double sum = 0, mx = (x[0] + x[1]) / 2, hx = (x[1] - x[0]) / 2, my = (y[0] + y[1]) / 2, hy = (y[1] - y[0]) / 2;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            sum += weight[i] * weight[j] * f->density(mx + hx * node[i], my + hy * node[j], f->of);
+    return sum * hx * hy / 81;
+}
+
+enum { DEPTH = 8 };
+
+static double adaptive(const integrand *f, const double x[2], const double y[2], double whole, double allowed,
+                       int depth)
+{
+    double mx = (x[0] + x[1]) / 2, my = (y[0] + y[1]) / 2, part[4], sum = 0;
+    const double xs[2][2] = {{x[0], mx}, {mx, x[1]}}, ys[2][2] = {{y[0], my}, {my, y[1]}};
+    for (int i = 0; i < 4; i++)
+        sum += part[i] = rule(f, xs[i / 2], ys[i % 2]);
+    if (depth == 0 || (depth < DEPTH && fabs(sum - whole) <= allowed))
+        return sum;
+    sum = 0;
+    for (int i = 0; i < 4; i++)
+        sum += adaptive(f, xs[i / 2], ys[i % 2], part[i], allowed / 2, depth - 1);
+    return sum;
+}
+
+double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed)
+{
+    const integrand f = {density, of};
+    double mass = 0;
+    for (size_t i = 0; i < grid_elsewhere(g); i++) {
+        const double *x = g->x + i / g->columns, *y = g->y + i % g->columns;
+        double part = x[0] < x[1] && y[0] < y[1] ? adaptive(&f, x, y, rule(&f, x, y), allowed, DEPTH) : 0;
+        g->expected[i] = part * samples;
+        mass += part;
+    }
+    g->expected[grid_elsewhere(g)] = fmax(1 - mass, 0) * samples;
+    return mass;
+}
+
+pearson grid_test(const grid *g)
+{
+    return pearson_of(g->expected, g->observed, NULL, grid_elsewhere(g) + 1, 5);
+}

@@ -1,0 +1,37 @@
+/* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against expected
+ * counts. Borders are even, or every second one is a quantile of a pilot run, so that half of the bins lie where
+ * the samples go, however narrow the law is. tools/measure/bins.h, which knows visible normals, is finer. */
+#ifndef TESTS_STATISTICS_GRID_H
+#define TESTS_STATISTICS_GRID_H
+
+#include "measure/bins.h"
+#include "measure/pearson.h"
+
+enum { GRID_ROWS = 65, GRID_COLUMNS = 130, GRID_BINS = GRID_ROWS * GRID_COLUMNS };
+
+/* Large: keep it static. Bin row * columns + column; the last, rows * columns, is of what is elsewhere. */
+typedef struct grid {
+    size_t rows, columns;
+    double x[GRID_ROWS + 1], y[GRID_COLUMNS + 1]; /* borders, ascending */
+    double expected[GRID_BINS + 1], observed[GRID_BINS + 1];
+} grid;
+
+/* Empty, with even borders. */
+void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1);
+
+/* Every second border but the first becomes a quantile of the pilots, which are sorted. */
+void grid_quantiles(double *border, size_t parts, double *pilot, size_t count);
+
+size_t grid_bin(const grid *g, double x, double y);
+size_t grid_elsewhere(const grid *g);
+
+/* Writes the integral of the density over every bin, times `samples`, to `expected`, and what they leave of 1 to the
+ * last; returns the integral. Bins are halved both ways until that changes less than `allowed`, of 1, at least
+ * once, since a bin may hold a narrow peak, and eight times at most, where the density has an edge. */
+typedef double grid_density(double x, double y, const void *of);
+double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed);
+
+/* Of all bins together; those that expect less than 5 are pooled with their neighbours. */
+pearson grid_test(const grid *g);
+
+#endif
