@@ -9,23 +9,13 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
+#include "cli/sort.h"
 
 static const double pi = 3.14159265358979323846;
 
 /* ---- where the bins are -------------------------------------------------------------------------- */
 
 enum { PILOTS = 2001 };
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void sort(double *values, size_t count)
-{
-    qsort(values, count, sizeof values[0], ascending);
-}
 
 /* Place i of parts, for i even: even between low and high. */
 static double even_place(size_t i, size_t parts, double low, double high)
@@ -45,7 +35,7 @@ static void place_slopes(double border[BINS_THETA + 1], const double *sorted, do
         border[i] =
             i % 2 == 0 ? tan(even_place(i, BINS_THETA, 0, pi / 2)) : quantile(i, BINS_THETA, sorted) / scale;
     border[BINS_THETA] = HUGE_VAL;
-    sort(border, BINS_THETA + 1);
+    sort_numbers(border, BINS_THETA + 1);
 }
 
 /* The same in azimuth. */
@@ -54,7 +44,7 @@ static void place_turns(double border[BINS_PHI + 1], const double *sorted)
     for (size_t i = 0; i <= BINS_PHI; i++)
         border[i] = i % 2 == 0 ? even_place(i, BINS_PHI, -pi, pi) : quantile(i, BINS_PHI, sorted);
     border[BINS_PHI] = pi;
-    sort(border, BINS_PHI + 1);
+    sort_numbers(border, BINS_PHI + 1);
 }
 
 /* Infinite at the horizon. */
@@ -84,8 +74,8 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
         slope[i] = slope_of(x, y, (double)wm.z);
         turn[i] = remainder(atan2(y, x) - map.centre, 2 * pi);
     }
-    sort(slope, PILOTS);
-    sort(turn, PILOTS);
+    sort_numbers(slope, PILOTS);
+    sort_numbers(turn, PILOTS);
     double scale = median_scale(slope);
     map.stretch_x = ax * scale;
     map.stretch_y = ay * scale;
