@@ -5,6 +5,7 @@
 
 #include "bench/parts.h"
 #include "measure/bins.h"
+#include "cli/sort.h"
 #include "measure/pearson.h"
 #include "cli/distribution.h"
 #include "oracle/oracle.h"
@@ -133,7 +134,7 @@ static void test_all_normals(method m, const vndf_surface *surface, double law(d
         mean += ratio / BENCH_BLOCK;
         worst = fmax(worst, fabs(ratio - 1));
     }
-    bins_sort(value, BENCH_BLOCK);
+    sort_numbers(value, BENCH_BLOCK);
     for (size_t i = 0; i < BENCH_BLOCK; i++)
         distance = fmax(distance, fabs(value[i] - ((double)i + 0.5) / BENCH_BLOCK));
     TEST(statistics_kolmogorov_p(distance, BENCH_BLOCK) > level);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "source/family/family.h"
-#include "measure/bins.h"
+#include "cli/sort.h"
 #include "harness/test.h"
 #include "vndf_build.h"
 
@@ -34,7 +34,7 @@ static void measure(figures *all, const char *name)
 
 static void print(const char *what, double *value, size_t count)
 {
-    bins_sort(value, count);
+    sort_numbers(value, count);
     if (count)
         printf("%s: median %.3g, worst %.3g of %lu\n", what, value[count / 2], value[count - 1],
                (unsigned long)count);

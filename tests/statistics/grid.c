@@ -1,6 +1,8 @@
 #include "statistics/grid.h"
 
 #include <math.h>
+
+#include "cli/sort.h"
 #include <string.h>
 
 static void place_evenly(double *border, size_t parts, double low, double high)
@@ -22,10 +24,10 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
 void grid_quantiles(double *border, size_t parts, double *pilot, size_t count)
 {
     size_t steps = (parts - 1) / 2 - 1;
-    bins_sort(pilot, count);
+    sort_numbers(pilot, count);
     for (size_t i = 2; i < parts && count; i += 2)
         border[i] = pilot[(count - 1) * (i / 2 - 1) / steps];
-    bins_sort(border, parts + 1);
+    sort_numbers(border, parts + 1);
 }
 
 size_t grid_bin(const grid *g, double x, double y)

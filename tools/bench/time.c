@@ -1,21 +1,13 @@
-/* Time: all methods take turns, each turn with new random inputs, and the medians over the turns count.
- *
- * In a turn a method first runs once over its inputs, so that these and its tables are in the cache, and then
- * against the clock: once if that takes long enough, lest branches are learnt by heart. Three ways: a direction
- * each; many samples for one direction; and, for scalar methods, each input waiting for the last output. */
+/* Time: all methods take turns (turns.h), each turn with new random inputs. Three ways: a direction each; many samples
+ * for one direction; and, for scalar methods, each input depends on the last output. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "bench/parts.h"
 #include "cli/clock.h"
+#include "measure/turns.h"
 
-enum { TURNS_MIN = 7, TURNS_MAX = 501, EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
-
-static const double turn_seconds = 20e-6; /* a pass shorter than this is repeated, for the clock's sake */
-
-typedef struct times {
-    double of[BENCH_ENTRIES_MAX][WAYS][TURNS_MAX];
-} times;
+enum { EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
 
 double bench_elapsed(const bench_clock *at)
 {
@@ -49,83 +41,79 @@ static method_run *run_of(const method *m, int way)
     return way == EACH ? m->each : way == SHARED ? m->shared : m->one ? pass_in_a_row : NULL;
 }
 
-/* Nanoseconds for a sample. */
-static double pass(const method *m, int way, const method_inputs *in, const method_outputs *out)
+typedef struct pass {
+    const method *m;
+    method_run *run;
+    method_inputs in;
+    method_outputs out;
+} pass;
+
+static void run_pass(void *user)
 {
-    method_run *run = run_of(m, way);
-    if (!run)
-        return NAN;
-    double start = clock_seconds();
-    run(m, in, out);
-    double once = clock_seconds() - start;
-    int repeats = (int)fmin(fmax(turn_seconds / fmax(once, 1e-7), 1), 100);
-    start = clock_seconds();
-    for (int i = 0; i < repeats; i++)
-        run(m, in, out);
-    return (clock_seconds() - start) * 1e9 / (double)repeats / BENCH_BLOCK;
+    const pass *p = user;
+    p->run(p->m, &p->in, &p->out);
 }
 
 /* ---- all turns --------------------------------------------------------------------------------- */
 
-static int turn(bench_list *list, const bench_clock *at, times *t, bench_block *block, size_t index)
+typedef struct contenders {
+    const bench_list *list;
+    const bench_clock *at;
+    bench_block *block;
+} contenders;
+
+/* Nanoseconds for a sample in all ways. */
+static void time_entry(const bench_entry *e, pass *p, double ns[WAYS])
 {
+    p->m = &e->m;
+    for (int way = 0; way < WAYS; way++)
+        if ((p->run = run_of(p->m, way)) != NULL)
+            ns[way] = 1e9 * turns_seconds(run_pass, p) / BENCH_BLOCK;
+}
+
+static int take_turn(void *user, size_t turn, double *number)
+{
+    const contenders *c = user;
     for (bench_subject subject = 0; subject < BENCH_SUBJECTS; subject++) {
-        if (!list->truth[subject].canonical.distribution)
+        if (!c->list->truth[subject].canonical.distribution)
             continue;
-        bench_block_fill(block, &list->truth[subject], 1000 + index);
-        method_inputs in = bench_block_inputs(block);
-        method_outputs out = bench_block_outputs(block);
-        for (size_t i = 0; i < list->count; i++) {
-            const bench_entry *e = &list->entry[i];
-            for (int way = 0; e->subject == subject && !e->row.wrong && way < WAYS; way++)
-                t->of[i][way][index] = pass(&e->m, way, &in, &out);
+        bench_block_fill(c->block, &c->list->truth[subject], 1000 + turn);
+        pass p = {.in = bench_block_inputs(c->block), .out = bench_block_outputs(c->block)};
+        for (size_t i = 0; i < c->list->count; i++) {
+            const bench_entry *e = &c->list->entry[i];
+            if (e->subject == subject && !e->row.wrong)
+                time_entry(e, &p, number + i * WAYS);
         }
-        if (!bench_go_on(at, "taking turns"))
+        if (!bench_go_on(c->at, "taking turns"))
             return 0;
     }
     return 1;
 }
 
-static int ascending(const void *a, const void *b)
+static void note_times(bench_row *row, const turns_quartiles of[WAYS])
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void summarize(bench_row *row, double of[WAYS][TURNS_MAX], size_t turns)
-{
-    for (int way = 0; way < WAYS; way++)
-        qsort(of[way], turns, sizeof of[way][0], ascending);
-    row->ns = of[EACH][turns / 2];
-    row->ns_low = of[EACH][turns / 4];
-    row->ns_high = of[EACH][3 * turns / 4];
-    row->shared_ns = of[SHARED][turns / 2];
-    row->latency_ns = of[LATENCY][turns / 2];
-}
-
-/* The first turn warms up the machine and is not counted. 0: stopped. */
-static int take_turns(bench_list *list, const bench_clock *at, times *t, bench_block *block)
-{
-    size_t turns = 0;
-    if (!turn(list, at, t, block, 0))
-        return 0;
-    for (; turns < TURNS_MAX && (turns < TURNS_MIN || bench_elapsed(at) < at->plan->seconds); turns++)
-        if (!turn(list, at, t, block, turns))
-            return 0;
-    for (size_t i = 0; i < list->count; i++)
-        if (!list->entry[i].row.wrong)
-            summarize(&list->entry[i].row, t->of[i], turns);
-    return 1;
+    row->ns = of[EACH].median;
+    row->ns_low = of[EACH].low;
+    row->ns_high = of[EACH].high;
+    row->shared_ns = of[SHARED].median;
+    row->latency_ns = of[LATENCY].median;
 }
 
 vndf_status bench_time(bench_list *list, const bench_clock *at)
 {
-    times *t = malloc(sizeof *t);
     bench_block *block = malloc(sizeof *block);
-    vndf_status status = VNDF_ERROR_MEMORY;
-    if (t && block)
-        status = take_turns(list, at, t, block) ? VNDF_OK : VNDF_ERROR_ARGUMENT;
-    free(t);
+    turns_quartiles *found = malloc(list->count * WAYS * sizeof *found);
+    contenders c = {list, at, block};
+    const turns_plan plan = {.series = list->count * WAYS,
+                             .least = 7,
+                             .most = 501,
+                             .seconds = at->plan->seconds - bench_elapsed(at),
+                             .take = take_turn,
+                             .user = &c};
+    vndf_status status = block && found ? turns_run(&plan, found) : VNDF_ERROR_MEMORY;
+    for (size_t i = 0; i < list->count && status == VNDF_OK; i++)
+        note_times(&list->entry[i].row, found + i * WAYS);
+    free(found);
     free(block);
     return status;
 }

@@ -8,14 +8,20 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
-#include "command.h"
 #include "cli/random.h"
+#include "command.h"
+#include "measure/turns.h"
 #include "render/path/parts.h"
 
 enum { TURNS = 15, VARIANTS_MAX = 16 };
+
+/* What is timed: nanoseconds for a path, for a segment of it, for a ray of either kind; and the part that a variant
+ * saves of the time of a path with all effects. */
+enum { PATH = 0, SEGMENT = 1, RAY = 2, SAVES = 3, SERIES = 4 };
 
 static const double turn_seconds = 0.02; /* of one variant */
 
@@ -47,9 +53,8 @@ typedef struct variant {
     const effect_word *word; /* NULL: all effects */
     path_plan *plan;
     path_counts counts;
-    int is_repeated;                                    /* every call of the library is made twice: see repeat.c */
-    double ns[TURNS], segment_ns[TURNS], ray_ns[TURNS]; /* a path, a segment of it, a ray of either kind */
-    double saves[TURNS];                                /* of the time of a path with all effects */
+    int is_repeated; /* every call of the library is made twice: see repeat.c */
+    turns_quartiles of[SERIES];
 } variant;
 
 /* ---- measuring ---- */
@@ -68,23 +73,17 @@ static path_counts trace(const variant *v, const scene *s, uint64_t seed, size_t
     return counts;
 }
 
-static void time_turn(variant *v, const scene *s, int turn, size_t count)
+static void time_variant(variant *v, const scene *s, uint64_t seed, size_t count, double number[SERIES])
 {
     double start = clock_seconds();
-    path_counts counts = trace(v, s, (uint64_t)turn, count);
+    path_counts counts = trace(v, s, seed, count);
     double ns = 1e9 * (clock_seconds() - start);
-    v->ns[turn] = ns / (double)count;
-    v->segment_ns[turn] = ns / (double)counts.segments;
-    v->ray_ns[turn] = ns / (double)(counts.segments + counts.shadow_rays);
+    number[PATH] = ns / (double)count;
+    number[SEGMENT] = ns / (double)counts.segments;
+    number[RAY] = ns / (double)(counts.segments + counts.shadow_rays);
     v->counts.paths += counts.paths;
     v->counts.segments += counts.segments;
     v->counts.shadow_rays += counts.shadow_rays;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* As many paths as take a turn, found by doubling. */
@@ -99,21 +98,34 @@ static size_t paths_of_turn(const variant *all, const scene *s)
     return count;
 }
 
-static void measure(variant *list, size_t count, const scene *s)
+typedef struct contenders {
+    const scene *scene;
+    variant *list;
+    size_t count, paths;
+} contenders;
+
+static int take_turn(void *user, size_t turn, double *number)
 {
-    size_t paths = paths_of_turn(&list[0], s);
-    for (int turn = 0; turn < TURNS; turn++)
-        for (size_t i = 0; i < count; i++)
-            time_turn(&list[i], s, turn, paths);
-    for (size_t i = 0; i < count; i++)
-        for (int turn = 0; turn < TURNS; turn++)
-            list[i].saves[turn] = 1 - list[i].ns[turn] / list[0].ns[turn];
-    for (size_t i = 0; i < count; i++) {
-        qsort(list[i].saves, TURNS, sizeof list[i].saves[0], ascending);
-        qsort(list[i].ns, TURNS, sizeof list[i].ns[0], ascending);
-        qsort(list[i].segment_ns, TURNS, sizeof list[i].segment_ns[0], ascending);
-        qsort(list[i].ray_ns, TURNS, sizeof list[i].ray_ns[0], ascending);
+    const contenders *c = user;
+    for (size_t i = 0; i < c->count; i++) {
+        time_variant(&c->list[i], c->scene, turn, c->paths, number + i * SERIES);
+        number[i * SERIES + SAVES] = 1 - number[i * SERIES + PATH] / number[PATH];
     }
+    return 1;
+}
+
+/* 0 if there is no memory. */
+static int measure(variant *list, size_t count, const scene *s)
+{
+    turns_quartiles found[VARIANTS_MAX * SERIES];
+    contenders c = {s, list, count, paths_of_turn(&list[0], s)};
+    const turns_plan plan = {
+        .series = count * SERIES, .least = TURNS, .most = TURNS, .take = take_turn, .user = &c};
+    if (turns_run(&plan, found) != VNDF_OK)
+        return 0;
+    for (size_t i = 0; i < count; i++)
+        memcpy(list[i].of, found + i * SERIES, sizeof list[i].of);
+    return 1;
 }
 
 /* ---- variants ---- */
@@ -156,10 +168,9 @@ static const variant *without(const variant *list, size_t count, const effect_wo
 
 static void print_line(const char *what, const variant *v)
 {
-    printf("  %-26s %10.0f %9.2f %9.2f %9.0f %9.0f\n", what, v->ns[TURNS / 2],
+    printf("  %-26s %10.0f %9.2f %9.2f %9.0f %9.0f\n", what, v->of[PATH].median,
            (double)v->counts.segments / (double)v->counts.paths,
-           (double)v->counts.shadow_rays / (double)v->counts.paths, v->segment_ns[TURNS / 2],
-           v->ray_ns[TURNS / 2]);
+           (double)v->counts.shadow_rays / (double)v->counts.paths, v->of[SEGMENT].median, v->of[RAY].median);
 }
 
 static void print_effects(const variant *list, size_t count)
@@ -175,7 +186,7 @@ static void print_effects(const variant *list, size_t count)
             printf("  %-26s (cannot be left out)\n", word->name);
         else
             printf("  %-26s %+7.1f%% ± %.1f of the time of a path, over %s\n", word->name,
-                   100 * v->saves[TURNS / 2], 50 * (v->saves[3 * TURNS / 4] - v->saves[TURNS / 4]), word->without);
+                   100 * v->of[SAVES].median, 50 * (v->of[SAVES].high - v->of[SAVES].low), word->without);
     }
     puts("(a minus: without it paths go on for longer, or their time differs by less than can be told)");
     fputs("nothing is run for:", stdout);
@@ -188,41 +199,45 @@ static void print_effects(const variant *list, size_t count)
 static void print_share(const variant *list, size_t count)
 {
     const variant *smooth = without(list, count, &effect_words[0]), *all = &list[0];
-    printf("\n%.3g rays/s and %.3g paths/s on one thread\n", 1e9 / all->ray_ns[TURNS / 2],
-           1e9 / all->ns[TURNS / 2]);
+    printf("\n%.3g rays/s and %.3g paths/s on one thread\n", 1e9 / all->of[RAY].median,
+           1e9 / all->of[PATH].median);
     if (!smooth)
         return;
-    double ratio = all->segment_ns[TURNS / 2] / smooth->segment_ns[TURNS / 2];
-    double rays = all->ray_ns[TURNS / 2] / smooth->ray_ns[TURNS / 2];
+    double ratio = all->of[SEGMENT].median / smooth->of[SEGMENT].median;
+    double rays = all->of[RAY].median / smooth->of[RAY].median;
     printf("a segment of a path costs %.2f times what it costs with smooth materials, a ray %.2f times (aim: 2);\n"
            "microfacets take %.0f%% of the time of a segment, with the rays to the lights that they ask for\n",
            ratio, rays, 100 * (1 - 1 / ratio));
     if (list[count - 1].is_repeated)
         printf("this library takes %.0f%% of the time of a path: what its calls cost when they are made twice\n",
-               100 * (list[count - 1].ns[TURNS / 2] / all->ns[TURNS / 2] - 1));
+               100 * (list[count - 1].of[PATH].median / all->of[PATH].median - 1));
+}
+
+static void print_all(const variant *list, size_t count)
+{
+    print_effects(list, count);
+    puts("                                ns, path  segments   shadow  ns, segment   ns, ray");
+    print_line("all", &list[0]);
+    for (size_t i = 1; i < count; i++) {
+        char what[64];
+        snprintf(what, sizeof what, "%s%s", list[i].is_repeated ? "" : "no ",
+                 list[i].is_repeated ? "all, the library twice" : list[i].word->name);
+        print_line(what, &list[i]);
+    }
+    print_share(list, count);
 }
 
 int render_explain(const char *command, const scene *s, path_sampler sampler)
 {
     variant *list = calloc(VARIANTS_MAX, sizeof *list);
     size_t count = list ? prepare(command, s, sampler, list) : 0;
-    if (!list)
-        return complain(command, "no memory");
-    if (count) {
-        measure(list, count, s);
-        print_effects(list, count);
-        puts("                                ns, path  segments   shadow  ns, segment   ns, ray");
-        print_line("all", &list[0]);
-        for (size_t i = 1; i < count; i++) {
-            char what[64];
-            snprintf(what, sizeof what, "%s%s", list[i].is_repeated ? "" : "no ",
-                     list[i].is_repeated ? "all, the library twice" : list[i].word->name);
-            print_line(what, &list[i]);
-        }
-        print_share(list, count);
-    }
+    int status = count ? STATUS_GOOD : STATUS_USE;
+    if (!list || (count && !measure(list, count, s)))
+        status = complain(command, "no memory");
+    if (status == STATUS_GOOD)
+        print_all(list, count);
     for (size_t i = 0; i < count; i++)
         path_free(list[i].plan);
     free(list);
-    return count ? STATUS_GOOD : STATUS_USE;
+    return status;
 }

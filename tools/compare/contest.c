@@ -1,6 +1,9 @@
 /* The ways take turns: in each turn the first goes on by a few samples, then every other one for as long as that
  * took. When the first has all its samples, the others have had its time, and what is missing to its samples they
- * render at the end. */
+ * render at the end.
+ *
+ * These turns are not those of measure/turns.h, which repeats a run and takes medians: here every sample stays in a
+ * film, and the time that counts is the sum of what the processors worked. */
 #include "compare/contest.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 
 #include "cli/distribution.h"
 #include "cli/random.h"
+#include "cli/sort.h"
 #include "draw/svg.h"
 
 static const double pi = 3.14159265358979323846;
@@ -48,12 +49,6 @@ static vndf_vec3 draw_normal(const vndf_view *view, random_stream *stream, float
     return vndf_sample(view, u1, u2, pdf);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double rim_angle(const vndf_view *view, unsigned seed)
 {
     double angle[PILOTS];
@@ -62,7 +57,7 @@ static double rim_angle(const vndf_view *view, unsigned seed)
         vndf_vec3 wm = draw_normal(view, &stream, NULL);
         angle[i] = atan2(hypot((double)wm.x, (double)wm.y), (double)wm.z) * 180 / pi;
     }
-    qsort(angle, PILOTS, sizeof angle[0], ascending);
+    sort_numbers(angle, PILOTS);
     return round_angle(angle[PILOTS * 95 / 100]);
 }
 
@@ -92,7 +87,7 @@ static double near_maximum(const double *density, double *scratch)
     for (size_t i = 0; i < SIDE * SIDE; i++)
         if (density[i] >= 0)
             scratch[inside++] = density[i];
-    qsort(scratch, inside, sizeof scratch[0], ascending);
+    sort_numbers(scratch, inside);
     double high = scratch[inside - 1 - inside / 500];
     return high > 0 ? high : scratch[inside - 1];
 }

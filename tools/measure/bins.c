@@ -9,23 +9,13 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
+#include "cli/sort.h"
 
 static const double pi = 3.14159265358979323846;
 
 /* ---- where the bins are -------------------------------------------------------------------------- */
 
 enum { PILOTS = 2001 };
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void bins_sort(double *values, size_t count)
-{
-    qsort(values, count, sizeof values[0], ascending);
-}
 
 /* Place i of parts, for i even: even between low and high. */
 static double even_place(size_t i, size_t parts, double low, double high)
@@ -45,7 +35,7 @@ static void place_slopes(double border[BINS_THETA + 1], const double *sorted, do
         border[i] =
             i % 2 == 0 ? tan(even_place(i, BINS_THETA, 0, pi / 2)) : quantile(i, BINS_THETA, sorted) / scale;
     border[BINS_THETA] = HUGE_VAL;
-    bins_sort(border, BINS_THETA + 1);
+    sort_numbers(border, BINS_THETA + 1);
 }
 
 /* The same in azimuth. */
@@ -54,7 +44,7 @@ static void place_turns(double border[BINS_PHI + 1], const double *sorted)
     for (size_t i = 0; i <= BINS_PHI; i++)
         border[i] = i % 2 == 0 ? even_place(i, BINS_PHI, -pi, pi) : quantile(i, BINS_PHI, sorted);
     border[BINS_PHI] = pi;
-    bins_sort(border, BINS_PHI + 1);
+    sort_numbers(border, BINS_PHI + 1);
 }
 
 /* Infinite at the horizon. */
@@ -84,8 +74,8 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
         slope[i] = slope_of(x, y, (double)wm.z);
         turn[i] = remainder(atan2(y, x) - map.centre, 2 * pi);
     }
-    bins_sort(slope, PILOTS);
-    bins_sort(turn, PILOTS);
+    sort_numbers(slope, PILOTS);
+    sort_numbers(turn, PILOTS);
     double scale = median_scale(slope);
     map.stretch_x = ax * scale;
     map.stretch_y = ay * scale;
@@ -94,8 +84,8 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
     return map;
 }
 
-/* Without branches to mispredict: samples come in any order. */
-size_t bins_interval(const double *border, size_t parts, double x)
+/* The interval of ascending borders that holds x, without branches to mispredict: samples come in any order. */
+static size_t interval(const double *border, size_t parts, double x)
 {
     size_t low = 0;
     while (parts > 1) {
@@ -111,7 +101,7 @@ size_t bins_place(const bin_map *map, vndf_vec3 wm)
     double x = (double)wm.x / map->stretch_x, y = (double)wm.y / map->stretch_y;
     double slope = slope_of(x, y, (double)wm.z), phi = atan2(y, x) - map->centre;
     phi += phi < -pi ? 2 * pi : phi > pi ? -2 * pi : 0;
-    return bins_interval(map->slope, BINS_THETA, slope) * BINS_PHI + bins_interval(map->phi, BINS_PHI, phi);
+    return interval(map->slope, BINS_THETA, slope) * BINS_PHI + interval(map->phi, BINS_PHI, phi);
 }
 
 /* ---- the density in these coordinates ------------------------------------------------------------ */

@@ -35,8 +35,7 @@ size_t bins_place(const bin_map *map, vndf_vec3 wm);
  * sum over all bins is within 2e-6 of 1 for a density that is: test_bins measures it. */
 void bins_integrate(const bin_map *map, const vndf_view *view, double probability[BINS_COUNT]);
 
-/* For bins of other kinds: numbers in ascending order, and which of `parts` intervals of ascending borders holds x. */
-void bins_sort(double *values, size_t count);
+/* For bins of other kinds: which of `parts` intervals of ascending borders holds x. */
 size_t bins_interval(const double *border, size_t parts, double x);
 
 #endif

@@ -11,9 +11,10 @@
 #include "draw/chart.h"
 #include "cli/clock.h"
 #include "cli/random.h"
+#include "measure/turns.h"
 #include "report/report.h"
 
-enum { DIRECTIONS = 4096, ROUNDS = 11 };
+enum { DIRECTIONS = 4096, TURNS = 11 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -96,23 +97,29 @@ static void draw_shared(workload *w)
     draw_batch(w, VNDF_SHARED_ALPHA | VNDF_SHARED_WI);
 }
 
-static int ascending(const void *a, const void *b)
+typedef struct timed_loop {
+    workload *w;
+    loop *run;
+} timed_loop;
+
+static int take_turn(void *user, size_t turn, double *number)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const timed_loop *t = user;
+    (void)turn;
+    double begin = clock_seconds();
+    t->run(t->w);
+    *number = 1e9 * (clock_seconds() - begin) / DIRECTIONS;
+    return 1;
 }
 
+/* Alone: what the caches hold of one loop is not what the next one finds. */
 static double time_loop(workload *w, loop *run)
 {
-    double spent[ROUNDS];
-    run(w);
-    for (int round = 0; round < ROUNDS; round++) {
-        double begin = clock_seconds();
-        run(w);
-        spent[round] = 1e9 * (clock_seconds() - begin) / DIRECTIONS;
-    }
-    qsort(spent, ROUNDS, sizeof spent[0], ascending);
-    return spent[ROUNDS / 2];
+    timed_loop timed = {w, run};
+    turns_quartiles found = {(double)NAN, (double)NAN, (double)NAN};
+    const turns_plan plan = {.series = 1, .least = TURNS, .most = TURNS, .take = take_turn, .user = &timed};
+    turns_run(&plan, &found); /* NaN if there is no memory */
+    return found.median;
 }
 
 report_time report_time_of(const vndf_distribution *distribution)
