@@ -6,6 +6,7 @@
 #include "bsdf/terms/masking.h"
 #include "bsdf/walk/multiple.h"
 #include "bsdf/lobes/rotated.h"
+#include "bsdf/trust.h"
 #include "core/error.h"
 #include "math/elementary.h"
 #include "math/half_turn.h"
@@ -109,7 +110,7 @@ static int is_steep(const vndf_description *is)
 {
     int steep = 0;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        steep |= is->conductor_eta[i] < 1.0f && is->conductor_k[i] < 0.05f;
+        steep |= is->conductor_eta[i] < 1.0f && is->conductor_k[i] < VNDF_TRUST_CONDUCTOR_K;
     return steep && is->effects.fresnel == VNDF_FRESNEL_CONDUCTOR;
 }
 

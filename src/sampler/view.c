@@ -33,7 +33,7 @@ VNDF_INLINE vndf_view view_of(const vndf_distribution *d, double ax, double ay, 
                       ay,
                       x,
                       y,
-                      vndf_aim_is_plain(x, y, aim.c),
+                      vndf_trusts_scale(x, y, aim.c),
                       {0.0f},
                       aim.s,
                       aim.c,
@@ -96,7 +96,7 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
     lanes_m ready = 1;
     vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
-    if (!(ready & vndf_aim_is_plain(x, y, aim.c)))
+    if (!(ready & vndf_trusts_scale(x, y, aim.c)))
         return view_carefully(surface, wi);
     double exact = vndf_unit_scale(d);
     return view_of(d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, aim);

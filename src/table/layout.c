@@ -6,6 +6,7 @@
 #include "table/area_piece.h"
 #include "table/guide.h"
 #include "table/moment_cubic.h"
+#include "table/steep.h"
 #include "table/window.h"
 
 /* The eight arrays in one block. */
@@ -120,13 +121,13 @@ static double width_of(const vndf_knots *k, uint32_t j)
     return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
 }
 
-/* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= 9 min(e0, e1, mass) width for W1/W0 = ratio; convex in it,
+/* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= VNDF_STEEP_CELL min(e0, e1, mass) width for W1/W0 = ratio; convex in it,
  * as W1/W0 is between two. */
 static int is_calm_at(const vndf_radial_cell *cell, double reach, double ratio)
 {
     double e0 = cell->f0, e1 = cell->f1 * ratio, mass = cell->mu0 + cell->mu1 * ratio;
     double change = fabs(e1 - e0) + 3.0 * fabs(e0 + e1 - 2.0 * mass);
-    return change * reach <= 9.0 * fmin(fmin(e0, e1), mass) * cell->width;
+    return change * reach <= VNDF_STEEP_CELL * fmin(fmin(e0, e1), mass) * cell->width;
 }
 
 static void derive_cells(vndf_distribution *table)
@@ -148,7 +149,7 @@ static void derive_cells(vndf_distribution *table)
 static int is_smooth_after(const vndf_radial_cell *cell)
 {
     double left = cell[0].f1 / (double)cell[0].width, right = cell[1].f0 / (double)cell[1].width;
-    return cell[0].calm > 0.0f && cell[1].calm > 0.0f && fabs(left - right) <= 1e-6 * right;
+    return cell[0].calm > 0.0f && cell[1].calm > 0.0f && fabs(left - right) <= VNDF_STEEP_KNOT * right;
 }
 
 static void derive_smooth(vndf_distribution *table)

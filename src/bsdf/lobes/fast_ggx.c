@@ -24,7 +24,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_scatter_nothing(s);
         return;
     }
-    if (!(facing > VNDF_GGX_LEAST_FACING)) {
+    if (!(facing > VNDF_TRUST_GGX_FACING)) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
     }
@@ -39,7 +39,7 @@ VNDF_INLINE int is_plain(const vndf_bsdf *b, vndf_vec3 wo)
     vndf_vec3 wi = b->view.wi;
     float x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z, square = x * x + y * y + z * z;
     return b->view.plain && wo.z > 0.0f && vndf_is_near_unit(wo) &&
-           square > 4.0f * VNDF_GGX_LEAST_FACING * VNDF_GGX_LEAST_FACING;
+           square > 4.0f * VNDF_TRUST_GGX_FACING * VNDF_TRUST_GGX_FACING;
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])

@@ -27,8 +27,8 @@ static void sample_carefully(const vndf_bsdf *b, const float u[3], vndf_scattere
  * normal by that much more than what rounds the normal. */
 VNDF_INLINE float reach_of(const vndf_bsdf *b, float facing)
 {
-    float ax = b->view.ax, ay = b->view.ay, reach = 2.5f * facing * (ax < ay ? ax : ay);
-    return reach < 0.5f ? reach : 0.5f;
+    float ax = b->view.ax, ay = b->view.ay, reach = VNDF_TRUST_BOUNDED_REACH * facing * (ax < ay ? ax : ay);
+    return reach < VNDF_TRUST_BOUNDED_REACH_MOST ? reach : VNDF_TRUST_BOUNDED_REACH_MOST;
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -43,7 +43,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     float stretch = 2.0f * b->area - b->view.wi.z, twice = 2.0f * stretch * n.cosine / n.length2;
     float facing = 0.5f * twice * sqrtf(n.length2);
     vndf_vec3 wi = b->view.wi, wo = {twice * n.x - wi.x, twice * n.y - wi.y, twice * n.z - wi.z};
-    if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_GGX_LEAST_FACING && wo.z > 0.0f &&
+    if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_TRUST_GGX_FACING && wo.z > 0.0f &&
           vndf_ggx_is_settled(&b->view, &o, &n, reach_of(b, facing)))) {
         sample_carefully(b, u, s);
         return;

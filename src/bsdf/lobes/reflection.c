@@ -23,13 +23,13 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
         s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
 }
 
-/* The density of bounded normals changes within a rounding on short chords of the disc, at the ends of its extent
- * and where all of u1 gives one normal. */
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
 {
     vndf_bsdf_normal n = vndf_bsdf_draw(b, u[0], u[1], choice.normals);
     int bounded = choice.normals == VNDF_NORMALS_BOUNDED;
-    scatter(b, &n, s, !bounded || (n.quotient > 0.1f * b->area && vndf_is_inside(u[0]) && vndf_is_inside(u[1])),
+    scatter(b, &n, s,
+            !bounded || (n.quotient > VNDF_TRUST_BOUNDED_AREA * b->area && vndf_trusts_number(u[0]) &&
+                         vndf_trusts_number(u[1])),
             choice);
 }
 

@@ -29,7 +29,8 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
     vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
     /* near places where the density of bounded normals jumps nothing is settled: they are not looked for */
     return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
-           vndf_keeps_reflectance(b, half.event.facing_i) && vndf_is_settled(b, 0.3f * (float)half.event.facing_i);
+           vndf_keeps_reflectance(b, half.event.facing_i) &&
+           vndf_is_settled(b, VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
 }
 
 /* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of
@@ -37,17 +38,18 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
 static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 {
     const vndf_material *m = b->material;
-    float f[VNDF_WAVELENGTHS], density = m->unrotated->pdf(b, wo), below = 1e37f;
+    float f[VNDF_WAVELENGTHS], density = m->unrotated->pdf(b, wo);
     if (!(density > 0.0f)) {
         vndf_scatter_nothing(s);
         return;
     }
     s->density = density;
-    if (m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE || !(density > 1e-30f && density < below))
+    if (m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE ||
+        !(density > VNDF_TRUST_DIVISOR && density < VNDF_TRUST_VALUE))
         return;
     m->unrotated->eval(b, wo, 0, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        if (f[i] < below)
+        if (f[i] < VNDF_TRUST_VALUE)
             s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
 }
 

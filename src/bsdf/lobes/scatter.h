@@ -14,6 +14,7 @@
 
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/normals.h"
+#include "bsdf/trust.h"
 
 VNDF_INLINE vndf_vec3 vndf_vec3_from(vndf_normal n)
 {
@@ -87,7 +88,7 @@ VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
     double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
-    if (facing < 0.04) {
+    if (facing < VNDF_TRUST_LENGTHS) {
         i = vndf_unit(wi);
         wm = vndf_halfway(i, vndf_unit(wo));
         facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
@@ -147,15 +148,13 @@ typedef struct vndf_outcome {
 /* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
 VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 {
-    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > 0.1;
+    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > VNDF_TRUST_REFRACTED;
 }
 
-/* Whether the slope that wo stands for is the one that was drawn, to 5e-6 of the roughness: wo is rounded by 3e-8,
- * and `gain` is how far it turns with the normal. If not, exact.c evaluates the sample at wo as it was rounded. */
+/* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
 VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
 {
-    float ax = b->view.ax, ay = b->view.ay, least = ax < ay ? ax : ay;
-    return (least < 1.0f ? least : 1.0f) * gain > 0.04f;
+    return vndf_trusts_turn(b->view.ax, b->view.ay, gain);
 }
 
 /* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
@@ -172,27 +171,17 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0795774715f * a / b->area * (t * t);
 }
 
-/* Whether it is to be had so: nothing underflows where roughness is plain. Below this cosine the lengths of wi
- * and wo, which are 1 but for rounding, count. */
-static const float VNDF_GGX_LEAST_FACING = 0.05f;
-
+/* Whether that formula may stand: nothing underflows where the view is plain. */
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
     return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
-           facing > VNDF_GGX_LEAST_FACING;
+           facing > VNDF_TRUST_GGX_FACING;
 }
 
-/* Whether the density that was drawn with is taken rather than that: sooner by a tenth, and decided by the
- * roughness all but always, lest the branch be guessed wrong. */
+/* Whether the density that was drawn with is taken rather than that. */
 VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
 {
-    return (b->view.ax > 0.4f) & (b->view.ay > 0.4f) & vndf_is_settled(b, facing);
-}
-
-/* Away from the border of the unit square. */
-VNDF_INLINE int vndf_is_inside(float u)
-{
-    return fabsf(u - 0.5f) < 0.499f;
+    return vndf_trusts_drawn_ggx(b->view.ax, b->view.ay, facing);
 }
 
 /* 0 if no microfacet does that. */
@@ -217,7 +206,7 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
     int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
-    int plain = settled & (choice.bare | (n->facing > 0.1f)) & (as_drawn | of_wo);
+    int plain = settled & (choice.bare | (n->facing > VNDF_TRUST_REFLECTION_FACING)) & (as_drawn | of_wo);
     if (!plain && vndf_reflect_carefully(b, wo, out))
         return 1;
     if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
@@ -239,17 +228,16 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     return 1;
 }
 
-/* The same for what goes through, `beyond` the cosine to wm there. Unbent, wo does not turn with the normal; near
- * total reflection 1 - F changes as fast as 1/beyond; and the slope of a normal near the horizon, which is no
- * longer small beside that of the roughness, as fast as 1/wm.z. */
+/* The same for what goes through, `beyond` the cosine to wm there. */
 VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
 {
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
     double eta = b->eta, rise = eta * eta - 1.0, sum = n->facing + eta * beyond;
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    float gain = 0.4f * (float)(fabs(rise) * beyond);
-    int sound = beyond > 0.1 && n->facing > 0.1f && gain * n->wm.z > 0.16f;
+    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)(fabs(rise) * beyond);
+    int sound = beyond > VNDF_TRUST_BEYOND && n->facing > VNDF_TRUST_REFRACTION_FACING &&
+                gain * n->wm.z > VNDF_TRUST_REFRACTION_TURN;
     if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
         return vndf_refract_carefully(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};

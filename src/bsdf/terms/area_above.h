@@ -26,18 +26,18 @@ VNDF_INLINE float vndf_area_above(const vndf_distribution *d, float ax, float ay
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y;
     if (d->kind == VNDF_KIND_GGX) {
-        *ready = across2 < 1e24f;
+        *ready = across2 < VNDF_TRUST_GGX_ACROSS2;
         return vndf_ggx_area_above(ax, ay, w);
     }
     float across = sqrtf(across2), sum = across + w.z;
-    *ready = across2 > 1e-24f && sum < 1e12f && w.z > 1e-6f * sum;
+    *ready = vndf_trusts_direction(across2, w.z, sum);
     if (!*ready)
         return 0.0f;
     if (d->kind == VNDF_KIND_BECKMANN)
         return across * vndf_beckmann_area_over(w.z / across);
     float per = 1.0f / sum, s = across * per, c = w.z * per, per_width;
     float area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
-    *ready = per_width <= VNDF_QUICK_PER_WIDTH;
+    *ready = vndf_trusts_area_piece(per_width);
     return area * sum;
 }
 

@@ -45,11 +45,11 @@ VNDF_INLINE radius ggx_radius(float u)
     return r;
 }
 
-/* The rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */
 VNDF_INLINE radius beckmann_radius(float u)
 {
     double rest = u < 1.0f ? 1.0 - u : LEAST_REST, square = -vndf_log(rest);
-    radius r = {(float)sqrt(square > 0.0 ? square : 0.0), 1.0f, 0.318309886f * (float)rest, square < 4.0};
+    radius r = {(float)sqrt(square > 0.0 ? square : 0.0), 1.0f, 0.318309886f * (float)rest,
+                square < VNDF_TRUST_ALL_BECKMANN};
     return r;
 }
 
@@ -111,7 +111,7 @@ VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double
     float along = (float)ax, across = (float)ay, x = r->x * (along * cosine), y = r->x * (across * sine);
     float length2 = x * x + y * y + r->z * r->z, length = sqrtf(length2), per = 1.0f / length;
     float density = r->p22_over_z3 * (length2 * length) / (along * across);
-    if (!(r->plain & vndf_aim_is_plain(along, across, 1.0f)) || !(density > 1e-37f && density < 1e38f))
+    if (!(r->plain & vndf_trusts_scale(along, across, 1.0f)) || !vndf_trusts_density(density))
         return normal_carefully(d, ax, ay, r, cosine, sine);
     drawn_normal drawn = {{x * per, y * per, r->z * per}, density};
     return drawn;

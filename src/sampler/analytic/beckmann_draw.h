@@ -80,7 +80,8 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
         vndf_beckmann_start(2, k, near),
         vndf_beckmann_start(3, k, near),
         vndf_beckmann_start(4, k, near),
-        lanes_both(vndf_aim_is_plain(ax, ay, bound), lanes_less(lanes_most(bound, per), lanes_set(1e10f)))};
+        lanes_both(vndf_trusts_scale(ax, ay, bound),
+                   lanes_less(lanes_most(bound, per), lanes_set(VNDF_TRUST_BECKMANN_BOUND)))};
     return w;
 }
 
@@ -151,8 +152,8 @@ VNDF_INLINE lanes_m vndf_beckmann_is_plain(const vndf_beckmann_incidence *w, con
                                            lanes_f y, lanes_f middle)
 {
     lanes_f terms = lanes_abs(at->x) + lanes_abs(y) + w->bound;
-    lanes_m inside = lanes_both(w->plain, lanes_less(lanes_set(3.4e-4f), middle));
-    return lanes_both(inside, lanes_less(0.06f * terms, at->d));
+    lanes_m inside = lanes_both(w->plain, vndf_trusts_beckmann_middle(middle));
+    return lanes_both(inside, vndf_trusts_beckmann_facing(terms, at->d));
 }
 
 VNDF_INLINE lanes_f vndf_beckmann_second(lanes_f u)

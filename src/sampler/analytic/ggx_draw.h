@@ -33,8 +33,8 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
     lanes_f c = wi_z * across2 * per, spread = 3.14159265f * (ax * ay);
     vndf_ggx_incidence w = {
         ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per, spread + spread * c, lanes_all()};
-    w.plain =
-        lanes_both(vndf_aim_is_plain(ax, ay, c), lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(1e10f)));
+    w.plain = lanes_both(vndf_trusts_scale(ax, ay, c),
+                         lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(VNDF_TRUST_GGX_COTANGENT)));
     return w;
 }
 
@@ -79,7 +79,7 @@ VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, la
     lanes_f h2 = (x * x + y * y) + z2, m2 = (mx * mx + my * my) + z2;
     lanes_f length = lanes_root(m2), below = w->spread * r * h2;
     lanes_f both = 1.0f / (length * below), per = below * both;
-    *plain = lanes_both(w->plain, lanes_less(0.005f * (r * r), h2));
+    *plain = lanes_both(w->plain, vndf_trusts_ggx_halfway(r, h2));
     vndf_drawn n = {mx * per, my * per, z * per, m2 * m2 * both};
     return n;
 }

@@ -98,7 +98,7 @@ VNDF_INLINE void vndf_sort_aim(const vndf_distribution *d, const vndf_sample_blo
         lanes_m ready = lanes_all();
         aim[g] = vndf_aim_towards(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i),
                                   lanes_load(b->wi_z + i), &ready);
-        from[g].usable = lanes_both(ready, vndf_aim_is_plain(ax, ay, aim[g].c));
+        from[g].usable = lanes_both(ready, vndf_trusts_scale(ax, ay, aim[g].c));
     }
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
         vndf_aim_weigh(d, &aim[g], &from[g].usable);

@@ -145,7 +145,7 @@ static void weigh_chord_in_float(chord *h)
     float before = half_erfc_in_float((float)h->low), part = half_erfc_in_float((float)h->high) - before;
     h->before = before;
     h->part = part;
-    if (h->is_short || !(part > 0.1f))
+    if (h->is_short || !(part > VNDF_TRUST_BOUNDED_PART))
         weigh_chord(h);
 }
 
@@ -159,9 +159,6 @@ static double short_draw(const chord *h, double u)
     return y;
 }
 
-/* From here on float has starting values and quantiles (beckmann_draw.h). */
-static const float LEAST_MIDDLE = 3.4e-4f;
-
 static double draw_across(const chord *h, double u)
 {
     if (h->mirrored)
@@ -169,7 +166,7 @@ static double draw_across(const chord *h, double u)
     double v = h->before + u * h->part, y = 0.0;
     if (h->is_short && h->part > 1e-300)
         y = short_draw(h, u);
-    else if (vndf_beckmann_product((float)v) > LEAST_MIDDLE)
+    else if (vndf_beckmann_product((float)v) > VNDF_TRUST_BECKMANN_MIDDLE)
         y = vndf_beckmann_second((float)v);
     else
         y = vndf_erf_quantile(v > 0x1p-64 ? (v < 1.0 - 0x1p-26 ? v : 1.0 - 0x1p-26) : 0x1p-64);
@@ -199,15 +196,16 @@ static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], c
     double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds[X1] - bounds[X0]);
     double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
     double turned = view->s * (fabs(x) + fabs(y)) + view->c, facing = view->c - view->s * x;
-    int plain = view->plain && x * x + y * y < 12.0 && 0.05 * turned < facing;
-    return plain && change < 30.0 * h->part * e->qyy * root;
+    int plain =
+        view->plain && x * x + y * y < VNDF_TRUST_BOUNDED_SLOPE && VNDF_TRUST_BOUNDED_FACING * turned < facing;
+    return plain && change < VNDF_TRUST_BOUNDED_STEEP * h->part * e->qyy * root;
 }
 
 /* The slope along wi. */
 static double draw_along(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1)
 {
     double u = bounds[BEGIN] + u1 * bounds[SPAN], x;
-    if (view->plain && vndf_beckmann_product((float)u) > LEAST_MIDDLE) {
+    if (view->plain && vndf_beckmann_product((float)u) > VNDF_TRUST_BECKMANN_MIDDLE) {
         vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
         x = vndf_beckmann_step(&w, vndf_beckmann_first(&w, (float)u), (float)u).x;
     } else {
@@ -229,7 +227,7 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
     double y = draw_across(&h, u2), c = bounds[COS_PHI], s = bounds[SIN_PHI];
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
     double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
-    if (!(1.00001 * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
+    if (!(VNDF_TRUST_INSIDE * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
         return vndf_bounded_settled(view, bounds, m);
     double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
     float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));

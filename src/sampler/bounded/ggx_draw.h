@@ -55,7 +55,7 @@ VNDF_INLINE vndf_outlook vndf_outlook_set(vndf_view *v)
 /* Away from where w leaves the disc. */
 VNDF_INLINE int vndf_outlook_is_plain(const vndf_view *view, const vndf_outlook *o)
 {
-    return view->plain && o->c0 < -0.1f * o->c;
+    return view->plain && o->c0 < VNDF_TRUST_CHORD_INSIDE * o->c;
 }
 
 /* 1 or 0, for sums of which one part is not wanted: which one nothing foresees, and compilers would branch. */
@@ -154,7 +154,8 @@ VNDF_INLINE vndf_ggx_bounded vndf_ggx_draw_bounded(const vndf_view *v, const vnd
 VNDF_INLINE int vndf_ggx_is_inside(const vndf_outlook *o, const vndf_ggx_bounded *n)
 {
     float c = o->c, cosine = n->cosine;
-    return 1.00001f * (c * n->length2) < 2.0f * cosine * n->z && 0.02f * c * cosine < n->z && 0.03f < cosine;
+    return (float)VNDF_TRUST_INSIDE * (c * n->length2) < 2.0f * cosine * n->z &&
+           VNDF_TRUST_CHORD_HEIGHT * c * cosine < n->z && VNDF_TRUST_CHORD_COSINE < cosine;
 }
 
 /* Whether kept is that of the normal as it is rounded. That turns psi by some 1e-7/(reach sin(g)) - reach is 1
@@ -169,9 +170,9 @@ VNDF_INLINE int vndf_ggx_is_settled(const vndf_view *v, const vndf_outlook *o, c
     float n2 = drawn->at.n2, n = sqrtf(n2), e2 = v->ax * v->ax + v->ay * v->ay, sine = reach * drawn->sine;
     float gain = o->c * (0.7f + 0.7f * e2) + (0.5f + 0.5f * o->s2), matrix = n2 * e2;
     float change = h->rest * (2.0f * h->root * (h->square + matrix) + gain * h->square * n);
-    int calm = change < 150.0f * (sine * n) * h->root * h->square &&
-               1e-12f < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
-    return calm && 0.01f < sine * n && matrix < 100.0f * h->square;
+    int calm = change < VNDF_TRUST_CHORD_STEEP * (sine * n) * h->root * h->square &&
+               VNDF_TRUST_CHORD_SIDE < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
+    return calm && VNDF_TRUST_CHORD_SINE < sine * n && matrix < VNDF_TRUST_CHORD_MATRIX * h->square;
 }
 
 #endif

@@ -80,7 +80,7 @@ static border border_beside(const vndf_radial_law *law, float total, border at, 
 {
     vndf_radial_law scaled = vndf_radial_scaled(*law, total);
     at.kept = vndf_radial_cdf(&scaled, place);
-    *plain &= at.kept > 0.999f;
+    *plain &= at.kept > VNDF_TRUST_BORDER_CUT;
     return at;
 }
 
@@ -97,7 +97,7 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, con
     uint32_t j = vndf_guide_find(&d->slope_guide, at.x * (around * per));
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     float inner = lanes_positive(x * cell.z0 - z * cell.x0), outer = lanes_positive(z * cell.x1 - x * cell.z1);
-    *plain &= 0.02f * n < root_c;
+    *plain &= VNDF_TRUST_BORDER_ROOT * n < root_c;
     if (j + 3 > law->cut) {
         vndf_radius place = {j, inner / (inner + outer), outer / (inner + outer)};
         return border_beside(law, b->total, at, place, plain);
@@ -108,14 +108,14 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, con
     float per_mass = 1.0f / (mass.below * b->total), scale = in.mass * (per_mass * b->total);
     at.kept = (before * mass.below + mass.above) * per_mass;
     float rise = mass.rise * (scale * scale) * (cell.width * (x * z));
-    *plain &= rise * (root_c + n) < 30.0f * root_c * (at.kept * b->total);
+    *plain &= rise * (root_c + n) < VNDF_TRUST_BORDER_STEEP * root_c * (at.kept * b->total);
     return at;
 }
 
 /* The normal, if it is far enough inside for its roundings. */
 VNDF_INLINE vndf_drawn drawn_inside(const vndf_bearing *b, vndf_place at, const border *edge, lanes_m *plain)
 {
-    *plain &= at.x * edge->z * 1.00001f < edge->x * at.z;
+    *plain &= at.x * edge->z * (float)VNDF_TRUST_INSIDE < edge->x * at.z;
     at.below *= edge->kept;
     return vndf_drawn_at(&b->level, &at, plain);
 }
@@ -139,7 +139,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
-    *plain &= vndf_wedge_is_plain(&row);
+    *plain &= vndf_trusts_rows(row.per_width);
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);

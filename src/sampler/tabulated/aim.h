@@ -15,20 +15,13 @@ typedef struct vndf_aim {
     lanes_f area;         /* of the unit problem */
 } vndf_aim;
 
-/* Whether quotients by the lengths keep their digits. */
-VNDF_INLINE lanes_m vndf_aim_is_ready(lanes_f across2, lanes_f z, lanes_f length)
-{
-    return lanes_both(lanes_less(lanes_set(1e-24f), across2),
-                      lanes_both(lanes_less(1e-6f * length, z), lanes_less(length, lanes_set(1e12f))));
-}
-
 /* From the stretched direction (x, y, z), as far as *ready stays: elsewhere this is not good enough. Masses are to
  * come. */
 VNDF_INLINE vndf_aim vndf_aim_towards(lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
 {
     lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z, none = lanes_set(0.0f);
     lanes_f per = 1.0f / (across * sum); /* of both at once */
-    *ready = lanes_both(*ready, vndf_aim_is_ready(across2, z, sum));
+    *ready = lanes_both(*ready, vndf_trusts_direction(across2, z, sum));
     lanes_f s = across2 * per, c = lanes_pick(*ready, z * (across * per), lanes_set(0.5f)); /* to be looked up */
     vndf_aim aim = {s, c, x * (sum * per), y * (sum * per), none, none, none};
     return aim;
@@ -40,7 +33,7 @@ VNDF_INLINE void vndf_aim_weigh(const vndf_distribution *d, vndf_aim *aim, lanes
     aim->front = vndf_front_mass(vndf_front_of(d, aim->s, aim->c));
     aim->wedge = vndf_wedge_quick(&d->above, aim->c, &per_width);
     aim->area = 2.0f * (aim->front + aim->wedge);
-    *ready = lanes_both(*ready, lanes_at_most(per_width, lanes_set(VNDF_QUICK_PER_WIDTH)));
+    *ready = lanes_both(*ready, vndf_trusts_area_piece(per_width));
 }
 
 VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f y, lanes_f z, lanes_m *ready)
@@ -48,14 +41,6 @@ VNDF_INLINE vndf_aim vndf_aim_at(const vndf_distribution *d, lanes_f x, lanes_f 
     vndf_aim aim = vndf_aim_towards(x, y, z, ready);
     vndf_aim_weigh(d, &aim, ready);
     return aim;
-}
-
-/* Whether densities may be formed in float: nothing underflows on the way. */
-VNDF_INLINE lanes_m vndf_aim_is_plain(lanes_f ax, lanes_f ay, lanes_f c)
-{
-    lanes_m low = lanes_less(lanes_set(1e-4f), lanes_least(ax, ay));
-    lanes_m high = lanes_less(lanes_most(ax, ay), lanes_set(1e4f));
-    return lanes_both(lanes_both(low, high), lanes_less(lanes_set(1e-6f), c));
 }
 
 #endif

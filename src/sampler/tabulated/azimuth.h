@@ -12,6 +12,7 @@
 #include "simd/count.h"
 #include "simd/lanes_lines.h"
 #include "math/rational_cell.h"
+#include "sampler/trust.h"
 #include "table/table.h"
 
 /* The weighted sum of three successive rows of a wedge, cell by cell. */
@@ -61,14 +62,11 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row
     return cell;
 }
 
-/* Whether the density of a cell may change by more than a factor e^20 per radian, or per xi, at a place: rounding
- * moves both by 1e-7 or so. Measured by what bounds its change, |e1 - e0| + 3 |e0 + e1 - 2 mass|, over what it has
- * there or in the mean; turn/n2 is radians per xi. */
+/* Whether the density of a cell is too steep for float at a place; turn/n2 is radians per xi. */
 VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_f xi, lanes_f turn, lanes_f n2)
 {
-    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
-    lanes_f least = lanes_least(cell->e0 + rise * xi, cell->mass);
-    return lanes_less(20.0f * least * lanes_least(turn, n2), (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * n2);
+    return vndf_is_steep_azimuth(vndf_cell_change(cell->e0, cell->e1, cell->mass),
+                                 vndf_cell_least(cell->e0, cell->e1, cell->mass, xi), turn, n2);
 }
 
 /* Radians per xi at a place of a cell. */

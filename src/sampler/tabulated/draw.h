@@ -24,24 +24,17 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
 
 /* ---- where the density of the place is that of the normal, as it was rounded ---- */
 
-/* Above the horizon, where W = along + up is neither a small difference nor small against what a rounding of the
- * azimuth, a part of `across`, does to it. Rounding must not take the azimuth from the front to the wedge or back
- * either, as the wedge's density is the table's. */
-static const float VNDF_PLAIN_SIDE = 1e-6f;
-
 VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    lanes_m unscaled = lanes_at_most(lanes_set(VNDF_RADIAL_MASS_PLAIN), total);
-    return lanes_both(lanes_both(unscaled, lanes_less(lanes_set(VNDF_PLAIN_SIDE), cosine)),
-                      lanes_less(0.05f * across, along + up));
+    return lanes_both(lanes_both(vndf_trusts_law_mass(total), vndf_trusts_side(cosine)),
+                      vndf_trusts_facing_in_front(across, along, up));
 }
 
 VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    return lanes_both(lanes_less(cosine, lanes_set(-VNDF_PLAIN_SIDE)),
-                      lanes_less(0.05f * (across + up), along + up));
+    return lanes_both(vndf_trusts_side(-cosine), vndf_trusts_facing_in_wedge(across, along, up));
 }
 
 /* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
@@ -49,7 +42,7 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, la
 VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
 {
     lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
-    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    lanes_m beside = lanes_without(vndf_is_beside_knot(xi), smooth);
     return lanes_without(lanes_all(), lanes_either(vndf_radial_is_steep(at, cell, xi), beside));
 }
 
@@ -59,7 +52,7 @@ VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vn
     if (!lanes_any(lanes_without(lanes_all(), smooth)))
         return lanes_all();
     lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), lanes_less(lanes_set(0.0f), at->calm));
-    lanes_m beside = lanes_without(vndf_radial_is_beside_knot(xi), smooth);
+    lanes_m beside = lanes_without(vndf_is_beside_knot(xi), smooth);
     return lanes_without(lanes_all(), lanes_either(rough, beside));
 }
 
@@ -83,9 +76,7 @@ VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *
     lanes_f product = root * at->below, both = 1.0f / product, per = at->below * both, length = root * at->per;
     lanes_f density = at->above * (length * length) * (length * (root * both));
     vndf_drawn n = {at->x * level->x * per, at->x * level->y * per, at->z * per, density};
-    lanes_m precise = lanes_both(lanes_less(lanes_set(1e-34f), square), lanes_less(lanes_set(1e-36f), product));
-    lanes_m finite = lanes_both(lanes_less(lanes_set(1e-37f), density), lanes_less(density, lanes_set(1e38f)));
-    *plain = lanes_both(*plain, lanes_both(precise, finite));
+    *plain = lanes_both(*plain, lanes_both(vndf_trusts_lengths(square, product), vndf_trusts_density(density)));
     return n;
 }
 
@@ -106,7 +97,7 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
                         aim->cos_phi,
                         aim->sin_phi,
                         aim->area * (ax * ay),
-                        vndf_aim_is_plain(ax, ay, aim->c)};
+                        vndf_trusts_scale(ax, ay, aim->c)};
     return w;
 }
 
@@ -135,13 +126,10 @@ VNDF_INLINE vndf_sector vndf_sector_at(lanes_f front, lanes_f wedge, lanes_f hal
     return sector;
 }
 
-/* Away from the border of the unit square, and not in a wedge whose mass is so small that the rounding of the
- * direction would show. */
+/* Whether a density in float is to be tried at all. */
 VNDF_INLINE lanes_m vndf_sector_is_plain(const vndf_sector *sector, lanes_f front, lanes_f half, lanes_f u2)
 {
-    lanes_m inside = lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(0.4999f)),
-                                lanes_less(lanes_abs(half), lanes_set(0.9999f)));
-    return lanes_both(inside, lanes_less(0.01f * front, sector->mass));
+    return lanes_both(vndf_trusts_uniform(half, u2), vndf_trusts_wedge_mass(front, sector->mass));
 }
 
 /* A sample whose azimuth is drawn: what its radius and its normal take. */

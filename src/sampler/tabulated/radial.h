@@ -22,6 +22,7 @@
 #include "simd/count.h"
 #include "simd/lanes_lines.h"
 #include "math/rational_cell.h"
+#include "sampler/trust.h"
 #include "table/guide.h"
 #include "table/table.h"
 #include "table/window.h"
@@ -112,11 +113,8 @@ VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lan
     return c * d->f0_total + k * d->f1_total;
 }
 
-/* From this mass on the law of c, k >= 0 is not scaled, which takes a division: in front of wi it is the
- * density of the azimuth, and drops out of that of the normal. */
-static const float VNDF_RADIAL_MASS_PLAIN = 1e-3f;
-
-/* c, k >= 0. */
+/* c, k >= 0. It is not scaled, which takes a division: in front of wi the mass is the density of the azimuth, and
+ * drops out of that of the normal. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
@@ -216,24 +214,11 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
 
 /* ---- where the density of a place is that of its rounded normal ---- */
 
-/* Rounding of a normal moves its slope by up to 5e-7 of itself, and xi by X Z/width as much. Whether that may be
- * a thousandth of the cell, or the density changes by more than a factor e^10 per e-fold of the slope - per mean
- * density of the cell, or what it has at the place, about. The derivative of a rational cell is largest at an
- * end, |e1 - e0| + 3 |e0 + e1 - 2 mass| where that is a small part of the density; in a cell so narrow that the
- * rounding of its ends shows in its mass, the second rules. */
+/* Whether the density of a cell is too steep for float at a place. */
 VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
 {
-    lanes_f rise = cell->e1 - cell->e0, bend = (cell->e0 + cell->e1) - 2.0f * cell->mass;
-    lanes_f reach = at->x1 * at->z0, here = cell->e0 + rise * xi;
-    lanes_f least = lanes_least(here, cell->mass);
-    return lanes_either(lanes_less((float)VNDF_NARROW * at->width, reach),
-                        lanes_less(10.0f * least * at->width, (lanes_abs(rise) + 3.0f * lanes_abs(bend)) * reach));
-}
-
-/* Beside a knot, which may be a jump of D. */
-VNDF_INLINE lanes_m vndf_radial_is_beside_knot(lanes_f xi)
-{
-    return lanes_less(lanes_set(0.499f), lanes_abs(xi - 0.5f));
+    return vndf_is_steep_radius(vndf_cell_change(cell->e0, cell->e1, cell->mass),
+                                vndf_cell_least(cell->e0, cell->e1, cell->mass, xi), at->width, at->x1 * at->z0);
 }
 
 #endif

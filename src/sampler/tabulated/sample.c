@@ -115,7 +115,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
-    *plain &= vndf_wedge_is_plain(&row);
+    *plain &= vndf_trusts_rows(row.per_width);
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);

@@ -3,6 +3,7 @@
 #define VNDF_SAMPLER_TABULATED_WEDGE_H
 
 #include "sampler/tabulated/azimuth.h"
+#include "sampler/trust.h"
 #include "table/area_piece.h"
 #include "table/guide.h"
 
@@ -53,10 +54,8 @@ VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
     }
 }
 
-/* The same in float, where that is good enough: for drawing, and for densities where it is no small part and
- * *per_width, one over the width of its piece, is not above VNDF_QUICK_PER_WIDTH. */
-static const float VNDF_QUICK_PER_WIDTH = 500.0f;
-
+/* The same in float, where that is good enough: for drawing, and for densities where *per_width, one
+ * over the width of its piece, is trusted. */
 VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f *per_width)
 {
 #if VNDF_LANES > 1
@@ -102,13 +101,6 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
     lanes_u i = vndf_wedge_span(wedge, y);
     lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, VNDF_ROW_SPAN_FLOATS, i);
     return vndf_wedge_row_from(wedge, y, i, &lines);
-}
-
-/* Whether rows are not so close that a rounding of y changes their shares: lobes hundreds of times apart have
- * such, and such pieces of areas. */
-VNDF_INLINE lanes_m vndf_wedge_is_plain(const vndf_azimuth_row *row)
-{
-    return lanes_less(row->per_width, lanes_set(250.0f));
 }
 
 /* Part of the wedge's mass between the far side, a = pi, and the azimuth with the mass `apart` between the side of

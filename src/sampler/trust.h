@@ -1,0 +1,255 @@
+/* Where float may stand: every threshold of the fast tier, with its cause. Drawing is in float, and the density of
+ * the place that was drawn is that of the normal as it was rounded only where rounding changes little; everywhere
+ * else the exact tier takes over (sampler/tabulated/exact.h and its like).
+ *
+ * The promise is 1e-5, relative, of a density. The budget below says which part of it each cause may use up; those
+ * that can meet in one sample add up to no more, which the compiler checks. A share is the worst error measured
+ * on the trusted side of the threshold, within a factor of two of it, and rounded up. */
+#ifndef VNDF_SAMPLER_TRUST_H
+#define VNDF_SAMPLER_TRUST_H
+
+#include "simd/lanes.h"
+#include "table/steep.h"
+#include "table/table.h"
+
+/* ---- the budget ---- */
+
+/* Parts of the promise in units of 1e-8, those of a cause without the roundings that every sample has. Measured with
+ * 100 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
+ * apart, roughness 1e-3 to 10. */
+enum {
+    VNDF_PROMISE = 1000,
+    VNDF_SHARE_ROUNDING = 200,  /* of a dozen operations each: direction, masses, cell, normal; measured 180 */
+    VNDF_SHARE_RADIUS = 400,    /* a steep cell of the radius: VNDF_STEEP_RADIUS; measured 400 */
+    VNDF_SHARE_FACING = 220,    /* wi.wm as a difference: VNDF_TRUST_FACING; measured 220 */
+    VNDF_SHARE_AZIMUTH = 60,    /* a steep cell of the azimuth: VNDF_TRUST_AZIMUTH_STEEP; measured 50 */
+    VNDF_SHARE_DIRECTION = 100, /* shares of rows and masses of wedges, by the rounding of wi; measured 60 to 80 */
+    VNDF_SHARE_GGX = 700,       /* all of GGX; measured 660 */
+    VNDF_SHARE_BECKMANN = 800   /* all of Beckmann; measured 770 */
+};
+
+_Static_assert(VNDF_SHARE_ROUNDING + VNDF_SHARE_RADIUS + VNDF_SHARE_FACING + VNDF_SHARE_AZIMUTH +
+                       VNDF_SHARE_DIRECTION <=
+                   VNDF_PROMISE,
+               "what can meet in one sample of a table");
+_Static_assert(VNDF_SHARE_GGX <= VNDF_PROMISE && VNDF_SHARE_BECKMANN <= VNDF_PROMISE, "closed forms");
+
+/* ---- range: nothing underflows, overflows or loses digits on the way; these thresholds have no share ---- */
+
+/* The level part of the stretched direction, squared; its height over its length; its length. Beyond, quotients by
+ * these lose digits. */
+static const float VNDF_TRUST_ACROSS2 = 1e-24f, VNDF_TRUST_HEIGHT = 1e-6f, VNDF_TRUST_LENGTH = 1e12f;
+
+VNDF_INLINE lanes_m vndf_trusts_direction(lanes_f across2, lanes_f z, lanes_f length)
+{
+    return lanes_both(
+        lanes_less(lanes_set(VNDF_TRUST_ACROSS2), across2),
+        lanes_both(lanes_less(VNDF_TRUST_HEIGHT * length, z), lanes_less(length, lanes_set(VNDF_TRUST_LENGTH))));
+}
+
+/* Roughness and the height of the direction: densities are products of their powers. */
+static const float VNDF_TRUST_SMOOTHEST = 1e-4f, VNDF_TRUST_ROUGHEST = 1e4f;
+
+VNDF_INLINE lanes_m vndf_trusts_scale(lanes_f ax, lanes_f ay, lanes_f c)
+{
+    lanes_m low = lanes_less(lanes_set(VNDF_TRUST_SMOOTHEST), lanes_least(ax, ay));
+    lanes_m high = lanes_less(lanes_most(ax, ay), lanes_set(VNDF_TRUST_ROUGHEST));
+    return lanes_both(lanes_both(low, high), lanes_less(lanes_set(VNDF_TRUST_HEIGHT), c));
+}
+
+/* The density, what it is made from, and the squared length of a normal before it is made unit: a hostile table may
+ * overflow here. */
+static const float VNDF_TRUST_DENSITY_LEAST = 1e-37f, VNDF_TRUST_DENSITY_MOST = 1e38f;
+static const float VNDF_TRUST_SQUARE = 1e-34f, VNDF_TRUST_PRODUCT = 1e-36f;
+
+VNDF_INLINE lanes_m vndf_trusts_density(lanes_f density)
+{
+    return lanes_both(lanes_less(lanes_set(VNDF_TRUST_DENSITY_LEAST), density),
+                      lanes_less(density, lanes_set(VNDF_TRUST_DENSITY_MOST)));
+}
+
+VNDF_INLINE lanes_m vndf_trusts_lengths(lanes_f square, lanes_f product)
+{
+    return lanes_both(lanes_less(lanes_set(VNDF_TRUST_SQUARE), square),
+                      lanes_less(lanes_set(VNDF_TRUST_PRODUCT), product));
+}
+
+/* A front law of less mass would have to be scaled before its cells are formed. */
+static const float VNDF_TRUST_LAW_MASS = 1e-3f;
+
+VNDF_INLINE lanes_m vndf_trusts_law_mass(lanes_f total)
+{
+    return lanes_at_most(lanes_set(VNDF_TRUST_LAW_MASS), total);
+}
+
+/* ---- tables: uniform numbers and azimuth ---- */
+
+/* The border of the unit square, where the first and last cells end. */
+static const float VNDF_TRUST_U1 = 0.9999f, VNDF_TRUST_U2 = 0.4999f; /* of 2 u1 - 1 and u2 - 1/2 */
+
+VNDF_INLINE lanes_m vndf_trusts_uniform(lanes_f half, lanes_f u2)
+{
+    return lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(VNDF_TRUST_U2)),
+                      lanes_less(lanes_abs(half), lanes_set(VNDF_TRUST_U1)));
+}
+
+/* The mass of the half turn where the azimuth is drawn, over that in front: in a wedge of next to no mass the
+ * rounding of the direction shows. */
+static const float VNDF_TRUST_WEDGE_MASS = 0.01f;
+
+VNDF_INLINE lanes_m vndf_trusts_wedge_mass(lanes_f front, lanes_f mass)
+{
+    return lanes_less(VNDF_TRUST_WEDGE_MASS * front, mass);
+}
+
+/* One over the width, in the wedge's coordinate, of a piece of the areas' spline and of a span of rows: a rounding
+ * of the direction moves it by that part of its width. Lobes hundreds of times apart have narrow ones. */
+static const float VNDF_TRUST_AREA_PER_WIDTH = 500.0f, VNDF_TRUST_ROW_PER_WIDTH = 250.0f;
+
+VNDF_INLINE lanes_m vndf_trusts_area_piece(lanes_f per_width)
+{
+    return lanes_at_most(per_width, lanes_set(VNDF_TRUST_AREA_PER_WIDTH));
+}
+
+VNDF_INLINE lanes_m vndf_trusts_rows(lanes_f per_width)
+{
+    return lanes_less(per_width, lanes_set(VNDF_TRUST_ROW_PER_WIDTH));
+}
+
+/* The derivative of a rational cell (math/rational_cell.h) is largest at an end: |e1 - e0| + 3 |e0 + e1 - 2 mass|,
+ * about, where that is a small part of the density. */
+VNDF_INLINE lanes_f vndf_cell_change(lanes_f e0, lanes_f e1, lanes_f mass)
+{
+    lanes_f rise = e1 - e0, bend = (e0 + e1) - 2.0f * mass;
+    return lanes_abs(rise) + 3.0f * lanes_abs(bend);
+}
+
+/* The density at a place, about, or the mean if that is less. */
+VNDF_INLINE lanes_f vndf_cell_least(lanes_f e0, lanes_f e1, lanes_f mass, lanes_f xi)
+{
+    return lanes_least(e0 + (e1 - e0) * xi, mass);
+}
+
+/* The density of a cell of azimuths may change by a factor e^20 per radian, or per xi: rounding moves both by 1e-7.
+ * turn/n2 is radians per xi. */
+static const float VNDF_TRUST_AZIMUTH_STEEP = 20.0f;
+
+VNDF_INLINE lanes_m vndf_is_steep_azimuth(lanes_f change, lanes_f least, lanes_f turn, lanes_f n2)
+{
+    return lanes_less(VNDF_TRUST_AZIMUTH_STEEP * least * lanes_least(turn, n2), change * n2);
+}
+
+/* The cosine to wi's azimuth at its side: rounding must not take a normal from the front to the wedge or back, as
+ * the wedge's density is the table's. */
+static const float VNDF_TRUST_SIDE = 1e-6f;
+
+/* `away` is the cosine on the side where the azimuth was drawn. */
+VNDF_INLINE lanes_m vndf_trusts_side(lanes_f away)
+{
+    return lanes_less(lanes_set(VNDF_TRUST_SIDE), away);
+}
+
+/* W = along + up, wi.wm but for a length: it is neither a small difference nor small beside what a rounding of the
+ * azimuth, a part of `across`, does to it. */
+static const float VNDF_TRUST_FACING = 0.05f;
+
+VNDF_INLINE lanes_m vndf_trusts_facing_in_front(lanes_f across, lanes_f along, lanes_f up)
+{
+    return lanes_less(VNDF_TRUST_FACING * across, along + up);
+}
+
+VNDF_INLINE lanes_m vndf_trusts_facing_in_wedge(lanes_f across, lanes_f along, lanes_f up)
+{
+    return lanes_less(VNDF_TRUST_FACING * (across + up), along + up);
+}
+
+/* ---- tables: radius ---- */
+
+/* Rounding moves xi by 5e-7 X Z/width: at VNDF_NARROW (table.h) by a thousandth of the cell. In a cell so narrow that
+ * the rounding of its ends shows in its mass, the steepness of the second test tells. */
+VNDF_INLINE lanes_m vndf_is_steep_radius(lanes_f change, lanes_f least, lanes_f width, lanes_f reach)
+{
+    return lanes_either(lanes_less((float)VNDF_NARROW * width, reach),
+                        lanes_less(VNDF_STEEP_RADIUS * least * width, change * reach));
+}
+
+/* The distance in xi from a knot, which may be a jump of D; counted from the middle of the cell. */
+static const float VNDF_TRUST_KNOT = 0.499f;
+
+VNDF_INLINE lanes_m vndf_is_beside_knot(lanes_f xi)
+{
+    return lanes_less(lanes_set(VNDF_TRUST_KNOT), lanes_abs(xi - 0.5f));
+}
+
+/* ---- GGX ---- */
+
+/* The level part of the stretched direction, squared: its area does not overflow. */
+static const float VNDF_TRUST_GGX_ACROSS2 = 1e24f;
+
+/* cot^2 of half the angle to z: products of what is drawn overflow near the normal. */
+static const float VNDF_TRUST_GGX_COTANGENT = 1e10f;
+
+/* |h|^2, which is above 0 where the cap comes close to -w, over the square of its scale. */
+static const float VNDF_TRUST_GGX_HALFWAY = 0.005f;
+
+VNDF_INLINE lanes_m vndf_trusts_ggx_halfway(lanes_f r, lanes_f h2)
+{
+    return lanes_less(VNDF_TRUST_GGX_HALFWAY * (r * r), h2);
+}
+
+/* ---- Beckmann ---- */
+
+static const float VNDF_TRUST_BECKMANN_BOUND = 1e10f; /* K, and one over the level length */
+
+/* 4 u (1 - u): starting values and quantiles are fitted down to it, and squares of slopes stay below 15, so that a
+ * rounding of the normal moves exp(-x^2 - y^2) by a few 1e-6. */
+#define VNDF_TRUST_BECKMANN_MIDDLE 3.4e-4f
+
+VNDF_INLINE lanes_m vndf_trusts_beckmann_middle(lanes_f middle)
+{
+    return lanes_less(lanes_set(VNDF_TRUST_BECKMANN_MIDDLE), middle);
+}
+
+/* d = wi.wm but for a length, over the terms that it is a sum of. */
+static const float VNDF_TRUST_BECKMANN_FACING = 0.06f;
+
+VNDF_INLINE lanes_m vndf_trusts_beckmann_facing(lanes_f terms, lanes_f d)
+{
+    return lanes_less(VNDF_TRUST_BECKMANN_FACING * terms, d);
+}
+
+/* ---- all normals of Beckmann ---- */
+
+/* R^2: the rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */
+static const double VNDF_TRUST_ALL_BECKMANN = 4.0;
+
+/* ---- bounded normals: what `inside_mass`, the part of the law inside the horizon's disc, adds ---- */
+
+/* How far inside the border a normal is, so that no rounding takes it out: the border's slope over the normal's. */
+#define VNDF_TRUST_INSIDE 1.00001
+
+/* The root of the border's slope: a rounding of the azimuth moves it by 1e-7 of s/root. */
+static const float VNDF_TRUST_BORDER_ROOT = 0.02f;
+
+/* The density per e-fold of the border's slope over the mass inside: how fast that moves with the slope. */
+static const float VNDF_TRUST_BORDER_STEEP = 30.0f;
+
+/* In cells that float does not follow, at the cut, hardly anything is lost. */
+static const float VNDF_TRUST_BORDER_CUT = 0.999f;
+
+/* GGX: the constant term of the chord, where w leaves the disc, over c; z and the cosine of the sample. */
+static const float VNDF_TRUST_CHORD_INSIDE = -0.1f;
+static const float VNDF_TRUST_CHORD_HEIGHT = 0.02f, VNDF_TRUST_CHORD_COSINE = 0.03f;
+
+/* GGX: d log(mass)/d psi, which a rounding of 1e-7/(reach sine) bears on; psi beside the border between front and
+ * wedge, where the mass differs; the sine; and what may hide in the matrix of level directions. */
+static const float VNDF_TRUST_CHORD_STEEP = 150.0f, VNDF_TRUST_CHORD_SIDE = 1e-12f;
+static const float VNDF_TRUST_CHORD_SINE = 0.01f, VNDF_TRUST_CHORD_MATRIX = 100.0f;
+
+/* Beckmann: the slope squared and wi.wm as above; how fast the part on the chord moves with the slopes; and the part
+ * that a difference in float leaves its digits. */
+static const double VNDF_TRUST_BOUNDED_SLOPE = 12.0, VNDF_TRUST_BOUNDED_FACING = 0.05;
+static const double VNDF_TRUST_BOUNDED_STEEP = 30.0;
+static const float VNDF_TRUST_BOUNDED_PART = 0.1f;
+
+#endif
