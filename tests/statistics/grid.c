@@ -1,9 +1,9 @@
 #include "statistics/grid.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "cli/sort.h"
-#include <string.h>
 
 static void place_evenly(double *border, size_t parts, double low, double high)
 {

@@ -84,8 +84,8 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
     return map;
 }
 
-/* The interval of ascending borders that holds x, without branches to mispredict: samples come in any order. */
-static size_t interval(const double *border, size_t parts, double x)
+/* Without branches to mispredict: samples come in any order. */
+size_t bins_interval(const double *border, size_t parts, double x)
 {
     size_t low = 0;
     while (parts > 1) {
@@ -101,7 +101,7 @@ size_t bins_place(const bin_map *map, vndf_vec3 wm)
     double x = (double)wm.x / map->stretch_x, y = (double)wm.y / map->stretch_y;
     double slope = slope_of(x, y, (double)wm.z), phi = atan2(y, x) - map->centre;
     phi += phi < -pi ? 2 * pi : phi > pi ? -2 * pi : 0;
-    return interval(map->slope, BINS_THETA, slope) * BINS_PHI + interval(map->phi, BINS_PHI, phi);
+    return bins_interval(map->slope, BINS_THETA, slope) * BINS_PHI + bins_interval(map->phi, BINS_PHI, phi);
 }
 
 /* ---- the density in these coordinates ------------------------------------------------------------ */
