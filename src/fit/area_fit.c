@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const double CURVE_MOST = 1e11; /* of an area: beyond it no knot helps */
+static const double CURVE_MOST = 1e11; /* of an area: beyond it no more knots help */
 static const double HALF_PI = 1.57079632679489661923;
 
 vndf_area_value vndf_side_area(const vndf_side *side, double y)
@@ -38,7 +38,7 @@ static vndf_area_knot knot_at(const vndf_side *side, double y)
     return knot;
 }
 
-/* At the ends of [0, 1] the second derivative may be infinite: the one that leads through the middle stands for
+/* At the ends of [0, 1] the second derivative may be infinite: the value that leads through the middle replaces
  * it. */
 void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_knot *from, vndf_area_knot *to)
 {

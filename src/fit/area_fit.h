@@ -1,4 +1,4 @@
-/* The spline of a wedge's mass for a profile, on one side of the horizon. The coordinate y in [0, 1] is that of
+/* The spline of a wedge's mass for a profile, on one side of the horizon. The coordinate y in [0, 1] is the one of
  * vndf_wedge. */
 #ifndef VNDF_FIT_AREA_FIT_H
 #define VNDF_FIT_AREA_FIT_H
@@ -16,18 +16,18 @@ typedef struct vndf_side {
 /* Mass of the wedge per (s + |c|), with its derivatives by y. */
 vndf_area_value vndf_side_area(const vndf_side *side, double y);
 
-/* Share of what is seen at y that lies in the wedge: all of it below, which counts the less the less is seen, and
- * hardly where nothing is claimed any more. */
+/* The share of the visible mass at y that lies in the wedge. Below the horizon that is all of it; there the share
+ * falls with the visible area, and is next to nothing where nothing is claimed. */
 double vndf_side_share(const vndf_side *side, double y);
 
-/* The y below which nothing is claimed (vndf_profile_claimed); 0 above the horizon. */
+/* The y below which the certificate claims nothing (vndf_profile_claimed); 0 above the horizon. */
 double vndf_side_least(const vndf_side *side);
 
 /* The ends of the spline's piece from a to b. */
 void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_knot *from, vndf_area_knot *to);
 
-/* Relative error of the area, or its share of it above, between knots at a and b: a vndf_interval_error with a
- * vndf_side. */
+/* Relative error of the area between knots at a and b; above the horizon times the wedge's share of the area. A
+ * vndf_interval_error with a vndf_side. */
 vndf_interval_miss vndf_area_fit_error(double a, double b, void *side);
 
 #endif

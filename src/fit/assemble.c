@@ -4,10 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors. Azimuth rows may each miss by `error`. All radial cells together may miss by half of it: they
- * cost less than rows, and a view from below the horizon sees several that are judged one at a time. Areas may miss
- * by less, which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST; and a table
- * of half the default size or more keeps what is promised of areas, 2e-6, whatever its error is. */
+/* The budget of errors. Each azimuth row may miss by `error`. All radial cells together may miss by half of it:
+ * they cost less than rows, and a view from below the horizon sees several cells that are judged one at a time.
+ * Areas may miss by a sixtieth, which costs a spline of fifth order few knots. Floats hold no area better than
+ * AREA_FINEST. A table of half the default size or more keeps the promise for areas, 2e-6, whatever its error
+ * is. */
 static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
 enum { PROMISE_BYTES = 8192 };
 
@@ -17,12 +18,12 @@ static double area_error(size_t max_bytes, double error)
     return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
 }
 
-/* Few bytes go where most is seen: errors deep below the horizon count for less, a third of their size where 1e-10
- * of the area is left. */
+/* A small table spends its bytes where most is visible: errors deep below the horizon count less, a third where
+ * 1e-10 of the area is left. */
 enum { SMALL_BYTES = 6000 };
 static const double FADE_OF_SMALL = 0.05;
 
-/* The first cell alone, where f begins at 0, is drawn to the first order only: it is kept small. */
+/* In the first cell f begins at 0. Only this cell is drawn to first order, so it stays small. */
 static const double POLE_CELL = 1.0 / 512;
 
 /* ---- refining ---- */
@@ -46,7 +47,7 @@ static int refine_radial(vndf_plan *plan, size_t limit)
     return good;
 }
 
-/* Where all that is seen below the horizon lies beyond this y, rows begin at its edge. */
+/* If everything visible below the horizon lies beyond this y, rows begin at the edge of the visible part. */
 static const double ROWS_END = 1.0 / 32;
 
 static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
@@ -63,7 +64,7 @@ static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, dou
     return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_area_fit_error, side);
 }
 
-/* Cells of an azimuth row: at most a few per cent of the bytes each. */
+/* The most cells of an azimuth row: each takes at most a few per cent of the bytes. */
 static uint32_t most_cells_for(size_t max_bytes)
 {
     return max_bytes < SMALL_BYTES ? 12 : 32;
@@ -176,7 +177,7 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
     return 1;
 }
 
-/* Knots whose mass is no normal float are left out, but for the first. */
+/* Leaves out knots whose mass is not a normal float, except the first. */
 static uint32_t keep_normal(const vndf_side *side, double *knots, uint32_t count)
 {
     uint32_t n = 1;

@@ -1,4 +1,4 @@
-/* From fits to a table: the fits are refined once, then a table of any size is cut from them. */
+/* From fits to a table: the builder refines the fits once, then cuts a table of any size from them. */
 #ifndef VNDF_FIT_ASSEMBLE_H
 #define VNDF_FIT_ASSEMBLE_H
 
@@ -16,15 +16,15 @@ typedef struct vndf_plan {
     double finest; /* the error down to which the fits were refined */
 } vndf_plan;
 
-/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the profile's guard stopped
- * it. */
+/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the guard of the profile stopped
+ * the build. */
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
 void vndf_plan_free(vndf_plan *plan);
 
-/* Counts of the table whose parts each stay below `error`. */
+/* The counts of the table whose parts each err by less than `error`. */
 vndf_table_size vndf_plan_size(const vndf_plan *plan, double error);
 
-/* That table, complete but for its certificate and texts; NULL if there is no memory. */
+/* The table of this size, complete but for its certificate and texts; NULL if there is no memory. */
 vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size);
 
 #endif

@@ -1,4 +1,5 @@
-/* vndf_build: resolve the source, refine the fits once, cut the table that meets the target, measure it. */
+/* vndf_build: resolves the source, refines the fits once, cuts the table that meets the target, and measures
+ * it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +11,12 @@
 
 enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
 
-/* Where nobody asked for a size, the first of these whose table reaches this total variation; where none does, the
+/* If the caller gives no size: the first of these whose table reaches this total variation; if none does, the
  * smallest that can be built. */
 static const size_t BYTES_TRIED[] = {BYTES_DEFAULT, 24576, 32768};
 static const double TV_DEFAULT = 1e-3;
 
-/* The coarsest table that is offered: fits that err by more leave a total variation near 1, its maximum. */
+/* The error of the coarsest table. Fits that err by more leave a total variation near 1, its maximum. */
 static const double ERROR_MOST = 2.0;
 
 static const char TOOL[] = "vndf " VNDF_VERSION;
@@ -89,7 +90,7 @@ static vndf_distribution *finish(vndf_plan *plan, double error, vndf_error *why)
     return NULL;
 }
 
-/* The smallest table with a measured TV of at most max_tv, or NULL and what was reached. */
+/* The smallest table with a measured TV of at most max_tv, or NULL and the TV that was reached. */
 static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_tv, vndf_error *error)
 {
     double low = log(best), high = log(fmax(fmin(2 * max_tv, ERROR_MOST), best));
@@ -105,7 +106,7 @@ static vndf_distribution *build_to_tv(vndf_plan *plan, double best, double max_t
     for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
         double middle = (low + high) / 2;
         vndf_error ignored;
-        /* if floats cannot hold it, the larger one stays */
+        /* if floats cannot hold it, the larger table stays */
         vndf_distribution *smaller = finish(plan, exp(middle), &ignored);
         if (smaller && smaller->certificate.tv <= max_tv) {
             vndf_free(table);

@@ -1,5 +1,5 @@
-/* A cell is judged by the laws that the sampler draws from it: weights Z (all normals), X (grazing), and
- * the two that vanish at one end (a cut there). Each law's error, half the integral of |drawn - true|,
+/* The fit judges a cell by the laws that the sampler draws from it: weights Z (all normals), X (grazing), and
+ * the two weights that vanish at one end (a cut there). The error of a law, half the integral of |drawn - true|,
  * counts by the largest share of the visible normals that the cell holds from any direction. */
 #include "fit/radial_fit.h"
 
@@ -14,19 +14,19 @@ enum { JUMPS_MAX = 256, PIECES_MAX = 16 };
 static const double SLOPE_MOST = 1e29;  /* 1/R remains a normal float */
 static const double WIDTH_LEAST = 2e-5; /* of a cell, relative to its slope: xi keeps a hundred steps in float */
 
-/* A jump is seen by its values this far on either side, relative to its slope: beyond its narrow panel. */
+/* How far from a jump, relative to its slope, the fit reads the values on either side: beyond the narrow panel. */
 static const double BESIDE = 1e-9;
-static const double JUMP_LEAST = 1e-4;   /* of the higher side: less is no more than what cells err by */
-static const double JUMP_MASS = 1e-25;   /* P r^2 at a jump that is worth a knot: well above the floor's */
-static const double SAME_JUMP = 1.0001;  /* ratio of slopes within which panels have narrowed to one jump */
-static const double INSIDE_JUMP = 4e-7;  /* of the slope: four floats into the cell, for knots are rounded */
+static const double JUMP_LEAST = 1e-4;   /* of the higher side: cells err by more than a smaller jump */
+static const double JUMP_MASS = 1e-25;   /* P r^2 at a jump that is worth a knot: well above the floor */
+static const double SAME_JUMP = 1.0001;  /* ratio of slopes within which narrow panels mean one jump */
+static const double INSIDE_JUMP = 4e-7;  /* of the slope: four floats into the cell, since knots are rounded */
 static const double NEAR_HORIZON = 1e-6; /* of the last cell: x/z is finite there */
 
-/* An end of f this many times above the mean is a pole of D: the cell is kept bounded. */
+/* An end of f this many times above the mean is a pole of D: the fit keeps the cell bounded. */
 static const double END_MOST = 50;
 static const double MASS_LEAST = 1e-36; /* of a cell: a normal float with some room for products */
-static const double ENDS_MOST = 3;      /* both ends of a bent cubic together, of its mass: at 4 none is inside */
-static const double INSIDE = 1e-3;      /* the cubic stays off 0 when its moments are rounded to float */
+static const double ENDS_MOST = 3; /* both ends of a bent cubic together, over its mass: at 4 no mass is inside */
+static const double INSIDE = 1e-3; /* the cubic stays above 0 when its moments are rounded to float */
 
 /* ---- knots ---- */
 
@@ -64,8 +64,8 @@ static int is_jump(const vndf_radial_fit *fit, double r)
     return 0;
 }
 
-/* Of the floats about a knot, those with the slope next to r on the side asked for: x and z together come nearer
- * to it than either alone. */
+/* Among the floats about a knot, the pair x, z whose slope is next to r on the given side: both together come
+ * nearer to r than either alone. */
 static void round_to_side(vndf_fit_knot *knot, double r, int above)
 {
     const float x[] = {nextafterf(knot->x, 0.0f), knot->x, nextafterf(knot->x, 2.0f)};
@@ -114,7 +114,7 @@ static double f_at(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b,
     return vndf_profile_p22(fit->profile, x / z) * x * width_of(a, b) / (z * z * z * z);
 }
 
-/* f at an end: seen from inside the cell where P jumps, and at the horizon as the limit. */
+/* f at an end of the cell: where P jumps its value inside the cell, at the horizon its limit. */
 static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, int outer)
 {
     double inside = INSIDE_JUMP * (outer ? b.r : a.r) / (b.r - a.r);
@@ -126,8 +126,9 @@ static double f_end(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b
     return f_at(fit, a, b, outer ? 1 - inside : inside);
 }
 
-/* Where the cubic would be negative, one of its inner Bernstein coefficients is: it is raised to (almost) 0 at the
- * cost of the other, which leaves the mass as it is. Ends that would need more than all mass are lowered first. */
+/* Where the cubic would be negative, one of its inner Bernstein coefficients is negative. That one is raised to
+ * (almost) 0 and the other lowered, which keeps the mass. Ends that would need more than the whole mass are
+ * lowered first. */
 static void keep_positive(vndf_radial_cell *cell)
 {
     double mass = (double)cell->mu0 + cell->mu1, f0 = cell->f0, f1 = cell->f1;
@@ -166,7 +167,7 @@ typedef struct law_error {
     double all, grazing, cut_inside, cut_outside, cubic;
 } law_error;
 
-/* |drawn - true| at xi for the weight w0 (1-xi) + w1 xi, drawn as the sampler does at a cut and away from it. */
+/* |drawn - true| at xi for the weight w0 (1-xi) + w1 xi, as the sampler draws at a cut and away from it. */
 static double miss(const vndf_radial_cell *cell, double w0, double w1, double f, double xi)
 {
     double mass = w0 * cell->mu0 + w1 * cell->mu1, w = w0 * (1 - xi) + w1 * xi, sum = w0 + w1;
@@ -184,7 +185,7 @@ static double miss_cubic(const vndf_radial_cell *cell, double f, double xi)
     return fabs(drawn - f) / (cell->mu0 + cell->mu1);
 }
 
-/* Half integrals over the cell in `pieces` Gauss rules, and what the rules say the cell lacks. */
+/* Half the integrals over the cell by `pieces` Gauss rules, and the mass that the cell lacks by the same rules. */
 static law_error measure(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b,
                          const vndf_radial_cell *cell, int pieces)
 {
@@ -215,15 +216,16 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
     return n;
 }
 
-/* What errors at slope r count for a view below the horizon that sees this part of the area at grazing incidence:
- * nothing where the slope is next to infinite. */
+/* The weight of errors at slope r for a view below the horizon that sees this part of the area at grazing
+ * incidence; 0 where the slope is next to infinite. */
 static double weight_of_view(const vndf_radial_fit *fit, double seen, double r)
 {
     return vndf_profile_fade(fit->profile, seen, fit->fade) / (1 + r * 1e-8);
 }
 
-/* What the error of a cell counts for views below the horizon whose cut lies before it: its share of what is seen
- * from one scale of the tail before it, times the number of cells like it that are seen there with it. */
+/* The weight of a cell's error for views below the horizon whose cut lies before the cell: its share of the mass
+ * that is visible from one scale of the tail before it, times the number of similar cells that are visible with
+ * it. */
 static double share_of_deep_views(const vndf_radial_fit *fit, double a, double b, vndf_moments m)
 {
     const vndf_profile *profile = fit->profile;
@@ -243,7 +245,7 @@ vndf_interval_miss vndf_fit_cell_error(double ra, double rb, void *user)
     vndf_interval_miss found = {0.0, 0.0};
     double s0 = fit->profile->f1;
     if ((!(b.r - a.r > WIDTH_LEAST * b.r) && b.z > 0.0f) || a.r > SLOPE_MOST)
-        return found; /* as narrow as a cell can be, or as far out */
+        return found; /* the cell is as narrow, or as far out, as a cell can be */
     vndf_radial_cell cell = vndf_fit_cell(fit, a, b);
     law_error e = measure(fit, a, b, &cell, 1 + (int)panels_between(fit->profile, a.r, b.r));
     vndf_moments m = vndf_profile_moments(fit->profile, a.r, b.r);

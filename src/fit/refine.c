@@ -1,4 +1,4 @@
-/* The intervals stand in a tournament: it knows the next one to halve and the error of all at any time. */
+/* The intervals stand in a tournament, which at any time knows the next one to halve and the error of all. */
 #include "fit/refine.h"
 
 #include <stdlib.h>
@@ -8,11 +8,11 @@
 
 /* ---- the tournament ---- */
 
-/* What is known of some intervals together. */
+/* A summary of some intervals. */
 typedef struct summary {
     double share, alone; /* sum of the shares, largest alone */
-    double urgency;      /* of the one to be halved next */
-    size_t next;         /* which that is */
+    double urgency;      /* of the interval to halve next */
+    size_t next;         /* its index */
 } summary;
 
 typedef struct interval {
@@ -20,7 +20,7 @@ typedef struct interval {
 } interval;
 
 /* A complete binary tree over the intervals: node i sums up nodes 2i and 2i + 1, node leaves + i is interval i. A
- * change costs one path to the root, and no sum is ever diminished, so that none loses digits. */
+ * change costs one path to the root. It adds the sums anew and subtracts nothing, so that no sum loses digits. */
 typedef struct tournament {
     size_t count, leaves;
     summary *node; /* 2 leaves; node 1 is the root */
@@ -50,7 +50,8 @@ static void tournament_free(tournament *t)
     free(t->interval);
 }
 
-/* A share is one of some fifty that are of any size in a default table; to be met alone is worth as many. */
+/* In a default table some fifty intervals have shares that matter, so an error met alone counts as fifty
+ * shares. */
 static const double SHARERS = 50;
 
 static void put(tournament *t, size_t place, interval at, vndf_interval_error *error, void *user)
@@ -72,7 +73,7 @@ static double arithmetic_middle(double a, double b)
     return a + (b - a) / 2;
 }
 
-/* Halves intervals until one of the reasons to stop. */
+/* Halves intervals until there is a reason to stop. */
 static void halve_the_worst(vndf_refinement *r, tournament *t, size_t limit, double enough,
                             vndf_interval_middle *middle, vndf_interval_error *error, void *user)
 {

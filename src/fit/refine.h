@@ -1,16 +1,16 @@
-/* Knots where the error is: intervals halved one at a time, the worst first, with the error after each
- * step on record. The order is nested, so one run serves every size of table: the first n knots of the
- * list are those of a table with n. */
+/* Puts knots where the error is: halves intervals one at a time, the worst first, and records the error after each
+ * step. The order is nested, so one run serves every size of table: a table with n knots takes the first n of the
+ * list. */
 #ifndef VNDF_FIT_REFINE_H
 #define VNDF_FIT_REFINE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Error of what a table would hold between neighbouring knots a < b. */
+/* The error of a table between neighbouring knots a < b. */
 typedef struct vndf_interval_miss {
-    double share; /* adds to that of the other intervals */
-    double alone; /* is met without them */
+    double share; /* adds to the shares of the other intervals */
+    double alone; /* occurs without the others */
 } vndf_interval_miss;
 typedef vndf_interval_miss vndf_interval_error(double a, double b, void *user);
 
@@ -28,7 +28,7 @@ typedef struct vndf_refinement {
 int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
                 vndf_interval_middle *middle, vndf_interval_error *error, void *user);
 
-/* How many knots bring the recorded error within bounds, those of the start included; all, if none do. */
+/* How many knots, with the given ones, bring the recorded error below `error`; all if no number does. */
 uint32_t vndf_refinement_needed(const vndf_refinement *refinement, double error);
 
 /* The first `count` knots, ascending, into knots[count]; count is no less than `start`. */

@@ -1,6 +1,6 @@
-/* Saving is atomic: a temporary beside the file, flushed to the disk and closed without an error, then renamed
- * over it. Whatever fails, the old file stays whole and the temporary is removed. Behind symbolic links it is the
- * file at their end that is replaced, and its mode is kept. */
+/* Saving is atomic: writes a temporary beside the file, flushes it to the disk, closes it without an error, then
+ * renames it over the file. Whatever fails, the old file stays whole and the temporary is removed. Symbolic links
+ * are followed: the file at their end is replaced, and keeps its mode. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  include <fcntl.h>
@@ -20,7 +20,7 @@
 
 enum {
     NAMES_MAX = 100,
-    KEPT_MAX = 100, /* bytes of the name that its temporary keeps: some systems have room for 143 */
+    KEPT_MAX = 100, /* bytes of the name that its temporary keeps: some systems allow 143 in all */
     SUFFIX_MAX = 48,
     LINKS_MAX = 40, /* as many as the system follows */
     LINK_BYTES = 4096
@@ -35,7 +35,7 @@ static size_t folder_length(const char *path)
     return length;
 }
 
-/* The first bytes of `folder`, then `name`; to be freed. NULL and ENOMEM. */
+/* The first bytes of `folder`, then `name`; the caller frees it. NULL and ENOMEM if there is no memory. */
 static char *join(const char *folder, size_t length, const char *name)
 {
     size_t size = strlen(name) + 1;
@@ -53,7 +53,7 @@ static char *join(const char *folder, size_t length, const char *name)
 
 #ifdef VNDF_HAS_POSIX
 
-/* What the link at path holds: 1, 0 if there is none, -1 and errno. */
+/* Reads the target of the link at path: returns 1; 0 if there is no link; -1 and errno on an error. */
 static int read_link(const char *path, char held[LINK_BYTES])
 {
     ssize_t length = readlink(path, held, LINK_BYTES - 1);
@@ -63,7 +63,8 @@ static int read_link(const char *path, char held[LINK_BYTES])
     return 1;
 }
 
-/* The name at the end of all links, also where nothing is there yet; to be freed. NULL and errno. */
+/* The name at the end of all links, even if no file is there yet; the caller frees it. NULL and errno on an
+ * error. */
 static char *end_of_links(const char *path)
 {
     char held[LINK_BYTES];
@@ -83,8 +84,8 @@ static char *end_of_links(const char *path)
     return NULL;
 }
 
-/* The owner is kept as far as the system lets us: root does not take a user's file away. 0 and errno if the mode
- * cannot be. */
+/* Keeps the mode, and the owner as far as the system lets us, so that root does not take a user's file away. 0 and
+ * errno if the mode cannot be kept. */
 static int keep_mode(int made, const struct stat *old)
 {
     struct stat now;
@@ -107,7 +108,8 @@ static FILE *create_with(const char *name, const struct stat *old)
     return file;
 }
 
-/* A new file, with the mode of the one that it replaces. NULL and errno, EEXIST if the name is taken. */
+/* A new file with the mode of the file that it replaces. NULL and errno on an error, EEXIST if the name is
+ * taken. */
 static FILE *create_new(const char *name, const char *target)
 {
     struct stat old;
@@ -115,7 +117,7 @@ static FILE *create_new(const char *name, const char *target)
         return create_with(name, NULL);
     if (S_ISREG(old.st_mode))
         return create_with(name, &old);
-    errno = S_ISDIR(old.st_mode) ? EISDIR : EINVAL; /* a device or a pipe would be gone */
+    errno = S_ISDIR(old.st_mode) ? EISDIR : EINVAL; /* a rename would destroy a device or a pipe */
     return NULL;
 }
 
@@ -124,7 +126,7 @@ static long process_number(void)
     return (long)getpid();
 }
 
-/* Not every file can be synced. */
+/* Syncs the file; a file that cannot be synced passes. */
 static int reaches_disk(FILE *file)
 {
     return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
@@ -158,7 +160,7 @@ static int reaches_disk(FILE *file)
 
 /* ---- writing ------------------------------------------------------------------------------------- */
 
-/* Bytes of a name that its temporary keeps; characters of UTF-8 stay whole. */
+/* How many bytes of a name its temporary keeps; characters of UTF-8 stay whole. */
 static size_t kept_length(const char *name)
 {
     size_t length = strlen(name);
@@ -169,8 +171,8 @@ static size_t kept_length(const char *name)
     return length;
 }
 
-/* A new file beside target: NAME.PROCESS.tmp, or another number where that is taken: by another thread, or by
- * what a crash left. Nothing that exists is ever opened. *name, to be freed, is its name. NULL and errno. */
+/* A new file beside target: NAME.PROCESS.tmp, or another number if another thread or the rest of a crash has that
+ * name. It never opens a file that exists. The caller frees *name, its name. NULL and errno on an error. */
 static FILE *create_temporary(const char *target, char **name)
 {
     FILE *file = NULL;
@@ -186,7 +188,7 @@ static FILE *create_temporary(const char *target, char **name)
     return file;
 }
 
-/* 0 and errno if anything was not written. */
+/* 0 and errno if a byte was not written. */
 static int write_whole(FILE *file, const unsigned char *bytes, size_t size)
 {
     int good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 && reaches_disk(file);
@@ -196,7 +198,7 @@ static int write_whole(FILE *file, const unsigned char *bytes, size_t size)
     return good && closed;
 }
 
-/* 0 and errno, with nothing left behind. */
+/* 0 and errno on an error, with nothing left behind. */
 static int replace(const char *target, const unsigned char *bytes, size_t size)
 {
     char *temporary;

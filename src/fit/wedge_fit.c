@@ -5,7 +5,7 @@
 
 #include "math/rational_cell.h"
 
-/* Rows by y; a few hundred at most are asked for often, so a plain hash table will do. */
+/* Rows by y. At most a few hundred are used often, so a plain hash table is enough. */
 enum { BUCKETS = 1024 };
 
 typedef struct entry {
@@ -17,7 +17,7 @@ struct vndf_row_cache {
     entry *bucket[BUCKETS];
 };
 
-static const double UNIFORM = 1e-7; /* part of each row that is even, so that no cell is empty */
+static const double UNIFORM = 1e-7; /* the even part of each row, so that no cell is empty */
 
 /* ---- the azimuth density ---- */
 
@@ -41,7 +41,7 @@ static double wedge_density(const vndf_wedge_fit *fit, direction d, double cos_p
     return d.k < HUGE_VAL ? vndf_profile_e(fit->side.profile, rho) : fit->side.profile->f0;
 }
 
-/* tan of the azimuth with half of the mass on either side, by a sum over a logarithmic grid. */
+/* tan of the azimuth that halves the mass, by a sum over a logarithmic grid. */
 static double median_tangent(const vndf_wedge_fit *fit, direction d)
 {
     enum { STEPS = 96 };
@@ -94,12 +94,12 @@ static void set_aspect(const vndf_wedge_fit *fit, vndf_row *row)
 
 /* ---- cells of q ---- */
 
-/* Cells are judged by so many directions, even in y. */
+/* The number of directions, even in y, that judge cells. */
 enum { JUDGE_COUNT = 40 };
 
 typedef struct judge {
     direction d;
-    double p, r, scale; /* aspect, and what brings the mass to a share of all that is seen */
+    double p, r, scale; /* aspect; the factor that turns the mass into a share of everything visible */
 } judge;
 
 typedef struct bench {
@@ -265,9 +265,9 @@ static double blend(double a, double b, double c, double mix)
     return (1 - mix) * (1 - mix) * a + 2 * mix * (1 - mix) * b + mix * mix * c;
 }
 
-/* Total variation between the mixed row and the true one for the same aspect, cell by cell: by their masses, and
- * by the densities at their ends for what masses do not see. What the cells themselves cannot show is not counted,
- * more rows do not mend it. */
+/* Total variation between the mixed row and the true one for the same aspect, cell by cell: by the masses of
+ * cells, and by the densities at their ends for differences that masses do not show. Errors inside a cell do not
+ * count, since more rows do not reduce them. */
 static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
 {
     const vndf_row *a = r.first, *b = r.middle, *c = r.last;
@@ -285,7 +285,7 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
     return fmax(by_mass, by_density) / 2;
 }
 
-/* Where a quadratic through both ends and the middle misses most, and on either side of that. */
+/* Where a quadratic through both ends and the middle misses most, and on either side of these places. */
 static const double PROBES[] = {0.1, 0.22, 0.35, 0.65, 0.78, 0.9};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)

@@ -1,5 +1,4 @@
-/* Azimuth rows of one side of the horizon, for a profile. The coordinate y in [0, 1] is
- * that of vndf_wedge. */
+/* Azimuth rows of one side of the horizon, for a profile. The coordinate y in [0, 1] is the one of vndf_wedge. */
 #ifndef VNDF_FIT_WEDGE_FIT_H
 #define VNDF_FIT_WEDGE_FIT_H
 
@@ -23,25 +22,25 @@ typedef struct vndf_row {
     float mass[VNDF_WEDGE_CELLS_MAX], density[VNDF_WEDGE_CELLS_MAX + 1];
 } vndf_row;
 
-/* Places the cells of q as well: as many as it takes to miss no more than `enough` of the mass in any row, but not
- * more than most_cells; and uses them all. 0 if there is no memory. */
+/* Also places the cells of q: as many as it takes to miss at most `enough` of the mass in any row, but at most
+ * most_cells; and uses them all. 0 if there is no memory. */
 int vndf_wedge_fit_from(vndf_wedge_fit *fit, vndf_side side, uint32_t most_cells, double enough);
 
-/* How many cells miss no more than `error`. */
+/* How many cells it takes to miss at most `error`. */
 uint32_t vndf_wedge_fit_cells(const vndf_wedge_fit *fit, double error);
 
-/* From now on, rows of the first `cells` that were placed: rows made before are gone. */
+/* From now on rows have the first `cells` cells that were placed. Rows made before are gone. */
 void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells);
 void vndf_wedge_fit_free(vndf_wedge_fit *fit);
 
 /* The row at y; NULL if there is no memory. Belongs to the fit. */
 const vndf_row *vndf_wedge_fit_row(vndf_wedge_fit *fit, double y);
 
-/* The row between two others with which they are mixed as a quadratic Bezier curve: exact halfway. */
+/* The middle row that makes two others a quadratic Bezier curve, which is exact halfway. */
 void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, vndf_row *middle);
 
-/* Largest total variation of azimuth between the rows at a and b, times the wedge's share of what is seen
- * there: a vndf_interval_error with a vndf_wedge_fit. */
+/* Largest total variation of azimuth between the rows at a and b, times the share of the visible mass that the
+ * wedge has there. A vndf_interval_error with a vndf_wedge_fit. */
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *fit);
 
 #endif

@@ -7,7 +7,7 @@
 #include "source/source.h"
 #include "source/words.h"
 
-enum { OPERATIONS = 8 }; /* of a call, whatever it does: a guess */
+enum { OPERATIONS = 8 }; /* the cost of a call, whatever it does: a guess */
 
 typedef struct callback_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
@@ -34,7 +34,7 @@ static void destroy(vndf_source *self)
     free(self);
 }
 
-/* option is no option of `vndf build`: a shell cannot bring a function. It says what the table came from. */
+/* `vndf build` has no such option, since a shell cannot bring a function. It says what the table came from. */
 static vndf_source *make(const char *option, vndf_density_function *density, void *user, const char *name,
                          double (*p22)(const vndf_source *, double), vndf_error *error)
 {

@@ -1,5 +1,6 @@
-/* Numbers as text. The C library rounds correctly but follows the locale, so its decimal point is put in
- * before strtod and taken out after snprintf; the grammar is checked here, since strtod takes more than ours. */
+/* Numbers as text. The C library rounds correctly but follows the locale: this file puts the locale's decimal
+ * point in before strtod and takes it out after snprintf. It checks the grammar itself, since strtod accepts
+ * more. */
 #include "source/number.h"
 
 #include <locale.h>
@@ -16,7 +17,7 @@ static size_t digits(const char *text, size_t size, size_t at)
     return count;
 }
 
-/* An e without digits behind it belongs to what follows the number. */
+/* An e without digits behind it belongs to the text after the number. */
 static size_t exponent(const char *text, size_t size, size_t at)
 {
     size_t start = at + 1;
@@ -67,7 +68,7 @@ int vndf_number_is_all(const char *text, size_t size, double *value)
 
 const char *vndf_number_print(char out[VNDF_NUMBER_TEXT], double value)
 {
-    char text[VNDF_NUMBER_TEXT]; /* gcc's sanitizers would have it that out may be NULL */
+    char text[VNDF_NUMBER_TEXT]; /* gcc's sanitizers would warn that out may be NULL */
     for (int precision = 15; precision <= 17; precision++) {
         snprintf(text, sizeof text, "%.*g", precision, value);
         if (strtod(text, NULL) == value)

@@ -1,4 +1,4 @@
-/* Provenance read back. Descriptions come out of table files, so they are not trusted: every word is checked. */
+/* Reads provenance back. Descriptions come from table files, so they are not trusted: every word is checked. */
 #include "source/provenance.h"
 
 #include <string.h>

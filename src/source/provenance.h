@@ -4,8 +4,8 @@
 
 #include "vndf_build.h"
 
-/* The source that has this description. Understands --ndf, --slope, --set and --family; refuses the
- * description of a CSV or a callback (VNDF_ERROR_ARGUMENT: what made them is not in it), and of anything else. */
+/* Makes the source that has this description. It understands --ndf, --slope, --set and --family, and refuses any
+ * other (VNDF_ERROR_ARGUMENT): the descriptions of a CSV and of a callback do not hold the data. */
 vndf_source *vndf_source_from_description(const char *description, vndf_error *error);
 
 #endif

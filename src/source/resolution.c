@@ -1,4 +1,4 @@
-/* See resolution.h. Descriptions come out of table files, so they are not trusted. */
+/* See resolution.h. Descriptions come from table files, so they are not trusted. */
 #include "source/resolution.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static int is_pair(const vndf_words *words, size_t i)
            vndf_number_is_all(number, strlen(number), &value);
 }
 
-/* The first two words name the source. */
+/* The first two words always belong to the source. */
 size_t vndf_resolution_start(const vndf_words *words)
 {
     size_t count = words->count;
@@ -66,7 +66,7 @@ vndf_status vndf_resolution_read(const char *description, double room[VNDF_LIMIT
     vndf_words words;
     vndf_error inner = {VNDF_OK, ""};
     *r = (vndf_resolution){room, 0, 0};
-    if (vndf_words_split(description, &words, &inner) != VNDF_OK) /* whose words nobody can read says nothing */
+    if (vndf_words_split(description, &words, &inner) != VNDF_OK) /* unreadable words set no resolution */
         return inner.status == VNDF_ERROR_SYNTAX ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
     for (size_t i = vndf_resolution_start(&words); i + 1 < words.count; i += 2) {
         double value = 0;

@@ -1,4 +1,5 @@
-/* A curve that is known at rows too many to be all breaks, seen between two places: how far it strays from the chord. */
+/* A curve known at rows, of which there are too many for all to be breaks. Between two places: how far it strays
+ * from the chord. */
 #ifndef VNDF_SOURCE_ROWS_H
 #define VNDF_SOURCE_ROWS_H
 
@@ -14,8 +15,8 @@ typedef struct vndf_rows {
 int vndf_rows_allocate(vndf_rows *rows, size_t count);
 void vndf_rows_free(vndf_rows *rows);
 
-/* integral over [u0, u1] of |f - chord|, at most; f0 and f1 are f at the ends. 0 within one pair of rows, for what
- * the curve is there no more rows can tell. */
+/* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
+ * rows, where the rows say nothing more about the curve. */
 double vndf_rows_stray(const vndf_rows *rows, double u0, double f0, double u1, double f1);
 
 #endif

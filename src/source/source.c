@@ -1,4 +1,4 @@
-/* What all kinds of source have in common, seen from outside. */
+/* The public calls that all kinds of source have in common. */
 #include "source/source.h"
 
 double vndf_source_p22(const vndf_source *source, double r)

@@ -1,13 +1,13 @@
-/* What every kind of source is to the builder: an unnormalised P22(r), where it is not smooth, and
- * the words that made it. Each kind (expression.c, csv.c, family.c, callback.c) embeds vndf_source as its
- * first member and fills it. */
+/* A source as the builder sees it, whatever its kind: an unnormalised P22(r), the slopes where it is not smooth,
+ * and the words that made it. Each kind (expression_source.c, csv.c, family.c, callback.c) embeds vndf_source as
+ * its first member and fills it. */
 #ifndef VNDF_SOURCE_SOURCE_H
 #define VNDF_SOURCE_SOURCE_H
 
 #include "vndf_build.h"
 
-/* What p22 can do for r in [low, high]: its bounds, and how much of it may stray from what a few points tell -
- * the integral over log r of |p22 r^2 - some cubic in log r|, at most. Infinite where nothing is known. */
+/* Bounds of p22 for r in [low, high], and `stray`, a bound of what a few points may miss: the integral over log r
+ * of |p22 r^2 - some cubic in log r|. Infinite where nothing is known. */
 typedef struct vndf_reach {
     double low, high, stray;
 } vndf_reach;
@@ -18,7 +18,7 @@ struct vndf_source {
     char *description;                                /* arguments of `vndf build`, owned */
     const double *breaks;                             /* ascending slopes of known kinks and jumps, or NULL */
     size_t break_count;
-    int rebuildable;   /* description alone makes the same source again */
+    int rebuildable;   /* the description alone makes the same source again */
     double operations; /* what an evaluation costs (vndf_build.h, limits) */
     double rounding;   /* relative: P22 is no smoother than that */
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */

@@ -1,11 +1,11 @@
-/* The words of a command line as one text: growing text, quoting as a shell wants it, and its undoing;
- * and short printable excerpts of input for error messages. */
+/* The words of a command line as one text: text that grows, quoting as a shell wants it, and splitting into words
+ * again. Also short printable excerpts of input, for error messages. */
 #ifndef VNDF_SOURCE_WORDS_H
 #define VNDF_SOURCE_WORDS_H
 
 #include "vndf.h"
 
-/* Text that grows; zeroed is empty. A failure to allocate is remembered until vndf_text_finish. */
+/* Text that grows; a zeroed one is empty. It remembers a failed allocation until vndf_text_finish. */
 typedef struct vndf_text {
     char *bytes;
     size_t length, capacity;
@@ -18,7 +18,7 @@ void vndf_text_add(vndf_text *text, const char *string);
  * in single quotes. Control characters become spaces, so that the text stays one line. */
 void vndf_text_add_word(vndf_text *text, const char *word);
 
-/* The text, to be freed by the caller; NULL and VNDF_ERROR_MEMORY if it could not grow. */
+/* The text, which the caller frees; NULL and VNDF_ERROR_MEMORY if it could not grow. */
 char *vndf_text_finish(vndf_text *text, vndf_error *error);
 
 /* A line split into words. */
@@ -28,11 +28,11 @@ typedef struct vndf_words {
     size_t count;
 } vndf_words;
 
-/* Splits at blanks; '...' and backslash quote. On failure words is empty and needs no freeing. */
+/* Splits at blanks; '...' and backslash quote. On failure `words` is empty and needs no freeing. */
 vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *error);
 void vndf_words_free(vndf_words *words);
 
-/* The first characters of text, fit for a message: unprintable ones as '?', "..." where it is cut. */
+/* The first characters of text, for a message: '?' for an unprintable character, "..." where it is cut. */
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
 

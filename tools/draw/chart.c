@@ -23,7 +23,7 @@ void chart_escape(FILE *file, const char *text)
 /* ---- colours ------------------------------------------------------------------------------------- */
 
 typedef struct ink {
-    const char *mark, *text; /* of curves and marks; of texts, which need more contrast */
+    const char *mark, *text; /* for curves and marks; for texts, which need more contrast */
 } ink;
 
 static const ink light[CHART_COLOURS] = {{"#0072b2", "#005f96"}, {"#d55e00", "#a94a00"}, {"#009e73", "#007354"},
@@ -74,7 +74,7 @@ static double pixel_x(const chart *c, const chart_frame *f, double x)
     return f->left + f->width * chart_place(&c->x, x);
 }
 
-/* A zero lies in the band, where there is one. */
+/* A zero lies in the band, if the chart has one. */
 static double pixel_y(const chart *c, const chart_frame *f, double y)
 {
     if (f->band > 0 && y == 0)
@@ -176,7 +176,7 @@ static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, do
                 mark == CHART_CROSS ? "mark l" : "f", colour, x, y, outlines[mark]);
 }
 
-/* Labels are to stay off a line. */
+/* Keeps labels off a line. */
 static void take_line(chart_taken *taken, double x1, double y1, double x2, double y2)
 {
     double steps = ceil(hypot(x2 - x1, y2 - y1) / 6);
@@ -207,7 +207,7 @@ static void draw_series(FILE *file, const chart *c, const chart_frame *f, const 
         }
 }
 
-/* One after the other, from the left of the frame. */
+/* Draws the entries one after the other, from the left of the frame. */
 static void draw_key(FILE *file, const chart *c, const chart_frame *f)
 {
     double x = f->left, y = f->top - 14;

@@ -1,6 +1,6 @@
-/* Placing of texts. Labels beside points are placed one after the other: of some places around the point, near
- * ones first, the one that covers the least of what is there already. Labels at the ends of curves stand in a
- * column and push each other apart. */
+/* Places texts. Labels beside points are placed one after the other: a label tries some places around its point,
+ * near places first, and takes the one where it covers least of the drawing. Labels at the ends of curves stand in
+ * a column and push each other apart. */
 #include "draw/chart.h"
 
 #include <math.h>
@@ -89,7 +89,8 @@ static int by_height(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Down from the top, each at least a line below the one before; then up from the bottom, likewise. */
+/* Goes down from the top, each label at least a line below the one before; then up from the bottom in the same
+ * way. */
 static void spread(chart_end *ends, size_t count, double top, double bottom)
 {
     double at = top;

@@ -1,9 +1,8 @@
-/* Matches are found by chains of equal hashes, greedily; symbols are gathered in blocks, and each block gets
- * Huffman codes for what it counts. Lengths above the limit are avoided by flattening the counts, which costs
- * little. The lengths of codes go into a block's head one by one, without runs: some 200 bytes of a block of
- * 32768 symbols.
+/* Finds matches greedily by chains of equal hashes, gathers symbols in blocks, and gives each block Huffman codes
+ * for its counts. If a code is too long, the counts are flattened, which costs little. The lengths of codes go
+ * into the head of a block one by one, without runs: some 200 bytes for a block of 32768 symbols.
  *
- * * Map: bits, codes, symbols of a match, blocks, matches, checksum. */
+ * Map: bits, codes, symbols of a match, blocks, matches, checksum. */
 #include "draw/deflate.h"
 
 #include <stdint.h>
@@ -31,7 +30,7 @@ typedef struct bits {
     unsigned count;
 } bits;
 
-/* Room for `more` bytes; on failure data is NULL and stays so. */
+/* Makes room for `more` bytes; on failure data becomes NULL and stays so. */
 static void reserve(bits *b, size_t more)
 {
     if (!b->data || b->room - b->size >= more)
@@ -43,7 +42,7 @@ static void reserve(bits *b, size_t more)
     b->data = larger;
 }
 
-/* Up to 16 bits; there is room for them. */
+/* Writes up to 16 bits; room for them is reserved. */
 static void put_bits(bits *b, unsigned value, unsigned count)
 {
     b->hold |= (uint32_t)value << b->count;
@@ -57,7 +56,7 @@ typedef struct code {
     unsigned length[LITERALS], bits[LITERALS];
 } code;
 
-/* Of the nodes without a parent the one of least weight. */
+/* Takes the lightest node without a parent. */
 static int take_least(uint32_t *weight, int nodes)
 {
     int least = -1;
@@ -67,7 +66,7 @@ static int take_least(uint32_t *weight, int nodes)
     return least;
 }
 
-/* Huffman's lengths of codes; returns the longest. */
+/* The lengths of Huffman codes; returns the longest. */
 static unsigned tree_lengths(const uint32_t *count, int symbols, unsigned *length)
 {
     uint32_t weight[2 * LITERALS];
@@ -107,8 +106,8 @@ static unsigned reversed(unsigned value, unsigned count)
     return result;
 }
 
-/* The code of the counts, with codes of at most `most` bits: canonical, as RFC 1951, 3.2.2 has it. Readers want two
- * symbols at least. */
+/* The canonical code (RFC 1951, 3.2.2) for the counts, with at most `most` bits a symbol. Readers expect at least
+ * two symbols. */
 static void make_code(uint32_t *count, int symbols, unsigned most, code *made)
 {
     unsigned next = 0;
@@ -132,7 +131,7 @@ static void make_code(uint32_t *count, int symbols, unsigned most, code *made)
 /* ---- matches as symbols ---- */
 
 typedef struct span {
-    unsigned symbol, extra, rest; /* the symbol, and how many bits of what follow it */
+    unsigned symbol, extra, rest; /* the symbol, the number of extra bits behind it, and their value */
 } span;
 
 /* Groups of two or four symbols, each group with twice the range of the one before (RFC 1951, 3.2.5). */
@@ -165,7 +164,7 @@ static span distance_span(unsigned distance)
 
 /* ---- blocks ---- */
 
-/* A literal where length is 0. */
+/* A literal if length is 0, else a match. */
 typedef struct token {
     uint16_t length, value; /* value: the byte, or the distance less 1 */
 } token;
@@ -174,7 +173,8 @@ typedef struct packer {
     bits out;
     token tokens[BLOCK];
     size_t count;
-    uint32_t head[HASHES], before[WINDOW]; /* place + 1 of the last of a hash, and of the one before each */
+    uint32_t head[HASHES],
+        before[WINDOW]; /* place + 1 of the last with each hash, and of the one before each place */
 } packer;
 
 static void put_head(bits *out, const code *literal, const code *distance)

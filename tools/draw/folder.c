@@ -39,7 +39,7 @@ static int has_our_page(const char *command, const char *folder)
     return strstr(head, mark) != NULL;
 }
 
-/* 1, 0, or -1 if it cannot be read. */
+/* Returns 1 or 0; -1 if the folder cannot be read. */
 static int is_empty(const char *folder)
 {
     DIR *directory = opendir(folder);
@@ -53,7 +53,7 @@ static int is_empty(const char *folder)
     return empty;
 }
 
-/* Whether a folder can be made where `path` says; what stands before its last name has to be there. */
+/* Whether a folder can be made at `path`: the folder around it must exist. */
 static int can_be_made(const char *path)
 {
     size_t length = strlen(path);
@@ -112,8 +112,8 @@ typedef struct opened_files {
     size_t count;
 } opened_files;
 
-/* Byte for byte. Then it is left alone: it may be an input that the page only repeats, as the reference of an
- * earlier comparison. */
+/* Whether the file is there already, byte for byte. Then it is left alone: it may be an input that the page only
+ * repeats, as the reference of an earlier comparison. */
 static int is_there(const char *path, const page_file *file)
 {
     char part[4096];
@@ -146,7 +146,7 @@ static int write_temporary(opened_files *opened, const char *command, const char
     return complain(command, "cannot write '%s': %s", path, strerror(errno));
 }
 
-/* The files that are not committed go without a word: the reason has been told. */
+/* Removes the files that are not committed, without a message: the reason has been reported. */
 static void give_up(opened_files *opened, size_t from)
 {
     for (size_t i = from; i < opened->count; i++)
@@ -163,7 +163,7 @@ static int commit(opened_files *opened)
     return STATUS_GOOD;
 }
 
-/* The page, which is the first file, is renamed last, so that no page of a new report stands beside old data. */
+/* Renames the page, which is the first file, last, so that no new page stands beside old data. */
 static int write_files(const char *command, const char *folder, const page_file *files, size_t count,
                        unsigned held)
 {
@@ -189,6 +189,6 @@ int folder_write(const char *command, const char *path, const page_file *files, 
         return complain(command, "cannot make the folder '%s': %s", path, strerror(errno));
     int status = write_files(command, path, files, count, held);
     if (status != STATUS_GOOD && made)
-        rmdir(path); /* stays where something was committed */
+        rmdir(path); /* fails, and the folder stays, if a file was committed */
     return status;
 }

@@ -86,8 +86,8 @@ int page_data_end(html_page *page, const char *what)
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
-/* The figures of tools/draw/panels.h carry their colours as attributes, so that they also stand alone; on a dark screen
- * those that lie on the background are replaced. Pictures keep theirs. */
+/* The figures of tools/draw/panels.h carry their colours as attributes, so that they also stand alone. On a dark
+ * screen the colours on the background are replaced; pictures keep theirs. */
 static const char style[] =
     ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;--good:#00694c;"
     "--bad:#a94a00;--box:#f1f6fb;--link:#005f96}\n"

@@ -1,5 +1,5 @@
-/* The page: head with style, sections with a title, and the data behind each plot, which stands as a file beside
- * the page and once more inside it. All of it is held in memory until it is written at once. */
+/* The page: a head with its style, sections with a title, and the data behind each plot, in a file beside the page
+ * and again inside it. Memory holds the whole page until all files are written together. */
 #ifndef TOOLS_DRAW_PAGE_H
 #define TOOLS_DRAW_PAGE_H
 
@@ -22,14 +22,14 @@ typedef struct html_page {
     FILE *data; /* open between page_file_begin and its end */
 } html_page;
 
-/* OF-WHAT, with what is no letter or digit of `of` as a hyphen: the name of a file beside the page. */
+/* OF-WHAT, the name of a file beside the page: hyphens replace all but letters and digits of `of`. */
 void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what);
 
-/* By this, near its beginning, a page is known as one of `command`; room for PAGE_MARK_MAX. */
+/* The mark near the beginning of a page that names its `command`; needs PAGE_MARK_MAX bytes. */
 enum { PAGE_MARK_MAX = 96 };
 void page_mark(char mark[PAGE_MARK_MAX], const char *command);
 
-/* 0 if there is no memory; page_free is due in any case. */
+/* Returns 0 if there is no memory; call page_free in any case. */
 int page_begin(html_page *page, const char *command, const char *title);
 int page_end(html_page *page);
 void page_free(html_page *page);
@@ -38,11 +38,11 @@ void page_free(html_page *page);
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
 void page_section_end(html_page *page);
 
-/* A new file beside the page, to be filled; NULL if there is no memory. */
+/* Begins a new file beside the page, for the caller to fill; NULL if there is no memory. */
 FILE *page_file_begin(html_page *page, const char *name);
 int page_file_end(html_page *page);
 
-/* Ends a file that the page links and shows inside, folded. */
+/* Ends the file; the page links it and shows it inside, folded. */
 int page_data_end(html_page *page, const char *what);
 
 /* A field of a row between quotes. */

@@ -80,7 +80,7 @@ static double pixel_density(const vndf_view *view, double rim, size_t column, si
     return sum / (FINE * FINE);
 }
 
-/* The value below which all but one in 500 pixels lie: one bright pixel must not blacken the rest. */
+/* The value that only one in 500 pixels exceeds: one bright pixel must not darken the rest. */
 static double near_maximum(const double *density, double *scratch)
 {
     size_t inside = 0;
@@ -139,7 +139,7 @@ static void draw_grid(FILE *file, double rim_degrees, double x, double y, double
     }
 }
 
-/* Where wi itself is: a ring on the disc, or an arrow beyond the rim that points to it. */
+/* Shows wi itself: a ring on the disc, or an arrow beyond the rim that points to it. */
 static void draw_direction(FILE *file, vndf_vec3 wi, double rim, double x, double y, double radius)
 {
     double px = 2, py = 0;

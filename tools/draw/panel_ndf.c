@@ -15,7 +15,7 @@ typedef struct ndf_curve {
     const char *label, *stroke, *dashes;
 } ndf_curve;
 
-/* Pixels of the plot and the values at its borders. */
+/* The pixels of the plot and the values at its borders. */
 typedef struct log_axes {
     double left, top, width, height;
     double degrees; /* at the right */
@@ -62,7 +62,7 @@ static void fit_decades(log_axes *axes, const ndf_curve *curves)
     axes->decade_low = fmin(axes->decade_low, axes->decade_high - 2);
 }
 
-/* Cut where the curve leaves the plot, so that a support that ends looks like one. */
+/* Cuts the curve where it leaves the plot, so that the end of a compact support shows. */
 static void draw_curve(FILE *file, const log_axes *axes, const ndf_curve *curve)
 {
     int inside = 0;

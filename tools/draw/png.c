@@ -1,6 +1,6 @@
 /* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream
- * (deflate.h) of rows, each with a byte for its filter before it: none for a palette, and for colours the one of
- * the five whose differences are the smallest in sum (12.8): 30% fewer bytes for smooth noise, 3% for a noisy
+ * (deflate.h) of rows, each with a byte for its filter before it. A palette has no filter; colours take the one of
+ * the five filters with the smallest sum of differences (12.8): 30% fewer bytes for smooth noise, 3% for a noisy
  * rendering. */
 #include "draw/png.h"
 
@@ -65,14 +65,14 @@ static void write_base64(FILE *file, const unsigned char *data, size_t size)
 
 /* ---- rows ---- */
 
-/* Left, up, or upper left: the one that is nearest to left + up - upper left. */
+/* Left, up, or upper left, whichever is nearest to left + up - upper left. */
 static int paeth(int left, int up, int corner)
 {
     int a = abs(up - corner), b = abs(left - corner), c = abs(left + up - 2 * corner);
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/* What filter `kind` expects of byte i; the row above is NULL for the first one. */
+/* The prediction of filter `kind` for byte i; the row above is NULL for the first row. */
 static int expected(int kind, const unsigned char *row, const unsigned char *above, size_t i)
 {
     int left = i >= 3 ? row[i - 3] : 0, up = above ? above[i] : 0, corner = i >= 3 && above ? above[i - 3] : 0;
@@ -97,7 +97,7 @@ static unsigned long filter_row(int kind, const unsigned char *row, const unsign
     return sum;
 }
 
-/* All rows of three bytes a pixel; each takes one more of `best`. */
+/* Filters all rows of three bytes a pixel; each row takes one byte more in `best`. */
 static void filter_rows(const unsigned char *rgb, size_t width, size_t height, unsigned char *best)
 {
     size_t size = 3 * width;

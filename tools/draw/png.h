@@ -14,8 +14,7 @@ typedef struct colour {
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
                      const colour palette[256]);
 
-/* Writes width x height pixels of three bytes, rows from the top. 0 if there is no memory or the file takes no
- * more. */
+/* Writes width x height pixels of three bytes, rows from the top. 0 if there is no memory or writing fails. */
 int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height);
 
 #endif

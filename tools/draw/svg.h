@@ -1,5 +1,5 @@
-/* What the figures are drawn with: an SVG page and a few marks, in pixels from the top left. The
- * background is painted, so that a page is as legible in a dark viewer as on paper. */
+/* The tools of the figures: an SVG page and a few marks, in pixels from the top left. The background is
+ * painted, so that a page is as legible in a dark viewer as on paper. */
 #ifndef TOOLS_DRAW_SVG_H
 #define TOOLS_DRAW_SVG_H
 
@@ -27,13 +27,13 @@ void svg_line(FILE *file, double x1, double y1, double x2, double y2, const char
 void svg_circle(FILE *file, double x, double y, double radius, const char *fill, const char *stroke, double width);
 void svg_frame(FILE *file, double x, double y, double width, double height);
 
-/* Density from 0 to 1 to the index of the palette, 1 to 255; 0 is transparent, for outside. */
+/* The index of the palette, 1 to 255, for a density from 0 to 1; 0 is transparent, for outside. */
 unsigned char svg_shade(double density);
 
 /* A picture of such indices, square, `side` pixels on an edge. 0 if there is no memory. */
 int svg_raster(FILE *file, double x, double y, double size, const unsigned char *index, size_t side);
 
-/* The ramp itself as a bar. 0 if there is no memory. */
+/* Draws the ramp as a bar. 0 if there is no memory. */
 int svg_ramp(FILE *file, double x, double y, double width, double height);
 
 #endif

@@ -1,7 +1,7 @@
-/* A film is rendered in passes over all pixels: threads take rows, and a pass is added to the film when it is
- * whole. A sample's numbers depend on its pixel and index alone and are summed in their order, so that the sums
- * are the same to the bit for any number of threads. Small films take several samples in a pass, lest starting
- * threads be what costs. */
+/* Renders a film in passes over all pixels: threads take rows, and a complete pass is added to the film. The
+ * random numbers of a sample depend on its pixel and index alone, and samples are summed in order, so the sums are
+ * the same to the bit for any number of threads. Small films take several samples in a pass, so that starting
+ * threads does not dominate the time. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
@@ -50,7 +50,7 @@ static void unlock(pass *p)
 #endif
 }
 
-/* The next row to render, -1 if there is none left or the run was stopped. */
+/* The next row to render; -1 if no row is left or the run was stopped. */
 static int take_row(pass *p)
 {
     lock(p);
@@ -116,7 +116,7 @@ static void *other_thread(void *of)
 }
 #endif
 
-/* With fewer threads where the system gives no more. */
+/* Goes on with fewer threads if the system gives no more. */
 static void render_pass(pass *p)
 {
 #ifdef VNDF_TOOLS_PTHREADS
@@ -159,7 +159,7 @@ static uint64_t samples_of_pass(const film *f, uint64_t left)
     return samples < left ? samples : left;
 }
 
-/* What is done, of samples or of seconds. */
+/* The part of the samples or seconds that is done. */
 static double done_part(const film_run *run, uint64_t samples, double seconds)
 {
     double part = run->samples ? (double)samples / (double)run->samples : 0;

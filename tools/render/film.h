@@ -1,4 +1,5 @@
-/* All pixels, by threads: sums of samples, whose mean is the image. The same sums for any number of threads. */
+/* All pixels, rendered by threads: sums of samples, whose mean is the image. The sums do not depend on the number
+ * of threads. */
 #ifndef RENDER_FILM_H
 #define RENDER_FILM_H
 
@@ -10,7 +11,7 @@ typedef struct film {
     double *square;   /* of the luminance: its variance; width * height */
     uint64_t samples; /* a pixel, so far */
     double seconds;   /* spent rendering, all threads at once */
-    double processor; /* the same as time of processors, of all threads together */
+    double processor; /* processor time of all threads together */
     path_counts counts;
 } film;
 
@@ -28,17 +29,17 @@ typedef struct film_run {
     double seconds;   /* stop after so many, between passes; 0: no limit */
     unsigned threads;
     uint64_t seed;
-    int (*progress)(double done, void *user); /* other than 0 stops, between rows; may be NULL */
+    int (*progress)(double done, void *user); /* a result other than 0 stops between rows; may be NULL */
     void *user;
 } film_run;
 
-/* Adds samples; returns 0 if it was stopped before all were there (what is there stays: whole passes only). */
+/* Adds samples. Returns 0 if it was stopped early; the film then holds the complete passes. */
 int film_render(film *f, const path_plan *plan, const film_run *run);
 
-/* Samples a pixel that a pass over all of them takes. */
+/* Samples a pixel in one pass. */
 uint64_t film_pass_samples(const film *f);
 
-/* Threads that the machine runs at once, 1 to 256. */
+/* The number of threads that the machine runs at once, 1 to 256. */
 unsigned film_processors(void);
 
 /* The mean. 0 if there is no memory. */

@@ -42,13 +42,13 @@ static inline vndf_vec3 unit(vndf_vec3 a)
     return scale(a, 1.0f / sqrtf(dot(a, a)));
 }
 
-/* Of linear light (ITU-R BT.709). */
+/* The luminance of linear light (ITU-R BT.709). */
 static inline double luminance(const float rgb[3])
 {
     return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
-/* An orthonormal right-handed frame: directions of a material are in it, z the normal. */
+/* An orthonormal right-handed frame, z the normal: the directions of a material are in it. */
 typedef struct frame {
     vndf_vec3 x, y, z;
 } frame;

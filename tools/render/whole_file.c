@@ -12,7 +12,7 @@ static const char *why(void)
     return errno ? strerror(errno) : "it cannot be read";
 }
 
-/* Grows by half as it goes: a length that was asked for beforehand might be that of a pipe or a device. */
+/* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
 static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_t reason_size)
 {
     size_t room = 65536, count = 0;

@@ -1,4 +1,4 @@
-/* What is claimed of a table: the worst over directions, and of D and the area at all of their cells. */
+/* The claims about a table: the worst over directions; and the worst error of D and of the area, in all cells. */
 #include "fit/certificate/certificate.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Relative error of D at a slope; 0 in either end of the mass. */
+/* Relative error of D at a slope; 0 in the mass left out at either end. */
 static double ndf_miss(const vndf_survey *v, double r)
 {
     const vndf_profile *p = v->profile;
@@ -19,7 +19,7 @@ static double ndf_miss(const vndf_survey *v, double r)
     return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / truth - 1);
 }
 
-/* Its largest over the slopes that hold all but VNDF_SURVEY_LEFT_OUT, at even places of every cell. */
+/* The largest over the slopes that hold all but VNDF_SURVEY_LEFT_OUT of the mass, at even places of every cell. */
 static double ndf_error(const vndf_survey *v)
 {
     enum { PLACES = 24 };
@@ -33,8 +33,8 @@ static double ndf_error(const vndf_survey *v)
 /* ---- directions ----
  *
  * Over the angle of incidence the total variation has as many maxima as the table has parts: between the knots of
- * azimuth rows, where a quadratic misses a cubic; as the cut passes through a radial cell; and where the last of
- * what is claimed is seen. So that is where it is measured, beside some fixed directions; and then again between
+ * azimuth rows, where a quadratic misses a cubic; as the cut passes through a radial cell; and where the last part
+ * that is claimed is visible. The certificate measures there and in some fixed directions, and then again between
  * the two neighbours that promise most. */
 
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
@@ -45,7 +45,7 @@ static const double ELEVATIONS[] = {30, 10, 5, 3, 2, 1.5, 1.2, 1, 0.8, 0.6, 0.4,
 /* Where a quadratic through both ends and the middle of a span misses a cubic most. */
 static const double ROW_PEAKS[] = {0.21, 0.79};
 
-/* What is seen there, as powers of what is claimed: compact supports end within a small part of a degree. */
+/* The visible part there, as powers of the claimed part: compact supports end within a small part of a degree. */
 static const double LEVELS[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.96, 0.99, 0.999};
 
 enum {
@@ -53,7 +53,7 @@ enum {
     ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS,
     PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
-    SPANS_MOST = 40, /* of rows on a side, and of radial cells: of more, every second or third ... is looked at */
+    SPANS_MOST = 40, /* of rows on a side, and of radial cells: if there are more, takes every second, third ... */
     BETWEEN = 60,
     DIRECTIONS_MOST =
         ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT + BETWEEN
@@ -100,7 +100,7 @@ static void add_rows(circle *all, vndf_survey *v, const vndf_wedge *side)
         }
 }
 
-/* Cuts in the radial cells beyond which something is claimed. */
+/* Cuts in the radial cells, as long as something beyond the cut is claimed. */
 static void add_cuts(circle *all, vndf_survey *v)
 {
     const vndf_distribution *d = v->table;
@@ -129,7 +129,7 @@ static void add_levels(circle *all, vndf_survey *v)
     }
 }
 
-/* Between the two neighbours that promise most of the total variation, or of the weight. */
+/* Adds directions between the two neighbours that promise the largest total variation, or weight. */
 static void add_between(circle *all, vndf_survey *v, int by_weight)
 {
     int best = 0;
@@ -164,8 +164,8 @@ static void take(vndf_certificate *c, vndf_finding f, double theta)
     c->consistency = fmaxf(c->consistency, (float)f.consistency);
 }
 
-/* Largest relative error of the area at places of every piece of the spline below the horizon, from which all
- * areas come. */
+/* Largest relative error of the area at places in every piece of the spline below the horizon, the source of all
+ * areas. */
 static double area_error(const vndf_survey *v)
 {
     static const double places[] = {0.15, 0.35, 0.5, 0.65, 0.85};
@@ -181,13 +181,13 @@ static double area_error(const vndf_survey *v)
     return worst;
 }
 
-/* n where P22 is r^-n between two slopes. */
+/* The n with P22 ~ r^-n between two slopes. */
 static double power_between(const vndf_profile *profile, double r0, double r1)
 {
     return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
 }
 
-/* p where D = P22/cos^4 is cos^p towards the horizon. */
+/* The p with D = P22/cos^4 ~ cos^p towards the horizon. */
 static double horizon_power(const vndf_profile *profile)
 {
     double end = profile->panel[profile->count].r, power = power_between(profile, end / 16, end / 4) - 4;

@@ -1,5 +1,5 @@
-/* The certificate: what a table is worth, measured with the run time's own densities (those that vndf_pdf rounds
- * to float), areas and D against the profile of the source. */
+/* The certificate says how good a table is. It compares densities (before vndf_pdf rounds them to float), areas
+ * and D of the run time with the profile of the source. */
 #ifndef VNDF_FIT_CERTIFICATE_CERTIFICATE_H
 #define VNDF_FIT_CERTIFICATE_CERTIFICATE_H
 

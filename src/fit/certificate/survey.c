@@ -1,8 +1,8 @@
-/* The visible normals from one direction are integrated over half a turn of azimuth (both halves are
+/* Integrates the visible normals from one direction over half a turn of azimuth (both halves are
  * alike) and over slope, on Gauss points of the cells of either stage, so that every integrand is smooth
- * between the points; the cells that hold a jump of the mask, c + s cos(a) R = 0, end there. Where the profile has
+ * between the points. A cell that holds a jump of the mask, c + s cos(a) R = 0, ends there. Where the profile has
  * panels far narrower than a radial cell, the points follow the panels: a feature that the table cannot hold is
- * missed by the table, not by its measurement. Slopes of the points do not depend on the direction, so that P22 is
+ * missed by the table, not by the measurement. The slopes of the points do not depend on the direction, so P22 is
  * evaluated there once. */
 #include "fit/certificate/survey.h"
 
@@ -15,14 +15,15 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Cells of small tables are integrated in parts, at least so many in all: the table is measured, not the rule. */
+/* The cells of small tables are integrated in parts, at least this many in all, so that the rule errs less than
+ * the table. */
 enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, AZIMUTHS_LEAST = 512, FRONT_PANELS = 12 };
 
 /* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
  * that part of the cell's mass. */
 static const double NARROW = 0.25, HEAVY = 0.02;
 
-/* A cell with so small a part of a ray's mass is not looked into. */
+/* A cell with a smaller part of the mass of an azimuth is not integrated. */
 static const double CELL_LEAST = 1e-9;
 
 static uint32_t parts_for(uint32_t cells, uint32_t least)
@@ -30,7 +31,7 @@ static uint32_t parts_for(uint32_t cells, uint32_t least)
     return (least + cells - 1) / cells;
 }
 
-/* In double at the knots too: what is seen beyond a cut may be so narrow that a rounding of its end shows. */
+/* In double at the knots too: the visible part beyond a cut may be so narrow that rounding of its end shows. */
 double vndf_survey_slope(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
 {
     double xi = (double)part / parts, x0 = d->knots.x[cell], z0 = d->knots.z[cell];
@@ -65,11 +66,11 @@ static double place_of(knots k, double r)
     return inner / (inner + outer);
 }
 
-/* What rounding of its parts to float does to the slope of a normal, relative to it, in the mean; and from which
- * part of a stretch on that shows: at the edge of a compact support what is seen is thousands of floats wide. */
+/* The mean relative change of a normal's slope by rounding of the normal to float; and the part of a stretch from
+ * which it shows: at the edge of a compact support the visible part is only thousands of floats wide. */
 static const double FLOAT_ROUNDING = 2.8e-8, ROUNDING_LEAST = 1e-5;
 
-/* f of a cell changes by more than this: it takes the finer rule. */
+/* Whether f changes so much in a cell that the cell needs the finer rule. */
 static int is_steep(const vndf_radial_cell *cell)
 {
     const float steep = 1.3f;
@@ -127,8 +128,8 @@ static panels with_panel(panels p, double begin, double end, double mass, double
     return p.end == begin && end - p.begin < widest ? more : alone;
 }
 
-/* A part of a cell, divided at the panels in it that are features of their own; *panel is the first that ends in
- * it or beyond. */
+/* A part of a cell, divided at the panels in it that are features of their own; *panel is the first panel that
+ * ends in it or beyond. */
 static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *panel)
 {
     const vndf_profile *p = v->profile;
@@ -155,8 +156,8 @@ static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *
     return good && add_stretch(v, j, at, to);
 }
 
-/* The last cell has no end: a light tail is over next to where it begins, a heavy one holds some of the mass as far
- * out as there are doubles, and is drawn there with a density that has a limit. */
+/* The last cell has no end. A light tail ends next to its beginning; a heavy tail holds some mass as far out as
+ * doubles reach, where the table draws it with a density that has a limit. */
 static int add_last(vndf_survey *v, size_t *panel)
 {
     static const double ends[] = {0,      1.0 / 256, 1.0 / 64, 1.0 / 16, 0.25,     0.5,       0.75,
@@ -181,7 +182,7 @@ static int add_stretches(vndf_survey *v)
 
 /* ---- one azimuth ---- */
 
-/* One azimuth of a direction, with the weight that it has in the sum. */
+/* One azimuth of a direction, with its weight in the sum. */
 typedef struct ray {
     vndf_engine_ray drawn;
     double weight;
@@ -232,7 +233,7 @@ static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s
 
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
 
-/* Every radial cell that is seen, the one at the cut up to the cut. */
+/* Every visible radial cell; the cell at the cut up to the cut. */
 static void add_azimuth(vndf_survey *v, const ray *at)
 {
     const vndf_engine_ray *r = &at->drawn;
@@ -268,8 +269,8 @@ static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uin
     return at;
 }
 
-/* What the few rays of add_quarter take the mass of all azimuths for too little: without the radius many more can
- * be had, and cells of a jump's azimuth are steep. */
+/* How much the few azimuths of add_quarter underestimate the mass of all azimuths: without the radius many more
+ * azimuths cost little, and cells at the azimuth of a jump are steep. */
 static double azimuth_lack(const vndf_view *view, const quarter *turn, double taken)
 {
     uint32_t parts = parts_for(turn->cells, AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
@@ -332,8 +333,8 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-/* Largest truth/drawn when the points with the largest, that together hold VNDF_SURVEY_LEFT_OUT, are left out:
- * what is left is split until it is one value. */
+/* The largest truth/drawn, leaving out the points with the largest ratios that together hold VNDF_SURVEY_LEFT_OUT
+ * of the mass. Splits the rest until it is one value. */
 static double weight_of(vndf_survey *v)
 {
     double left = VNDF_SURVEY_LEFT_OUT, mass;
@@ -365,7 +366,7 @@ static double weight_of(vndf_survey *v)
 vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
 {
     vndf_finding f = {0, 0, 0, 0, 0};
-    s = (float)s; /* the direction that the run time is given */
+    s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
     double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, truth = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
@@ -389,7 +390,7 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
         truth += v->samples[i].truth;
         miss += fabs(v->samples[i].drawn - v->samples[i].truth);
     }
-    f.tv = fmin((miss + fabs(truth - 1) + v->blur) / 2, 1); /* what no point sees of the truth is missed, too */
+    f.tv = fmin((miss + fabs(truth - 1) + v->blur) / 2, 1); /* truth that no point meets is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
     f.max_weight = weight_of(v);
     return f;

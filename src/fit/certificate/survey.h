@@ -1,26 +1,26 @@
-/* One direction of incidence: what a table draws there, against what is true. */
+/* One direction of incidence: the density that a table draws there, against the true one. */
 #ifndef VNDF_FIT_CERTIFICATE_SURVEY_H
 #define VNDF_FIT_CERTIFICATE_SURVEY_H
 
 #include "fit/profile/profile.h"
 #include "table/table.h"
 
-/* Mass that the largest weight and the error of D do without. */
+/* The part of the mass that the largest weight and the error of D leave out. */
 #define VNDF_SURVEY_LEFT_OUT 1e-6
 
-/* One Gauss point of a direction: density in slope area, times its share of the area, parts of the two masses. */
+/* One Gauss point of a direction: its parts of the true and of the drawn mass. */
 typedef struct vndf_survey_point {
     double truth, drawn;
 } vndf_survey_point;
 
-/* A stretch of a radial cell, in xi, and its Gauss points: of all radial cells, in order. */
+/* A stretch of a radial cell, in xi, and its Gauss points. The stretches of all cells stand in order. */
 typedef struct vndf_survey_stretch {
     double from, to;
     uint32_t cell, first, count; /* points */
 } vndf_survey_stretch;
 
-/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR; and how far the rounding of a
- * normal to float moves xi, 0 where that is nothing beside the stretch. */
+/* A Gauss point where the cell is not cut: xi, weight per xi, slope and P22 R dR; and how far rounding of a
+ * normal to float moves xi, 0 where that is negligible beside the stretch. */
 typedef struct vndf_survey_node {
     double xi, weight, r, mass, rounding;
 } vndf_survey_node;
@@ -34,16 +34,16 @@ typedef struct vndf_survey {
     vndf_survey_point *samples; /* of one direction after the other */
     size_t count, capacity;
     double area; /* true area of the direction, for s + |c| = 1 */
-    double lack; /* of its drawn mass, for what the samples leave out */
+    double lack; /* the drawn mass that the samples leave out */
     double blur; /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_survey;
 
 typedef struct vndf_finding {
-    double tv, max_weight, consistency, area_error; /* vndf_certificate says what they are */
+    double tv, max_weight, consistency, area_error; /* as in vndf_certificate */
     int measured;                                   /* 0 where nothing is claimed */
 } vndf_finding;
 
-/* 0 if there is no memory; to be freed either way. */
+/* 0 if there is no memory; free it either way. */
 int vndf_survey_from(vndf_survey *survey, const vndf_distribution *table, const vndf_profile *profile);
 void vndf_survey_free(vndf_survey *survey);
 

@@ -15,7 +15,7 @@ vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error)
     vndf_profile *profile = vndf_profile_from(source, NULL, &guard, error);
     vndf_truth *truth = profile ? malloc(sizeof *truth) : NULL;
     if (profile)
-        profile->guard = NULL; /* no counter is shared: areas may be asked for by several threads */
+        profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
     if (truth)
         truth->profile = profile;
     else if (profile) {

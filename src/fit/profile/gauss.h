@@ -6,7 +6,8 @@
 enum { VNDF_GAUSS = 10, VNDF_GAUSS_COARSE = 4 };
 
 extern const double vndf_gauss_node[VNDF_GAUSS], vndf_gauss_weight[VNDF_GAUSS];
-/* The polynomial through values at the nodes is sum w_i f_i/(x - x_i) over sum w_i/(x - x_i): w, but for a factor. */
+/* Barycentric weights w, up to a common factor: the polynomial through values f_i at the nodes is
+ * sum w_i f_i/(x - x_i) over sum w_i/(x - x_i). */
 extern const double vndf_gauss_barycentric[VNDF_GAUSS];
 
 extern const double vndf_gauss_coarse_node[VNDF_GAUSS_COARSE], vndf_gauss_coarse_weight[VNDF_GAUSS_COARSE];

@@ -1,5 +1,5 @@
-/* Panels: see profile.h. The recursion first halves every octave four times without question, so that a
- * narrow ring is seen, and takes halves back where the whole does as well. */
+/* Panels: see profile.h. The recursion first halves every octave four times unconditionally, so that it meets a
+ * narrow ring, and merges two halves where the whole is as good. */
 #include "fit/profile/profile.h"
 
 #include <float.h>
@@ -18,13 +18,14 @@ static const double PANEL_TOLERANCE = 1e-10, FLOOR = 1e-26;
 static const double NEGLIGIBLE = 1e-45;  /* of the peak: far below the floor, for views deep below the horizon */
 static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
 static const double LEAST = 1e-290;      /* a product with a slope or two remains a normal double */
-static const double SAME_EDGE = 1e-13;   /* in log R: narrower than where resolve() calls it a jump */
-static const double ROUNDED = 4e-16;     /* of a slope: what points may be off by */
-static const double POWER_MARGIN = 1e-6; /* an exponent this close to the limit of what is integrable is at it */
-static const double POLE_LOST = 1e-6;    /* part of the mass that may lie below the first panel, */
-static const double TAIL_LOST = 2e-3;    /* of the area at grazing incidence beyond the last: one cell draws it */
-static const double NARROW = 1.01;       /* ratio of a panel's ends that was cut for what is in it */
-static const double SAME_MASS = 1e-7;    /* two passes agree */
+static const double SAME_EDGE = 1e-13;   /* in log R: below the width that resolve() calls a jump */
+static const double ROUNDED = 4e-16;     /* of a slope: the error of points */
+static const double POWER_MARGIN =
+    1e-6; /* an exponent this close to the limit of integrable ones counts as the limit */
+static const double POLE_LOST = 1e-6; /* part of the mass that may lie below the first panel, */
+static const double TAIL_LOST = 2e-3; /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double NARROW = 1.01;    /* ratio of the ends of a panel that was cut for a feature */
+static const double SAME_MASS = 1e-7; /* two passes agree */
 
 static double floor_at(const vndf_profile *profile, double r)
 {
@@ -55,8 +56,7 @@ double vndf_profile_p22(const vndf_profile *profile, double r)
 
 /* ---- panels ---- */
 
-/* Ten points of a panel: its moments as far as they tell, and how far m0 may be off because they and P are
- * rounded. */
+/* The moments of a panel by ten points, and how far rounding of the points and of P may move m0. */
 typedef struct estimate {
     double m0, m1, noise;
 } estimate;
@@ -79,7 +79,7 @@ static estimate rule(vndf_profile *profile, double u0, double u1)
     return sum;
 }
 
-/* Room for one more panel and the outer end; 0, and a note, if there is no memory. */
+/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
 static int grow(vndf_profile *profile)
 {
     if (profile->count + 1 < profile->capacity)
@@ -115,7 +115,8 @@ static int stopped(const vndf_profile *profile)
     return profile->rough || vndf_guard_stopped(profile->guard);
 }
 
-/* What rounding inside a formula, as in 1 - cos r, may add to m0: twice what bounds at one slope are apart. */
+/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one
+ * slope. */
 static double roughness(const vndf_profile *profile, double u0, double u1)
 {
     double r = exp((u0 + u1) / 2) * profile->scale;
@@ -146,7 +147,7 @@ static void resolve(vndf_profile *profile, double u0, double u1, estimate whole,
     resolve(profile, u0, middle, l, depth + 1, least);
     resolve(profile, middle, u1, r, depth + 1, least);
     if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !stopped(profile)) {
-        profile->count = first; /* neither half needed more: the whole will do */
+        profile->count = first; /* neither half needed more: the whole is enough */
         push(profile, u0, sum, 0);
     }
 }
@@ -156,7 +157,7 @@ static double integrand(vndf_profile *profile, double r)
     return density(profile, r) * r * r;
 }
 
-/* The largest integrand per octave and at the edges, for what is negligible beside it. */
+/* The largest integrand per octave and at the edges; far smaller values are negligible. */
 static double peak(vndf_profile *profile)
 {
     double most = 0.0;
@@ -167,7 +168,7 @@ static double peak(vndf_profile *profile)
     return most;
 }
 
-/* Drops what is too close to the one before it. */
+/* Drops edges that are too close to the one before. */
 static size_t thin(double *edge, size_t count)
 {
     size_t kept = 0;
@@ -222,7 +223,7 @@ static double exponent(vndf_profile *profile, double r0, double r1)
     return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
 }
 
-/* What lies beyond the panels, by the power that P falls with there. */
+/* The moments beyond the panels, by the power with which P falls there. */
 static void measure_tail(vndf_profile *profile)
 {
     double end = profile->panel[profile->count].r, p = density(profile, end), n = exponent(profile, end / 4, end);
@@ -294,7 +295,7 @@ static vndf_status check_values(const vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-/* Both ends are integrable, and what lies beyond the panels is little. */
+/* Checks that both ends are integrable, and that little lies beyond the panels. */
 static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
 {
     double tail = exponent(profile, exp2(OCTAVES - 2), exp2(OCTAVES));
@@ -358,12 +359,12 @@ static double narrowest(const vndf_profile *profile)
     return p[at].r;
 }
 
-/* Pass 1 in the source's own unit; then at canonical scale with the floor, until the panels there find the
- * same mass: a peak that one pass has stepped over shows in the next, whose panels begin elsewhere. */
+/* Pass 1 works in the unit of the source, the next passes at canonical scale with the floor, until two find the
+ * same mass: a peak that one pass stepped over shows in the next, whose panels begin elsewhere. */
 static vndf_status settle(vndf_profile *profile, vndf_error *error)
 {
     enum { PASSES = 4 };
-    double most = peak(profile); /* first to a size that neither overflows nor vanishes */
+    double most = peak(profile); /* first scale to a size that neither overflows nor vanishes */
     if (most > 0.0 && most < LEAST_PEAK)
         return vndf_fail(
             error, VNDF_ERROR_DISTRIBUTION,
@@ -410,7 +411,8 @@ static int add_edges(vndf_profile *profile, const double *more, size_t more_coun
     return 1;
 }
 
-/* Ends of the panels that were cut more than all are: what one pass has met by chance the next ones look for. */
+/* The ends of panels that were cut more than by default: the next passes look where one pass met a feature by
+ * chance. */
 static int keep_edges(vndf_profile *profile)
 {
     const vndf_panel *p = profile->panel;
@@ -438,9 +440,9 @@ static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
                      proof->where, proof->hidden, proof->worst);
 }
 
-static const double FINEST = 1e-3; /* width of what samples find if nothing is said */
+static const double FINEST = 1e-3; /* the default width of features that samples find */
 
-/* The proof if there is one, else samples. 0 if there is no memory. */
+/* Tries the proof; without one, samples. 0 if there is no memory. */
 static int look_between(vndf_profile *profile, vndf_proof *proof)
 {
     profile->finest = 0.0;
@@ -453,7 +455,7 @@ static int look_between(vndf_profile *profile, vndf_proof *proof)
     return good && vndf_proof_by_samples(proof, profile, profile->finest);
 }
 
-/* 1 if panels have to be made anew, with more edges; else *status is the answer. */
+/* 1 if panels must be made anew, with more edges; else *status is the answer. */
 static int look_closer(vndf_profile *profile, int last, vndf_status *status, vndf_error *error)
 {
     vndf_proof proof = {0};
@@ -471,7 +473,7 @@ static int look_closer(vndf_profile *profile, int last, vndf_status *status, vnd
     return again;
 }
 
-/* Points first; then what lies between them, until nothing more is found. */
+/* Looks at points first, then between them, until it finds nothing more. */
 static vndf_status make(vndf_profile *profile, vndf_error *error)
 {
     enum { LOOKS = 12 };
@@ -492,7 +494,7 @@ static vndf_status make(vndf_profile *profile, vndf_error *error)
     }
 }
 
-/* Panels that are narrower the nearer they are to a break: what is there may be of any width. */
+/* Adds panels that are narrower the nearer they are to a break, where a feature may have any width. */
 static int add_break(vndf_profile *profile, double r)
 {
     enum { SHELLS = 20 };
@@ -530,7 +532,7 @@ vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution
     }
     profile->source = source;
     profile->guard = guard;
-    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* a look that fails may be followed by one that does not */
+    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* a pass that fails may precede one that succeeds */
     if (take_resolution(profile, resolution, &inner) && make(profile, &inner) == VNDF_OK)
         return profile;
     vndf_fail(error, inner.status, "%s", inner.message);

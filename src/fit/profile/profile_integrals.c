@@ -11,7 +11,7 @@
 
 static const double HALF_PI = 1.57079632679489661923;
 
-/* y - atan y: here the series errs by 1e-11 of it, the difference by 1e-13. */
+/* y - atan y: at this y the series has a relative error of 1e-11, the difference of 1e-13. */
 static const double SERIES_MOST = 0.05;
 
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
@@ -90,14 +90,14 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
 {
     const vndf_panel *p = &profile->panel[panel_of(profile, rho)], *end = &profile->panel[profile->count];
     if (rho >= end->r)
-        return profile->tail_m1 * end->r / rho; /* or a little more: nothing is held of it */
+        return profile->tail_m1 * end->r / rho; /* or a little more: no panel resolves it */
     double from = rho > p->r ? rho : p->r;
     double inside = p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1;
     return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
 }
 
-/* Kernels of the two areas by s, of their derivatives by y (see profile.h) and of s^3 times the second, at
- * R > k. */
+/* Kernels at R > k: of the two areas over s, of their first derivatives by y (see profile.h), and of the second
+ * derivatives times s^3. */
 typedef struct kernel {
     double mass, slope, curve;
 } kernel;
@@ -142,8 +142,8 @@ static void add_kernel(kernel *sum, kernel more, double weight)
     sum->curve += weight * more.curve;
 }
 
-/* The same for any length, in steps of a ratio at which the rule errs by less than 1e-9: in t a panel of an octave
- * that begins at k would err by 4e-6 where P falls as exp(-3 R). */
+/* The same for a range of any length, in steps whose ratio keeps the error of the rule below 1e-9. One panel of an
+ * octave that begins at k would err in t by 4e-6 where P falls as exp(-3 R). */
 static kernel near_panels(const vndf_profile *profile, double k, double from, double to, kernel_function *at)
 {
     const double ratio = 1.15;
@@ -155,7 +155,7 @@ static kernel near_panels(const vndf_profile *profile, double k, double from, do
     return sum;
 }
 
-/* integral from k outwards. Up to 3 k the root of the kernel is felt, and the panels are integrated anew. */
+/* Integral from k outwards. Up to 3 k the root of the kernel shows, and the panels are integrated anew. */
 static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
 {
     size_t i = panel_of(profile, k), count = profile->count;
@@ -225,7 +225,7 @@ vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y)
     return value;
 }
 
-/* A(w) - A(-w) = c: area_below has the one of the two that is below the horizon. */
+/* A(w) - A(-w) = c: area_below gives the area of w or -w, whichever is below the horizon. */
 double vndf_profile_area(const vndf_profile *profile, double s, double c)
 {
     double sum = s + fabs(c);

@@ -1,5 +1,5 @@
-/* Pieces of log r, ascending, in rounds: those that stray most are halved. A narrow feature is met by the bound of
- * the piece that holds it long before any point does. */
+/* Pieces of log r, ascending. Each round halves the pieces that stray most. The bound of a piece meets a narrow
+ * feature in it long before any point does. */
 #include "fit/profile/proof.h"
 
 #include <math.h>
@@ -8,13 +8,13 @@
 
 enum { PIECES_MAX = 400000, ROUNDS_MAX = 2000 };
 
-static const double STRAY = 5e-6, MISS = 5e-6; /* of all: proven, and found but not seen */
-static const double NOTHING = 1e-200;          /* of a P22 that is nowhere more than this */
+static const double STRAY = 5e-6, MISS = 5e-6; /* of all: how much may stray, and how much panels may miss */
+static const double NOTHING = 1e-200;          /* a P22 that nowhere exceeds this counts as 0 */
 static const double NARROW = 4e-16;            /* of its slope: a piece that cannot be halved */
 static const double BESIDE = 1e-13;            /* pieces end on both sides of a known break */
 
-/* From slope low to high, in the source's unit: how much of the integral of P22 r^2 du may stray, and what the value
- * in the middle says of that integral. */
+/* From slope low to high, in the unit of the source: how much of the integral of P22 r^2 du may stray, and the
+ * integral by the value in the middle. */
 typedef struct piece {
     double low, high, stray, mass;
     size_t panel;
@@ -25,7 +25,7 @@ typedef struct state {
     piece *piece, *halves;
     size_t count;
     double mass, slope; /* integrals of P22 r and of P22 r^2 by the values of the pieces */
-    double stray;       /* of all, as parts of them */
+    double stray;       /* of all pieces, as a part of the integrals */
 } state;
 
 /* ---- a piece ---- */
@@ -41,7 +41,7 @@ static int is_narrow(const piece *p)
     return p->high - p->low <= NARROW * p->high;
 }
 
-/* Between neighbouring doubles nothing can be looked at: about a pole that is not one of them they stand for it. */
+/* Nothing lies between neighbouring doubles. A pole between two of them is replaced by their values. */
 static double between_doubles(const vndf_profile *profile, const piece *p)
 {
     return 2 * log(p->high / p->low) * (integrand(profile, p->low) + integrand(profile, p->high));
@@ -58,7 +58,7 @@ static void look(const state *s, piece *p)
     p->mass = integrand(profile, sqrt(p->low) * sqrt(p->high)) * log(p->high / p->low);
 }
 
-/* What a part of the mass at its outer end is of all, of mass and area together. */
+/* The share that a part of a piece's mass, at its outer end, has in all mass and area together. */
 static double share(const state *s, const piece *p, double part)
 {
     return s->mass > 0.0 ? part * (1.0 / s->mass + p->high / s->slope) : part;
@@ -75,7 +75,7 @@ static void add(state *s, double low, double high, size_t panel)
     s->piece[s->count++] = p;
 }
 
-/* Ends move inwards by BESIDE: at a known break doubles and bounds may see different sides. */
+/* Moves ends inwards by BESIDE: at a known break doubles and bounds may be on different sides. */
 static void begin_at_breaks(state *s, double low, double high, size_t panel)
 {
     double inner = low * (1 + BESIDE), outer = high * (1 - BESIDE);
@@ -129,7 +129,7 @@ static double enough(const state *s)
     return s->mass > 0.0 ? STRAY : NOTHING;
 }
 
-/* Halves what is more than its part of what is too much; the number of halved pieces. */
+/* Halves the pieces that exceed their part of the allowance; returns how many. */
 static size_t halve(state *s)
 {
     double most = fmax(enough(s) / 2, s->stray / 8) / (double)s->count;
@@ -165,7 +165,7 @@ static void refine(state *s)
 
 /* ---- what the panels have seen ---- */
 
-/* The polynomials through the points on which a panel was accepted: those of its two parts. */
+/* The polynomials through the points on which a panel was accepted, one for each of its two parts. */
 typedef struct view {
     double inner, middle, outer; /* log of slopes in the source's unit */
     double value[2][VNDF_GAUSS];
@@ -183,7 +183,7 @@ static void view_panel(view *v, const vndf_profile *profile, size_t panel)
     }
 }
 
-/* P22 r^2 at exp(u) as they have it. */
+/* P22 r^2 at exp(u) by these polynomials. */
 static double seen(const view *v, double u)
 {
     int part = u > v->middle;
@@ -198,7 +198,7 @@ static double seen(const view *v, double u)
     return sum / weight;
 }
 
-/* Integral over a piece of |P22 r^2 - what was seen| by a few values. */
+/* The integral over a piece of |P22 r^2 - the polynomials| by a few values. */
 static double missed(const vndf_profile *profile, const view *v, const piece *p)
 {
     enum { PLACES = 3 };
@@ -218,7 +218,7 @@ static void take_edge(vndf_proof *proof, double r)
         proof->edge[proof->edge_count++] = r;
 }
 
-/* Misses of all pieces, as parts of all; their sum. */
+/* The misses of all pieces, as parts of the integrals; returns their sum. */
 static double compare(const state *s, double *miss)
 {
     double sum = 0.0;
@@ -285,14 +285,14 @@ int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile)
 
 enum { SAMPLE_EDGES = 1 << 16 };
 
-/* |P22 r^2 - what was seen| du at a sample that stands for du, as a part of all. */
+/* |P22 r^2 - the polynomials| du at a sample that represents du, as a part of the integrals. */
 static double missed_at(const vndf_profile *profile, const view *v, double u, double du)
 {
     double slope = exp(u), miss = fabs(integrand(profile, slope) - seen(v, u)) * du;
     return profile->f0 > 0.0 ? miss * (1.0 / profile->f0 + slope / profile->scale / profile->f1) : miss;
 }
 
-/* Adds what a panel has missed to what was found; keeps places that hold more than `least`. */
+/* Adds the miss of a panel to the sum; keeps the places that hold more than `least`. */
 static void sample_panel(vndf_proof *proof, const vndf_profile *profile, size_t panel, double width, double least)
 {
     view v;

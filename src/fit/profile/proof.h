@@ -1,7 +1,7 @@
-/* What the panels of a profile may have missed. They saw ten points each; between points a source that can be
- * bounded (vndf_reach) is followed over pieces, halved where its bound is wide, until all of it together strays by
- * no more than PROOF_STRAY from what a few values of each piece tell; and these values are compared with the
- * polynomials through the panels' own points. */
+/* How much the panels of a profile may have missed. A panel looked at ten points. Between points the proof follows
+ * a source that can be bounded (vndf_reach) over pieces. It halves pieces with a wide bound, until all pieces
+ * together stray by at most STRAY from a few values in each; then it compares these values with the polynomials
+ * through the points of the panels. */
 #ifndef VNDF_FIT_PROFILE_PROOF_H
 #define VNDF_FIT_PROFILE_PROOF_H
 
@@ -9,16 +9,16 @@
 
 typedef struct vndf_proof {
     double hidden;       /* bound on what panels missed, of the mass or of the area at grazing incidence */
-    double worst, where; /* largest bound of one place, as a part of them, and its slope in the source's unit */
-    int proven;          /* the bound is small enough, and so is what was found */
-    double *edge;        /* slopes in the source's unit about what was found and not seen, ascending; owned */
+    double worst, where; /* largest bound of one place, as such a part, and its slope in the source's unit */
+    int proven;          /* the bound and the miss that was found are small enough */
+    double *edge;        /* slopes in the source's unit about features that panels missed, ascending; owned */
     size_t edge_count;
 } vndf_proof;
 
-/* 0 if there is no memory or the build has to end; to be freed either way. Needs the profile's points. */
+/* 0 if there is no memory or the build must end; free it either way. Needs the points of the profile. */
 int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile);
-/* The same for a source that has no bound, by values no farther apart than half of `width` of their slope: what is as
- * wide is met. Nothing is proven of what is not; proven says that no more was found. */
+/* The same for a source that has no bound, by values at most half of `width` times their slope apart, which meet a
+ * feature of that width. Narrower features are not excluded; `proven` then means that no more was found. */
 int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width);
 
 void vndf_proof_free(vndf_proof *proof);

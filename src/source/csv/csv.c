@@ -1,4 +1,4 @@
-/* Distributions given by a measured curve: the rows of csv_read.c joined as csv.h says. */
+/* Distributions given by a measured curve: joins the rows of csv_read.c as csv.h says. */
 #include "source/csv/csv.h"
 
 #include <errno.h>
@@ -51,7 +51,7 @@ static double p22(const vndf_source *self, double r)
     return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
 }
 
-/* Between rows that are breaks the curve is one cubic, or its exponential: points tell all. */
+/* Between rows that are breaks the curve is one cubic, or the exponential of one: a few points determine it. */
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
     const csv_source *source = (const csv_source *)self;
@@ -110,7 +110,7 @@ static void fit_tail(csv_source *source, const vndf_csv_rows *rows)
         source->tail = fmax(4, log(p22_before / source->last_p22) / log(source->last_slope / before));
 }
 
-/* The slopes of the rows but 0 and infinity; every so many of them if there are too many. */
+/* The slopes of the rows except 0 and infinity; if there are too many, every n-th. */
 static void fill_breaks(csv_source *source, const vndf_csv_rows *rows)
 {
     size_t count = rows->count < BREAKS ? rows->count : BREAKS;
@@ -131,7 +131,7 @@ static double bend_of(const vndf_curve *curve, size_t i)
     return 4.0 / 27 * (fabs(curve->slope[i] * h - rise) + fabs(curve->slope[i + 1] * h - rise));
 }
 
-/* Rows at slope 0 and at 90 degrees are none. */
+/* Leaves out rows at slope 0 and at 90 degrees. */
 static void fill_rows(csv_source *source, const vndf_csv_rows *given)
 {
     vndf_rows *rows = &source->rows;
@@ -148,8 +148,9 @@ static void fill_rows(csv_source *source, const vndf_csv_rows *given)
     }
 }
 
-/* What the last digits of many rows add to the fourth differences, in the mean 6.7 standard deviations: twice one,
- * relative. More than ROUNDING_MOST is no rounding. */
+/* How far rounding moves the rows, relative: two standard deviations. The last digits of many rows make fourth
+ * differences of 6.7 standard deviations in the mean. Differences above ROUNDING_MOST do not come from
+ * rounding. */
 static double rounding_of(const csv_source *source)
 {
     const double *y = source->curve.y;
@@ -229,7 +230,7 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
 
 /* ---- files ------------------------------------------------------------------------------------ */
 
-/* Reads to the end; pipes have no size to ask for. NULL and an error if that fails. */
+/* Reads to the end, since a pipe does not tell its size. NULL and an error if that fails. */
 static char *read_stream(FILE *file, const char *path, size_t *size, vndf_error *error)
 {
     size_t capacity = 0, used = 0, got = 1;

@@ -4,16 +4,16 @@
  * slope (= tan theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0
  * or above, the second finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
  *
- * Between the rows: a shape-preserving cubic (curve.h). What is interpolated is the logarithm of the second
- * column if all its values are positive, so that a curve over many decades keeps its shape in each; if there
- * are zeros, the column itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic
- * beyond. s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost
- * as they stand (s >= last x), rows that double are joined in log x. s is kept within 1e-12 and 1e3 of the last x.
+ * Between the rows: a shape-preserving cubic (curve.h). It interpolates the logarithm of the second column if all
+ * values are positive, so that a curve over many decades keeps its shape in each; if there are zeros, the column
+ * itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic beyond.
+ * s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost as they
+ * stand (s >= last x), rows that double are joined in log x. s stays within 1e-12 and 1e3 of the last x.
  *
  * Below the first row: the second column keeps its first value.
  *
  * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
- * D is constant: finite at 90 degrees. (k = 4 too if the last two rows do not tell: P22 rises, or the last but
+ * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
  * one is at slope 0.) If the last value is 0, P22 is 0 beyond it. */
 #ifndef VNDF_SOURCE_CSV_CSV_H
 #define VNDF_SOURCE_CSV_CSV_H

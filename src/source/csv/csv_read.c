@@ -21,17 +21,17 @@ typedef struct span {
 } span;
 
 typedef struct reader {
-    span rest;       /* what has not been read */
+    span rest;       /* the text that has not been read */
     size_t line;     /* number of the current line, from 1 */
     size_t last_row; /* line of the row before */
-    size_t capacity; /* rows that there is room for */
+    size_t capacity; /* in rows */
     vndf_csv_rows *rows;
     vndf_error *error;
 } reader;
 
 static vndf_status refuse(const reader *r, const char *format, ...) VNDF_PRINTF(2, 3);
 
-/* The error that format says, with the current line before it. */
+/* An error with the message of `format`, and the current line before it. */
 static vndf_status refuse(const reader *r, const char *format, ...)
 {
     char text[sizeof r->error->message];
@@ -69,7 +69,7 @@ static span cut(span *s, char separator)
     return head;
 }
 
-/* The next line that says something, trimmed; size 0 at the end of the text. */
+/* The next line that is neither blank nor a comment, trimmed; size 0 at the end of the text. */
 static vndf_status next_line(reader *r, span *line)
 {
     while (r->rest.size > 0) {
@@ -109,7 +109,7 @@ static vndf_status read_header(reader *r)
     span line, field[2] = {{NULL, 0}, {NULL, 0}};
     size_t first = 0, second = 0;
     vndf_status status = next_line(r, &line);
-    r->line += status == VNDF_OK && r->line == 0; /* of an empty file: where it should be */
+    r->line += status == VNDF_OK && r->line == 0; /* an empty file lacks its header on line 1 */
     if (status == VNDF_OK && line.size == 0)
         return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
     if (status == VNDF_OK)
@@ -151,7 +151,7 @@ static vndf_status read_number(reader *r, span field, const char *name, double *
     return VNDF_OK;
 }
 
-/* Degrees to radians; 90 degrees is exact, and in radians what was rounded to nine digits counts as 90. */
+/* Degrees to radians. 90 degrees is exact; in radians an angle within 1e-9 of it counts as 90 degrees. */
 static vndf_status convert_angle(reader *r, double *x)
 {
     int degrees = r->rows->first == VNDF_CSV_THETA_DEG;
@@ -204,7 +204,7 @@ static vndf_status read_row(reader *r, span line)
         status = convert_angle(r, &x);
     if (status != VNDF_OK)
         return status;
-    /* Closer rows could not be told apart by the abscissa of the interpolation. */
+    /* The abscissa of the interpolation could not tell closer rows apart. */
     if (rows->count > 0 && !(x > rows->x[rows->count - 1] * (1 + 1e-12)))
         return refuse(r, "%s is %s, which is not above that of line %zu; rows must ascend and not repeat",
                       first_names[rows->first], vndf_excerpt(excerpt, field[0].text, field[0].size), r->last_row);
@@ -234,7 +234,7 @@ vndf_status vndf_csv_read(const char *text, size_t size, vndf_csv_rows *rows, vn
 {
     reader r = {{text, size}, 0, 0, 0, rows, error};
     *rows = (vndf_csv_rows){VNDF_CSV_SLOPE, VNDF_CSV_P22, NULL, NULL, 0};
-    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) { /* spreadsheets mark UTF-8 so */
+    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) { /* the mark of UTF-8 by spreadsheets */
         r.rest.text += 3;
         r.rest.size -= 3;
     }

@@ -29,8 +29,8 @@ static double secant(const vndf_curve *curve, size_t i)
     return (curve->y[i + 1] - curve->y[i]) / (curve->x[i + 1] - curve->x[i]);
 }
 
-/* The parabola's slope at a point between the secants a and b of widths p and q, cut down to what keeps
- * both sides monotone; 0 at a local extremum. */
+/* The slope of the parabola at a point between the secants a and b of widths p and q, reduced until both sides are
+ * monotone; 0 at a local extremum. */
 static double inner_slope(double a, double p, double b, double q)
 {
     double parabola = fabs((a * q + b * p) / (p + q));
@@ -88,6 +88,6 @@ double vndf_curve_value(const vndf_curve *curve, double x)
     double y0 = curve->y[i], y1 = curve->y[i + 1];
     double bend = t * u * (u * (curve->slope[i] * h) - t * (curve->slope[i + 1] * h));
     double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend;
-    /* Rounding alone could leave the range, and below zero there is no density. */
+    /* Rounding alone could leave the range, and a density must not be negative. */
     return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
 }

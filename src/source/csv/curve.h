@@ -2,7 +2,7 @@
  *
  * Piecewise cubic with the slopes of M. Steffen, "A simple method for monotonic interpolation in one
  * dimension", Astronomy and Astrophysics 239 (1990): continuous first derivative, monotone between any two
- * points (so no overshoot and nothing negative), exact for straight lines, third order elsewhere but at tops. */
+ * points (so no overshoot, and no negative value), exact for straight lines, third order except at maxima. */
 #ifndef VNDF_SOURCE_CSV_CURVE_H
 #define VNDF_SOURCE_CSV_CURVE_H
 
@@ -17,7 +17,7 @@ typedef struct vndf_curve {
 int vndf_curve_allocate(vndf_curve *curve, size_t count);
 void vndf_curve_fit(vndf_curve *curve);
 
-/* The value at x; outside the points, that of the nearest end. */
+/* The value at x; outside the points, the value of the nearest end. */
 double vndf_curve_value(const vndf_curve *curve, double x);
 
 void vndf_curve_free(vndf_curve *curve);

@@ -35,7 +35,7 @@ typedef struct family_source {
     size_t count;
 } family_source;
 
-/* A part of the specification; column is that of its first character, from 1. */
+/* A part of the specification; `column` is the column of its first character, from 1. */
 typedef struct part {
     const char *text;
     size_t size, column;
@@ -79,7 +79,7 @@ static void destroy(vndf_source *self)
 
 /* ---- parts ------------------------------------------------------------------------------------ */
 
-/* Cuts the text before the first separator off rest; without one all of it, and rest is empty. */
+/* Cuts the text before the first separator off `rest`; without a separator it takes all, and `rest` is empty. */
 static part cut(part *rest, char separator)
 {
     const char *end = memchr(rest->text, separator, rest->size);
@@ -151,7 +151,7 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
     return VNDF_OK;
 }
 
-/* whole is "sgd:alum-bronze/r", which is how materials are listed. */
+/* `whole` is "sgd:alum-bronze/r": the list holds whole names. */
 static vndf_status read_material(part whole, lobe *l, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIAL_NEAREST];
@@ -164,7 +164,7 @@ static vndf_status read_material(part whole, lobe *l, vndf_error *error)
     return VNDF_OK;
 }
 
-/* Only these families have materials; a name of one starts with a letter, a number does not. */
+/* Only these families have materials. The name of a material starts with a letter, a number does not. */
 static int is_material(const vndf_family_form *form, part rest)
 {
     char first = rest.size > 0 ? rest.text[0] : '\0';
@@ -193,7 +193,7 @@ static vndf_status bad_mix(part at, vndf_error *error)
                      vndf_excerpt(excerpt, at.text, at.size), mix_usage);
 }
 
-/* "(W,S,FAMILY)" at the start of rest, which is moved behind it. */
+/* "(W,S,FAMILY)" at the start of `rest`, which moves behind it. */
 static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
 {
     static const vndf_family_range weights = {"the weight W", 0, 1e12, 1, 0};

@@ -9,17 +9,17 @@
 
 enum { VNDF_FAMILY_PARAMETERS = 2 };
 
-/* What a parameter may be. */
+/* The range of a parameter. */
 typedef struct vndf_family_range {
     const char *name;
-    double low, high; /* high belongs to the range */
-    int open;         /* low does not */
-    double standard;  /* the value of a parameter that was not given */
+    double low, high; /* `high` belongs to the range */
+    int open;         /* `low` does not belong to it */
+    double standard;  /* the default */
 } vndf_family_range;
 
 typedef struct vndf_family_form {
     const char *name, *usage; /* "gtr", "gtr:GAMMA[,ALPHA]" */
-    size_t required, count;   /* parameters that must, and that may be given */
+    size_t required, count;   /* numbers of parameters: the fewest and the most */
     vndf_family_range range[VNDF_FAMILY_PARAMETERS];
     const char *reason;                               /* of the limits, for messages */
     double (*p22)(const double *parameter, double r); /* any scale, finite for 0 <= r <= 1e75 */

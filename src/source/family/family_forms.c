@@ -12,8 +12,8 @@
  *   hyper-cauchy  (2 + r^2/sigma^2)^-q                       Wellems et al., J. Opt. A 8, 2006
  *   phong         D ~ cos^N                                  Blinn 1977, from Phong 1975
  *
- * Powers are taken as exp(-n log1p(x)), which keeps its digits for large n and small x. The formulas in words are
- * the same functions for interval arithmetic. */
+ * Powers are formed as exp(-n log1p(x)), which keeps its digits for large n and small x. The formulas in text are
+ * the same functions, for interval arithmetic. */
 #include <math.h>
 #include <string.h>
 
@@ -92,7 +92,7 @@ static double sgd_p22(const double *parameter, double r)
 /* The two families whose mass is no elementary function: 2 pi integral P22 r^2 ds over s = log r by the
  * trapezoidal rule, whose error for an integrand that is analytic for |Im s| < d is of the order of
  * exp(-2 pi d/h). Both have d >= pi/4: exp(-158) at h = 1/32. Below e^-64 = 1.6e-28 the mass goes as r^2, beyond
- * e^64 as r^-2 at least, with scales within [1e-9, 1e3]: what is cut off is below 1e-20 of it. */
+ * e^64 as r^-2 at least, with scales within [1e-9, 1e3]: less than 1e-20 of the mass is cut off. */
 static double mass_by_trapezoids(double (*p22)(const double *, double), const double *parameter)
 {
     const int steps = 32, end = 64 * steps;

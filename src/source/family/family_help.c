@@ -1,4 +1,4 @@
-/* What people are told about families; the ranges are those of family_forms.c, which the test compares. */
+/* The help text about families. Its ranges are the ranges of family_forms.c; a test compares them. */
 #include "vndf_build.h"
 
 const char *vndf_family_help(void)

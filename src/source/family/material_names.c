@@ -1,4 +1,4 @@
-/* Finding materials: by name, by index, and by what somebody may have meant. */
+/* Finds materials by name and by index, and suggests names for a misspelt one. */
 #include <string.h>
 
 #include "source/family/materials.h"

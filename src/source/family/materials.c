@@ -1,12 +1,12 @@
-/* Published fits of the normal distributions of measured materials: facts, with their sources.
+/* Published fits to the distributions of normals of measured materials: facts, with their sources.
  *
  * sgd: M. Bagher, C. Soler, N. Holzschuch, "Accurate fitting of measured reflectances using a Shifted Gamma
  *      micro-facet distribution", Computer Graphics Forum 31(4), 2012: alpha and p of each colour channel.
  * abc: J. Low, J. Kronander, A. Ynnerman, J. Unger, "BRDF models for accurate and efficient rendering of glossy
  *      surfaces", ACM Transactions on Graphics 31(1), 2012: B and C.
  *
- * The materials are those of the MERL database. The same numbers lie in tables/merl_sgd.csv and
- * tables/merl_abc.csv, from which this list was made; tests/source/test_family.c compares them. */
+ * The materials come from the MERL database. This list was made from tables/merl_sgd.csv and tables/merl_abc.csv;
+ * tests/source/test_family.c compares them. */
 #include "source/family/materials.h"
 
 /* clang-format off */

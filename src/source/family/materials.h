@@ -1,4 +1,4 @@
-/* The measured materials that are shipped, by name. */
+/* The shipped measured materials, by name. */
 #ifndef VNDF_SOURCE_FAMILY_MATERIALS_H
 #define VNDF_SOURCE_FAMILY_MATERIALS_H
 
@@ -12,7 +12,7 @@ typedef struct vndf_material {
 enum { VNDF_MATERIAL_COUNT = 312 };
 extern const vndf_material vndf_materials[VNDF_MATERIAL_COUNT];
 
-/* The material of this name, NULL if there is none. */
+/* The material with this name; NULL if there is none. */
 const vndf_material *vndf_material_find(const char *name, size_t size);
 
 /* Writes the names that differ from the given one by the fewest letters, "a, b, c"; returns out. */

@@ -1,5 +1,5 @@
-/* Evaluation of formulas: the functions, and the stack machine. Everything lets NaN pass, so that the
- * builder can say where a formula has no value; the C library's fmin and fmax would hide it. */
+/* Evaluates formulas: the functions, and the stack machine. Every operation lets NaN pass, so that the
+ * builder can say where a formula has no value; fmin and fmax of the C library would hide it. */
 #include "source/formula/expression.h"
 
 #include <math.h>
@@ -58,7 +58,7 @@ const char *vndf_function_names(void)
     return "exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow step";
 }
 
-/* The operations of two operands. */
+/* Operations with two operands. */
 static double combine(const vndf_instruction *instruction, double x, double y)
 {
     switch (instruction->operation) {

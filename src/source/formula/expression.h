@@ -6,10 +6,10 @@
  *     power   = primary [ ^ sign ]          so -r^2 = -(r^2), 2^3^2 = 2^(3^2), and 2^-3 is legal
  *     primary = number | name | function ( sum [, sum] ) | ( sum )
  *
- * Names stand for the variables of the formula, for pi and for the caller's parameters; functions are
- * known by the parenthesis behind them, so that a parameter may be called gamma. Blanks separate.
- * expression_parse.c reads, expression.c evaluates, expression_breaks.c finds kinks and jumps, expression_bound.c
- * bounds what lies between points, and expression_source.c makes a distribution of it. */
+ * A name stands for a variable of the formula, for pi or for a parameter of the caller. A parenthesis behind a
+ * name makes it a function, so a parameter may be called gamma. Blanks separate. expression_parse.c reads,
+ * expression.c evaluates, expression_breaks.c finds kinks and jumps, expression_bound.c bounds what lies between
+ * points, and expression_source.c makes a distribution of it. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
@@ -17,10 +17,10 @@
 #include "vndf_build.h"
 
 enum {
-    VNDF_EXPRESSION_STACK = 320 /* operands that wait: at most 4 for each level of depth, see the grammar */
+    VNDF_EXPRESSION_STACK = 320 /* operands on the stack: at most 4 for each level of depth, see the grammar */
 };
 
-/* Where a function is not smooth: nowhere that is found, where its argument changes sign, or where its
+/* Where a function is not smooth: nowhere that we look for, where its argument changes sign, or where its
  * two arguments are equal. */
 typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
 
@@ -59,7 +59,7 @@ typedef struct vndf_expression {
     size_t count;
 } vndf_expression;
 
-/* What the names in a formula may mean. */
+/* The names that a formula may use. */
 typedef struct vndf_names {
     const char *const *variables;
     size_t variable_count;
@@ -82,11 +82,11 @@ double vndf_expression_run(const vndf_expression *expression, size_t count, cons
 const vndf_function *vndf_function_find(const char *name, size_t size);
 const char *vndf_function_names(void);
 
-/* The slopes where an argument of step, abs, min or max changes sides, ascending, each the last double before
- * the change: found by bisection between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
- * the breaks of the inner ones. variables(r) fills the variables. The search is given up, and what it has found
- * is kept, where it becomes too long. Writes at most limit of them to breaks and their number to *count; 0 if
- * there is no memory. */
+/* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
+ * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
+ * the breaks of the inner calls. variables(r) fills the variables. A search that becomes too long ends and keeps
+ * the breaks found so far. Writes at most `limit` of them to breaks and their number to *count; returns 0 if there
+ * is no memory. */
 typedef void vndf_variables_of_slope(double r, double *variables);
 int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
                            size_t limit, size_t *count);

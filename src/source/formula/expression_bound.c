@@ -1,6 +1,6 @@
-/* A formula over jets, and how far from a cubic its values stay: where the k-th Taylor coefficient of f lies within
- * an interval of width w on all of a piece of width h, f is within w/2 |u - m|^k of a polynomial of degree k, and the
- * integral of the difference is at most w (h/2)^(k+1)/(k+1). */
+/* Evaluates a formula over jets, and bounds how far from a cubic it strays. If the k-th Taylor coefficient of f
+ * lies within an interval of width w on a whole piece of width h with middle m, f is within w/2 |u - m|^k of a
+ * polynomial of degree k, and the integral of the difference is at most w (h/2)^(k+1)/(k+1). */
 #include "source/formula/expression_bound.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* What a formula can do between two slopes, whatever it does at points. */
+/* Bounds of a formula on all slopes between two, not only at points. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_BOUND_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_BOUND_H
 
@@ -12,7 +12,7 @@ vndf_jet vndf_jet_of_slope(double low, double high);
 /* The value of the formula. */
 vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables);
 
-/* Of p22, and of p22 r^2 for the stray. */
+/* The bounds of p22, with the stray of p22 r^2. */
 vndf_reach vndf_reach_from(const vndf_jet *p22, const vndf_jet *r, double low, double high);
 
 #endif

@@ -1,8 +1,8 @@
-/* Where a formula is not smooth. Each call of step, abs, min or max has a quantity that changes sign
- * where the call has its kink or jump, and that quantity is the value of a prefix of the program. So each
- * call's prefix is run over a grid of slopes and every change of sign is bisected down to two
- * neighbouring doubles. The grid of a call holds the breaks of the calls before it, hence of all calls inside
- * it: step(w - abs(r - r0)) is found however small w is. */
+/* Finds where a formula is not smooth. Each call of step, abs, min or max has a quantity that changes sign where
+ * the call has its kink or jump, and that quantity is the value of a prefix of the program. So the search runs the
+ * prefix of each call over a grid of slopes, and bisects every change of sign down to two neighbouring doubles.
+ * The grid of a call holds the breaks of the calls before it, hence of all calls inside it: step(w - abs(r - r0))
+ * is found however small w is. */
 #include "source/formula/expression.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static const size_t work = 10000000; /* instructions that all scans together may
 
 static const double grid_first = 1e-9, grid_last = 1e9;
 
-/* One call: the program up to it, and how its arguments tell the side. */
+/* One call: the program up to it, and its kind of kink. */
 typedef struct call {
     const vndf_expression *expression;
     vndf_variables_of_slope *variables;
@@ -32,7 +32,7 @@ static int side(const call *c, double r)
     return c->kink == VNDF_KINK_EQUAL ? below >= top : top >= 0;
 }
 
-/* The last double of (low, high) that is on the side of low. */
+/* The last double between low and high that is on the side of low. */
 static double bisect(const call *c, double low, double high)
 {
     int before = side(c, low);
@@ -59,7 +59,7 @@ static void fill_grid(double *grid)
         grid[i] = grid_first * exp(log(grid_last / grid_first) * i / (GRID - 1));
 }
 
-/* Sorts, and drops what differs by rounding alone: min and step of the same argument break together. */
+/* Sorts, and drops breaks that differ by rounding alone: min and step of the same argument break together. */
 static size_t sort_and_thin(double *breaks, size_t count)
 {
     size_t kept = 0;

@@ -14,7 +14,7 @@
 typedef struct parser {
     const char *text;
     size_t length, at; /* at: the first character that has not been read */
-    size_t depth;      /* rules that wait for an inner one */
+    size_t depth;      /* rules that are open around this one */
     size_t stack;      /* operands on the stack of the program so far */
     const vndf_names *names;
     vndf_expression *expression;
@@ -166,7 +166,7 @@ static int close_parenthesis(parser *p, size_t opened)
     return 1;
 }
 
-/* At a name with a parenthesis behind it, which is at open. */
+/* At a name whose parenthesis is at `open`. */
 static int call(parser *p, size_t size, size_t open)
 {
     size_t start = p->at;

@@ -11,12 +11,13 @@
 #include "source/words.h"
 
 enum { BREAKS = 4096 };
-/* Of an evaluation besides its instructions; of a function or power that is not one of abs, min, max and step. */
+/* The cost of an evaluation besides its instructions; of a power, or a function other than abs, min, max and
+ * step. */
 enum { OPERATIONS = 4, CALL_OPERATIONS = 8 };
 
-static const double TIGHT = 1e-9; /* bounds so close are a value */
+static const double TIGHT = 1e-9; /* bounds this close count as a value */
 
-/* What differs between the two kinds of formulas. */
+/* The differences between the two kinds of formulas. */
 typedef struct form {
     const char *option;
     const char *names[3];
@@ -81,7 +82,8 @@ static vndf_reach reach(const vndf_source *self, double low, double high)
     return vndf_reach_from(&p22, &r, low, high);
 }
 
-/* The value; where doubles run over, as r^11 exp(-r^2) does far out, the one that bounds leave, if they do. */
+/* The value. Where doubles overflow on the way, as in r^11 exp(-r^2) far out: the value that the bounds leave, if
+ * they are close enough. */
 static double p22(const vndf_source *self, double r)
 {
     const expression_source *source = (const expression_source *)self;
@@ -130,7 +132,7 @@ static double operations_of(const vndf_expression *expression)
     return sum;
 }
 
-/* 0 if there is no memory: a table without them would be another one. */
+/* 0 if there is no memory: without breaks the build would give another table. */
 static int find_breaks(expression_source *source, vndf_variables_of_slope *variables)
 {
     source->breaks = malloc(BREAKS * sizeof *source->breaks);

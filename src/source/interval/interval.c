@@ -1,12 +1,12 @@
-/* Intervals: see interval.h. A function that rises or falls takes its values at the ends, others theirs at the
- * extremes between too. */
+/* Intervals: see interval.h. A monotone function takes its bounds at the ends, any other at its extremes in
+ * between too. */
 #include "source/interval/interval.h"
 
 #include <float.h>
 
 static const double ROUNDING = 3e-16;    /* of + - * /: more than half a unit in the last place */
 static const double LIBRARY = 3e-15;     /* of functions of the C library: many units in the last place */
-static const double EXPONENTIAL = 1e-15; /* of an exponent that exp() is taken of */
+static const double EXPONENTIAL = 1e-15; /* of an exponent, the argument of exp() */
 static const double LOG_2 = 0.69314718055994531;
 static const double PI = 3.14159265358979323846;
 
@@ -55,13 +55,13 @@ static vndf_interval of_doubles(double low, double high)
     return widened(vndf_wide_from(low), vndf_wide_from(high), LIBRARY);
 }
 
-/* Whether plain doubles will do. */
+/* Whether doubles without exponents can hold the ends. */
 static int plain(vndf_interval a, vndf_interval b)
 {
     return a.low.e == 0 && a.high.e == 0 && b.low.e == 0 && b.high.e == 0;
 }
 
-/* The same for low <= high without exponents, where they need none; else 0. */
+/* The same for low <= high whose ends need no exponents; else returns 0. */
 static int widened_plainly(double low, double high, vndf_interval *a)
 {
     double l = low - ROUNDING * fabs(low), h = high + ROUNDING * fabs(high);
@@ -123,8 +123,8 @@ static int is_number(vndf_interval a, double x)
     return a.low.m == x && a.high.m == x && a.low.e == 0 && a.high.e == 0;
 }
 
-/* Whole numbers so small that their sum and product are exact: counts, signs, what a function saturates at. Nothing
- * is widened that was not rounded, so that 1 - tanh(r)^2 is 0 where tanh is 1. */
+/* Whole numbers so small that their sum and product are exact: counts, signs, the limits of saturating functions.
+ * A result that was not rounded is not widened, so that 1 - tanh(r)^2 is 0 where tanh is 1. */
 static int is_small_whole(vndf_interval a)
 {
     double x = a.low.m;
@@ -210,7 +210,7 @@ vndf_interval vndf_interval_scaled(vndf_interval a, double factor)
 
 /* ---- exponentials and powers ---- */
 
-/* exp of x, rounded by EXPONENTIAL |x|, which `outwards` (-1 or 1) is added to. */
+/* exp of x, moved by its rounding, EXPONENTIAL |x|, in the direction `outwards` (-1 or 1). */
 static vndf_wide exponential(double x, int outwards)
 {
     double error = LIBRARY + EXPONENTIAL * fabs(x), whole = floor(x / LOG_2);
@@ -223,7 +223,7 @@ static vndf_wide exponential(double x, int outwards)
     return vndf_wide_settle(1, floor(whole + outwards * (2 * error + 2)));
 }
 
-/* 2^-1e290 in the place of 0 as an upper end, and 2^1e290 in that of infinity as a lower one. */
+/* 2^-1e290 takes the place of 0 as an upper end, and 2^1e290 that of infinity as a lower end. */
 static vndf_wide exponential_end(vndf_wide x, int outwards)
 {
     double d = vndf_wide_double(x);
@@ -252,7 +252,7 @@ vndf_interval vndf_interval_log(vndf_interval x)
     return of_doubles(logarithm(x.low), logarithm(x.high));
 }
 
-/* Of a positive number that may be 0. */
+/* The power of a number >= 0. */
 static vndf_wide power_end(vndf_wide x, double exponent, int outwards)
 {
     double size = exponent * logarithm(x);
@@ -319,7 +319,7 @@ static double high_of(vndf_interval x)
     return vndf_interval_high(x);
 }
 
-/* place + n period lies in it for some n, or nearly. */
+/* Whether place + n period lies in [low, high] for some n, or nearly. */
 static int meets(double low, double high, double place, double period)
 {
     double margin = 1e-15 * (1 + fabs(low) + fabs(high));
@@ -377,8 +377,8 @@ vndf_interval vndf_interval_atan(vndf_interval x)
     return of_doubles(atan(low_of(x)), atan(high_of(x)));
 }
 
-/* What rises from -1 to 1, and is 1 in doubles from x = full on: there it is no wider, so that the difference of two
- * steps vanishes. */
+/* A function that rises from -1 to 1, and is 1 in doubles from x = full on. There the interval has no width, so
+ * that the difference of two such functions vanishes. */
 static vndf_interval step_of(double (*f)(double), vndf_interval x, double full)
 {
     double low = low_of(x), high = high_of(x);
@@ -400,9 +400,9 @@ vndf_interval vndf_interval_erf(vndf_interval x)
     return step_of(erf, x, 6);
 }
 
-static const double FAR = 25; /* half an exponential, to doubles; erfc is near its smallest */
+static const double FAR = 25; /* cosh is half an exponential in doubles; erfc is near its smallest value */
 
-/* sinh and cosh of a size: half of exp beyond FAR. */
+/* sinh and cosh of |x|: half of exp beyond FAR. */
 static vndf_interval half_exp(vndf_interval x)
 {
     return vndf_interval_scaled(vndf_interval_exp(x), 0.5);
@@ -460,13 +460,13 @@ vndf_interval vndf_interval_lgamma(vndf_interval x)
 {
     static const double place = 1.4616321449683623, least = -0.12148629053584961;
     double low = low_of(x), high = high_of(x), error = LIBRARY;
-    if (!(low > 0)) /* poles, but for a single number */
+    if (!(low > 0)) /* poles, unless x is a single number */
         return low == high && !is_whole(low) ? of_doubles(lgamma(low), lgamma(low)) : vndf_interval_all();
     double a = lgamma(low), b = lgamma(high), bottom = low <= place && high >= place ? least : fmin(a, b);
     return of_doubles(bottom - error, fmax(a, b) + error);
 }
 
-/* Derivatives 1 to 3 of lgamma beyond 20, where the next terms are below 1e-14 of it. */
+/* Derivatives 1 to 3 of lgamma beyond 20, where the next terms are below a relative 1e-14. */
 static double polygamma_far(int n, double x)
 {
     double y = 1 / (x * x);

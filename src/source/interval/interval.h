@@ -1,6 +1,7 @@
-/* Intervals that hold what they should whatever is rounded: every end is moved outwards by a few units in the last
- * place, more than + - * / and the C library err by. Ends are numbers of any size (wide.h). Where a function is not
- * defined on the whole interval, the value is that of the part on which it is; on none: everything. */
+/* Intervals that hold the exact result in spite of rounding: every end moves outwards by a few units in the last
+ * place, more than the error of + - * / and of the C library. Ends are numbers of any size (wide.h). Where a
+ * function is defined on a part of the interval only, the result is for that part; where it is defined nowhere,
+ * the result is the whole line. */
 #ifndef VNDF_SOURCE_INTERVAL_INTERVAL_H
 #define VNDF_SOURCE_INTERVAL_INTERVAL_H
 
@@ -18,7 +19,7 @@ vndf_interval vndf_interval_hull(vndf_interval a, vndf_interval b);
 double vndf_interval_low(vndf_interval a);
 double vndf_interval_high(vndf_interval a);
 
-/* 0 lies in it, ends included. */
+/* Whether 0 lies in it, ends included. */
 static inline int vndf_interval_vanishes(vndf_interval a)
 {
     return a.low.m <= 0 && a.high.m >= 0;
@@ -33,7 +34,7 @@ vndf_interval vndf_interval_scaled(vndf_interval a, double factor);
 
 vndf_interval vndf_interval_exp(vndf_interval x);
 vndf_interval vndf_interval_log(vndf_interval x);
-vndf_interval vndf_interval_power(vndf_interval x, double exponent); /* negative x if the exponent is whole */
+vndf_interval vndf_interval_power(vndf_interval x, double exponent); /* negative x only if the exponent is whole */
 vndf_interval vndf_interval_sin(vndf_interval x);
 vndf_interval vndf_interval_cos(vndf_interval x);
 vndf_interval vndf_interval_tan(vndf_interval x);
@@ -46,6 +47,7 @@ vndf_interval vndf_interval_tanh(vndf_interval x);
 vndf_interval vndf_interval_erf(vndf_interval x);
 vndf_interval vndf_interval_erfc(vndf_interval x);
 vndf_interval vndf_interval_lgamma(vndf_interval x);
-vndf_interval vndf_interval_polygamma(int n, vndf_interval x); /* derivative n + 1, 0 to 2, of lgamma; x > 0 */
+vndf_interval vndf_interval_polygamma(int n,
+                                      vndf_interval x); /* derivative n + 1 of lgamma, n from 0 to 2; x > 0 */
 
 #endif

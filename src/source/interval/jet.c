@@ -16,7 +16,7 @@ vndf_jet vndf_jet_number(double x)
     return constant_of(vndf_interval_from(x, x));
 }
 
-/* Only the value is known, unless x is constant: then so is y. */
+/* Only the value is known; if x is constant, y is constant too. */
 static vndf_jet value_of(vndf_interval value, const vndf_jet *x)
 {
     vndf_interval all = vndf_interval_all();
@@ -98,7 +98,7 @@ vndf_jet vndf_jet_quotient(const vndf_jet *x, const vndf_jet *y)
 
 /* ---- functions by their derivative ---- */
 
-/* j x_j of all coefficients: x' with its coefficients one place on. */
+/* j x_j for all coefficients: x' with its coefficients shifted by one. */
 static vndf_jet inner(const vndf_jet *x)
 {
     vndf_jet y = *x;
@@ -145,7 +145,7 @@ vndf_jet vndf_jet_log(const vndf_jet *x)
     return x->at[0].low.m > 0 ? by_derivative(y, x, &d) : value_of(y, x);
 }
 
-/* y and its derivative z at once: y' = z x', z' = y x', with the sign in the second. */
+/* y and its derivative z together: y' = z x'; z' = y x', or -y x' if `negative`. */
 static vndf_jet coupled(const vndf_jet *x, vndf_interval value, vndf_interval other, int negative)
 {
     vndf_jet y = constant_of(value), z = constant_of(other), dx = inner(x);
@@ -234,7 +234,7 @@ vndf_jet vndf_jet_pow(const vndf_jet *x, const vndf_jet *y)
 {
     if (is_point(y) && isfinite(vndf_wide_double(y->at[0].low)))
         return power_of(x, vndf_wide_double(y->at[0].low));
-    if (x->at[0].low.m < 0) /* whole exponents apart, there is none */
+    if (x->at[0].low.m < 0) /* unless the exponent is whole there is no value */
         return x->constant && y->constant ? unknown(x) : x->constant ? unknown(y) : unknown(x);
     vndf_jet log = vndf_jet_log(x), product = vndf_jet_product(y, &log);
     return vndf_jet_exp(&product);
@@ -333,7 +333,7 @@ vndf_jet vndf_jet_gamma(const vndf_jet *x)
 
 /* ---- kinks and jumps ---- */
 
-/* x or y, whichever it is at a point: the value is given. */
+/* x or y, which may differ from point to point; the caller gives the value. */
 static vndf_jet either(const vndf_jet *x, const vndf_jet *y, vndf_interval value)
 {
     vndf_jet z = value_of(value, x->constant ? y : x);

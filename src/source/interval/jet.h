@@ -1,6 +1,6 @@
-/* What a function of u can be on an interval of u: enclosures of its values and of its Taylor coefficients,
- * f^(k)(u)/k!, at all points of the interval. Where f is not smooth the coefficients are everything, but the first
- * where f has a kink. */
+/* Bounds of a function on an interval of u: enclosures of its values and of its Taylor coefficients, f^(k)(u)/k!,
+ * at all points of the interval. Where f is not smooth the coefficients are the whole line; at a kink the first
+ * coefficient stays bounded. */
 #ifndef VNDF_SOURCE_INTERVAL_JET_H
 #define VNDF_SOURCE_INTERVAL_JET_H
 

@@ -1,6 +1,6 @@
-/* Numbers of any size: m 2^e. Inside [2^-400, 2^400] e is 0 and m is the number; outside m is in [1/2, 1) and e,
- * a whole number, is as large as a double. So exp(-1e30) is no 0 and exp(1e30) not infinite, and their product is
- * what it should be. Rounded as doubles are; who needs bounds widens (interval.c). */
+/* Numbers of any size: m 2^e. Inside [2^-400, 2^400] e is 0 and m is the number; outside m is in [1/2, 1) and e, a
+ * whole number, may be as large as a double. So exp(-1e30) is not 0 and exp(1e30) not infinite, and their product
+ * is right. Results are rounded as doubles are; interval.c widens them to bounds. */
 #ifndef VNDF_SOURCE_INTERVAL_WIDE_H
 #define VNDF_SOURCE_INTERVAL_WIDE_H
 
@@ -12,14 +12,14 @@ typedef struct vndf_wide {
 
 static const double vndf_wide_exponent = 1e300; /* no exponent is larger */
 
-/* m is a number by itself. */
+/* Whether m needs no exponent. */
 static inline int vndf_wide_plain(double m)
 {
     double size = fabs(m);
     return (size >= 0x1p-400 && size <= 0x1p400) || size == 0;
 }
 
-/* m 2^e in the form that is told above; NaN and infinity stay. */
+/* m 2^e in the form described above; NaN and infinity stay. */
 static inline vndf_wide vndf_wide_settle(double m, double e)
 {
     int shift = 0;
@@ -45,7 +45,7 @@ static inline double vndf_wide_double(vndf_wide x)
     return x.e == 0 ? x.m : ldexp(x.m, (int)fmax(fmin(x.e, 3000), -3000));
 }
 
-/* 0 times infinity is 0: as a bound on products of finite numbers. */
+/* 0 times infinity is 0, which is right for bounds on products of finite numbers. */
 static inline vndf_wide vndf_wide_times(vndf_wide a, vndf_wide b)
 {
     double m = a.m * b.m, e = a.e + b.e;

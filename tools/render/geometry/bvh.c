@@ -1,24 +1,25 @@
 /* Top-down construction with the surface-area heuristic over bins of centroids (Wald, "On fast construction of
  * SAH-based bounding volume hierarchies", RT 2007).
  *
- *   node      box of the references; a leaf, or two halves of them:
- *   choose    of all planes between bins, on all axes, the one of least  area_left n_left + area_right n_right
- *   sides     references to the left of the plane to the front
+ *   node      takes the box of its references; becomes a leaf, or splits them in two:
+ *   choose    takes the plane between bins, on any axis, with the least  area_left n_left + area_right n_right
+ *   sides     moves references to the left of the plane to the front
  *
- * The cost of a node is that of walking it plus, for each child, the chance of a ray through the node to meet the
- * child (the ratio of their areas) times its references. Where no plane separates centroids - all equal, say - and
- * on paths that are too long, references are split in halves as they lie, so the depth is bounded. */
+ * The cost of a node is the cost of walking it plus, for each child, the chance that a ray through the node meets
+ * the child (the ratio of their areas) times the number of its references. Where no plane separates centroids -
+ * all equal, say - and on paths that are too long, references are halved in their present order, so the depth is
+ * bounded. */
 #include "render/geometry/bvh.h"
 
 #include <float.h>
 
 enum {
     BINS = 16,
-    LEAF_MAX = 8,     /* larger leaves are split whatever they cost */
+    LEAF_MAX = 8,     /* larger leaves are split at any cost */
     PLANES_DEPTH = 60 /* deeper nodes are halved: 60 + log2(2^32) < BVH_DEPTH_MAX */
 };
 
-/* Of walking a node, in tests of a shape. */
+/* The cost of walking a node, in tests of a shape. */
 static const double walk_cost = 1.0;
 
 typedef struct bin {
@@ -27,9 +28,9 @@ typedef struct bin {
 } bin;
 
 typedef struct plane {
-    double cost;        /* DBL_MAX: there is none */
+    double cost;        /* DBL_MAX: no plane */
     double from, scale; /* bin = (centroid - from) scale */
-    int axis, bin;      /* bins up to and with this are on the left */
+    int axis, bin;      /* this bin and lower ones are on the left */
 } plane;
 
 typedef struct builder {
@@ -48,7 +49,7 @@ static void grow(box *to, const box *by)
     }
 }
 
-/* Half of the surface. In double, where it cannot overflow. */
+/* Half of the surface, in double, which cannot overflow. */
 static double area(const box *b)
 {
     const double x = (double)b->bound[1][0] - (double)b->bound[0][0];
@@ -80,7 +81,7 @@ static int bin_of(const box *b, const plane *p)
     return i < BINS - 1 ? i : BINS - 1;
 }
 
-/* The best of the planes between bins of one axis. */
+/* The best plane between bins of one axis. */
 static void sweep(const bin bins[BINS], plane *p)
 {
     double cost_right[BINS];
@@ -137,7 +138,7 @@ static plane choose(const bvh_reference *references, uint32_t count)
     return best;
 }
 
-/* Those left of the plane to the front; returns how many. */
+/* Moves the references left of the plane to the front; returns how many. */
 static uint32_t sides(bvh_reference *references, uint32_t count, const plane *p)
 {
     uint32_t left = 0;
@@ -150,7 +151,7 @@ static uint32_t sides(bvh_reference *references, uint32_t count, const plane *p)
     return left;
 }
 
-/* Where to split; 0: a leaf. */
+/* Where to split; 0: make a leaf. */
 static uint32_t split(bvh_reference *references, uint32_t count, double node_area, int depth)
 {
     if (count == 1)

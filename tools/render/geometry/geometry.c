@@ -1,4 +1,4 @@
-/* The arrays of shapes, and the hierarchy over those of them that are finite. */
+/* The arrays of shapes, and the hierarchy over the finite ones. */
 #include "render/geometry/geometry.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 /* Nodes and references have 32 bits: 2 count - 1 nodes. */
 static const size_t shapes_max = 0x7FFFFFFF;
 
-/* Room for one more; NULL if there is no memory, the array is then as it was. */
+/* Makes room for one more; NULL if there is no memory, and the array stays as it was. */
 static void *room_for_one(void *array, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
@@ -69,7 +69,7 @@ int geometry_add_triangle(geometry *g, const triangle *t, int material)
     return 1;
 }
 
-/* u to the right and v up as each side is seen from outside; on top and bottom, right is x. */
+/* Seen from outside, u goes to the right and v up on each side; on top and bottom, right is x. */
 int geometry_add_box(geometry *g, vndf_vec3 low, vndf_vec3 high, int material)
 {
     const vndf_vec3 x = vec(high.x - low.x, 0.0f, 0.0f), y = vec(0.0f, high.y - low.y, 0.0f);
@@ -89,7 +89,7 @@ int geometry_add_box(geometry *g, vndf_vec3 low, vndf_vec3 high, int material)
     return 1;
 }
 
-/* Boxes of the shapes that have one; returns how many. */
+/* Gathers the boxes of the shapes that have one; returns how many. */
 static uint32_t gather(const geometry *g, bvh_reference *references)
 {
     uint32_t count = 0;
@@ -107,7 +107,7 @@ static void forget_hierarchy(geometry *g)
     g->order = NULL;
 }
 
-/* Cut to what is used; a block that cannot be cut serves as well. */
+/* Cuts the block to the nodes in use; keeps a block that cannot be cut. */
 static bvh_node *trimmed(bvh_node *nodes, uint32_t count)
 {
     bvh_node *less = realloc(nodes, count * sizeof *nodes);

@@ -13,13 +13,13 @@ typedef struct ray {
     float from, to;              /* distances */
 } ray;
 
-/* What a ray meets. `normal` is the geometric normal, outwards; `shading` has it, or the interpolated one of a
- * mesh, for z and the direction of u for x. */
+/* The place where a ray meets a shape. `normal` is the geometric normal, outwards. The z of `shading` is that
+ * normal, or the interpolated normal of a mesh; its x is the direction of u. */
 typedef struct hit {
     float distance;
     vndf_vec3 place, normal;
     frame shading;
-    float u, v;     /* for textures, from the left and the top where the shape has an upright */
+    float u, v;     /* for textures: from the left and the top if the shape has an upright */
     float error;    /* of `place`, beyond its rounding to float: for ray_from */
     uint32_t shape; /* index of the shape */
     int material;
@@ -39,22 +39,22 @@ typedef struct rectangle {
     vndf_vec3 corner, edge_u, edge_v;
 } rectangle;
 
-/* Corners, and of a mesh with them: normals and texture coordinates at the corners. The normal outwards is that of
- * corners counter-clockwise. */
+/* Corners, with the normals and texture coordinates of the mesh there. Seen from outside the corners go
+ * counter-clockwise. */
 typedef struct triangle {
-    vndf_vec3 corner[3], normal[3]; /* normals all 0: the triangle's own */
+    vndf_vec3 corner[3], normal[3]; /* normals all 0: takes the normal of the triangle */
     float u[3], v[3];
 } triangle;
 
 typedef struct shape {
     shape_kind kind;
-    int material; /* index into the scene's */
-    uint32_t at;  /* index among those of its kind */
+    int material; /* index into the materials of the scene */
+    uint32_t at;  /* index among the shapes of its kind */
 } shape;
 
 typedef struct bvh_node bvh_node;
 
-/* Owned arrays. Add shapes, then build once. */
+/* The arrays are owned. Add shapes, then build once. */
 typedef struct geometry {
     shape *shapes;
     size_t shape_count, shape_room;
@@ -65,11 +65,11 @@ typedef struct geometry {
     triangle *triangles;
     size_t triangle_count, triangle_room;
     bvh_node *nodes;
-    uint32_t *order; /* shapes as the leaves have them */
+    uint32_t *order; /* shapes in the order of the leaves */
 } geometry;
 
-/* Each 0 if there is no memory. A box is six rectangles with outward normals. Shapes that are not finite, or reach
- * beyond GEOMETRY_REACH, are never met. */
+/* Each returns 0 if there is no memory. A box is six rectangles with outward normals. No ray meets a shape that is
+ * not finite or reaches beyond GEOMETRY_REACH. */
 #define GEOMETRY_REACH 1e30f
 
 int geometry_add_sphere(geometry *g, sphere s, int material);
@@ -77,10 +77,10 @@ int geometry_add_rectangle(geometry *g, rectangle r, int material);
 int geometry_add_box(geometry *g, vndf_vec3 low, vndf_vec3 high, int material);
 int geometry_add_triangle(geometry *g, const triangle *t, int material);
 
-/* Triangles of an OBJ file (v, vt, vn, f with convex polygons and negative indices; others are passed over),
- * scaled, then turned about y by `turn` degrees (z towards x), then moved. Its vt count v from the bottom, hits of
- * it from the top. 1, or 0 and a message with file, line and what is wrong, and nothing added; untrusted files are
- * safe. */
+/* Adds the triangles of an OBJ file (v, vt, vn, f with convex polygons and negative indices; other lines are
+ * ignored), scaled, then turned about y by `turn` degrees (z towards x), then moved. The vt lines count v from the
+ * bottom, hits count it from the top. Returns 1; or 0 and a message with file, line and error, and then adds
+ * nothing. Untrusted files are safe. */
 typedef struct placement {
     float scale, turn;
     vndf_vec3 move;
@@ -88,7 +88,7 @@ typedef struct placement {
 
 int geometry_add_obj(geometry *g, const char *path, const placement *where, int material, char *message,
                      size_t size);
-/* The same of an open file, `name` for messages. */
+/* The same from an open file; messages call it `name`. */
 int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement *where, int material,
                       char *message, size_t size);
 
@@ -99,13 +99,13 @@ void geometry_free(geometry *g);
 /* The nearest shape in (from, to); 0 if there is none. */
 int geometry_hit(const geometry *g, const ray *r, hit *h);
 
-/* Whether anything is in (from, to). */
+/* Whether any shape is in (from, to). */
 int geometry_blocked(const geometry *g, const ray *r);
 
-/* Whether anything else is before shape `at`, or in (from, to) where the ray misses it. */
+/* Whether another shape is before shape `at`; if the ray misses `at`, whether a shape is in (from, to). */
 int geometry_hides(const geometry *g, const ray *r, uint32_t at);
 
-/* A ray from a hit on, that does not meet the same place again: to the side of `direction`. */
+/* A ray from a hit to the side of `direction`, which does not meet the same place again. */
 ray ray_from(const hit *h, vndf_vec3 direction);
 
 #endif

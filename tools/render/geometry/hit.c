@@ -1,8 +1,8 @@
 /* Walks through the hierarchy, the nearer child first, and rays that start at hits.
  *
- * A node is entered where the largest of the distances to its near planes is not above the least of those to its
- * far ones (Kay & Kajiya, SIGGRAPH 1986). Three roundings are in each distance, so the far ones are lengthened by
- * twice their bound (Ize, "Robust BVH Ray Traversal", JCGT 2013): no box that is met is missed. */
+ * A ray enters a node if the largest distance to its near planes does not exceed the least distance to its far
+ * planes (Kay & Kajiya, SIGGRAPH 1986). Each distance has three roundings, so far distances are lengthened by
+ * twice their bound (Ize, "Robust BVH Ray Traversal", JCGT 2013): the walk misses no box that the ray meets. */
 #include "render/geometry/shape.h"
 
 static const float longer = 1.0f + 0x1p-21f;
@@ -18,14 +18,15 @@ static slabs slabs_from(const ray *r)
     const float d[3] = {r->direction.x, r->direction.y, r->direction.z};
     slabs s = {{r->origin.x, r->origin.y, r->origin.z}, {0.0f, 0.0f, 0.0f}, {0, 0, 0}, r->from};
     for (int axis = 0; axis < 3; axis++) {
-        s.inverse[axis] = 1.0f / d[axis]; /* infinite: then the planes are at +-infinity, or NaN on them */
+        s.inverse[axis] =
+            1.0f / d[axis]; /* if infinite, the planes are at +-infinity, or at NaN for a ray in them */
         s.is_back[axis] = s.inverse[axis] < 0.0f;
     }
     return s;
 }
 
-/* The distance where the box begins; HUGE_VALF if it is missed, or begins behind `limit`. NaN never wins a
- * comparison. */
+/* The distance where the box begins; HUGE_VALF if the ray misses it, or if it begins behind `limit`. NaN never
+ * wins a comparison. */
 static inline float entry(const box *b, const slabs *s, float limit)
 {
     float near = s->from, far = limit;
@@ -48,7 +49,7 @@ typedef struct walk {
     int height;
 } walk;
 
-/* To the nearer of a node's children; the other waits. 0 if neither is met. */
+/* Goes to the nearer child of a node and puts the other on the stack. 0 if the ray meets neither. */
 static inline int descend(const geometry *g, const slabs *s, float limit, uint32_t *node, walk *w)
 {
     uint32_t one = *node + 1, other = g->nodes[*node].at;
@@ -67,7 +68,7 @@ static inline int descend(const geometry *g, const slabs *s, float limit, uint32
     return near_one < HUGE_VALF;
 }
 
-/* The next that waits and does not begin behind the nearest meeting. */
+/* Takes the next node from the stack that does not begin behind the nearest meeting. */
 static inline int take(walk *w, float limit, uint32_t *node)
 {
     while (w->height > 0) {
@@ -87,7 +88,7 @@ static int leaf_meets(const geometry *g, const bvh_node *leaf, const line *l, me
     return is_met;
 }
 
-/* The nearest meeting, or any if that is enough. */
+/* Finds the nearest meeting, or any meeting if that is enough. */
 static int meet(const geometry *g, const ray *r, const line *l, int any, meeting *m)
 {
     const slabs s = slabs_from(r);
@@ -128,7 +129,7 @@ int geometry_blocked(const geometry *g, const ray *r)
     return g->nodes != NULL && line_from(&l, r) && meet(g, r, &l, 1, &m);
 }
 
-/* What is not nearer than the shape does not hide it: nor does itself, met again at the same distance. */
+/* A shape that is not nearer hides nothing, nor does the shape itself, met again at the same distance. */
 int geometry_hides(const geometry *g, const ray *r, uint32_t at)
 {
     line l;
@@ -140,9 +141,9 @@ int geometry_hides(const geometry *g, const ray *r, uint32_t at)
     return meet(g, r, &l, 1, &m);
 }
 
-/* The place is off its surface by its rounding to float, 2^-24 of each coordinate, and what it was computed with;
- * the origin is rounded once more. Twice all of it along the normal is surely on the other side, and no shape
- * computes otherwise. */
+/* The place is off its surface by its rounding to float, 2^-24 of each coordinate, and by the error of its
+ * computation; the origin is rounded once more. A step of twice the sum along the normal is surely on the other
+ * side, and no shape computes otherwise. */
 ray ray_from(const hit *h, vndf_vec3 direction)
 {
     const wide p = widen(h->place), n = widen(h->normal);

@@ -1,15 +1,15 @@
-/* Wavefront OBJ, the part that is triangles:
+/* Wavefront OBJ, as far as triangles go:
  *
- *   v x y z [w | r g b]   a corner; what follows z is passed over
- *   vt u [v [w]]          a texture coordinate, v from the bottom; images here begin at the top, so it is turned
+ *   v x y z [w | r g b]   a corner; numbers after z are ignored
+ *   vt u [v [w]]          a texture coordinate, v from the bottom; images here begin at the top, so v is flipped
  *   vn x y z              a normal, of any length
  *   f A B C ...           a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
- *                         v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of what came before the line
+ *                         v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
  *
- * Corners, coordinates and normals are placed as they are read (obj_items.c). Triangles without an area are passed
- * over. Where the normals of a triangle contradict the order of its corners, the normals are believed. A polygon
- * is cut while it is read and takes no memory of its own. A file may have OBJ_BYTES_MAX, and of each of v, vt, vn
- * and triangles there may be OBJ_ITEMS_MAX, so the most hostile one takes some 3.2 GiB, and 1.5 GiB for the
+ * Corners, coordinates and normals are placed as they are read (obj_items.c). Triangles without an area are
+ * ignored. Where the normals of a triangle contradict the order of its corners, the normals win. A polygon is cut
+ * while it is read and takes no memory of its own. A file has at most OBJ_BYTES_MAX bytes, and at most
+ * OBJ_ITEMS_MAX each of v, vt, vn and triangles: the most hostile file takes some 3.2 GiB, and 1.5 GiB for the
  * hierarchy. */
 #include <errno.h>
 #include <stdlib.h>
@@ -25,11 +25,11 @@ typedef struct corner {
 
 /* ---- faces -------------------------------------------------------------------------------------- */
 
-/* An index at *at, which moves behind it; 0 after a complaint. */
+/* Reads an index at *at, which moves behind it; 0 after a complaint. */
 static int read_index(obj_reader *r, const char **at, const obj_table *of, long long *index)
 {
     char *end;
-    const long long given = strtoll(*at, &end, 10); /* of a word of 63 letters: too large becomes the largest */
+    const long long given = strtoll(*at, &end, 10); /* a number too large becomes the largest */
     const long long count = (long long)of->count;
     if (end == *at)
         return obj_complain(&r->text, "'%s' should be v, v/vt, v//vn or v/vt/vn, in numbers", r->text.word);
@@ -77,7 +77,7 @@ static vndf_vec3 row_of(const obj_table *t, long long index)
     return vec(row[0], row[1], row[2]);
 }
 
-/* The normal by the order of corners; 0 if there is no area. */
+/* The normal by the order of corners; 0 if the triangle has no area. */
 static wide winding(const triangle *t)
 {
     const wide a = widen(t->corner[0]);
@@ -122,7 +122,7 @@ static int add_triangle(obj_reader *r, const corner c[3])
 
 static int read_f(obj_reader *r)
 {
-    corner c[3]; /* the first, the one before, and this */
+    corner c[3]; /* the first corner, the one before, and this one */
     int count = 0, is_there;
     while ((is_there = read_corner(r, &c[count < 2 ? count : 2])) == 1) {
         if (++count < 3)
@@ -158,7 +158,7 @@ static int read_all(obj_reader *r)
     do
         good = read_line(r);
     while (good && obj_next_line(&r->text));
-    if (r->text.bytes > OBJ_BYTES_MAX) /* a device, perhaps, or a pipe: its last line is not its own */
+    if (r->text.bytes > OBJ_BYTES_MAX) /* perhaps a device or a pipe: its last line is cut */
         return obj_complain(&r->text, "the file has more than %d bytes", OBJ_BYTES_MAX);
     if (!good)
         return 0;
@@ -186,7 +186,7 @@ int geometry_read_obj(geometry *g, FILE *file, const char *name, const placement
                       char *message, size_t size)
 {
     const size_t shapes = g->shape_count, triangles = g->triangle_count;
-    obj_reader *r = calloc(1, sizeof *r); /* the text's block is long for a stack */
+    obj_reader *r = calloc(1, sizeof *r); /* its block of text is too long for a stack */
     if (!r) {
         snprintf(message, size, "%s: no memory to read it", name);
         return 0;

@@ -1,5 +1,5 @@
-/* Lines v, vt and vn of an OBJ file, scaled, turned and moved. Texture coordinates count v from the bottom there,
- * and from the top here. */
+/* Lines v, vt and vn of an OBJ file, scaled, turned and moved. The file counts v of texture coordinates from the
+ * bottom, the renderer from the top. */
 #include "render/geometry/obj_items.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static int append(obj_reader *r, obj_table *t, const float *row)
     return 1;
 }
 
-/* `least` to `most` numbers, up to the line's end; 0 after a complaint. */
+/* Reads `least` to `most` numbers, up to the end of the line; 0 after a complaint. */
 static int read_numbers(obj_reader *r, const char *what, int least, int most, double *values)
 {
     double value;
@@ -65,7 +65,7 @@ int obj_read_vt(obj_reader *r)
     double p[3] = {0.0, 0.0, 0.0};
     if (!read_numbers(r, "vt", 1, 3, p))
         return 0;
-    const double reach = 1e6; /* beyond, float has no digits for the place in a texture */
+    const double reach = 1e6; /* beyond it, float has no digits for the place in a texture */
     if (!(fabs(p[0]) <= reach && fabs(p[1]) <= reach))
         return obj_complain(&r->text, "a texture coordinate is beyond %g", reach);
     const float row[2] = {(float)p[0], (float)(1.0 - p[1])};

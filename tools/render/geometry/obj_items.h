@@ -1,4 +1,4 @@
-/* What an OBJ file says beside faces: corners, texture coordinates and normals, placed, a row each. */
+/* The items of an OBJ file beside faces: corners, texture coordinates and normals, placed, a row each. */
 #ifndef TOOLS_RENDER_GEOMETRY_OBJ_ITEMS_H
 #define TOOLS_RENDER_GEOMETRY_OBJ_ITEMS_H
 
@@ -25,7 +25,7 @@ typedef struct obj_reader {
     int material;
 } obj_reader;
 
-/* The rest of a line that begins with v, vt, vn: a row more; 0 after a complaint. */
+/* Each reads the rest of a line that begins with v, vt or vn, and adds a row; 0 after a complaint. */
 int obj_read_v(obj_reader *r);
 int obj_read_vt(obj_reader *r);
 int obj_read_vn(obj_reader *r);

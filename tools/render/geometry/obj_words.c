@@ -1,5 +1,5 @@
-/* Words are separated by blanks, CR counting as one; a backslash before the end of a line joins it to the next; #
- * begins a comment. */
+/* Blanks separate words; CR counts as a blank. A backslash before the end of a line joins it to the next. # begins
+ * a comment. */
 #include "render/geometry/obj_words.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ int obj_complain(obj_text *t, const char *format, ...)
     return 0;
 }
 
-/* The next character, which stays; EOF. */
+/* The next character, or EOF; it stays in the text. */
 static int look(obj_text *t)
 {
     if (t->at == t->end) {
@@ -43,7 +43,7 @@ static int skip_blanks(obj_text *t)
     return c;
 }
 
-/* To the next word's first character: 1, 0 or -1 as obj_word. */
+/* Goes to the first character of the next word; returns 1, 0 or -1 as obj_word does. */
 static int skip_to_word(obj_text *t)
 {
     int c = skip_blanks(t);
@@ -62,7 +62,7 @@ static int skip_to_word(obj_text *t)
     return c != '\n' && c != EOF && c != '#';
 }
 
-/* Letters of a word, unprintable ones as '?' so that messages can quote them; returns how many there are. */
+/* Reads the letters of a word, unprintable ones as '?' so that messages can quote them; returns their number. */
 static size_t read_letters(obj_text *t)
 {
     size_t length = 0, kept = 0;

@@ -14,25 +14,25 @@ typedef struct obj_text {
     unsigned long long line; /* from 1 */
     char *message;           /* of the error, `size` bytes */
     size_t size;
-    size_t at, end, bytes; /* of the block; of all that was read, after OBJ_BYTES_MAX of which the file ends */
+    size_t at, end, bytes; /* in the block; bytes: read so far, the file ends after OBJ_BYTES_MAX */
     char word[OBJ_WORD_MAX + 1];
     unsigned char block[1 << 15];
 } obj_text;
 
-/* Writes "name:line: " and the rest; 0. */
+/* Writes "name:line: " and the message; returns 0. */
 int obj_complain(obj_text *t, const char *format, ...);
 
-/* The next word of the line: 1; 0 at the line's end or a comment; -1 after a complaint about a word that is too
- * long, or a backslash that does not continue the line. */
+/* Reads the next word of the line. Returns 1; 0 at the end of the line or a comment; -1 after a complaint about a
+ * word that is too long, or a backslash that does not continue the line. */
 int obj_word(obj_text *t);
 
-/* Likewise, but a word that is too long is cut: for words that may be passed over. */
+/* The same, but cuts a word that is too long: for words that may be ignored. */
 int obj_keyword(obj_text *t);
 
-/* A finite number, as obj_word. */
+/* Reads a finite number; returns as obj_word does. */
 int obj_number(obj_text *t, double *value);
 
-/* To the start of the next line; 0 at the end of the file. */
+/* Goes to the start of the next line; 0 at the end of the file. */
 int obj_next_line(obj_text *t);
 
 #endif

@@ -1,9 +1,9 @@
-/* What a hit says of its place. The place is computed from the shape, not along the ray, so that it lies on the
- * shape but for the rounding to float. Frames: z the normal, x the direction in which u grows, made perpendicular
- * to z.
+/* Place, frame and texture coordinates of a hit. The place is computed from the shape, not along the ray, so that
+ * it lies on the shape but for the rounding to float. In a frame z is the normal, and x the direction in which u
+ * grows, made perpendicular to z.
  *
- * Of a triangle with corners p and texture coordinates (u, v),  p1 - p0 = du1 dp/du + dv1 dp/dv,  p2 - p0
- * likewise; hence dp/du ~ dv2 (p1 - p0) - dv1 (p2 - p0), with the sign of the determinant du1 dv2 - du2 dv1. */
+ * A triangle with corners p and texture coordinates (u, v) has  p1 - p0 = du1 dp/du + dv1 dp/dv,  and the same for
+ * p2 - p0; hence dp/du ~ dv2 (p1 - p0) - dv1 (p2 - p0), with the sign of the determinant du1 dv2 - du2 dv1. */
 #include "render/geometry/shape.h"
 
 #define PI 3.14159265358979323846
@@ -22,7 +22,7 @@ static wide unit_or(wide a, wide otherwise)
     return length > 0.0 ? wide_scale(a, 1.0 / length) : otherwise;
 }
 
-/* Any direction across z: z by the axis that is farthest from it. */
+/* Any direction across z: the product of z and the axis that is farthest from it. */
 static wide any_across(wide z)
 {
     const double x2 = z.x * z.x, y2 = z.y * z.y, z2 = z.z * z.z;
@@ -32,7 +32,7 @@ static wide any_across(wide z)
     return wide_scale(across, 1.0 / wide_length(across));
 }
 
-/* x towards `along`; anywhere if that leaves nothing of it. */
+/* x towards `along`; any x if `along` has no part across z. */
 static frame frame_from(wide z, wide along)
 {
     const wide across = wide_along(along, -wide_dot(along, z), z);
@@ -100,7 +100,7 @@ static void describe_triangle(const triangle *t, const meeting *m, hit *h)
     const wide edge_1 = wide_subtract(widen(t->corner[1]), a), edge_2 = wide_subtract(widen(t->corner[2]), a);
     const wide normal = unit_or(wide_cross(edge_1, edge_2), up);
     wide shading = unit_or(blend(t->normal, m->a, m->b), normal);
-    if (!(wide_dot(shading, normal) > 0.0)) /* interpolated normals can turn beyond the surface */
+    if (!(wide_dot(shading, normal) > 0.0)) /* an interpolated normal can turn below the surface */
         shading = normal;
     set_place(h, blend(t->corner, m->a, m->b), normal,
               fabs(a.x) + fabs(a.y) + fabs(a.z) + wide_length(edge_1) + wide_length(edge_2));

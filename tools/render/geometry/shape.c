@@ -1,6 +1,5 @@
-/* Lines against spheres, rectangles and triangles, in double from coordinates in float: what is computed here is
- * exact to some 1e-15 of the coordinates, so that all that ray_from has to make good is the rounding of a place to
- * float.
+/* Lines against spheres, rectangles and triangles, in double from coordinates in float. Results are exact to some
+ * 1e-15 of the coordinates, so ray_from only makes up for the rounding of a place to float.
  *
  *   sphere     a t^2 + 2 b t + c = 0 with the discriminant from the part of the centre across the line,
  *              r^2 - |across|^2, which small and distant spheres do not cancel, and the roots q / a and c / q
@@ -46,7 +45,7 @@ static int sphere_meets(const sphere *s, const line *l, meeting *m)
     const double rest = r2 - wide_dot(across, across);
     if (!(rest >= 0.0))
         return 0;
-    const double q = -b - copysign(sqrt(a * rest), b); /* the sum of two of one sign */
+    const double q = -b - copysign(sqrt(a * rest), b); /* a sum of two terms of one sign */
     const double c = wide_dot(from_centre, from_centre) - r2;
     const double one = q / a, other = q != 0.0 ? c / q : one;
     const double near = one < other ? one : other, far = one < other ? other : one;
@@ -55,7 +54,7 @@ static int sphere_meets(const sphere *s, const line *l, meeting *m)
 
 static int rectangle_meets(const rectangle *r, const line *l, meeting *m)
 {
-    const double slack = 1e-13; /* of u and v: rays through the edge of a box must meet one of its sides */
+    const double slack = 1e-13; /* in u and v: a ray through the edge of a box must meet one of its sides */
     const wide u = widen(r->edge_u), v = widen(r->edge_v), n = wide_cross(u, v);
     const wide to_corner = wide_subtract(widen(r->corner), l->origin);
     const double distance = wide_dot(n, to_corner) / wide_dot(n, l->direction);
@@ -78,7 +77,7 @@ static inline wide shear(const line *l, vndf_vec3 corner)
     return sheared;
 }
 
-/* Twice the signed area from 0 to a to b; of b and a it is exactly the negative. */
+/* Twice the signed area of 0, a, b; for 0, b, a it is exactly the negative. */
 static inline double turn(wide a, wide b)
 {
     return a.x * b.y - a.y * b.x;
@@ -112,7 +111,7 @@ int shape_meets(const geometry *g, uint32_t at, const line *l, meeting *m)
 
 /* ---- boxes -------------------------------------------------------------------------------------- */
 
-/* Rounded down or up, as `to` has it; what is too large or NaN is infinite. */
+/* Rounds towards `to`; a value too large for float, and NaN, become infinite. */
 static float rounded(double value, float to)
 {
     if (!(fabs(value) <= (double)GEOMETRY_REACH))

@@ -1,5 +1,4 @@
-/* What each kind of shape answers: its box, whether a line meets it, and everything about the place where it does.
- * */
+/* The questions that each kind of shape answers: its box, whether a line meets it, and the place where it does. */
 #ifndef TOOLS_RENDER_GEOMETRY_SHAPE_H
 #define TOOLS_RENDER_GEOMETRY_SHAPE_H
 
@@ -7,12 +6,12 @@
 #include "render/geometry/geometry.h"
 #include "render/geometry/wide.h"
 
-/* A ray as shapes want it. */
+/* A ray, prepared for shapes. */
 typedef struct line {
     wide origin, direction;
     double from;
-    int axis[3];             /* the last is that of the largest component of direction */
-    double shear_x, shear_y; /* direction over that component, along the others */
+    int axis[3];             /* the last axis has the largest component of direction */
+    double shear_x, shear_y; /* the other components over that one */
     double depth;            /* 1 over that component */
 } line;
 
@@ -23,13 +22,13 @@ typedef struct meeting {
     uint32_t shape;
 } meeting;
 
-/* 0 if the direction is 0 or anything is NaN. */
+/* Returns 0 if the direction is 0 or a number is NaN. */
 int line_from(line *l, const ray *r);
 
-/* 1 if the box is finite and not beyond GEOMETRY_REACH. */
+/* Returns 1 if the box is finite and within GEOMETRY_REACH. */
 int shape_box(const geometry *g, const shape *s, box *b);
 
-/* 1, and the meeting replaced, if the shape is met in (from, distance). */
+/* Returns 1, and replaces the meeting, if the line meets the shape in (from, distance). */
 int shape_meets(const geometry *g, uint32_t at, const line *l, meeting *m);
 
 /* All about a meeting. */

@@ -1,4 +1,4 @@
-/* Vectors in double: what shapes compute with, so that a place is exact until it is rounded to float. */
+/* Vectors in double: shapes compute with them, so that a place is exact until it is rounded to float. */
 #ifndef TOOLS_RENDER_GEOMETRY_WIDE_H
 #define TOOLS_RENDER_GEOMETRY_WIDE_H
 

@@ -1,4 +1,4 @@
-/* Images in memory, and their look-up. */
+/* Images in memory, and looking pixels up. */
 #include "render/image/image.h"
 
 #include <math.h>
@@ -29,14 +29,15 @@ void image_at(const image *of, int x, int y, float rgb[3])
     memcpy(rgb, of->rgb + 3 * ((size_t)y * (size_t)of->width + (size_t)x), 3 * sizeof *rgb);
 }
 
-/* Place u of a repeated row, in pixels: [0, count). The product may round up to count, and u may be anything. */
+/* The place of u in a row that repeats, in pixels: [0, count). The product may round up to count; u may be any
+ * float. */
 static inline float repeated(float u, int count)
 {
     float inside = u >= 0.0f && u < 1.0f ? u : u - floorf(u), place = inside * (float)count;
     return place >= 0.0f && place < (float)count ? place : 0.0f;
 }
 
-/* Between the centres of four pixels, which lie at halves. */
+/* Interpolates between the centres of four pixels, which lie at halves. */
 void image_bilinear(const image *of, float u, float v, float rgb[3])
 {
     float x = repeated(u, of->width) - 0.5f, y = repeated(v, of->height) - 0.5f;

@@ -13,30 +13,30 @@ typedef struct image {
 
 enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
 
-/* What is wrong with a file or a pattern, for people: "what and where". */
+/* The error in a file or a pattern, for people: what is wrong and where. */
 typedef struct image_error {
     char message[512];
 } image_error;
 
-/* PFM, colour ("PF") or grey ("Pf"), either byte order. Numbers must be finite. 1, or 0 and an error; untrusted
- * bytes are safe. */
+/* Reads a PFM, colour ("PF") or grey ("Pf"), in either byte order. Numbers must be finite. Returns 1, or 0 and an
+ * error; untrusted bytes are safe. */
 int image_read_pfm(image *made, const char *path, image_error *error);
 
-/* The same from memory; `name` stands for the file in errors. */
+/* The same from memory; errors call the file `name`. */
 int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
 
-/* Black. 0 if there is no memory. */
+/* A black image. 0 if there is no memory. */
 int image_make(image *made, int width, int height);
 void image_free(image *image);
 
-/* A pattern by name: scene_grammar has them. 0 and an error for an unknown name or no memory. */
+/* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
 int image_make_pattern(image *made, const char *name, int width, int height, image_error *error);
 
-/* A pixel; and between pixels: u, v in [0, 1) from the left and the top, repeated outside. */
+/* A pixel; and a place between pixels: u, v in [0, 1) from the left and the top, repeated outside. */
 void image_at(const image *image, int x, int y, float rgb[3]);
 void image_bilinear(const image *image, float u, float v, float rgb[3]);
 
-/* To an open file; 0 if it cannot be written. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */
+/* Writes to an open file; 0 if that fails. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image, float exposure);
 

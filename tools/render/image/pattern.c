@@ -1,7 +1,6 @@
-/* Patterns: images that are formulas of (u, v), from the left and the top, averaged over each pixel. All of them
- * but the two environments with an up and a down repeat without a seam in both directions. Environments are
- * longitude over latitude, as `environment image` takes them: the zenith is the top row and the horizon the
- * middle.
+/* Patterns: images by formulas of (u, v), from the left and the top, averaged over each pixel. All patterns but
+ * the two environments with an up and a down repeat without a seam in both directions. Environments have longitude
+ * across and latitude down, as `environment image` takes them: the zenith is the top row, the horizon the middle.
  *
  * Map: hash and value noise; maps for roughness; fine detail; the studio; stars; the list. */
 #include "render/image/image.h"
@@ -33,7 +32,7 @@ static float smooth(float from, float to, float x)
 
 /* ---- noise ---- */
 
-/* A number in [0, 1) of a point of a lattice; the finaliser of SplitMix64. */
+/* A number in [0, 1) for each point of a lattice, by the finaliser of SplitMix64. */
 static float lattice(uint32_t x, uint32_t y, uint32_t layer)
 {
     uint64_t h = ((uint64_t)x << 32 | y) + 0x9E3779B97F4A7C15u * (layer + 1u);
@@ -42,7 +41,7 @@ static float lattice(uint32_t x, uint32_t y, uint32_t layer)
     return (float)((h ^ h >> 31) >> 40) * 0x1p-24f;
 }
 
-/* Behind the last is the first again. */
+/* After the last comes the first again. */
 static uint32_t around(uint32_t i, uint32_t count)
 {
     return i < count ? i : 0;
@@ -182,7 +181,7 @@ static void shade_night(float u, float v, float rgb[3])
     rgb[2] = 0.05f + 0.03f * height;
 }
 
-/* 1500 of them, even over the sphere, of one pixel each; few are bright. */
+/* 1500 stars, even over the sphere, one pixel each; few are bright. */
 static void add_stars(image *sky)
 {
     static const float warm[3] = {1.0f, 0.75f, 0.5f}, cold[3] = {0.6f, 0.8f, 1.0f};
@@ -230,7 +229,7 @@ static void shade_pixel(const pattern *p, float x, float y, const image *of, flo
         rgb[channel] = sum[channel] / (SIDE * SIDE);
 }
 
-/* Where whole pixels repeat, they are shaded once: 4096 x 2048 of the grid take some 0.03 s, not 0.8. */
+/* Shades whole pixels that repeat only once: 4096 x 2048 of the grid take some 0.03 s, not 0.8. */
 static void shade_all(const pattern *p, image *made)
 {
     size_t width = (size_t)made->width, height = (size_t)made->height;

@@ -1,7 +1,7 @@
 /* PFM, the portable float map: a line "PF" (colour) or "Pf" (grey), a line "WIDTH HEIGHT", a line with a scale -
  * whose sign tells the byte order, negative for the least byte first - and then floats, rows from the bottom.
- * The absolute value of the scale has no agreed meaning; it is not read. Floats are taken and put byte by byte,
- * so the order of this machine does not matter. */
+ * The absolute value of the scale has no agreed meaning; it is not read. Floats are read and written byte by byte,
+ * so the byte order of this machine does not matter. */
 #include "render/image/image.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ static int refuse(image_error *error, const char *name, const char *format, ...)
 
 /* ---- reading ---- */
 
-/* The next word of the head, of at most 31 letters, and the one blank that ends it; 0 if there is none. */
+/* Reads the next word of the head, of at most 31 letters, and the one blank that ends it; 0 if there is none. */
 static int next_word(const char *bytes, size_t size, size_t *at, char word[32])
 {
     size_t length = 0, most = size < HEAD_MAX ? size : HEAD_MAX;
@@ -87,7 +87,7 @@ static float float_from(const unsigned char *b, int little)
     return value;
 }
 
-/* 0 at the first number that is not finite, with its place in x, y. */
+/* Returns 0 at the first number that is not finite, with its place in x, y. */
 static int read_rows(image *made, const pfm_head *head, const unsigned char *bytes, int *x, int *y)
 {
     for (*y = made->height - 1; *y >= 0; --*y)

@@ -1,4 +1,4 @@
-/* An image as people look at it: 8 bits in sRGB (IEC 61966-2-1), what is above white is white. */
+/* An image for the eye: 8 bits in sRGB (IEC 61966-2-1); values above white are white. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,17 +1,18 @@
 /* Tables of the alias method, in linear time (Vose, "A Linear Algorithm for Generating Random Numbers with a Given
- * Distribution", IEEE TSE 1991): places that lack something and places that have too much meet in pairs. */
+ * Distribution", IEEE TSE 1991): pairs each place that has too little with one that has too much. */
 #include "render/path/alias.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* At least one number of 2^32 for what is not 0. */
+/* A part of 2^32: at least 1 unless the weight is 0. */
 static uint32_t part_of(double part)
 {
     return (uint32_t)fmin(ceil(part * 0x1p32), 4294967295.0);
 }
 
-/* Those that lack something from the front of `order`, the others from its back; the count of the former. */
+/* Puts the places that have too little at the front of `order`, the others at its back; returns the number of the
+ * first. */
 static uint32_t sort_places(const double *part, uint32_t count, uint32_t *order)
 {
     uint32_t poor = 0, rich = count;
@@ -23,8 +24,8 @@ static uint32_t sort_places(const double *part, uint32_t count, uint32_t *order)
     return poor;
 }
 
-/* Each poor place takes from the rich one at hand, which may become poor itself. What roundings leave over is
- * whole. */
+/* Each poor place takes from the rich place at hand, which may become poor itself. Places that rounding leaves
+ * over keep all of their own. */
 static void pair_places(alias_place *table, double *part, uint32_t count, uint32_t *order)
 {
     uint32_t next = 0, poor = sort_places(part, count, order);

@@ -1,11 +1,12 @@
-/* Light from far away. An image is longitude over latitude: its centre is seen along -z, its right half along +x,
- * its top row at the zenith, +y. Between the centres of pixels it is interpolated, not across the poles.
+/* Light from far away. An image has longitude across and latitude down: its centre is seen along -z, its right
+ * half along +x, its top row at the zenith, +y. It is interpolated between the centres of pixels, but not across
+ * the poles.
  *
- * Directions are drawn from cells, squares of so many pixels that there are CELLS_MAX at most: a cell with the
- * probability of the light from it, and in it evenly by solid angle - longitude and height y are even -, so that a
- * draw reads one place of memory and needs no angle of latitude, and its density is that of its cell. Cells have
- * the mean luminance of what is interpolated in them: positive wherever the image is. Constants and images that
- * are nearly even are not drawn: every direction finds their light. */
+ * Directions are drawn from cells: squares of pixels, of a size that leaves at most CELLS_MAX. A draw takes a cell
+ * with the probability of its light, then a direction in it evenly by solid angle: longitude and height y are
+ * even. So it reads one place of memory and needs no angle of latitude, and the density is one number for each
+ * cell. A cell has the mean luminance of the image interpolated in it: positive wherever the image is. Constants
+ * and images that are nearly even are not drawn: every direction finds their light. */
 #include "render/path/parts.h"
 
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static const double even = 2; /* the contrast below which drawing costs more tha
 /* ---- angles ---- */
 
 /* The angle of (side, ahead) from (0, 1) towards (1, 0), as a part of a full turn, in [-1/2, 1/2]: a polynomial
- * for an eighth of it, within 3e-8. */
+ * for an eighth of a turn, within 3e-8. */
 static inline float turn_of(float side, float ahead)
 {
     static const float c[8] = {0.159154924f,  -0.0530492275f,  0.0317784067f,  -0.0222869285f,
@@ -33,7 +34,7 @@ static inline float turn_of(float side, float ahead)
     return copysignf(sum, side);
 }
 
-/* Of a number in (-2^20, 2^20), the part above the whole number below it. */
+/* The fraction of a number in (-2^20, 2^20) above the whole number below it. */
 static inline float fraction(float x)
 {
     float part = x - (float)(int)x;
@@ -88,8 +89,8 @@ static void constant(const path_environment *e, vndf_vec3 direction, float rgb[3
 
 /* ---- making ---- */
 
-/* The luminance of row y, each pixel with its part of the mean of what is interpolated over it: 1, 6, 1 eighths.
- * Of sizes, lest colours below 0 hide others. */
+/* The luminance of row y, softened by 1, 6, 1 eighths: the mean of the interpolated image over each pixel. Takes
+ * absolute values, so that colours below 0 cannot cancel others. */
 static void soften_row(const image *map, int y, float *soft)
 {
     const float *row = map->rgb + 3 * (size_t)y * (size_t)map->width;
@@ -145,7 +146,7 @@ static int cell_end(uint32_t cell, unsigned shift, int pixels)
     return end < pixels ? end : pixels;
 }
 
-/* cos(v pi) less that of the pole, without cancellation. */
+/* cos(v pi) minus its value at the pole, without cancellation. */
 static float from_pole(double v, float pole)
 {
     double s = sin(0.5 * (double)pi * (pole > 0.0f ? v : 1 - v));
@@ -177,7 +178,7 @@ static environment_row row_limits(const path_environment *e, uint32_t row)
     return limits;
 }
 
-/* Limits of the rows; probabilities become densities. */
+/* Fills in the limits of the rows and turns probabilities into densities. */
 static void finish_cells(path_environment *e)
 {
     for (uint32_t row = 0; row < e->rows; row++) {
@@ -226,7 +227,7 @@ static int draw_from(path_environment *e, const double *weights)
     return 1;
 }
 
-/* 0 if there is no memory; images that are even have no cells. */
+/* 0 if there is no memory. Images that are nearly even get no cells. */
 static int make_cells(path_environment *e)
 {
     const image *map = e->is->map;

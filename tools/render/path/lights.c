@@ -1,9 +1,9 @@
-/* Emitting shapes; they emit from their front. Up to LIGHTS_SEEN of them are chosen by what each may send to a
- * place, more by their power alone. On rectangles and triangles a point is drawn evenly by area, on a sphere a
- * direction evenly in the cone that it fills.
+/* Emitting shapes; they emit from their front. Up to LIGHTS_SEEN lights are chosen by the light that each may send
+ * to a place; if there are more, by their power alone. On rectangles and triangles a point is drawn evenly by
+ * area; for a sphere a direction is drawn evenly in the cone that it fills.
  *
- * What a light may send is its power over the square of its distance, times the cosines at both ends as they are
- * at the point of it that is best placed: above 0 wherever some of it is seen. */
+ * The light that a source may send is its power over the square of its distance, times the cosines at both ends
+ * for its best placed point: positive wherever a part of the source is visible. */
 #include "render/path/parts.h"
 
 #include <stdlib.h>
@@ -19,8 +19,8 @@ static void describe_sphere(path_light *l, const sphere *s)
     l->power = (float)luminance(l->radiance) * 0.25f * l->area;
 }
 
-/* About the middle of a rectangle, or that of the triangle of a corner and its two neighbours; the fourth corner
- * of a rectangle is as far away as the first. */
+/* The sphere about the middle of a rectangle, or of the triangle of a corner and its two neighbours. The fourth
+ * corner of a rectangle is as far away as the first. */
 static sphere sphere_about(const rectangle *r, float middle)
 {
     vndf_vec3 to_middle = scale(add(r->edge_u, r->edge_v), middle);
@@ -41,7 +41,7 @@ static void describe_flat(path_light *l, const rectangle *r, float part)
     l->sphere = sphere_about(r, part > 0.5f ? 0.5f : 1.0f / 3.0f);
 }
 
-/* 0: not one that is drawn. */
+/* 0 if the shape is no light that is drawn. */
 static int describe(path_light *l, const scene *s, const shape *of)
 {
     const material *m = &s->materials[of->material];
@@ -119,7 +119,7 @@ void path_lights_free(path_lights *lights)
 
 /* ---- choosing ---- */
 
-/* 1 - cos of the half angle of the cone, without the difference that is lost for far spheres; 0 inside the
+/* 1 - cos of the half angle of the cone, without the difference, which would cancel for far spheres; 0 inside the
  * sphere. */
 static float cone_height(const sphere *s, float square)
 {
@@ -210,7 +210,7 @@ static int draw_sphere(const path_light *l, vndf_vec3 place, float u, float v, l
     return s->distance > 0.0f;
 }
 
-/* Entry of the part that holds u, the last one that has a part if rounding left none. */
+/* The entry whose part holds u; if rounding leaves none, the last entry that has a part. */
 static uint32_t choose_seen(const path_lights *lights, const light_view *v, float u)
 {
     uint32_t chosen = 0;

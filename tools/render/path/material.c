@@ -1,9 +1,10 @@
-/* A material as routines for its kind. Lambert's and smooth ones are here, rough ones in rough.c. What cannot
- * be left out of a scene can be made smooth: for the time of the same scene without microfacets, rough dielectrics
- * become glass and all others mirrors of their reflectance at right angles.
+/* A material as routines for its kind. Lambert's and smooth materials are here, rough ones in rough.c. To time the
+ * same scene without microfacets, rough dielectrics become glass, and all other rough materials become mirrors of
+ * their reflectance at normal incidence.
  *
- * Frames: a normal of shading may see a ray from another side than the geometric one; the latter is taken then,
- * and path.c drops directions about whose side the two disagree, drawn from lights or from materials alike. */
+ * Frames: a ray may come from the front of the shading normal and the back of the geometric one, or the other way
+ * round; the geometric frame is taken then. path.c drops directions about whose side the two normals disagree,
+ * drawn from lights or from materials alike. */
 #include "render/path/parts.h"
 
 static const float pi = 3.14159265f;
@@ -64,7 +65,7 @@ static void refract(const path_point *p, float eta, bounce *b)
     b->carried = 1.0f / (eta * eta);
 }
 
-/* Reflection with the probability F; radiance is 1/eta^2 times what it is on the other side. */
+/* Reflects with the probability F; refraction multiplies radiance by 1/eta^2. */
 static int glass_sample(const path_point *p, const float u[3], bounce *b)
 {
     float eta = p->wi.z > 0.0f ? p->material->eta : 1.0f / p->material->eta;

@@ -1,11 +1,11 @@
-/* What a path is in: the bodies that it was refracted into and not out of, the innermost last. Light is absorbed
- * as the innermost does; out of it, it is in the one around it again. */
+/* The bodies that hold a path: refraction led into them and not out again, the innermost last. The innermost body
+ * absorbs light; behind its surface the body around it does again. */
 #ifndef TOOLS_RENDER_PATH_MEDIA_H
 #define TOOLS_RENDER_PATH_MEDIA_H
 
 #include "render/path/parts.h"
 
-/* A body that is deeper inside than that is not noticed. */
+/* A body deeper inside than this is ignored. */
 enum { MEDIA_MAX = 4 };
 
 typedef struct path_media {
@@ -19,7 +19,7 @@ static inline void media_enter(path_media *media, const path_material *m)
         media->around[media->count++] = m;
 }
 
-/* Of bodies that overlap, the one that is left may not be the innermost. */
+/* Bodies may overlap, so the path may leave one that is not the innermost. */
 static inline void media_leave(path_media *media, const path_material *m)
 {
     unsigned at = media->count;
@@ -32,8 +32,9 @@ static inline void media_leave(path_media *media, const path_material *m)
         media->around[at] = media->around[at + 1];
 }
 
-/* Over a distance in the innermost, out of `left` if that is not NULL. What goes on for ever has left all bodies,
- * whatever is noted here: of an open one, the way out may have been missed. */
+/* Absorbs over a distance in the innermost body, or, if `left` is not NULL, in the body that remains without it. A
+ * path that goes on for ever has left all bodies, even if the list still holds one: an open body has no surface on
+ * the way out. */
 static inline void media_absorb(const path_media *media, const path_material *left, float distance, float rgb[3])
 {
     unsigned count = media->count;

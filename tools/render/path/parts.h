@@ -1,20 +1,20 @@
-/* The parts of a plan: what path_prepare resolves once and what path_trace runs.
+/* The parts of a plan: path_prepare resolves them once, path_trace runs them.
  *
- *   plan.c         which effects a scene calls for; the parts below put together
+ *   plan.c         finds which effects a scene calls for; puts the parts below together
  *   material.c     a material as routines made for its kind: no test of a kind at a hit
- *   rough.c        rough ones: the library's routines
+ *   rough.c        rough materials: the routines of the library
  *   perfect.c      or sampling precomputed for the whole BSDF
- *   lights.c       emitting shapes: drawing a point, and the density of a point met
+ *   lights.c       emitting shapes: drawing a point, and the density of a point that a ray meets
  *   environment.c  light from far away: its radiance, drawing a direction of its image
- *   alias.c        one of many, by its probability
+ *   alias.c        draws one of many, by its probability
  *   path.c         the path itself
- *   media.h        the bodies that it is in
- *   repeat.c       how much of its time the library takes
+ *   media.h        the bodies that hold the path
+ *   repeat.c       the time that the library takes
  *
- * A direction may be drawn by the material or from a light; both estimates are weighed by the squares of the two
- * densities (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995).
- * Lights are drawn for directions to the outside of a surface only: inside a closed body the way to them is
- * barred by its own skin, and the material alone finds what there is. */
+ * A direction may be drawn by the material or from a light; the squares of the two densities weigh both estimates
+ * (Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Lights are
+ * drawn for directions to the outside of a surface only: inside a closed body its own surface hides them, and the
+ * material alone finds their light. */
 #ifndef TOOLS_RENDER_PATH_PARTS_H
 #define TOOLS_RENDER_PATH_PARTS_H
 
@@ -30,24 +30,24 @@ typedef struct path_material path_material;
 typedef struct path_point {
     const path_material *material;
     const hit *hit;
-    frame frame;  /* of shading, or geometric where they differ about the side of the ray */
+    frame frame;  /* of shading; geometric where the two differ about the side of the ray */
     vndf_vec3 wi; /* in it */
     const float *colour;
     float mapped[3];     /* the colour of a map */
     vndf_bsdf bsdf;      /* of rough materials */
-    perfect_hit perfect; /* instead of it, of those that are perfectly sampled */
+    perfect_hit perfect; /* takes its place in perfectly sampled materials */
 } path_point;
 
 typedef struct bounce {
     vndf_vec3 wo;    /* in the frame */
     float weight[3]; /* f |cos| / density */
-    float density;   /* 0: a Dirac, that nothing else finds */
-    float carried;   /* what refraction makes of radiance, a part of the weight: 1 or 1/eta^2 */
+    float density;   /* 0: a Dirac, which nothing else finds */
+    float carried;   /* the factor of refraction in the weight: 1 or 1/eta^2 */
 } bounce;
 
 typedef struct path_routines {
     int (*begin)(path_point *p);       /* fills the rest of a point; 0: nothing is scattered */
-    int (*begin_plain)(path_point *p); /* the same where the colour is there already */
+    int (*begin_plain)(path_point *p); /* the same if the point has its colour already */
     int (*sample)(const path_point *p, const float u[3], bounce *b);
     void (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]); /* f; NULL: a Dirac */
     float (*pdf)(const path_point *p, vndf_vec3 wo);
@@ -58,8 +58,8 @@ struct path_material {
     vndf_material bsdf;
     float colour[3];
     float eta;                   /* of smooth dielectrics */
-    vndf_roughness roughness;    /* its rotation, and alpha where no map changes it */
-    const path_perfect *perfect; /* of rough ones that are perfectly sampled; else NULL */
+    vndf_roughness roughness;    /* its rotation, and alpha unless a map changes it */
+    const path_perfect *perfect; /* for perfectly sampled rough materials; else NULL */
     int emits, absorbs;
     path_routines run, once; /* once: see repeat.c */
 };
@@ -73,19 +73,19 @@ typedef struct path_perfects {
 
 void path_perfects_free(path_perfects *all);
 
-/* What a plan was asked for. */
+/* The arguments of a plan. */
 typedef struct path_choice {
     path_sampler sampler;
     unsigned without;
     path_perfects *perfects; /* for the materials to share */
 } path_choice;
 
-/* 0 and a message if the library refuses, or perfect sampling does. */
+/* Returns 0 and a message if the library or perfect sampling refuses. */
 int path_material_prepare(path_material *made, const material *is, const path_choice *choice, char *message,
                           size_t size);
 int path_rough_make(path_material *m, const path_choice *choice, char *message, size_t size);
 
-/* Bits of what a material calls for. */
+/* The effects that a material calls for, as bits. */
 unsigned path_material_effects(const material *is);
 
 /* ---- lights ---- */
@@ -94,8 +94,8 @@ typedef struct light_sample {
     vndf_vec3 direction; /* towards the light, unit */
     float distance;
     float density;         /* per steradian */
-    const float *radiance; /* NULL: what the environment has there */
-    uint32_t shape;        /* that has it */
+    const float *radiance; /* NULL: the radiance of the environment */
+    uint32_t shape;        /* the shape of the light */
 } light_sample;
 
 typedef struct path_light {
@@ -106,7 +106,7 @@ typedef struct path_light {
     vndf_vec3 normal;    /* of rectangles and triangles */
     float area;
     float radiance[3];
-    float power; /* radiance times what is seen of the area from far away */
+    float power; /* radiance times the area that is visible from far away */
 } path_light;
 
 /* More lights than LIGHTS_SEEN are chosen by power alone, wherever they are. */
@@ -115,35 +115,35 @@ enum { LIGHTS_SEEN = 16 };
 typedef struct path_lights {
     path_light *lights;
     uint32_t count;
-    int32_t *of_shape;     /* index of a shape's light, -1 for others; NULL if there are none */
-    alias_place *by_power; /* of more lights than LIGHTS_SEEN */
+    int32_t *of_shape;     /* index of a shape's light, -1 for other shapes; NULL if there are no lights */
+    alias_place *by_power; /* for more lights than LIGHTS_SEEN */
 } path_lights;
 
 /* Light from a place: the probabilities with which each of its sources is chosen. */
 typedef struct light_view {
     vndf_vec3 place;
-    float environment, lights; /* all of them; both 0: none can be seen */
-    float part[LIGHTS_SEEN];   /* of each light, or nothing if there are more */
+    float environment, lights; /* of all lights together; both 0: none is visible */
+    float part[LIGHTS_SEEN];   /* of each light; empty if there are more */
 } light_view;
 
 /* 0 if there is no memory. */
 int path_lights_make(path_lights *made, const scene *s);
 void path_lights_free(path_lights *lights);
 
-/* From the outside of a surface, with an environment of the power `far`. */
+/* Looks at the lights from the outside of a surface, with an environment of the power `far`. */
 void path_lights_look(const path_lights *lights, float far, vndf_vec3 place, vndf_vec3 normal, light_view *v);
 
-/* From 64 random bits and three uniform numbers, of which the first is below v->lights and chooses among them; 0:
- * this one sees none. */
+/* Draws from 64 random bits and three uniform numbers; the first is below v->lights and chooses a light. 0: the
+ * place does not see it. */
 int path_lights_draw(const path_lights *lights, const light_view *v, uint64_t choice, const float u[3],
                      light_sample *s);
 
-/* The density with which path_lights_draw finds what a ray from the place has met. */
+/* The density with which path_lights_draw finds the point that a ray from the place has met. */
 float path_lights_density(const path_lights *lights, const light_view *v, vndf_vec3 direction, const hit *h);
 
 /* ---- the environment ---- */
 
-/* Heights y of a row of cells, less that of the nearer pole: 1, -1, or 0 for one across the equator. */
+/* Heights y of a row of cells, minus the height of the nearer pole: 1, -1, or 0 for a row across the equator. */
 typedef struct environment_row {
     float top, bottom, pole;
 } environment_row;
@@ -156,15 +156,16 @@ typedef struct path_environment {
     uint32_t columns, rows; /* of cells */
     environment_row *limits;
     alias_place *cells; /* with densities per steradian; NULL: not drawn */
-    /* And the density with which path_environment_draw finds it, if `density` is not NULL. */
+    /* The radiance, and, if `density` is not NULL, the density with which path_environment_draw finds the
+     * direction. */
     void (*radiance)(const struct path_environment *e, vndf_vec3 direction, float rgb[3], float *density);
 } path_environment;
 
-/* Without drawing if `drawn` is 0. 0 if there is no memory. */
+/* Without cells to draw from if `drawn` is 0. Returns 0 if there is no memory. */
 int path_environment_make(path_environment *made, const environment *is, int drawn);
 void path_environment_free(path_environment *e);
 
-/* From 64 random bits and two uniform numbers. */
+/* Draws from 64 random bits and two uniform numbers. */
 void path_environment_draw(const path_environment *e, uint64_t choice, const float u[2], light_sample *s);
 
 /* ---- the plan ---- */
@@ -174,7 +175,8 @@ typedef struct path_walk path_walk;
 struct path_plan {
     const scene *scene;
     unsigned effects;
-    vndf_vec3 corner, right, down; /* of the film, 1 from the eye: pixels are at corner + x right + y down */
+    vndf_vec3 corner, right,
+        down; /* the film, at distance 1 from the eye: pixels are at corner + x right + y down */
     path_material *materials;
     path_perfects perfects;
     path_lights lights;
@@ -182,10 +184,10 @@ struct path_plan {
     void (*trace)(path_walk *w); /* the loop that this scene needs; see path.c */
 };
 
-/* For measurements: every call of the library is made twice from now on, with the same result. */
+/* For measurements: from now on every call of the library runs twice, with the same result. */
 void path_repeat(path_plan *plan);
 
-/* Of path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
+/* In path.c: the loop for a scene with or without lights to draw, and with or without absorption. */
 void (*path_loop(int lit, int absorbing))(path_walk *w);
 
 #endif

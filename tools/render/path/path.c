@@ -1,6 +1,7 @@
-/* A path: from the eye through surfaces to light. At each one a light is drawn and weighed against the material,
- * then the material draws where the path goes on; light that it meets by itself is weighed against the lights
- * (parts.h). The loop is compiled four times, with and without lights to draw and absorption. */
+/* A path: from the eye through surfaces to light. At each surface the path draws a light and weighs it against the
+ * material; then the material draws the direction in which the path goes on. Light that this direction meets is
+ * weighed against the lights (parts.h). The loop is compiled four times, with and without lights to draw and
+ * absorption. */
 #include "render/path/media.h"
 #include "render/path/parts.h"
 
@@ -12,10 +13,10 @@ struct path_walk {
     random_stream random;
     ray ray;
     float throughput[3], radiance[3];
-    float carried;    /* what refraction alone made of the throughput */
-    float density;    /* of the direction, if lights could have drawn it too; else 0 */
-    light_view view;  /* the lights from where it was drawn, if they could */
-    path_media media; /* of scenes that absorb */
+    float carried;    /* the factor of refraction in the throughput */
+    float density;    /* of the direction, if lights could have drawn it; else 0 */
+    light_view view;  /* the lights from the place where it was drawn */
+    path_media media; /* for scenes that absorb */
 };
 
 static void draw(path_walk *w, float u[3])
@@ -30,7 +31,7 @@ static void gain(path_walk *w, const float radiance[3], float weight)
         w->radiance[i] += w->throughput[i] * radiance[i] * weight;
 }
 
-/* The part of an estimate of density `mine` where another has `other`. */
+/* The weight of an estimate of density `mine` beside another of density `other`. */
 static float share(float mine, float other)
 {
     float ratio = other / mine;
@@ -71,7 +72,7 @@ static frame geometric_frame(const hit *h)
     return f;
 }
 
-/* 0: nothing is scattered. */
+/* 0: the material scatters nothing. */
 static inline int begin(path_point *p, const path_material *m, const hit *h, vndf_vec3 direction)
 {
     vndf_vec3 wi = scale(direction, -1.0f);
@@ -90,7 +91,7 @@ static inline int begin(path_point *p, const path_material *m, const hit *h, vnd
 
 /* ---- light that is drawn ---- */
 
-/* From one of the two kinds of light. */
+/* Draws one of the two kinds of light. */
 static int draw_light(path_walk *w, light_sample *s)
 {
     const path_plan *plan = w->plan;
@@ -129,7 +130,7 @@ static void add_light(path_walk *w, const light_sample *s, float value[3], float
     gain(w, value, weight);
 }
 
-/* What costs more comes later. */
+/* The cheap tests come first. */
 static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
 {
     float value[3];
@@ -176,7 +177,7 @@ static inline int go_on(path_walk *w, const path_point *p, int absorbing)
     return 1;
 }
 
-/* What refraction makes of radiance is undone on the way out and says nothing about what a path is worth. */
+/* Leaves out the factor of refraction, which the way out undoes: it says nothing about the worth of a path. */
 static int survives(path_walk *w)
 {
     float worth = fmaxf(fmaxf(w->throughput[0], w->throughput[1]), w->throughput[2]) / w->carried;
@@ -245,7 +246,7 @@ void (*path_loop(int lit, int absorbing))(path_walk *w)
 
 /* ---- from the eye ---- */
 
-/* The numbers of a path are a stream of their own: the hash of seed, pixel and index. */
+/* The random numbers of a path are a stream of their own: a hash of seed, pixel and index. */
 static random_stream stream_of(uint64_t seed, uint64_t pixel, uint64_t index)
 {
     uint64_t of_pixel = random_from(random_from(seed).start ^ pixel).start;

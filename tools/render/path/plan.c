@@ -1,4 +1,4 @@
-/* What a scene calls for, found out once. */
+/* Finds out once which effects a scene calls for. */
 #include "render/path/parts.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ static unsigned environment_effects(const environment *e)
     return (light ? EFFECT_ENVIRONMENT : 0u) | (map ? EFFECT_ENVIRONMENT_MAP : 0u);
 }
 
-/* Of the materials that shapes have; those that none has cost nothing. */
+/* The effects of materials that a shape has; other materials cost nothing. */
 static unsigned scene_effects(const scene *s)
 {
     unsigned effects = environment_effects(&s->environment);
@@ -53,7 +53,7 @@ static void place_film(path_plan *plan)
 
 /* ---- parts ---- */
 
-/* Those that no shape has stay empty: they cost nothing, and cannot refuse. */
+/* Materials that no shape has stay empty: they cost nothing, and cannot refuse. */
 static int prepare_materials(path_plan *plan, path_sampler sampler, unsigned without, char *message, size_t size)
 {
     const scene *s = plan->scene;

@@ -1,9 +1,8 @@
-/* The time that paths spend in the library, without a clock in the loop: each routine of a rough material is run
- * twice, the first time for nothing, and what that costs more is the time of one. Paths stay the same to the bit.
- * The second run finds what it reads in the cache, which makes this less than the truth; the few lines of
- * rough.c about each call - a multiplication by a colour, the look-up of a mapped roughness - count as the
- * library's, which makes it more. Maps of colours do not. With perfect sampling its own tables are the
- * library's. */
+/* Measures the time that paths spend in the library without a clock in the loop: each routine of a rough material
+ * runs twice, the first time for nothing; the extra time is the time of one run. Paths stay the same to the bit.
+ * The second run finds its data in the cache, so the result is too low. The few lines of rough.c about each call -
+ * a multiplication by a colour, the look-up of a mapped roughness - count as the library's, so it is too high.
+ * Maps of colours do not count. With perfect sampling its own tables count as the library's. */
 #include "render/path/parts.h"
 
 static int begin_twice(path_point *p)
@@ -42,6 +41,6 @@ void path_repeat(path_plan *plan)
         m->once = m->run;
         m->run = twice;
         if (m->once.begin != m->once.begin_plain)
-            m->run.begin = m->once.begin; /* a map of colours: it goes on with begin_plain */
+            m->run.begin = m->once.begin; /* a map of colours: begin calls begin_plain, which runs twice */
     }
 }

@@ -1,5 +1,5 @@
-/* Rough materials: the library's routines, with the sampler of normals that is asked for, and the roughness of the
- * material or of a map; or perfect sampling (perfect.h), prepared once for all materials of the same BSDF. */
+/* Rough materials: the routines of the library, with the given sampler of normals and the roughness of the
+ * material or of a map; or perfect sampling (perfect.h), prepared once for all materials with the same BSDF. */
 #include "render/path/parts.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ static float carried(const path_point *p)
     return 1.0f / (eta * eta);
 }
 
-/* What the library drew as a bounce; 0: nothing. */
+/* Turns a sample of the library into a bounce; 0: nothing was scattered. */
 static int bounce_of(const path_point *p, const vndf_scattered *s, bounce *b)
 {
     if (s->lobe == VNDF_LOBE_NONE)
@@ -98,7 +98,7 @@ static float perfect_pdf(const path_point *p, vndf_vec3 wo)
 
 /* ---- samplers, shared ---- */
 
-/* The one of this BSDF, made if there is none yet. */
+/* The perfect sampler of this BSDF; makes it if there is none yet. */
 static const path_perfect *share_perfect(path_perfects *all, const vndf_description *is, vndf_error *error)
 {
     double start = clock_seconds();

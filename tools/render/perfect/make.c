@@ -1,13 +1,13 @@
-/* Making the sampler of a BSDF: what it refuses, and the worth of the cells of each node (perfect.c has the
- * mathematics). In a cell the library's own samples are looked at on an even grid of points, each lobe by itself:
- * 2 x 2 of them where the roughness is the same all round, and one for the many more nodes where it is not. */
+/* Makes the sampler of a BSDF: refusals, and the worth of the cells of each node (perfect.c has the mathematics).
+ * In a cell it looks at samples of the library on an even grid of points, each lobe by itself: 2 x 2 points if the
+ * roughness is isotropic, and one point if it is not, since there are many more nodes. */
 #include "render/perfect/perfect.h"
 
 #include <stdlib.h>
 
 enum { CELLS = PERFECT_CELLS };
 
-static const float least_share = 1e-3f; /* of a lobe: it is never left out */
+static const float least_share = 1e-3f; /* of a lobe, so that no lobe is left out */
 
 /* ---- what can be precomputed ---- */
 
@@ -42,14 +42,14 @@ int path_perfect_is_of(const path_perfect *p, const vndf_description *is)
 
 /* ---- making ---- */
 
-/* What refraction makes of radiance. */
+/* The factor of refraction for radiance. */
 static float carried(const perfect_hit *h, vndf_lobe lobe)
 {
     int changes = lobe == VNDF_LOBE_TRANSMISSION && h->is->is.effects.transport == VNDF_TRANSPORT_RADIANCE;
     return changes ? 1.0f / (h->eta * h->eta) : 1.0f;
 }
 
-/* Sums over points of a cell: of squares, and of how many had the lobe. */
+/* Sums over the points of a cell: of squares, and the number of points with the lobe. */
 typedef struct cell_worth {
     float both, of[2];
     int count[2];
@@ -80,7 +80,7 @@ static void weigh_point(const perfect_hit *h, float u1, float u2, cell_worth *su
     sum->both += both * both;
 }
 
-/* The share of reflection, each lobe where it is; where one never is nothing tells, and it counts as the other. */
+/* The share of reflection, from the points that have each lobe. A lobe that no point has counts as the other. */
 static float share_of(const cell_worth *sum)
 {
     float worth[2];

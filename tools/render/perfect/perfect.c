@@ -1,37 +1,37 @@
 /* Precomputed sampling of a BSDF, in the numbers that visible normals are drawn with.
  *
  * For a fixed wi the library turns (u1, u2) into a visible normal, and a lobe of the material into wo, with a
- * density p(wo) and a weight w = f |cos|/p: masking, times the reflectance of a conductor. As a function of u it
- * is smooth and bounded whatever the distribution and however small the roughness - the peak is in the map - and
- * it hardly changes from one wi to the next. So a coarse table over cells of (u1, u2), mixed between nodes of wi
- * (perfect_table.h), says where to draw u: with the density m(u),
+ * density p(wo) and a weight w = f |cos|/p: masking, times the reflectance of a conductor. As a function of u the
+ * weight is smooth and bounded for any distribution and any roughness - the peak is in the map - and it hardly
+ * changes from one wi to the next. So a coarse table over cells of (u1, u2), mixed between nodes of wi (table.h),
+ * says where to draw u. With the density m(u) of u,
  *
  *     density(wo) = p(wo) m(u),    weight = w/m(u),
  *
- * exact for any table: a poor one costs variance, not bias. m follows w, and what is left of the variance of the
- * weight is that within cells and between nodes.
+ * exact for any table: a poor one costs variance, not bias. m follows w; the weight still varies within cells and
+ * between nodes.
  *
- * Of two lobes with the reflectance F(wi.wm) the library takes reflection with the probability F, and w_r and w_t
+ * With two lobes and the reflectance F(wi.wm) the library takes reflection with the probability F, and w_r and w_t
  * remain. m follows F w_r + (1 - F) w_t, and reflection is taken with the probability F r/(F r + (1 - F)(1 - r)),
- * r = w_r/(w_r + w_t): r from the table, but F of the very normal, since it changes too fast beside total
- * reflection for any table. Where a lobe leads to the wrong side of the surface its r, or 1 - r, is 0. The density
- * has a factor more then,
+ * r = w_r/(w_r + w_t). r comes from the table, but F is evaluated at the normal, since beside total reflection it
+ * changes too fast for any table. Where a lobe leads to the wrong side of the surface its r, or 1 - r, is 0. The
+ * density then has another factor,
  *
  *     density(wo) = p(wo) m(u) (r or 1 - r)/(F r + (1 - F)(1 - r)).
  *
- * What is followed is the luminance of w, over 1/eta^2 for what is refracted: the square that radiance takes on
- * entering it gives back on leaving, and says nothing about what a path is worth. In a cell the root of the mean
- * square counts, not the mean: that leaves the least variance where w changes within it.
+ * m follows the luminance of w, without the factor 1/eta^2 of refraction: radiance gains that factor on entering
+ * and loses it on leaving, so it says nothing about the worth of a path. A cell counts by the root of the mean
+ * square, not by the mean: that leaves the least variance where w changes within the cell.
  *
- * For the density of a given wo u is found again: the microfacet between wi and wo (Walter et al., "Microfacet
- * Models for Refraction through Rough Surfaces", EGSR 2007, equations 13 and 16), and vndf_invert of it. wi is
- * turned and mirrored into the first quadrant of x and y, with x along it where the roughness is the same all
- * round: that leaves the BSDF as it is, and the table need not know how the library's map turns with wi. u is
- * found as well as the floats of wo tell: on a border between cells a rounding may give the density of the next
- * one, for some 1 in 1e4 at alpha 0.05 and up, for a good part at alpha 0.001 and grazing incidence. Next cells
- * differ by little; it is for the weights beside lights alone, and the weight of the sample itself is not touched.
+ * For the density of a given wo, u is found again: the microfacet between wi and wo (Walter et al., "Microfacet
+ * Models for Refraction through Rough Surfaces", EGSR 2007, equations 13 and 16), then its vndf_invert. wi is
+ * turned and mirrored into the first quadrant of x and y, with x along wi if the roughness is isotropic: that does
+ * not change the BSDF, and the table need not know how the map of the library turns with wi. The floats of wo
+ * limit u: on a border between cells a rounding may give the density of the next cell, for some 1 in 1e4 at alpha
+ * 0.05 and up, for a good part at alpha 0.001 and grazing incidence. Neighbouring cells differ by little, and this
+ * density only serves the weights beside lights; the weight of the sample itself does not change.
  *
- * Making it is in perfect_make.c. */
+ * make.c makes the sampler. */
 #include "render/perfect/perfect.h"
 
 /* ---- a hit ---- */
@@ -79,13 +79,13 @@ int path_perfect_begin(perfect_hit *h, const path_perfect *p, const vndf_roughne
 
 /* ---- lobes ---- */
 
-/* For one normal: how many times as often as the library does reflection is taken, and refraction, and how often
- * reflection then is. */
+/* For one normal: how much more often than in the library reflection is taken, the same for refraction, and the
+ * resulting probability of reflection. */
 typedef struct lobe_choice {
     float more[2], reflects;
 } lobe_choice;
 
-/* The choice is free where both lobes lead to their side of the surface. */
+/* There is a choice where both lobes lead to their side of the surface. */
 static lobe_choice choose_lobe(const perfect_hit *h, vndf_vec3 wm, float share)
 {
     vndf_vec3 wi = h->view.wi;
@@ -107,7 +107,7 @@ static void scale_sample(vndf_scattered *s, float more)
     s->density *= more;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         s->weight[i] /= more;
-    if (!(more > 0.0f)) /* the lobe that was taken is none: beside total reflection, a rounding */
+    if (!(more > 0.0f)) /* beside total reflection rounding took a lobe that is not there */
         *s = (vndf_scattered){s->wo, {0.0f, 0.0f, 0.0f}, 0.0f, VNDF_LOBE_NONE};
 }
 

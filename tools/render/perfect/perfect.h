@@ -1,7 +1,6 @@
-/* Perfect sampling: precomputed for the whole BSDF of one material, so that the weight is nearly the same for all
- * directions that are drawn. A yardstick for samplers of normals, fit for toy scenes: it takes 0.5 to 19 MiB
- * for each BSDF and up to 1.6 s - a table, stretched, that reflects and transmits -, and knows no roughness from a
- * map. */
+/* Perfect sampling: precomputed for the whole BSDF of one material, so that all drawn directions have nearly the
+ * same weight. A yardstick for samplers of normals, for toy scenes: each BSDF takes 0.5 to 19 MiB and up to 1.6 s
+ * (a stretched table that reflects and transmits). Roughness from a map is not supported. */
 #ifndef TOOLS_RENDER_PERFECT_PERFECT_H
 #define TOOLS_RENDER_PERFECT_PERFECT_H
 
@@ -16,7 +15,7 @@ typedef struct path_perfect {
     perfect_table table;
 } path_perfect;
 
-/* A direction that light goes along, and all that depends on it: a plain value, valid while the sampler lives. */
+/* A direction of light, and everything that depends on it: a plain value, valid while the sampler lives. */
 typedef struct perfect_hit {
     const path_perfect *is;
     float xx, xy, yx, yy; /* the frame of the table: x' = xx x + xy y, y' = yx x + yy y */
@@ -27,15 +26,15 @@ typedef struct perfect_hit {
     perfect_place place;
 } perfect_hit;
 
-/* Why a BSDF cannot be precomputed: a text that goes behind "material 'x': "; NULL: it can. */
+/* Why a BSDF cannot be precomputed, as a text to follow "material 'x': "; NULL if it can. */
 const char *path_perfect_refuses(const vndf_description *is);
 
-/* The distribution must outlive it. NULL if there is no memory, or the library refuses: *error says why then. The
- * rotation of the axes is not looked at: it is of hits. */
+/* The distribution must outlive the sampler. NULL, with the reason in *error, if there is no memory or the library
+ * refuses. Ignores the rotation of the axes, which belongs to hits. */
 path_perfect *path_perfect_make(const vndf_description *is, vndf_error *error);
 void path_perfect_free(path_perfect *p);
 
-/* Whether a sampler made for one serves the other. */
+/* Whether the sampler serves this description too. */
 int path_perfect_is_of(const path_perfect *p, const vndf_description *is);
 
 /* All that it holds. */

@@ -1,10 +1,11 @@
-/* Tables of perfect sampling: nodes, what they hold, and drawing from the mixture of them.
+/* Tables of perfect sampling: nodes, their cells, and drawing from a mixture of nodes.
  *
- *   axes      a direction to a place among the nodes, and (by bisection, when they are made) back
- *   filling   worth of cells to sums: of rows, and in each row of its cells
- *   drawing   a node, a row, a cell in the row; what is left of each number is the place in it
+ *   axes      from a direction to a place among the nodes, and (by bisection, when nodes are made) back
+ *   filling   turns the worth of cells into sums: over rows, and in each row over its cells
+ *   drawing   chooses a node, a row, a cell in the row; the rest of each number is the place in it
  *
- * The sums are floats and the probability of a cell is their difference, so it is what is really drawn with. */
+ * The sums are floats. The probability of a cell is their difference, hence the probability of really drawing
+ * it. */
 #include "render/perfect/table.h"
 
 #include <stdlib.h>
@@ -17,7 +18,7 @@ static const float last_tilt = 0.9995f; /* grazing itself sees nothing */
 
 /* ---- axes ---- */
 
-/* Rises from 0 to 1 with the sine, most about the critical one. */
+/* Rises from 0 to 1 with the sine, fastest about the critical sine. */
 static float critical_rise(float critical, float width, float sine)
 {
     float at = (sine - critical) / width, first = critical / width, last = (1.0f - critical) / width;
@@ -65,7 +66,7 @@ static float turn_at(const perfect_table *t, float at)
     return at > 0.0f ? high : 0.0f;
 }
 
-/* And the direction, of a side and a turn. */
+/* The direction with this side, tilt and turn. */
 static vndf_vec3 tilted(const perfect_table *t, float side, float turn, float at)
 {
     float low = 0.0f, high = at > 0.0f ? half_pi : 0.0f;
@@ -111,7 +112,7 @@ void perfect_table_free(perfect_table *t)
     t->nodes = NULL;
 }
 
-/* Of those of a side all tilts of a turn stand together. */
+/* Nodes are ordered by side, turn, tilt. */
 static size_t node_at(const perfect_table *t, int side, int turn, int tilt)
 {
     return (size_t)((side * t->turns + turn) * TILTS + tilt);
@@ -138,8 +139,8 @@ static double width_of(size_t i)
     return (double)(perfect_table_knot((int)i + 1) - perfect_table_knot((int)i));
 }
 
-/* Sums over cells whose density is `value`, over their total, where none counts for less than it has to. The mean
- * of the densities. */
+/* Sums over cells with the density `value`, each at least the least that counts, divided by their total. Returns
+ * the mean of the densities. */
 static double sum_up(const double value[CELLS], float sums[CELLS])
 {
     double mean = 0, total = 0, below = 0;
@@ -171,7 +172,7 @@ void perfect_table_fill(perfect_table *t, size_t node, const float *worth, const
 
 /* ---- places ---- */
 
-/* The node before a coordinate in [0, 1], and what is left of it. */
+/* The node before a coordinate in [0, 1], and the rest of the coordinate. */
 static int node_before(float at, int count, float *rest)
 {
     float x = fminf(fmaxf(at, 0.0f), 1.0f) * (float)(count - 1);
@@ -217,7 +218,7 @@ static float part_of(const float *sums, size_t i)
     return i ? sums[i] - sums[i - 1] : sums[0];
 }
 
-/* The first whose sum is above *u, which becomes where in its cell that is. */
+/* The first cell whose sum is above *u; *u becomes the place in it. */
 static size_t draw(const float sums[CELLS], float *u)
 {
     size_t low = 0, high = CELLS - 1;

@@ -1,4 +1,4 @@
-/* Clauses of a statement, and what stands in them: numbers, choices, names. */
+/* Clauses of a statement, and the numbers, choices and names in them. */
 #include "render/scene/reader.h"
 
 #include <math.h>
@@ -28,7 +28,8 @@ static int unknown_clause(scene_reader *r, const statement *s, const word *at, c
     return reader_unknown(r, at, what, names, count);
 }
 
-/* Values of c from words[*at] on. What is needed is taken as it is: a name may be that of a keyword. */
+/* Takes the values of c from words[*at] on. Takes required values as they are, since a name may look like a
+ * keyword. */
 static int take_values(scene_reader *r, const statement *s, size_t *at, clause *c, clause *clauses, size_t count)
 {
     c->values = s->words + *at;
@@ -69,7 +70,7 @@ int reader_clauses(scene_reader *r, const statement *s, size_t from, clause *cla
 
 /* ---- numbers ---- */
 
-/* strtod alone would also take nan, inf, hexadecimal numbers and leading blanks. */
+/* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
 static int parse(const char *text, double *number)
 {
     char *end;

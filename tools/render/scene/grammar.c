@@ -1,5 +1,5 @@
-/* The language of scene files, for people: what is there once and images, then materials and shapes. (A string may
- * have 4095 letters.) */
+/* The language of scene files, for people. Two parts, since a string may have 4095 letters: statements that stand
+ * once and images, then materials and shapes. */
 #include "render/scene/scene.h"
 
 const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {

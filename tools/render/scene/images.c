@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is read of an image before it is known to be good. */
+/* Reads the file of an image; the image may still be refused. */
 static int load_file(scene_reader *r, const clause *file, image *made)
 {
     image_error error;
@@ -30,7 +30,7 @@ static int make_pattern(scene_reader *r, const clause c[4], image *made)
            reader_refuse(r, c[1].values, "%s", error.message);
 }
 
-/* Materials point at images, so their array must not move: there is room for all from the first one on. */
+/* Materials point at images, so the array must not move: the first image allocates room for all. */
 static int add_image(scene_reader *r, const word *name, const image *added)
 {
     scene *s = r->made;

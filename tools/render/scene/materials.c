@@ -1,4 +1,4 @@
-/* material NAME KIND ...: which clauses go with which kind, and what they make. */
+/* material NAME KIND ...: which clauses go with which kind, and the material that they make. */
 #include "render/scene/reader.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ enum {
 typedef struct rule {
     const char *keyword, *takes;
     unsigned char least, most;
-    unsigned kinds, needed; /* bits of those it goes with, and of those that need it */
+    unsigned kinds, needed; /* bits of the kinds that it goes with, and of the kinds that need it */
 } rule;
 
 static const rule rules[CLAUSES] = {
@@ -60,7 +60,7 @@ static int refuse_clause(scene_reader *r, const clause *c, unsigned kind, unsign
     char list[128] = "";
     for (unsigned i = 0; i < KINDS; i++)
         if (fits >> i & 1u) {
-            strcat(list, list[0] ? ", " : ""); /* all kinds have 70 letters */
+            strcat(list, list[0] ? ", " : ""); /* all kinds together have 70 letters */
             strcat(list, kinds[i]);
         }
     return reader_refuse(r, c->at, "'%s' does not go with '%s'; it goes with: %s", c->keyword, kinds[kind], list);
@@ -84,7 +84,8 @@ static int find_clauses(scene_reader *r, const statement *s, unsigned kind, clau
 
 /* ---- effects ---- */
 
-/* A word among those that the rule lists between bars, in the order of the library's enumeration. */
+/* A word from the list of the rule, which separates words by bars and has the order of the library's
+ * enumeration. */
 static int read_choice(scene_reader *r, const clause *c, unsigned *choice)
 {
     char list[64];
@@ -126,7 +127,7 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
 
 /* ---- roughness ---- */
 
-/* A map holds roughness in its first channel, times alpha: together they are what alpha may be. */
+/* The first channel of a map, times alpha, is the roughness: the product must be a valid alpha. */
 static int read_map(scene_reader *r, const clause *both, const clause *one, textured *made)
 {
     const clause *c = one->at ? one : both;
@@ -177,7 +178,8 @@ static int read_table(scene_reader *r, const clause c[CLAUSES], material *m)
 
 /* ---- resolving ---- */
 
-/* What the library refuses is told where it stands; plans resolve again, with their sampler. */
+/* Resolves the material, so that a refusal of the library names the place in the file. Plans resolve it again,
+ * with their sampler. */
 static int resolve(scene_reader *r, const statement *s, const material *m)
 {
     vndf_material made;

@@ -1,6 +1,7 @@
 /* Indices of refraction of metals for red, green and blue: measured spectra weighed by the sensitivities of the
- * three colours, to three digits of what the renderers Tungsten and Yocto/GL list for Au, Ag, Cu and Al. (Indices
- * at single wavelengths would not do: at 550 nm copper is on the slope of its reflectance, and looks tan.) */
+ * three colours. They agree to three digits with the lists of the renderers Tungsten and Yocto/GL for Au, Ag, Cu
+ * and Al. (Indices at single wavelengths fail: at 550 nm copper is on the slope of its reflectance, and looks
+ * tan.) */
 #include "render/scene/reader.h"
 
 #include <string.h>

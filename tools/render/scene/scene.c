@@ -1,4 +1,4 @@
-/* Reads a scene: the file's words, statement after statement, and what only the whole can tell. */
+/* Reads a scene: the words of the file, statement after statement, then checks of the whole scene. */
 #include "render/scene/scene.h"
 
 #include <math.h>
@@ -58,7 +58,7 @@ static int read_statements(scene_reader *r)
     return 1;
 }
 
-/* A camera, and light from somewhere: a scene without is black, which nobody means. */
+/* The scene needs a camera and a light: without light it is black, which nobody means. */
 static int check_whole(scene_reader *r)
 {
     const environment *e = &r->made->environment;

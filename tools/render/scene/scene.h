@@ -1,5 +1,4 @@
-/* A scene: what a scene file says, resolved and ready to be rendered. grammar.c has the
- * language. */
+/* A scene: the contents of a scene file, resolved and ready for rendering. grammar.c has the language. */
 #ifndef TOOLS_RENDER_SCENE_SCENE_H
 #define TOOLS_RENDER_SCENE_SCENE_H
 
@@ -13,16 +12,16 @@ typedef struct camera {
 } camera;
 
 typedef struct integrator {
-    unsigned depth;    /* surfaces on a path at most */
-    unsigned roulette; /* from this surface on paths are ended at random */
+    unsigned depth;    /* the most surfaces on a path */
+    unsigned roulette; /* from this surface on paths end at random */
     unsigned samples;  /* a pixel */
     float exposure;    /* of the PNG */
 } integrator;
 
-/* A number that may be a map: value, times the map where there is one. */
+/* A number that may vary by a map: value, times the map if there is one. */
 typedef struct textured {
     float value;
-    const image *map; /* of the scene's images; NULL: constant */
+    const image *map; /* an image of the scene; NULL: constant */
 } textured;
 
 typedef enum material_kind {
@@ -67,29 +66,31 @@ typedef struct scene {
     environment environment;
 } scene;
 
-/* What takes the place of a scene's distributions, to see what tables change: those of formulas and families are
- * built in so many bytes, whatever their materials say (0: as they say), and ggx and beckmann too where
- * `closed_forms`. Tables of files stay. */
+/* Tables that replace the distributions of a scene, to show what tables change. Formulas and families are built in
+ * so many bytes, whatever their materials say (0: as they say); with `closed_forms`, ggx and beckmann too. Tables
+ * of files stay. */
 typedef struct scene_tables {
     unsigned bytes;
     int closed_forms;
 } scene_tables;
 
-/* Reads a scene file; paths in it are relative to its folder. 1, or 0 with a message "FILE:LINE:COLUMN: what is
- * wrong, and what would be right". Untrusted files are safe. */
+/* Reads a scene file; paths in it are relative to its folder. Returns 1, or 0 with a message "FILE:LINE:COLUMN:
+ * what is wrong, and what would be right". Untrusted files are safe. */
 int scene_read(scene *made, const char *path, char *message, size_t size);
 int scene_read_with(scene *made, const char *path, const scene_tables *tables, char *message, size_t size);
-/* The same from memory; `name` stands for the file. `text` has a 0 behind its `length` bytes, and is changed. */
+/* The same from memory; messages call the file `name`. `text` has a 0 behind its `length` bytes; the call changes
+ * it. */
 int scene_read_text(scene *made, const char *name, char *text, size_t length, char *message, size_t size);
-/* Pixels across; the height follows. 0 and a message if that leaves no row, or more pixels than a film has. */
+/* Sets the pixels across; the height follows. 0 and a message if no row is left, or a film cannot have as many
+ * pixels. */
 int scene_resize(scene *s, int width, char *message, size_t size);
 
 void scene_free(scene *s);
 
-/* What the library says of a material, in the words of the language. */
+/* Turns a message of the library about a material into the words of the language. */
 void scene_wording(const char *said, char *message, size_t size);
 
-/* The language, for --grammar: one part after the other. */
+/* The language, for --grammar, in parts. */
 enum { SCENE_GRAMMAR_PARTS = 2 };
 extern const char *const scene_grammar[SCENE_GRAMMAR_PARTS];
 

@@ -43,8 +43,8 @@ int read_sphere(scene_reader *r, const statement *s)
     return added(r, s, geometry_add_sphere(&r->made->geometry, made, of));
 }
 
-/* The text has few digits, so edges that are meant to be at right angles may be a little off: the second one
- * gives in. */
+/* The text has few digits, so edges that are meant to be at right angles may be a little off: this corrects the
+ * second one. */
 static int square_edges(scene_reader *r, const clause c[2], rectangle *made)
 {
     for (int i = 0; i < 2; i++) {

@@ -1,5 +1,5 @@
-/* Distributions of a scene: closed forms, tables that are loaded, and tables that are built in memory. One that
- * several materials ask for is there once; its key is the kind, the size and the text. */
+/* Distributions of a scene: closed forms, tables that are loaded, and tables that are built in memory. Materials
+ * with the same distribution share it; its key is the kind, the size and the text. */
 #include "render/scene/reader.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ static vndf_distribution *load(scene_reader *r, const word *at, vndf_error *erro
     char *path = reader_path(r, at);
     vndf_distribution *loaded = path ? vndf_load(path, error) : NULL;
     if (!path)
-        error->message[0] = '\0'; /* the refusal is written */
+        error->message[0] = '\0'; /* reader_refuse has written the message */
     free(path);
     return loaded;
 }

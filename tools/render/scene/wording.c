@@ -1,6 +1,6 @@
-/* What the library refuses of a material, in the words of scene files: its own are constants and members of C.
- * "normals is VNDF_NORMALS_BOUNDED" becomes "normals bounded", and a kind of Fresnel's equations the kind of
- * material that has them. */
+/* Turns refusals of the library, which name constants and members of C, into the words of scene files: "normals is
+ * VNDF_NORMALS_BOUNDED" becomes "normals bounded", and a kind of Fresnel's equations becomes the kind of material
+ * that has them. */
 #include "render/scene/scene.h"
 
 #include <string.h>
@@ -30,7 +30,7 @@ static const wording *wording_of(const char *said)
     return NULL;
 }
 
-/* Behind the first two words of VNDF_EFFECT_CHOICE; NULL if this is no constant. */
+/* The part after the first two words of VNDF_EFFECT_CHOICE; NULL if this is not a constant. */
 static const char *choice_of(const char *said)
 {
     const char *second = strncmp(said, "VNDF_", 5) == 0 ? strchr(said + 5, '_') : NULL;

@@ -1,6 +1,6 @@
-/* A scene file as words. Blanks, tabs and ends of lines part them; # outside quotes begins a comment; "quotes"
- * hold blanks. A word in the first column of a line begins a statement, and lines that begin with a blank go on
- * with it. */
+/* A scene file as words. Blanks, tabs and ends of lines separate them; # outside quotes begins a comment; "quotes"
+ * hold blanks. A word in the first column of a line begins a statement; a line that begins with a blank continues
+ * it. */
 #include "render/scene/reader.h"
 
 #include <stdarg.h>
@@ -53,7 +53,7 @@ static void next_line(place *p)
     p->line_start = p->at;
 }
 
-/* Over blanks, comments and ends of lines. */
+/* Skips blanks, comments and ends of lines. */
 static void skip(place *p)
 {
     while (p->at < p->end) {
@@ -88,7 +88,7 @@ static word *add_word(scene_reader *r)
     return &r->words[r->count++];
 }
 
-/* The letters of a word, its quotes passed over; p->at is behind it then. */
+/* Takes the letters of a word without its quotes; moves p->at behind it. */
 static int take_letters(scene_reader *r, place *p, word *w)
 {
     if (w->quoted)
@@ -106,7 +106,7 @@ static int take_letters(scene_reader *r, place *p, word *w)
     return 1;
 }
 
-/* What ends a word must be a blank, a comment or the end; it becomes the word's final 0 after it was read. */
+/* A blank, a comment or the end must follow a word. Once read, that character becomes the 0 that ends the word. */
 static int take_word(scene_reader *r, place *p)
 {
     word *w = add_word(r);
@@ -126,7 +126,7 @@ static int take_word(scene_reader *r, place *p)
     return 1;
 }
 
-/* strchr finds the 0 that ends its own list, and take_word must not take one for a blank. */
+/* A byte 0 is refused here, since strchr finds the 0 at the end of its list and take_word would see a blank. */
 static int check_bytes(scene_reader *r, const char *text, size_t size)
 {
     const char *zero = memchr(text, '\0', size);
@@ -141,7 +141,7 @@ static int check_bytes(scene_reader *r, const char *text, size_t size)
     return reader_refuse(r, &here, "a byte 0: this is no text");
 }
 
-/* A 0 goes behind a word, over what ended it; a comment that did so is passed over here. */
+/* Writes a 0 over the character behind a word; if that began a comment, skips the comment. */
 static void end_word(place *p)
 {
     if (p->at >= p->end)
