@@ -6,7 +6,6 @@
 
 #include "cli/arguments.h"
 #include "bench/bench.h"
-#include "bench/parts.h"
 #include "command.h"
 #include "cli/output.h"
 #include "cli/source_words.h"
@@ -64,29 +63,6 @@ static int show_progress(double done, const char *what, void *user)
 
 /* ---- output ------------------------------------------------------------------------------------ */
 
-static int print_to(const char *path, const bench_rows *rows, void (*print)(FILE *, const bench_rows *))
-{
-    output_file output;
-    if (!path)
-        return STATUS_GOOD;
-    if (!output_open(&output, name, path))
-        return STATUS_USE;
-    print(output.file, rows);
-    return output_commit(&output);
-}
-
-/* The text goes to stdout unless something else does. */
-static int print_all(const bench_words *given, const bench_rows *rows)
-{
-    const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    int taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
-    if (!taken)
-        bench_print_text(stdout, rows);
-    int status = print_to(csv, rows, bench_print_csv);
-    int second = print_to(markdown, rows, bench_print_markdown);
-    return status == STATUS_GOOD ? second : status;
-}
-
 static int judge(const bench_rows *rows)
 {
     int status = STATUS_GOOD;
@@ -115,7 +91,8 @@ static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
         fputs("\r\033[K", stderr);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    int printed = print_all(given, &rows), judged = judge(&rows);
+    int printed = outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &bench_printers, &rows);
+    int judged = judge(&rows);
     bench_rows_free(&rows);
     return printed == STATUS_GOOD ? judged : printed;
 }

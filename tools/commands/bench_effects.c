@@ -64,28 +64,6 @@ static int go_on(double done, const char *what, void *user)
 
 /* ---- output ------------------------------------------------------------------------------------ */
 
-static int print_to(const char *path, const effects_list *list, void (*print)(FILE *, const effects_list *))
-{
-    output_file output;
-    if (!path)
-        return STATUS_GOOD;
-    if (!output_open(&output, name, path))
-        return STATUS_USE;
-    print(output.file, list);
-    return output_commit(&output);
-}
-
-/* The text goes to stdout unless something else does. */
-static int print_all(const effects_words *given, const effects_list *list)
-{
-    const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    if (!(csv && output_is_stdout(csv)) && !(markdown && output_is_stdout(markdown)))
-        effects_print_text(stdout, list);
-    int status = print_to(csv, list, effects_print_csv);
-    int second = print_to(markdown, list, effects_print_markdown);
-    return status == STATUS_GOOD ? second : status;
-}
-
 static int judge(const effects_list *list)
 {
     int status = STATUS_GOOD;
@@ -126,7 +104,9 @@ static int run_list(effects_list *list, const effects_plan *plan, const effects_
         fputs("\r\033[K", stderr);
     if (status != VNDF_OK)
         return complain(name, status == VNDF_ERROR_MEMORY ? "no memory" : "interrupted");
-    int printed = print_all(given, list), judged = judge(list);
+    int printed =
+        outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &effects_printers, list);
+    int judged = judge(list);
     if (why[0])
         fprintf(stderr, "%s: instructions are not counted: %s\n", name, why);
     return printed == STATUS_GOOD ? judged : printed;

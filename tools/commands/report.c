@@ -12,6 +12,7 @@
 #include "command.h"
 #include "cli/output.h"
 #include "draw/folder.h"
+#include "draw/svg.h"
 #include "cli/source_text.h"
 
 static const char name[] = "vndf report";
@@ -203,7 +204,7 @@ static void write_contents(FILE *html, const report *r)
     fprintf(html, "Batches ran on %s. ", sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)]);
     fputs(r->subject[0].brought ? "The first distribution is yours: <code>" : "The first distribution is <code>",
           html);
-    chart_escape(html, r->subject[0].arguments);
+    svg_escape(html, r->subject[0].arguments);
     fputs("</code>.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and time</a> "
           "<a href=\"#bytes\">Error and bytes</a> <a href=\"#theta\">Error and angle</a> "
           "<a href=\"#normals\">Density and samples</a> <a href=\"#variance\">Variance</a> "

@@ -206,7 +206,8 @@ static int tell(under_way *run, const char *folder, folder_state state)
                      ? folder_write(run->choice->command, folder, page.file, page.count, run->held)
                      : complain(run->choice->command, "no memory for the page");
     if (status == STATUS_GOOD) {
-        comparison_print(stdout, &run->result);
+        if (!comparison_print(stdout, &run->result))
+            status = complain(run->choice->command, "no memory for the tables");
         printf("\n%s %s/index.html\n", state == FOLDER_OURS ? "replaced" : "wrote", folder);
     }
     page_free(&page);

@@ -83,9 +83,6 @@ void chart_draw_alone(FILE *file, const chart *c);
 /* The rules for the classes of chart_draw, those for dark screens included. */
 void chart_style(FILE *file);
 
-/* Text for an element or an attribute. */
-void chart_escape(FILE *file, const char *text);
-
 /* ---- axes: chart_axis.c ---- */
 
 /* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */

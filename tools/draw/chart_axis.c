@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "draw/table.h"
+
 double chart_place(const chart_axis *axis, double value)
 {
     if (axis->scale == CHART_LINEAR)
@@ -53,8 +55,7 @@ static size_t add_tick(const chart_axis *axis, chart_tick *ticks, size_t count, 
     ticks[count].value = value;
     ticks[count].name[0] = '\0';
     if (named && axis->scale == CHART_BYTES)
-        snprintf(ticks[count].name, sizeof ticks[count].name, value < 1048576 ? "%.3g KiB" : "%.3g MiB",
-                 value / (value < 1048576 ? 1024 : 1048576));
+        table_bytes_text(ticks[count].name, value);
     else if (named && axis->scale == CHART_LOG)
         name_number(axis, ticks[count].name, value);
     else if (named)

@@ -51,25 +51,26 @@ static void fit_axes(chart *c)
     chart_fit(&c->y, low_y, high_y);
 }
 
+static void add_row(text_table *t, const char *method, const char *distribution, double bytes, double tv)
+{
+    table_row(t);
+    table_text(t, "method", method);
+    table_text(t, "distribution", distribution);
+    table_number(t, "bytes", "%.0f", bytes);
+    table_value(t, "tv", tv);
+}
+
 static int write_data(html_page *page, const report *r, const byte_points *others)
 {
-    FILE *data = page_file_begin(page, "bytes.csv");
-    if (!data)
-        return 0;
-    fputs("method,distribution,bytes,tv\n", data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
-            fputs("table,", data);
-            page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes, r->subject[k].table[i].tv);
+            const report_table *of = &r->subject[k].table[i];
+            add_row(&data, "table", r->subject[k].name, (double)of->info.bytes, of->tv);
         }
-    for (size_t i = 0; i < others->count; i++) {
-        page_field(data, others->label[i]);
-        fputc(',', data);
-        page_field(data, r->subject[0].name);
-        fprintf(data, ",%.0f,%.5g\n", others->x[i], others->y[i]);
-    }
-    return page_data_end(page, "total variation of each size");
+    for (size_t i = 0; i < others->count; i++)
+        add_row(&data, others->label[i], r->subject[0].name, others->x[i], others->y[i]);
+    return page_data(page, "bytes.csv", "total variation of each size", data);
 }
 
 enum { LABEL_MOST = 36 };

@@ -57,7 +57,7 @@ static void label_row(const bench_row *row, char label[LABEL])
     const char *batch = strstr(row->method, ", batch");
     int length = batch ? (int)(batch - row->method) : (int)strlen(row->method);
     if (row->kind == BENCH_TABLE)
-        report_bytes_text(label, (double)row->bytes);
+        table_bytes_text(label, (double)row->bytes);
     else if (names_distribution(row) || row->bytes > 0)
         snprintf(label, LABEL, "%.*s", length, row->method);
     else
@@ -160,37 +160,11 @@ static chart chart_of(frontier *f, const char *name)
     return c;
 }
 
-static void write_number(FILE *data, double value)
-{
-    if (isnan(value))
-        fputc(',', data);
-    else
-        fprintf(data, ",%.5g", value);
-}
-
 static int write_data(html_page *page, const bench_rows *rows)
 {
     FILE *data = page_file_begin(page, "frontier.csv");
-    if (!data)
-        return 0;
-    fputs("method,distribution,instructions,bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
-          "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
-          data);
-    for (size_t i = 0; i < rows->count; i++) {
-        const bench_row *row = &rows->row[i];
-        const double values[] = {
-            row->ns,       row->ns_low,     row->ns_high,       row->ratio,         row->tv,
-            row->tv_theta, row->max_weight, row->efficiency[0], row->efficiency[1], row->efficiency_light,
-            row->bias[0],  row->bias[1]};
-        page_field(data, row->method);
-        fputc(',', data);
-        page_field(data, row->distribution);
-        fprintf(data, ",%s,%zu", row->instructions, row->bytes);
-        for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
-            write_number(data, values[k]);
-        fputc('\n', data);
-    }
-    return page_data_end(page, "all methods, as vndf bench measures them");
+    return data && bench_printers.csv(data, rows) &&
+           page_data_end(page, "all methods, as `vndf bench --csv` has them");
 }
 
 static int write_alone(html_page *page, const chart *c)

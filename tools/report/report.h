@@ -19,6 +19,7 @@
 
 #include "bench/bench.h"
 #include "draw/page.h"
+#include "draw/table.h"
 #include "vndf_build.h"
 
 enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
@@ -87,9 +88,6 @@ typedef struct report_watch {
 } report_watch;
 
 double report_theta(size_t angle);
-
-/* "16 KiB", "1 MiB", "25.8 KiB", to 3%. */
-void report_bytes_text(char text[16], double bytes);
 
 /* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
 

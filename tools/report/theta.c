@@ -32,7 +32,7 @@ static void fill_curves(const report_subject *s, theta_curves *curves)
     curves->high = 0;
     for (size_t k = 0; k < curves->count; k++) {
         const report_table *t = &s->table[shown[k]];
-        report_bytes_text(curves->label[k], (double)t->info.bytes);
+        table_bytes_text(curves->label[k], (double)t->info.bytes);
         for (size_t a = 0; a < REPORT_ANGLES; a++) {
             curves->x[a] = report_theta(a);
             curves->y[k][a] = t->error[a].tv;
@@ -73,23 +73,27 @@ static void draw_subject(FILE *file, const report_subject *s)
     fputs("</figure>\n", file);
 }
 
+static void add_row(text_table *t, const report_subject *s, const report_table *of, size_t angle)
+{
+    const report_error *e = &of->error[angle];
+    table_row(t);
+    table_text(t, "distribution", s->name);
+    table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    table_value(t, "theta_deg", report_theta(angle));
+    table_value(t, "tv", e->tv);
+    table_value(t, "weight_variance", e->variance);
+    table_value(t, "max_weight", e->max_weight);
+}
+
 static int write_data(html_page *page, const report *r)
 {
-    FILE *data = page_file_begin(page, "theta.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,bytes,theta_deg,tv,weight_variance,max_weight\n", data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++)
-            for (size_t a = 0; a < REPORT_ANGLES; a++) {
-                const report_table *t = &r->subject[k].table[i];
-                if (isnan(t->error[a].tv))
-                    continue;
-                page_field(data, r->subject[k].name);
-                fprintf(data, ",%zu,%g,%.5g,%.5g,%.5g\n", t->info.bytes, report_theta(a), t->error[a].tv,
-                        t->error[a].variance, t->error[a].max_weight);
-            }
-    return page_data_end(page, "error of every table at every angle");
+            for (size_t a = 0; a < REPORT_ANGLES; a++)
+                if (!isnan(r->subject[k].table[i].error[a].tv))
+                    add_row(&data, &r->subject[k], &r->subject[k].table[i], a);
+    return page_data(page, "theta.csv", "error of every table at every angle", data);
 }
 
 int report_write_theta(html_page *page, const report *r)

@@ -185,7 +185,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, "cosine of wo");
     e = estimator_of(s, WAY_ALL_NORMALS, s->exact.distribution);
     add_noise(integral, &e, "all normals");
-    report_bytes_text(size, (double)first->info.bytes);
+    table_bytes_text(size, (double)first->info.bytes);
     e = estimator_of(s, WAY_UNWEIGHTED, first->table);
     snprintf(text, sizeof text, "%s, no weight", size);
     add_noise(integral, &e, text);
@@ -193,7 +193,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, size);
     if (chosen == first)
         return;
-    report_bytes_text(size, (double)chosen->info.bytes);
+    table_bytes_text(size, (double)chosen->info.bytes);
     e = estimator_of(s, WAY_WEIGHTED, chosen->table);
     add_noise(integral, &e, size);
 }
@@ -259,16 +259,17 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
 
 static int write_data(html_page *page, const report *r, const double counts[REPORT_COUNTS])
 {
-    FILE *data = page_file_begin(page, "variance.csv");
-    if (!data)
-        return 0;
-    fputs("integral,method,samples,relative_rms_error\n", data);
+    text_table data = {.rows = 0};
     for (int i = 0; i < 2; i++)
         for (size_t m = 0; m < r->integral[i].count; m++)
-            for (int k = 0; k < REPORT_COUNTS; k++)
-                fprintf(data, "\"%s\",\"%s\",%.0f,%.5g\n", r->integral[i].title, r->integral[i].noise[m].method,
-                        counts[k], r->integral[i].noise[m].error[k]);
-    return page_data_end(page, "error of each method at each number of samples");
+            for (int k = 0; k < REPORT_COUNTS; k++) {
+                table_row(&data);
+                table_text(&data, "integral", r->integral[i].title);
+                table_text(&data, "method", r->integral[i].noise[m].method);
+                table_value(&data, "samples", counts[k]);
+                table_value(&data, "relative_rms_error", r->integral[i].noise[m].error[k]);
+            }
+    return page_data(page, "variance.csv", "error of each method at each number of samples", data);
 }
 
 int report_write_variance(html_page *page, const report *r)

@@ -11,7 +11,7 @@
  *     worth.c         verification; mean, lost samples, largest weight and variance
  *     time.c          time, in turns
  *     instructions.c  instructions, by valgrind
- *     print.c         tables for people, csv.c all numbers */
+ *     print.c         tables for people, and all numbers as CSV */
 #ifndef TOOLS_BENCH_EFFECTS_EFFECTS_H
 #define TOOLS_BENCH_EFFECTS_EFFECTS_H
 
@@ -19,6 +19,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "cli/output.h"
 #include "vndf_bsdf.h"
 
 /* ---- sets --------------------------------------------------------------------------------------- */
@@ -180,8 +181,7 @@ vndf_status effects_count(effects_list *list, const effects_plan *plan, char *wh
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 
-void effects_print_text(FILE *file, const effects_list *list);
-void effects_print_markdown(FILE *file, const effects_list *list);
-void effects_print_csv(FILE *file, const effects_list *list);
+/* Of effects_list. */
+extern const output_printers effects_printers;
 
 #endif
