@@ -9,7 +9,7 @@
 #include "cli/distribution.h"
 #include "measure/masking.h"
 #include "cli/output.h"
-#include "cli/source_text.h"
+#include "cli/source_words.h"
 #include "draw/table.h"
 
 static const char name[] = "vndf masking";

@@ -45,34 +45,23 @@ static void draw_curves(FILE *html, const comparison *r, int by_time)
     double x[WAYS_MAX][POINTS_MAX], y[WAYS_MAX][POINTS_MAX];
     chart_series series[WAYS_MAX];
     const contest *c = r->contest;
-    double range[4] = {HUGE_VAL, 0, HUGE_VAL, 0};
     for (size_t i = 0; i < c->count; i++) {
         const way *w = &c->way[i];
         for (size_t k = 0; k < w->points; k++) {
             x[i][k] = by_time ? w->point[k].seconds : (double)w->point[k].samples;
             y[i][k] = w->point[k].error.trimmed;
-            range[0] = fmin(range[0], x[i][k]);
-            range[1] = fmax(range[1], x[i][k]);
-            range[2] = y[i][k] > 0 ? fmin(range[2], y[i][k]) : range[2];
-            range[3] = fmax(range[3], y[i][k]);
         }
         series[i] = (chart_series){w->name, x[i], y[i], w->points, (unsigned)i, marks[i], CHART_SOLID, NULL};
     }
-    chart drawn = {by_time ? "Error against time" : "Error against samples",
-                   NULL,
-                   CHART_WIDTH,
-                   CHART_HEIGHT,
-                   120,
-                   {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
-                   {CHART_LOG, 0, 0, 0, "relative error, without fireflies"},
-                   NULL,
-                   0,
-                   series,
-                   c->count,
-                   NULL,
-                   0};
-    chart_fit(&drawn.x, range[0], range[1]);
-    chart_fit(&drawn.y, range[2], range[3]);
+    chart drawn = {.title = by_time ? "Error against time" : "Error against samples",
+                   .width = CHART_WIDTH,
+                   .height = CHART_HEIGHT,
+                   .right = 120,
+                   .x = {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
+                   .y = {CHART_LOG, 0, 0, 0, "relative error, without fireflies"},
+                   .series = series,
+                   .count = c->count};
+    chart_fit_series(&drawn, 0);
     fputs("<figure>\n", html);
     chart_draw(html, &drawn);
     fputs("</figure>\n", html);

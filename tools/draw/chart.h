@@ -91,6 +91,16 @@ double chart_place(const chart_axis *axis, double value);
 /* Ends of a logarithmic axis that holds what lies from low to high: whole decades, or powers of two. */
 void chart_fit(chart_axis *axis, double low, double high);
 
+/* The least and the greatest positive number; {HUGE_VAL, 0} to begin with. */
+typedef struct chart_range {
+    double low, high;
+} chart_range;
+
+void chart_widen(chart_range *range, double value);
+
+/* Both axes, logarithmic ones, to all series; those whose high end is set stay. `least`: of y, nothing below is shown. */
+void chart_fit_series(chart *c, double least);
+
 typedef struct chart_tick {
     double value;
     char name[16]; /* "" for a small one */

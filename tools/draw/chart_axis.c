@@ -27,6 +27,28 @@ void chart_fit(chart_axis *axis, double low, double high)
     axis->high = pow(base, last > first ? last : first + 1) * room;
 }
 
+void chart_widen(chart_range *range, double value)
+{
+    if (!(value > 0))
+        return;
+    range->low = fmin(range->low, value);
+    range->high = fmax(range->high, value);
+}
+
+void chart_fit_series(chart *c, double least)
+{
+    chart_range x = {HUGE_VAL, 0}, y = {HUGE_VAL, 0};
+    for (size_t k = 0; k < c->count; k++)
+        for (size_t i = 0; i < c->series[k].count; i++) {
+            chart_widen(&x, c->series[k].x[i]);
+            chart_widen(&y, c->series[k].y[i]);
+        }
+    if (!(c->x.high > c->x.low))
+        chart_fit(&c->x, x.low, x.high);
+    if (!(c->y.high > c->y.low))
+        chart_fit(&c->y, fmax(y.low, least), y.high);
+}
+
 /* 10 to a power, with the digits above the line. */
 static void name_power(char name[16], int power)
 {

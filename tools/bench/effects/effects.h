@@ -20,6 +20,7 @@
 #include <stdio.h>
 
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "vndf_bsdf.h"
 
 /* ---- sets --------------------------------------------------------------------------------------- */
@@ -158,8 +159,7 @@ typedef struct effects_plan {
     double theta;     /* of the direction that variance is measured for */
     const char *only; /* NULL, or a part of the name of a set or distribution, or "variance" */
     double seconds;
-    int (*go_on)(double done, const char *what, void *user); /* 0 stops */
-    void *user;
+    progress *progress;
 } effects_plan;
 
 /* An empty list and an error if `only` fits nothing or a set cannot be. */
