@@ -22,7 +22,7 @@ vndf_source *source_from_words(const char *command, const source_words *given);
 /* As a shell would take it, with quotes where they are needed; cut where `size` ends. */
 void source_text(const source_words *given, char *text, size_t size);
 
-/* For people: the formula, file or family alone, and the parameters after it; cut likewise. */
+/* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */
 void source_text_name(const source_words *given, char *text, size_t size);
 
 #endif

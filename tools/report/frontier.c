@@ -114,7 +114,7 @@ static void collect(frontier *f, const bench_rows *rows)
             add_series(f, rows, (bench_kind)kind, set);
 }
 
-/* Shapes say who, colours say how many at once: those that occur. */
+/* Shapes say who, colours say how many at once. The key names the colours that occur. */
 static void fill_key(frontier *f)
 {
     static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},

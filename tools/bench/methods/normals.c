@@ -139,6 +139,8 @@ method method_any_all_normals(const method_truth *truth)
                 .release = free,
                 .one = draw_any,
                 .turned = 1};
+    if (!truth)
+        return m;
     radial_cdf *t = malloc(sizeof *t);
     double *mass = malloc((FINE + 1) * sizeof *mass);
     if (t && mass) {

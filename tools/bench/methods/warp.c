@@ -211,7 +211,7 @@ static warp *warp_of(const method_truth *truth, size_t side)
 method method_warp(const method_truth *truth, size_t side)
 {
     method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = draw, .turned = 1};
-    m.state = warp_of(truth, side);
+    m.state = truth ? warp_of(truth, side) : NULL;
     m.bytes = SLICES * (2 * side * side + side) * sizeof(float);
     m.each = m.state ? each : NULL;
     snprintf(m.name, sizeof m.name, "bilinear warps, %d x %zu^2", SLICES, side);
