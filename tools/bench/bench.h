@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 
+#include "cli/output.h"
 #include "vndf_build.h"
 
 typedef enum bench_kind {
@@ -59,5 +60,8 @@ typedef struct bench_plan {
  * (VNDF_ERROR_ARGUMENT "interrupted" where the progress said so; *rows is empty then). */
 vndf_status bench_run(const bench_plan *plan, bench_rows *rows, vndf_error *error);
 void bench_rows_free(bench_rows *rows);
+
+/* Of bench_rows. */
+extern const output_printers bench_printers;
 
 #endif

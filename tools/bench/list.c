@@ -68,6 +68,24 @@ static void add_ours(bench_list *list, const bench_plan *plan, bench_subject sub
         add(list, plan, subject, method_ours(d, name, sets[i]), 0);
 }
 
+/* The published ways for any D. All three makers are asked alike: the CDF has no side. */
+static method any_all_normals(const method_truth *truth, size_t side)
+{
+    (void)side;
+    return method_any_all_normals(truth);
+}
+
+static const struct {
+    method (*make)(const method_truth *truth, size_t side);
+    size_t side;
+    int yardstick;
+} any_methods[] = {
+    {any_all_normals, 0, 1},          {method_inverse_tables, 64, 0}, {method_inverse_tables, 256, 0},
+    {method_inverse_tables, 1024, 0}, {method_warp, 32, 0},           {method_warp, 128, 0},
+};
+
+enum { ANY_METHODS = sizeof any_methods / sizeof *any_methods };
+
 static void add_ggx(bench_list *list, const bench_plan *plan)
 {
     add(list, plan, BENCH_GGX, method_ggx_caps(), 1);
@@ -90,12 +108,8 @@ static void add_beckmann(bench_list *list, const bench_plan *plan)
 static void add_any(bench_list *list, const bench_plan *plan)
 {
     const method_truth *truth = &list->truth[BENCH_USER];
-    static const size_t sides[] = {64, 256, 1024}, warp_sides[] = {32, 128};
-    add(list, plan, BENCH_USER, method_any_all_normals(truth), 1);
-    for (size_t i = 0; i < 3; i++)
-        add(list, plan, BENCH_USER, method_inverse_tables(truth, sides[i]), 0);
-    for (size_t i = 0; i < 2; i++)
-        add(list, plan, BENCH_USER, method_warp(truth, warp_sides[i]), 0);
+    for (size_t i = 0; i < ANY_METHODS; i++)
+        add(list, plan, BENCH_USER, any_methods[i].make(truth, any_methods[i].side), any_methods[i].yardstick);
 }
 
 static void add_calls(bench_list *list, const bench_plan *plan, const vndf_distribution *d)
@@ -130,7 +144,7 @@ static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 
-/* That which the caller has built under this limit; NULL if there is none. */
+/* The table that the caller has built under this limit; NULL if there is none. */
 static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
 {
     for (size_t i = 0; i < plan->ready_count; i++)
@@ -166,7 +180,7 @@ static void keep(bench_list *list, const bench_plan *plan, const vndf_distributi
         add_calls(list, plan, table);
 }
 
-/* Those that are wanted, and that which is to be the truth. */
+/* The tables that are wanted, and the one that becomes the truth. */
 static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
@@ -217,13 +231,13 @@ static int any_shown(const bench_list *list)
 /* Names that any row of the user's distribution may have: without one of them, no table is built. */
 static int user_wanted(const bench_list *list, const bench_plan *plan)
 {
-    const char *names = "all normals (2007), radial CDF|inverse CDFs (2014), 2 x 64^2|"
-                        "inverse CDFs (2014), 2 x 256^2|"
-                        "inverse CDFs (2014), 2 x 1024^2|bilinear warps, 8 x 32^2|bilinear warps, 8 x 128^2";
+    int is_wanted = 0;
     for (size_t i = 0; i < BENCH_TABLES; i++)
-        if (table_wanted(list, plan, i))
-            return 1;
-    return wanted(plan, names, list->name[BENCH_USER], "scalar");
+        is_wanted |= table_wanted(list, plan, i);
+    for (size_t i = 0; i < ANY_METHODS; i++)
+        is_wanted |=
+            wanted(plan, any_methods[i].make(NULL, any_methods[i].side).name, list->name[BENCH_USER], "scalar");
+    return is_wanted;
 }
 
 static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)

@@ -108,10 +108,4 @@ int bench_integrate(const method *m, const method_truth *truth, double theta, si
 /* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */
 double bench_fresnel(double cosine, double n, double k);
 
-/* ---- printing ---------------------------------------------------------------------------------- */
-
-void bench_print_text(FILE *file, const bench_rows *rows);
-void bench_print_csv(FILE *file, const bench_rows *rows);
-void bench_print_markdown(FILE *file, const bench_rows *rows);
-
 #endif

@@ -1,19 +1,8 @@
-/* The rows of the benchmark as text for a terminal, as CSV with every number, and as a table in Markdown. */
+/* The rows of the benchmark as a list of columns: for people, as text or Markdown, and with every number as CSV. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "bench/parts.h"
-#include "bench/cells.h"
-
-enum { COLUMNS = 12 };
-
-typedef struct cells {
-    char of[COLUMNS][CELL];
-} cells;
-
-static const char *const headings[COLUMNS] = {"bytes", "ns",     "spread", "shared", "latency",   "ratio",
-                                              "TV",    "weight", "eff 60", "eff 85", "eff light", "bias 60, 85"};
+#include "draw/table.h"
 
 static const char legend[] =
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
@@ -23,144 +12,104 @@ static const char legend[] =
     "1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and under a small\n"
     "light; bias: of that albedo, where it is beyond its noise.\n";
 
-static void size(char cell[CELL], size_t bytes)
-{
-    int large = bytes >= 10240;
-    cell_number(cell, large ? "%.0f KiB" : "%.0f", (double)bytes / (large ? 1024 : 1));
-}
+enum { CELL = 32 };
 
 /* The two albedos in one cell. */
 static void biases(char cell[CELL], const double bias[2])
 {
-    char part[2][CELL];
+    char part[2][CELL / 2];
     for (int k = 0; k < 2; k++)
-        cell_number(part[k], bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
-    snprintf(cell, CELL, isnan(bias[0]) ? "-" : "%.10s, %.10s", part[0], part[1]);
+        snprintf(part[k], CELL / 2, bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
+    snprintf(cell, CELL, isnan(bias[0]) ? "" : "%s, %s", part[0], part[1]);
 }
 
-static void fill(cells *c, const bench_row *row)
+/* For people. */
+static void shown_columns(text_table *t, const bench_row *r)
 {
-    size(c->of[0], row->bytes);
-    cell_time(c->of[1], row->ns);
-    cell_number(c->of[2], "%.1f%%", 50 * (row->ns_high - row->ns_low) / row->ns);
-    cell_time(c->of[3], row->shared_ns);
-    cell_time(c->of[4], row->latency_ns);
-    cell_number(c->of[5], "%.3g", row->ratio);
-    cell_number(c->of[6], row->tv < 1e-9 ? "%.0f" : "%.1e", row->tv);
-    cell_number(c->of[7], "%.4g", row->max_weight);
-    cell_number(c->of[8], "%.3g", row->efficiency[0]);
-    cell_number(c->of[9], "%.3g", row->efficiency[1]);
-    cell_number(c->of[10], "%.3g", row->efficiency_light);
-    biases(c->of[11], row->bias);
-    if (row->wrong)
-        snprintf(c->of[1], CELL, "wrong");
+    char bias[CELL];
+    int large = r->bytes >= 10240;
+    biases(bias, r->bias);
+    table_text(t, "distribution", r->kind == BENCH_MOVE ? "yardstick" : r->distribution);
+    table_text(t, "method", r->method);
+    table_word(t, "instructions", r->instructions);
+    table_number(t, "bytes", large ? "%.0f KiB" : "%.0f", (double)r->bytes / (large ? 1024 : 1));
+    if (r->wrong)
+        table_figure(t, "ns", "wrong");
+    else
+        table_time(t, "ns", r->ns);
+    table_number(t, "spread", "%.1f%%", 50 * (r->ns_high - r->ns_low) / r->ns);
+    table_time(t, "shared", r->shared_ns);
+    table_time(t, "latency", r->latency_ns);
+    table_number(t, "ratio", "%.3g", r->ratio);
+    table_number(t, "TV", r->tv < 1e-9 ? "%.0f" : "%.1e", r->tv);
+    table_number(t, "weight", "%.4g", r->max_weight);
+    table_number(t, "eff 60", "%.3g", r->efficiency[0]);
+    table_number(t, "eff 85", "%.3g", r->efficiency[1]);
+    table_number(t, "eff light", "%.3g", r->efficiency_light);
+    table_figure(t, "bias 60, 85", bias);
 }
-
-/* ---- text -------------------------------------------------------------------------------------- */
-
-typedef struct widths {
-    int method, set, of[COLUMNS];
-} widths;
-
-static widths widths_of(const bench_rows *rows)
-{
-    widths w = {6, 5, {0}};
-    for (int k = 0; k < COLUMNS; k++)
-        w.of[k] = cell_wider(0, headings[k]);
-    for (size_t i = 0; i < rows->count; i++) {
-        cells c;
-        fill(&c, &rows->row[i]);
-        w.method = cell_wider(w.method, rows->row[i].method);
-        w.set = cell_wider(w.set, rows->row[i].instructions);
-        for (int k = 0; k < COLUMNS; k++)
-            w.of[k] = cell_wider(w.of[k], c.of[k]);
-    }
-    return w;
-}
-
-static void text_heading(FILE *file, const widths *w, const char *distribution)
-{
-    fprintf(file, "%s\n  %-*s %-*s", distribution, w->method, "method", w->set, "");
-    for (int k = 0; k < COLUMNS; k++)
-        fprintf(file, "  %*s", w->of[k], headings[k]);
-    fputs("\n", file);
-}
-
-void bench_print_text(FILE *file, const bench_rows *rows)
-{
-    widths w = widths_of(rows);
-    for (size_t i = 0; i < rows->count; i++) {
-        const bench_row *row = &rows->row[i];
-        cells c;
-        fill(&c, row);
-        if (i == 0 || strcmp(row->distribution, row[-1].distribution) != 0) {
-            fputs(i ? "\n" : "", file);
-            text_heading(file, &w, row->kind == BENCH_MOVE ? "yardstick" : row->distribution);
-        }
-        fprintf(file, "  %-*s %-*s", w.method, row->method, w.set, row->instructions);
-        for (int k = 0; k < COLUMNS; k++)
-            fprintf(file, "  %*s", w.of[k], c.of[k]);
-        fputs("\n", file);
-    }
-    fprintf(file, "\n%s", legend);
-}
-
-/* ---- CSV --------------------------------------------------------------------------------------- */
 
 static const char *kind_name(bench_kind kind)
 {
-    switch (kind) {
-    case BENCH_PUBLISHED: return "published";
-    case BENCH_CLOSED: return "closed";
-    case BENCH_TABLE: return "table";
-    case BENCH_CALL: return "call";
-    default: return "move";
-    }
+    static const char *const names[] = {"published", "closed", "table", "call", "move"};
+    return names[kind];
 }
 
-void bench_print_csv(FILE *file, const bench_rows *rows)
+/* Every number. */
+static void all_columns(text_table *t, const bench_row *r)
 {
-    fputs("method,distribution,instructions,kind,bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,"
-          "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
-          file);
-    for (size_t i = 0; i < rows->count; i++) {
-        const bench_row *r = &rows->row[i];
-        const double numbers[] = {
-            r->ns,      r->ns_low,   r->ns_high,    r->shared_ns,     r->latency_ns,    r->ratio,
-            r->tv,      r->tv_theta, r->max_weight, r->efficiency[0], r->efficiency[1], r->efficiency_light,
-            r->bias[0], r->bias[1]};
-        csv_text(file, r->method);
-        fputc(',', file);
-        csv_text(file, r->distribution);
-        fprintf(file, ",%s,%s,%zu,%d", r->instructions, kind_name(r->kind), r->bytes, r->wrong);
-        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-            csv_number(file, numbers[k]);
-        fputs("\n", file);
-    }
+    table_text(t, "method", r->method);
+    table_text(t, "distribution", r->distribution);
+    table_word(t, "instructions", r->instructions);
+    table_word(t, "kind", kind_name(r->kind));
+    table_number(t, "bytes", "%.0f", (double)r->bytes);
+    table_value(t, "wrong", r->wrong);
+    table_value(t, "ns", r->ns);
+    table_value(t, "ns_low", r->ns_low);
+    table_value(t, "ns_high", r->ns_high);
+    table_value(t, "shared_ns", r->shared_ns);
+    table_value(t, "latency_ns", r->latency_ns);
+    table_value(t, "ratio", r->ratio);
+    table_value(t, "tv", r->tv);
+    table_value(t, "tv_theta", r->tv_theta);
+    table_value(t, "max_weight", r->max_weight);
+    table_value(t, "efficiency_60", r->efficiency[0]);
+    table_value(t, "efficiency_85", r->efficiency[1]);
+    table_value(t, "efficiency_light", r->efficiency_light);
+    table_value(t, "bias_60", r->bias[0]);
+    table_value(t, "bias_85", r->bias[1]);
 }
 
-/* ---- Markdown ---------------------------------------------------------------------------------- */
-
-void bench_print_markdown(FILE *file, const bench_rows *rows)
+static int print(FILE *file, const bench_rows *rows, void (*columns)(text_table *, const bench_row *),
+                 int (*form)(FILE *, const text_table *))
 {
-    fputs("| distribution | method | instructions |", file);
-    for (int k = 0; k < COLUMNS; k++)
-        fprintf(file, " %s |", headings[k]);
-    fputs("\n|---|---|---|", file);
-    for (int k = 0; k < COLUMNS; k++)
-        fputs("--:|", file);
-    fputs("\n", file);
+    text_table t = {.rows = 0};
     for (size_t i = 0; i < rows->count; i++) {
-        cells c;
-        fill(&c, &rows->row[i]);
-        fputs("| ", file);
-        markdown_text(file, rows->row[i].distribution);
-        fputs(" | ", file);
-        markdown_text(file, rows->row[i].method);
-        fprintf(file, " | %s |", rows->row[i].instructions);
-        for (int k = 0; k < COLUMNS; k++)
-            fprintf(file, " %s |", c.of[k]);
-        fputs("\n", file);
+        table_row(&t);
+        columns(&t, &rows->row[i]);
     }
+    int good = form(file, &t);
+    table_free(&t);
+    return good;
+}
+
+static int print_text(FILE *file, const void *rows)
+{
+    int good = print(file, rows, shown_columns, table_print_text);
     fprintf(file, "\n%s", legend);
+    return good;
 }
+
+static int print_markdown(FILE *file, const void *rows)
+{
+    int good = print(file, rows, shown_columns, table_print_markdown);
+    fprintf(file, "\n%s", legend);
+    return good;
+}
+
+static int print_csv(FILE *file, const void *rows)
+{
+    return print(file, rows, all_columns, table_print_csv);
+}
+
+const output_printers bench_printers = {print_text, print_markdown, print_csv};

@@ -214,6 +214,25 @@ int output_is_earlier(const char *command, const char *path, const char *head, c
     return 0;
 }
 
+static int print_to(const char *command, const char *path, int (*print)(FILE *, const void *), const void *rows)
+{
+    output_file output;
+    if (!path)
+        return STATUS_GOOD;
+    if (!output_open(&output, command, path))
+        return STATUS_USE;
+    return print(output.file, rows) ? output_commit(&output) : output_give_up(&output, "no memory for the table");
+}
+
+int outputs_print(const char *command, const char *csv, const char *markdown, const output_printers *as,
+                  const void *rows)
+{
+    int is_taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
+    int text = print_to(command, is_taken ? NULL : "-", as->text, rows);
+    int first = print_to(command, csv, as->csv, rows), second = print_to(command, markdown, as->markdown, rows);
+    return text != STATUS_GOOD ? text : first != STATUS_GOOD ? first : second;
+}
+
 const char *output_extension(const char *path)
 {
     const char *dot = strrchr(path, '.');

@@ -60,6 +60,18 @@ int outputs_distinct(const char *command, const char *csv, const char *markdown)
 enum { OUTPUT_HEAD_MAX = 64 };
 int output_is_earlier(const char *command, const char *path, const char *head, const char *hint);
 
+/* Three ways to print the same rows; 0 if there was no memory. */
+typedef struct output_printers {
+    int (*text)(FILE *file, const void *rows);
+    int (*markdown)(FILE *file, const void *rows);
+    int (*csv)(FILE *file, const void *rows);
+} output_printers;
+
+/* Prints rows to the CSV and the Markdown that were asked for (NULL, "-" or a path each), and as text to stdout unless
+ * one of the two goes there. An exit status. */
+int outputs_print(const char *command, const char *csv, const char *markdown, const output_printers *as,
+                  const void *rows);
+
 /* Makes the stopping signals wait, for a library call that writes a file. The result tells
  * output_release_signals which ones it stopped, and is of no other use. */
 unsigned output_hold_signals(void);

@@ -1,4 +1,5 @@
-/* What the user brings to be tabulated, as words of a command line: a formula, a CSV or a named family. */
+/* What the user brings to be tabulated, as words of a command line: a formula, a CSV or a named family. And those words
+ * as text once more. */
 #ifndef TOOLS_CLI_SOURCE_WORDS_H
 #define TOOLS_CLI_SOURCE_WORDS_H
 
@@ -17,5 +18,11 @@ int source_words_check_set(const char *command, const source_words *given);
 
 /* The source of the one that was given; NULL after a complaint. */
 vndf_source *source_from_words(const char *command, const source_words *given);
+
+/* As a shell would take it, with quotes where they are needed; cut where `size` ends. */
+void source_text(const source_words *given, char *text, size_t size);
+
+/* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */
+void source_text_name(const source_words *given, char *text, size_t size);
 
 #endif

@@ -1,14 +1,12 @@
 /* vndf bench: what a normal costs and what it is worth, beside everything else a user could pick. */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "bench/bench.h"
-#include "bench/parts.h"
 #include "command.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/source_words.h"
 
 static const char name[] = "vndf bench";
@@ -42,50 +40,7 @@ typedef struct bench_words {
     words seconds, only, csv, markdown;
 } bench_words;
 
-/* ---- progress ---------------------------------------------------------------------------------- */
-
-typedef struct watch {
-    unsigned held; /* signals that wait until all is put away */
-    int shows;     /* stderr is a terminal */
-    int shown;     /* the last percentage */
-} watch;
-
-static int show_progress(double done, const char *what, void *user)
-{
-    watch *w = user;
-    int percent = (int)(100 * done);
-    if (w->shows && percent != w->shown) {
-        fprintf(stderr, "\r\033[Kbench: %3d%% %s", percent, what);
-        fflush(stderr);
-        w->shown = percent;
-    }
-    return output_stopping(w->held);
-}
-
 /* ---- output ------------------------------------------------------------------------------------ */
-
-static int print_to(const char *path, const bench_rows *rows, void (*print)(FILE *, const bench_rows *))
-{
-    output_file output;
-    if (!path)
-        return STATUS_GOOD;
-    if (!output_open(&output, name, path))
-        return STATUS_USE;
-    print(output.file, rows);
-    return output_commit(&output);
-}
-
-/* The text goes to stdout unless something else does. */
-static int print_all(const bench_words *given, const bench_rows *rows)
-{
-    const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    int taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
-    if (!taken)
-        bench_print_text(stdout, rows);
-    int status = print_to(csv, rows, bench_print_csv);
-    int second = print_to(markdown, rows, bench_print_markdown);
-    return status == STATUS_GOOD ? second : status;
-}
 
 static int judge(const bench_rows *rows)
 {
@@ -105,17 +60,17 @@ static int judge(const bench_rows *rows)
 
 static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
 {
-    watch w = {held, isatty(STDERR_FILENO), -1};
+    progress p = progress_begin("bench", held);
     vndf_error error = {VNDF_OK, ""};
     bench_rows rows;
-    plan->progress = show_progress;
-    plan->progress_user = &w;
+    plan->progress = progress_show;
+    plan->progress_user = &p;
     vndf_status status = bench_run(plan, &rows, &error);
-    if (w.shows)
-        fputs("\r\033[K", stderr);
+    progress_end(&p);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    int printed = print_all(given, &rows), judged = judge(&rows);
+    int printed = outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &bench_printers, &rows);
+    int judged = judge(&rows);
     bench_rows_free(&rows);
     return printed == STATUS_GOOD ? judged : printed;
 }

@@ -1,10 +1,8 @@
 /* vndf bench effects: what each effect of a BSDF costs, from bare reflection upward, and what it is worth. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "command.h"
 #include "bench/effects/open.h"
@@ -45,46 +43,7 @@ typedef struct effects_words {
     words distribution, alpha, theta, only, seconds, instructions, csv, markdown, run, passes;
 } effects_words;
 
-/* ---- progress ---------------------------------------------------------------------------------- */
-
-typedef struct watch {
-    unsigned held; /* signals that wait until all is put away */
-    int shows;     /* stderr is a terminal */
-} watch;
-
-static int go_on(double done, const char *what, void *user)
-{
-    const watch *w = user;
-    if (w->shows) {
-        fprintf(stderr, "\r\033[Keffects: %3d%% %s", (int)(100 * done), what);
-        fflush(stderr);
-    }
-    return !output_stopping(w->held);
-}
-
 /* ---- output ------------------------------------------------------------------------------------ */
-
-static int print_to(const char *path, const effects_list *list, void (*print)(FILE *, const effects_list *))
-{
-    output_file output;
-    if (!path)
-        return STATUS_GOOD;
-    if (!output_open(&output, name, path))
-        return STATUS_USE;
-    print(output.file, list);
-    return output_commit(&output);
-}
-
-/* The text goes to stdout unless something else does. */
-static int print_all(const effects_words *given, const effects_list *list)
-{
-    const char *csv = only_word(&given->csv), *markdown = only_word(&given->markdown);
-    if (!(csv && output_is_stdout(csv)) && !(markdown && output_is_stdout(markdown)))
-        effects_print_text(stdout, list);
-    int status = print_to(csv, list, effects_print_csv);
-    int second = print_to(markdown, list, effects_print_markdown);
-    return status == STATUS_GOOD ? second : status;
-}
 
 static int judge(const effects_list *list)
 {
@@ -106,7 +65,7 @@ static vndf_status measure(effects_list *list, const effects_plan *plan, effects
         effects_entry *e = &list->entry[i];
         if (!e->needed)
             continue;
-        if (!plan->go_on((double)i / (double)list->count, "verifying", plan->user))
+        if (progress_show((double)i / (double)list->count, "verifying", plan->progress))
             return VNDF_ERROR_ARGUMENT;
         effects_verify(e, block);
         effects_weigh(e, block, blocks);
@@ -122,11 +81,12 @@ static int run_list(effects_list *list, const effects_plan *plan, const effects_
     free(block);
     if (status == VNDF_OK && given->instructions.count)
         status = effects_count(list, plan, why, sizeof why);
-    if (((const watch *)plan->user)->shows)
-        fputs("\r\033[K", stderr);
+    progress_end(plan->progress);
     if (status != VNDF_OK)
         return complain(name, status == VNDF_ERROR_MEMORY ? "no memory" : "interrupted");
-    int printed = print_all(given, list), judged = judge(list);
+    int printed =
+        outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &effects_printers, list);
+    int judged = judge(list);
     if (why[0])
         fprintf(stderr, "%s: instructions are not counted: %s\n", name, why);
     return printed == STATUS_GOOD ? judged : printed;
@@ -199,7 +159,7 @@ static int outputs_usable(const effects_words *given)
 static int run_words(const effects_words *given)
 {
     vndf_surface alpha;
-    effects_plan plan = {.theta = 60, .only = only_word(&given->only), .seconds = 15, .go_on = go_on};
+    effects_plan plan = {.theta = 60, .only = only_word(&given->only), .seconds = 15};
     const char *text = only_word(&given->alpha);
     if (!roughness_from(name, text ? text : "0.5", &alpha) ||
         !option_number(name, "--seconds", &given->seconds, 0.01, 3600, &plan.seconds) ||
@@ -213,10 +173,10 @@ static int run_words(const effects_words *given)
         return complain(name, "--passes is for --run");
     if (!outputs_usable(given))
         return STATUS_USE;
-    watch w = {output_hold_signals(), isatty(STDERR_FILENO)};
-    plan.user = &w;
+    progress p = progress_begin("bench effects", output_hold_signals());
+    plan.progress = &p;
     int status = run_plan(&plan, given);
-    output_release_signals(w.held);
+    output_release_signals(p.held);
     return status;
 }
 

@@ -1,14 +1,13 @@
 /* vndf build: a table from what the user brings. Reads the options, makes the source, calls the
  * builder, saves, prints what came out. */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "command.h"
 #include "commands/describe.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/source_words.h"
 #include "vndf_build.h"
 
@@ -58,23 +57,6 @@ static int print_list(void)
 
 /* ---- building ------------------------------------------------------------------------------------ */
 
-typedef struct watch {
-    unsigned held;     /* signals that wait until the build has stopped, so that it can say so */
-    int shows;         /* stderr is a terminal */
-    const char *shown; /* the last stage that was printed */
-} watch;
-
-static int show_progress(double done, const char *what, void *user)
-{
-    watch *w = user;
-    if (w->shows && what != w->shown) {
-        fprintf(stderr, "\r\033[Kbuilding: %3.0f%% %s", 100 * done, what);
-        fflush(stderr);
-        w->shown = what;
-    }
-    return output_stopping(w->held);
-}
-
 /* The numbers of --break into room, and --finest. */
 static int read_resolution(const build_words *given, double room[WORDS_MAX], vndf_build_options *options)
 {
@@ -92,17 +74,16 @@ static vndf_distribution *build_table(const vndf_source *source, const build_wor
     vndf_error error = {VNDF_OK, ""};
     unsigned long long bytes = 0;
     double breaks[WORDS_MAX];
-    watch at = {held, isatty(STDERR_FILENO), NULL};
+    progress p = progress_begin("building", held);
     if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
         !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv) ||
         !read_resolution(given, breaks, &options))
         return NULL;
     options.max_bytes = (size_t)bytes;
-    options.progress = show_progress;
-    options.progress_user = &at;
+    options.progress = progress_show;
+    options.progress_user = &p;
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
-    if (at.shows)
-        fputs("\r\033[K", stderr);
+    progress_end(&p);
     if (!table && output_stopping(held))
         complain(name, "%s; '%s' was not touched", error.message, only_word(&given->output));
     else if (!table)

@@ -4,11 +4,9 @@
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
  *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "measure/chi_square.h"
@@ -17,6 +15,7 @@
 #include "cli/distribution.h"
 #include "commands/hard.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "measure/statistics.h"
 #include "vndf_build.h"
 
@@ -196,22 +195,17 @@ static int check_view(const vndf_surface *surface, double theta, double phi, siz
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
-static void show_progress(size_t done)
-{
-    if (isatty(STDERR_FILENO))
-        fprintf(stderr, "\r\033[Kchi-square: %zu of %d\r", done, (int)TESTS);
-}
-
 static int check_chi_square(const vndf_distribution *distribution, size_t samples, unsigned long long seed)
 {
     int worst = STATUS_GOOD;
+    progress p = progress_begin("chi-square", 0);
     printf("chi-square   %zu samples per test, significance %.3g each\n", samples, statistics_sidak(0.01, TESTS));
     printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
     for (size_t r = 0; r < ROUGHNESSES; r++) {
         vndf_surface surface = {distribution, roughness[r][0], roughness[r][1]};
         double phi = surface.alpha_x == surface.alpha_y ? 0 : 25;
         for (size_t a = 0; a < ANGLES; a++) {
-            show_progress(r * ANGLES + a);
+            progress_show((double)(r * ANGLES + a) / TESTS, NULL, &p);
             int status = check_view(&surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
             if (status == STATUS_USE)
                 return status;
@@ -219,8 +213,7 @@ static int check_chi_square(const vndf_distribution *distribution, size_t sample
                 worst = status;
         }
     }
-    if (isatty(STDERR_FILENO))
-        fputs("\r\033[K", stderr);
+    progress_end(&p);
     return worst;
 }
 

@@ -9,7 +9,8 @@
 #include "cli/distribution.h"
 #include "measure/masking.h"
 #include "cli/output.h"
-#include "cli/source_text.h"
+#include "cli/source_words.h"
+#include "draw/table.h"
 
 static const char name[] = "vndf masking";
 
@@ -104,18 +105,10 @@ static void print_rows(const masking_rows *rows)
 
 /* ---- CSV ----------------------------------------------------------------------------------------- */
 
-static void write_quoted(FILE *file, const char *text)
-{
-    putc('"', file);
-    for (; *text; text++)
-        fprintf(file, *text == '"' ? "\"\"" : "%c", *text);
-    putc('"', file);
-}
-
 static void write_rows(FILE *file, const masking_rows *rows)
 {
     for (int i = 0; i < ANGLES; i++) {
-        write_quoted(file, rows->subject);
+        table_quote(file, rows->subject);
         fprintf(file, ",%.9g,%.9g,%.9g,%g", (double)rows->surface.alpha_x, (double)rows->surface.alpha_y,
                 rows->phi, angle[i]);
         for (int j = 0; j < MASKING_COUNT; j++)

@@ -1,16 +1,15 @@
 /* vndf render: a scene file into a picture. Reads the words, prepares the scene, renders in passes, saves what is
  * there - also when it is interrupted. */
-#define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
 #include "command.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "commands/render_explain.h"
 
 static const char name[] = "vndf render";
@@ -107,24 +106,16 @@ static image_writer *writer_of(const char *path, const char *format)
 /* ---- progress ---- */
 
 typedef struct watch {
-    const output_file *output;
-    int shows;                    /* stderr is a terminal */
-    double start, shown, seconds; /* seconds: the limit; 0: none */
+    progress line;
+    double seconds; /* the limit; 0: none */
 } watch;
 
 static int show_progress(double done, void *user)
 {
     watch *w = user;
-    double at = clock_seconds();
     if (w->seconds > 0)
-        done = fmax(done, fmin((at - w->start) / w->seconds, 1));
-    if (w->shows && at - w->shown > 0.2 && done > 0) {
-        double left = (at - w->start) * (1 - done) / done;
-        fprintf(stderr, "\r\033[Krendering: %3.0f%%, %.0f s left", 100 * fmin(done, 1), fmax(left, 0));
-        fflush(stderr);
-        w->shown = at;
-    }
-    return output_interrupted(w->output);
+        done = fmax(done, fmin((clock_seconds() - w->line.begun) / w->seconds, 1));
+    return progress_tell(done, &w->line);
 }
 
 /* ---- rendering ---- */
@@ -159,7 +150,7 @@ static int render_film(output_file *output, image_writer *write, const path_plan
                        const render_choice *c)
 {
     film f;
-    watch w = {output, isatty(STDERR_FILENO), clock_seconds(), 0, c->seconds};
+    watch w = {progress_begin("rendering", output->held), c->seconds};
     film_run run = {.samples = c->spp ? c->spp : s->integrator.samples,
                     .seconds = c->seconds,
                     .seed = c->seed,
@@ -168,11 +159,11 @@ static int render_film(output_file *output, image_writer *write, const path_plan
                     .user = &w};
     if (!c->spp && c->seconds > 0)
         run.samples = 1000000000;
+    w.line.tells_left = 1;
     if (!film_make(&f, s->width, s->height))
         return output_give_up(output, "no memory for the film");
     int whole = film_render(&f, plan, &run), status;
-    if (w.shows)
-        fputs("\r\033[K", stderr);
+    progress_end(&w.line);
     if (f.samples) {
         if (output->path)
             print_summary(&f, c, whole);

@@ -1,18 +1,18 @@
 /* vndf report: one page about what accuracy costs, with the user's own D if there is one. This file reads the
  * words, measures one thing after the other, and has the page written; report.h maps the rest. */
-#define _POSIX_C_SOURCE 200809L
 #include "report/report.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "draw/chart.h"
 #include "command.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "draw/folder.h"
-#include "cli/source_text.h"
+#include "draw/svg.h"
+#include "cli/source_words.h"
 
 static const char name[] = "vndf report";
 
@@ -42,47 +42,6 @@ typedef struct report_plan {
     double seconds;
 } report_plan;
 
-typedef struct report_bar {
-    unsigned held;    /* signals that wait until nothing is half done */
-    int shows;        /* stderr is a terminal */
-    double from, to;  /* of all the work, the step at hand */
-    const char *step; /* its name */
-    int shown;        /* what stands there, in thousandths */
-} report_bar;
-
-enum { BAR_WIDTH = 30 };
-
-static void show_bar(report_bar *bar, double done)
-{
-    char cells[BAR_WIDTH + 1];
-    int thousandths = (int)(1000 * (bar->from + done * (bar->to - bar->from)));
-    if (!bar->shows || thousandths == bar->shown)
-        return;
-    bar->shown = thousandths;
-    for (int i = 0; i < BAR_WIDTH; i++)
-        cells[i] = i * 1000 < thousandths * BAR_WIDTH ? '#' : '.';
-    cells[BAR_WIDTH] = '\0';
-    fprintf(stderr, "\r\033[K[%s] %3d%% %.60s", cells, thousandths / 10, bar->step);
-    fflush(stderr);
-}
-
-static int watch_bar(double done, const char *what, void *user)
-{
-    (void)what;
-    report_bar *bar = user;
-    show_bar(bar, done);
-    return output_stopping(bar->held);
-}
-
-static void begin_step(report_bar *bar, const char *step, double from, double to)
-{
-    bar->step = step;
-    bar->from = from;
-    bar->to = to;
-    bar->shown = -1;
-    show_bar(bar, 0);
-}
-
 /* ---- what is measured ---------------------------------------------------------------------------- */
 
 /* Shapes that differ: a heavy tail, a peak, a ring. */
@@ -101,6 +60,13 @@ enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 /* Of the seconds: the tables of the first distribution, of each other one, and the benchmark, which also takes
  * some to prepare. */
 static const double first_part = 0.4, other_part = 0.2, bench_part = 0.36;
+
+static void begin_step(progress *p, const char *step, double to)
+{
+    p->name = step;
+    progress_step(p, to);
+    progress_show(0, NULL, p);
+}
 
 /* Takes the source; the status of what failed, told. */
 static int add_subject(report *r, vndf_source *source, const char *title, const char *arguments)
@@ -142,13 +108,12 @@ static int add_subjects(report *r, const source_words *given)
 }
 
 /* The first goes up to 1 MiB, the others to 64 KiB. */
-static int build_subjects(report *r, double seconds, report_bar *bar)
+static int build_subjects(report *r, double seconds, progress *p)
 {
-    const report_watch watch = {watch_bar, bar};
+    const report_watch watch = {progress_show, p};
     for (size_t i = 0; i < r->count; i++) {
         vndf_error error = {VNDF_OK, ""};
-        double from = i == 0 ? 0 : 0.3 + 0.1 * (double)(i - 1);
-        begin_step(bar, r->subject[i].name, from, 0.3 + 0.1 * (double)i);
+        begin_step(p, r->subject[i].name, 0.3 + 0.1 * (double)i);
         vndf_status status = report_subject_build(&r->subject[i], i == 0 ? 1048576 : 65536,
                                                   seconds * (i == 0 ? first_part : other_part), &watch, &error);
         if (status != VNDF_OK)
@@ -160,7 +125,7 @@ static int build_subjects(report *r, double seconds, report_bar *bar)
 }
 
 /* The tables of the first distribution among all other methods, as `vndf bench` has them. */
-static int compare_methods(report *r, double seconds, report_bar *bar)
+static int compare_methods(report *r, double seconds, progress *p)
 {
     const vndf_distribution *ready[REPORT_SIZES];
     size_t limits[REPORT_SIZES];
@@ -176,22 +141,22 @@ static int compare_methods(report *r, double seconds, report_bar *bar)
                              .ready = ready,
                              .ready_limits = limits,
                              .ready_count = s->count,
-                             .progress = watch_bar,
-                             .progress_user = bar};
-    begin_step(bar, "all methods side by side", 0.65, 1);
+                             .progress = progress_show,
+                             .progress_user = p};
+    begin_step(p, "all methods side by side", 1);
     return bench_run(&plan, &r->rows, &error) == VNDF_OK ? STATUS_GOOD : complain(name, "%s", error.message);
 }
 
-static int measure(report *r, const report_plan *plan, report_bar *bar)
+static int measure(report *r, const report_plan *plan, progress *p)
 {
     int status = add_subjects(r, &plan->source);
     if (status == STATUS_GOOD)
-        status = build_subjects(r, plan->seconds, bar);
+        status = build_subjects(r, plan->seconds, p);
     if (status != STATUS_GOOD)
         return status;
-    begin_step(bar, "variance", 0.6, 0.65);
+    begin_step(p, "variance", 0.65);
     report_variance_measure(&r->subject[0], r->integral);
-    return compare_methods(r, plan->seconds, bar);
+    return compare_methods(r, plan->seconds, p);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
@@ -203,7 +168,7 @@ static void write_contents(FILE *html, const report *r)
     fprintf(html, "Batches ran on %s. ", sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)]);
     fputs(r->subject[0].brought ? "The first distribution is yours: <code>" : "The first distribution is <code>",
           html);
-    chart_escape(html, r->subject[0].arguments);
+    svg_escape(html, r->subject[0].arguments);
     fputs("</code>.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and time</a> "
           "<a href=\"#bytes\">Error and bytes</a> <a href=\"#theta\">Error and angle</a> "
           "<a href=\"#normals\">Density and samples</a> <a href=\"#variance\">Variance</a> "
@@ -240,13 +205,12 @@ static int write_report(const report *r, const char *path, folder_state state, u
 
 static int run(const report_plan *plan, const char *path, folder_state state, unsigned held)
 {
-    report_bar bar = {.held = held, .shows = isatty(STDERR_FILENO)};
+    progress p = progress_begin(name, held);
     report *r = calloc(1, sizeof *r);
     if (!r)
         return complain(name, "no memory");
-    int status = measure(r, plan, &bar);
-    if (bar.shows)
-        fputs("\r\033[K", stderr);
+    int status = measure(r, plan, &p);
+    progress_end(&p);
     if (status == STATUS_GOOD)
         status = write_report(r, path, state, held);
     for (size_t i = 0; i < r->count; i++)

@@ -3,6 +3,9 @@
 #include "compare/comparison.h"
 
 #include <math.h>
+#include <string.h>
+
+enum { FIGURE_TEXT = 64 };
 
 static double error_of(const contest_point *p, int trimmed)
 {
@@ -36,20 +39,10 @@ measured samples_for_error(const contest *c, size_t i, int trimmed)
 }
 
 /* Two digits, without an exponent. */
-static void percent(char text[COMMON_TEXT], const char *before, double part)
+static void percent(char text[FIGURE_TEXT], const char *before, double part)
 {
     double digits = part > 0 ? ceil(-log10(100 * part)) + 1 : 2;
-    snprintf(text, COMMON_TEXT, "%s%.*f%%", before, (int)fmin(fmax(digits, 1), 8), 100 * part);
-}
-
-/* What is not above twice what chance leaves cannot be told from nothing. */
-void common_text(char text[COMMON_TEXT], const comparison *r, size_t i)
-{
-    double seen = 2 * r->common_noise[i];
-    if (r->common[i] > seen)
-        percent(text, "", r->common[i]);
-    else
-        percent(text, "below ", seen);
+    snprintf(text, FIGURE_TEXT, "%s%.*f%%", before, (int)fmin(fmax(digits, 1), 8), 100 * part);
 }
 
 /* Without fireflies in brackets. */
@@ -64,60 +57,98 @@ static void measured_text(char text[FIGURE_TEXT], int digits, measured all, meas
              trimmed.value, digits, trimmed.spread);
 }
 
-void way_figures(char text[FIGURES][FIGURE_TEXT], const contest *c, size_t i)
-{
-    const way *w = &c->way[i];
-    snprintf(text[FIGURE_TIME_SAMPLES], FIGURE_TEXT, "%llu", (unsigned long long)w->by_time.samples);
-    error_text(text[FIGURE_TIME_ERROR], &w->by_time.error);
-    measured_text(text[FIGURE_EFFICIENCY], 2, efficiency(c, i, 0), efficiency(c, i, 1));
-    snprintf(text[FIGURE_SECONDS], FIGURE_TEXT, "%.1f", w->by_samples.seconds);
-    error_text(text[FIGURE_ERROR], &w->by_samples.error);
-    measured_text(text[FIGURE_SAMPLES_FOR_ERROR], 0, samples_for_error(c, i, 0), samples_for_error(c, i, 1));
-}
-
 /* ---- tables ---- */
 
-static void print_common(FILE *file, const comparison *r)
-{
-    fprintf(file, "\n| %s | error that more samples do not lessen |\n|---|---|\n", r->by);
-    for (size_t i = 1; i < r->contest->count; i++) {
-        char text[COMMON_TEXT];
-        common_text(text, r, i);
-        fprintf(file, "| %s | %s |\n", r->contest->way[i].name, text);
-    }
-}
-
-static void print_agreement(FILE *file, const comparison *r)
-{
-    fprintf(file,
-            "\n| %s | all light, of the reference's | in standard deviations "
-            "| blocks of 16 x 16 pixels beyond 3 (by chance 0.27%%) | their mean square (1) |\n"
-            "|---|---|---|---|---|\n",
-            r->by);
-    for (size_t i = 0; i < r->contest->count; i++)
-        fprintf(file, "| %s | %.5f | %+.1f | %.2f%% | %.2f |\n", r->contest->way[i].name, r->agrees[i].ratio,
-                r->agrees[i].whole, 100 * r->agrees[i].beyond, r->agrees[i].mean_square);
-    if (r->reference_read)
-        fprintf(file, "\nThe reference was read: its noise is not known, and counts as that of the ways.\n");
-}
-
-void comparison_print(FILE *file, const comparison *r)
+/* What came out. In equal time, then with equal samples. */
+static void add_figures(text_table *t, const comparison *r, size_t i)
 {
     const contest *c = r->contest;
-    fprintf(file,
-            "| %s | samples in equal time | error | efficiency | error of %llu samples | time of them "
-            "| samples for the error of %s |\n|---|---|---|---|---|---|---|\n",
-            r->by, (unsigned long long)c->samples, c->way[0].name);
-    for (size_t i = 0; i < c->count; i++) {
-        char f[FIGURES][FIGURE_TEXT];
-        way_figures(f, c, i);
-        fprintf(file, "| %s | %s | %s | %s | %s | %s s | %s |\n", c->way[i].name, f[FIGURE_TIME_SAMPLES],
-                f[FIGURE_TIME_ERROR], f[FIGURE_EFFICIENCY], f[FIGURE_ERROR], f[FIGURE_SECONDS],
-                f[FIGURE_SAMPLES_FOR_ERROR]);
+    const way *w = &c->way[i];
+    char text[FIGURE_TEXT], samples[FIGURE_TEXT], wanted[FIGURE_TEXT];
+    snprintf(samples, sizeof samples, "%llu samples:\n", (unsigned long long)c->samples);
+    snprintf(wanted, sizeof wanted, "samples for the error of %s", c->way[0].name);
+    table_text(t, r->by, w->name);
+    table_number(t, "equal time:\nsamples", "%.0f", (double)w->by_time.samples);
+    error_text(text, &w->by_time.error);
+    table_figure(t, "equal time:\nerror", text);
+    measured_text(text, 2, efficiency(c, i, 0), efficiency(c, i, 1));
+    table_figure(t, "equal time:\nefficiency", text);
+    error_text(text, &w->by_samples.error);
+    table_figure(t, strcat(samples, "error"), text);
+    *strchr(samples, '\n') = '\0';
+    table_number(t, strcat(samples, "\nseconds"), "%.1f", w->by_samples.seconds);
+    measured_text(text, 0, samples_for_error(c, i, 0), samples_for_error(c, i, 1));
+    table_figure(t, wanted, text);
+}
+
+static void add_agreement(text_table *t, const comparison *r, size_t i)
+{
+    const agreement *a = &r->agrees[i];
+    table_text(t, r->by, r->contest->way[i].name);
+    table_number(t, "all light, of the\nreference's", "%.5f", a->ratio);
+    table_number(t, "in standard\ndeviations", "%+.1f", a->whole);
+    table_number(t, "blocks of 16 x 16 pixels\nbeyond 3 (by chance 0.27%)", "%.2f%%", 100 * a->beyond);
+    table_number(t, "their mean\nsquare (1)", "%.2f", a->mean_square);
+}
+
+/* What is not above twice what chance leaves cannot be told from nothing. */
+static void add_common(text_table *t, const comparison *r, size_t i)
+{
+    char text[FIGURE_TEXT];
+    double seen = 2 * r->common_noise[i];
+    if (r->common[i] > seen)
+        percent(text, "", r->common[i]);
+    else
+        percent(text, "below ", seen);
+    table_text(t, r->by, r->contest->way[i].name);
+    table_figure(t, "error that more\nsamples do not lessen", text);
+}
+
+static text_table table_from(const comparison *r, size_t first,
+                             void (*columns)(text_table *t, const comparison *r, size_t i))
+{
+    text_table t = {.rows = 0};
+    for (size_t i = first; i < r->contest->count; i++) {
+        table_row(&t);
+        columns(&t, r, i);
     }
-    print_agreement(file, r);
-    if (r->has_common)
-        print_common(file, r);
+    return t;
+}
+
+text_table comparison_figures(const comparison *r)
+{
+    return table_from(r, 0, add_figures);
+}
+
+text_table comparison_agreement(const comparison *r)
+{
+    return table_from(r, 0, add_agreement);
+}
+
+text_table comparison_common(const comparison *r)
+{
+    return table_from(r, 1, add_common);
+}
+
+static int print(FILE *file, text_table t)
+{
+    int good = table_print_markdown(file, &t);
+    table_free(&t);
+    return good;
+}
+
+int comparison_print(FILE *file, const comparison *r)
+{
+    int good = print(file, comparison_figures(r));
+    fputs("\n", file);
+    good = print(file, comparison_agreement(r)) && good;
+    if (r->reference_read)
+        fputs("\nThe reference was read: its noise is not known, and counts as that of the ways.\n", file);
+    if (r->has_common) {
+        fputs("\n", file);
+        good = print(file, comparison_common(r)) && good;
+    }
     if (r->remarks[0])
         fprintf(file, "\n%s\n", r->remarks);
+    return good;
 }

@@ -24,32 +24,20 @@ typedef struct measured {
     double value, spread;
 } measured;
 
-/* Of the first way's work: (its error^2 x time) over another's, after equal time; above 1 is better. */
+/* Error squared times time, of the first way over way i, after equal time: above 1 is better. */
 measured efficiency(const contest *c, size_t i, int trimmed);
 
 /* The samples that way i needs for the error that the first has with all its samples. */
 measured samples_for_error(const contest *c, size_t i, int trimmed);
 
-/* The figures of a way as text, for tables of any kind. */
-typedef enum figure {
-    FIGURE_TIME_SAMPLES,
-    FIGURE_TIME_ERROR,
-    FIGURE_EFFICIENCY,
-    FIGURE_SECONDS,
-    FIGURE_ERROR,
-    FIGURE_SAMPLES_FOR_ERROR,
-    FIGURES
-} figure;
+/* What is told as tables, to be freed: figures of all ways, their agreement with the reference, and the error that
+ * more samples do not lessen. */
+text_table comparison_figures(const comparison *r);
+text_table comparison_agreement(const comparison *r);
+text_table comparison_common(const comparison *r);
 
-enum { FIGURE_TEXT = 64 };
-void way_figures(char text[FIGURES][FIGURE_TEXT], const contest *c, size_t i);
-
-/* The error that more samples do not lessen, or below what it is, as text. */
-enum { COMMON_TEXT = 32 };
-void common_text(char text[COMMON_TEXT], const comparison *r, size_t i);
-
-/* Rows of a table in Markdown. */
-void comparison_print(FILE *file, const comparison *r);
+/* The tables in Markdown; 0 if there is no memory. */
+int comparison_print(FILE *file, const comparison *r);
 
 /* The page and its files; 0 if there is no memory. */
 int comparison_page(html_page *page, const comparison *r);

@@ -4,35 +4,17 @@
 #include <math.h>
 
 #include "draw/chart.h"
+#include "draw/svg.h"
 
 /* ---- sections ---- */
 
-static void write_figures(html_page *page, const comparison *r)
-{
-    const contest *c = r->contest;
-    fprintf(page->html,
-            "<div class=\"scroll\"><table><tr><th rowspan=\"2\">%s<th colspan=\"3\">equal time"
-            "<th colspan=\"3\">equal samples: %llu</tr>\n<tr><th>samples<th>error<th>efficiency"
-            "<th>seconds<th>error<th>samples for the error of %s</tr>\n",
-            r->by, (unsigned long long)c->samples, c->way[0].name);
-    for (size_t i = 0; i < c->count; i++) {
-        char f[FIGURES][FIGURE_TEXT];
-        way_figures(f, c, i);
-        fprintf(page->html, "<tr><td>%s", c->way[i].name);
-        for (int k = 0; k < FIGURES; k++)
-            fprintf(page->html, "<td>%s", f[k]);
-        fputs("</tr>\n", page->html);
-    }
-    fputs("</table></div>\n", page->html);
-}
-
-static void write_result(html_page *page, const comparison *r)
+static int write_result(html_page *page, const comparison *r)
 {
     char lead[256];
     snprintf(lead, sizeof lead, "Equal time is the %.1f s of processors that %s took for %llu samples a pixel.",
              r->contest->way[0].by_time.seconds, r->contest->way[0].name, (unsigned long long)r->contest->samples);
     page_section(page, "result", "What came out", lead);
-    write_figures(page, r);
+    int good = page_table(page, comparison_figures(r));
     fprintf(page->html,
             "<p class=\"note\">The error of a pixel is that of its luminance, beside its luminance in "
             "the reference and %.0f%% of the mean one; the figure is the root of the mean square of "
@@ -46,10 +28,11 @@ static void write_result(html_page *page, const comparison *r)
             r->contest->way[0].name);
     if (r->remarks[0]) {
         fputs("<p class=\"note\">", page->html);
-        chart_escape(page->html, r->remarks);
+        svg_escape(page->html, r->remarks);
         fputs("</p>\n", page->html);
     }
     page_section_end(page);
+    return good;
 }
 
 /* ---- curves ---- */
@@ -62,58 +45,48 @@ static void draw_curves(FILE *html, const comparison *r, int by_time)
     double x[WAYS_MAX][POINTS_MAX], y[WAYS_MAX][POINTS_MAX];
     chart_series series[WAYS_MAX];
     const contest *c = r->contest;
-    double range[4] = {HUGE_VAL, 0, HUGE_VAL, 0};
     for (size_t i = 0; i < c->count; i++) {
         const way *w = &c->way[i];
         for (size_t k = 0; k < w->points; k++) {
             x[i][k] = by_time ? w->point[k].seconds : (double)w->point[k].samples;
             y[i][k] = w->point[k].error.trimmed;
-            range[0] = fmin(range[0], x[i][k]);
-            range[1] = fmax(range[1], x[i][k]);
-            range[2] = y[i][k] > 0 ? fmin(range[2], y[i][k]) : range[2];
-            range[3] = fmax(range[3], y[i][k]);
         }
         series[i] = (chart_series){w->name, x[i], y[i], w->points, (unsigned)i, marks[i], CHART_SOLID, NULL};
     }
-    chart drawn = {by_time ? "Error against time" : "Error against samples",
-                   NULL,
-                   CHART_WIDTH,
-                   CHART_HEIGHT,
-                   120,
-                   {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
-                   {CHART_LOG, 0, 0, 0, "relative error, without fireflies"},
-                   NULL,
-                   0,
-                   series,
-                   c->count,
-                   NULL,
-                   0};
-    chart_fit(&drawn.x, range[0], range[1]);
-    chart_fit(&drawn.y, range[2], range[3]);
+    chart drawn = {.title = by_time ? "Error against time" : "Error against samples",
+                   .width = CHART_WIDTH,
+                   .height = CHART_HEIGHT,
+                   .right = 120,
+                   .x = {CHART_LOG, 0, 0, 0, by_time ? "seconds of processors" : "samples a pixel"},
+                   .y = {CHART_LOG, 0, 0, 0, "relative error, without fireflies"},
+                   .series = series,
+                   .count = c->count};
+    chart_fit_series(&drawn, 0);
     fputs("<figure>\n", html);
     chart_draw(html, &drawn);
     fputs("</figure>\n", html);
 }
 
-static void write_point(FILE *data, const way *w, const contest_point *p, int is_equal_time)
+static void add_point(text_table *t, const way *w, const contest_point *p, int is_equal_time)
 {
-    page_field(data, w->name);
-    fprintf(data, ",%llu,%.4g,%.6g,%.6g,%d\n", (unsigned long long)p->samples, p->seconds, p->error.relative,
-            p->error.trimmed, is_equal_time);
+    table_row(t);
+    table_text(t, "way", w->name);
+    table_number(t, "samples", "%.0f", (double)p->samples);
+    table_value(t, "seconds", p->seconds);
+    table_value(t, "error", p->error.relative);
+    table_value(t, "error_without_fireflies", p->error.trimmed);
+    table_value(t, "is_equal_time", is_equal_time);
 }
 
 static int write_points(html_page *page, const contest *c)
 {
-    FILE *data = page_file_begin(page, "points.csv");
-    if (!data)
-        return 0;
-    fputs("way,samples,seconds,error,error_without_fireflies,is_equal_time\n", data);
+    text_table data = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         for (size_t k = 0; k < c->way[i].points; k++)
-            write_point(data, &c->way[i], &c->way[i].point[k], 0);
-        write_point(data, &c->way[i], &c->way[i].by_time, 1);
+            add_point(&data, &c->way[i], &c->way[i].point[k], 0);
+        add_point(&data, &c->way[i], &c->way[i].by_time, 1);
     }
-    return page_data_end(page, "error against samples and time");
+    return page_data(page, "points.csv", "error against samples and time", data);
 }
 
 static int write_curves(html_page *page, const comparison *r)
@@ -132,25 +105,17 @@ static int write_curves(html_page *page, const comparison *r)
 
 /* ---- agreement ---- */
 
-static void write_agreement(html_page *page, const comparison *r)
+static int write_agreement(html_page *page, const comparison *r)
 {
     page_section(page, "agreement", "Do they show the same?",
                  "Against the reference, which has numbers of its own: differences of blocks of 16 x 16 pixels, "
                  "in standard deviations. Noise with fireflies is underestimated, and its blocks stray more.");
-    fprintf(page->html,
-            "<table><tr><th>%s<th>all light, of the<br>reference's<th>in standard<br>deviations"
-            "<th>blocks beyond 3<br>(by chance 0.27%%)<th>their mean<br>square (1)</tr>\n",
-            r->by);
-    for (size_t i = 0; i < r->contest->count; i++) {
-        const agreement *a = &r->agrees[i];
-        fprintf(page->html, "<tr><td>%s<td>%.5f<td>%+.1f<td>%.2f%%<td>%.2f</tr>\n", r->contest->way[i].name,
-                a->ratio, a->whole, 100 * a->beyond, a->mean_square);
-    }
-    fputs("</table>\n", page->html);
+    int good = page_table(page, comparison_agreement(r));
     if (r->reference_read)
         fputs("<p class=\"note\">The noise of the reference, which was read, counts as that of the ways.</p>\n",
               page->html);
     page_section_end(page);
+    return good;
 }
 
 /* ---- all ---- */
@@ -171,7 +136,7 @@ static int add_image(html_page *page, const char *name, const film *f)
 static void write_head(FILE *html, const comparison *r)
 {
     fputs("<p class=\"lead\"><code>vndf compare ", html);
-    chart_escape(html, r->arguments);
+    svg_escape(html, r->arguments);
     fputs("</code></p>\n<nav><a href=\"#result\">What came out</a> <a href=\"#pictures\">Equal time</a> "
           "<a href=\"#samples\">Equal samples</a> <a href=\"#maps\">Error maps</a> <a href=\"#curves\">Curves</a> "
           "<a href=\"#agreement\">Agreement</a>",
@@ -184,11 +149,8 @@ int comparison_page(html_page *page, const comparison *r)
     if (!page_begin(page, "vndf compare", r->title))
         return 0;
     write_head(page->html, r);
-    write_result(page, r);
-    if (!comparison_pictures(page, r) || !write_curves(page, r))
-        return 0;
-    write_agreement(page, r);
-    if (r->has_common && !comparison_changes(page, r))
+    if (!write_result(page, r) || !comparison_pictures(page, r) || !write_curves(page, r) ||
+        !write_agreement(page, r) || (r->has_common && !comparison_changes(page, r)))
         return 0;
     int good = add_image(page, "reference.pfm", r->contest->reference);
     for (size_t i = 0; i < r->contest->count && good; i++) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "draw/chart.h"
+#include "draw/svg.h"
 
 /* Errors from black to white: of an image, and of what tables change in it. */
 typedef struct map_range {
@@ -47,7 +48,7 @@ static void show(FILE *html, const char *name, const char *caption, const film *
             "<figure><a href=\"%s\"><img class=\"pixels\" src=\"%s\" width=\"%d\" height=\"%d\" "
             "alt=\"\"></a><figcaption>",
             name, name, factor * size->width, factor * size->height);
-    chart_escape(html, caption);
+    svg_escape(html, caption);
     fputs("</figcaption></figure>\n", html);
 }
 
@@ -141,30 +142,20 @@ int comparison_pictures(html_page *page, const comparison *r)
 
 /* ---- what tables change ---- */
 
-static void write_common(FILE *html, const comparison *r)
-{
-    fprintf(html, "<table><tr><th>%s<th>error</tr>\n", r->by);
-    for (size_t i = 1; i < r->contest->count; i++) {
-        char text[COMMON_TEXT];
-        common_text(text, r, i);
-        fprintf(html, "<tr><td>%s<td>%s</tr>\n", r->contest->way[i].name, text);
-    }
-    fputs("</table>\n<p class=\"note\">The root of the mean product of two independent differences; below: twice "
-          "what chance leaves of it.</p>\n",
-          html);
-}
-
 int comparison_changes(html_page *page, const comparison *r)
 {
     const contest *c = r->contest;
     char lead[256];
-    int good = 1;
     snprintf(lead, sizeof lead,
              "What more samples do not lessen: with the same random numbers for all, beside "
              "%s.",
              c->way[0].name);
     page_section(page, "tables", "What tables change", lead);
-    write_common(page->html, r);
+    int good = page_table(page, comparison_common(r));
+    fputs(
+        "<p class=\"note\">The root of the mean product of two independent differences; below: twice what chance "
+        "leaves of it.</p>\n",
+        page->html);
     write_legend(page->html, &of_tables);
     fputs("<div class=\"pair\">\n", page->html);
     for (size_t i = 1; i < c->count && good; i++) {

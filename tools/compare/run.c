@@ -1,38 +1,15 @@
 /* A comparison: its ways (ways.c), a reference that is rendered or read, the contest, and what is told of it. */
-#define _POSIX_C_SOURCE 200809L
 #include "compare/ways.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
-#include "cli/clock.h"
 #include "command.h"
 #include "cli/output.h"
 
 enum { REFERENCE_TIMES = 4 };
-
-/* ---- progress ------------------------------------------------------------------------------------ */
-
-static int show_progress(double done, void *user)
-{
-    under_way *run = user;
-    double at = clock_seconds(), all = run->from + done * (run->to - run->from);
-    if (run->shows && at - run->shown > 0.2 && at - run->start > 1 && all > 0) {
-        fprintf(stderr, "\r\033[Kcomparing: %3.0f%%, %.0f s left", 100 * all, (at - run->start) * (1 - all) / all);
-        fflush(stderr);
-        run->shown = at;
-    }
-    return output_stopping(run->held);
-}
-
-static void begin_part(under_way *run, double part)
-{
-    run->from = run->to;
-    run->to = fmin(run->from + part, 1);
-}
 
 /* ---- rendering ----------------------------------------------------------------------------------- */
 
@@ -80,8 +57,8 @@ static void choose_samples(under_way *run)
 
 static int stopped(const under_way *run)
 {
-    return output_stopping(run->held) ? complain(run->choice->command, "interrupted; nothing was written")
-                                      : complain(run->choice->command, "no memory for the films");
+    return output_stopping(run->progress.held) ? complain(run->choice->command, "interrupted; nothing was written")
+                                               : complain(run->choice->command, "no memory for the films");
 }
 
 static int render_reference(under_way *run)
@@ -91,8 +68,8 @@ static int render_reference(under_way *run)
     film_run whole = {.samples = (uint64_t)reference_samples(run),
                       .threads = run->contest.threads,
                       .seed = c->seed + 1000003,
-                      .progress = show_progress,
-                      .user = run};
+                      .progress = progress_tell,
+                      .user = &run->progress};
     char message[512];
     path_plan *plan =
         path_prepare(w->scene, c->table_count ? SAMPLER_MATERIAL : SAMPLER_VISIBLE, 0, message, sizeof message);
@@ -158,13 +135,13 @@ static int render(under_way *run)
     contest *c = &run->contest;
     choose_samples(run);
     double once = (double)c->count * (double)c->samples, all = ways_samples(run) + reference_samples(run);
-    begin_part(run, reference_samples(run) / all);
+    progress_step(&run->progress, run->progress.to + reference_samples(run) / all);
     int status = run->choice->reference ? read_reference(run) : render_reference(run);
     c->reference = &run->reference;
-    begin_part(run, once / all);
+    progress_step(&run->progress, run->progress.to + once / all);
     if (status == STATUS_GOOD && !contest_run(c))
         status = stopped(run);
-    begin_part(run, 1);
+    progress_step(&run->progress, 1);
     return status == STATUS_GOOD && run->choice->table_count ? find_common(run) : status;
 }
 
@@ -203,10 +180,11 @@ static int tell(under_way *run, const char *folder, folder_state state)
 {
     html_page page = {.html = NULL};
     int status = judge(run) && comparison_page(&page, &run->result)
-                     ? folder_write(run->choice->command, folder, page.file, page.count, run->held)
+                     ? folder_write(run->choice->command, folder, page.file, page.count, run->progress.held)
                      : complain(run->choice->command, "no memory for the page");
     if (status == STATUS_GOOD) {
-        comparison_print(stdout, &run->result);
+        if (!comparison_print(stdout, &run->result))
+            status = complain(run->choice->command, "no memory for the tables");
         printf("\n%s %s/index.html\n", state == FOLDER_OURS ? "replaced" : "wrote", folder);
     }
     page_free(&page);
@@ -227,21 +205,19 @@ int compare_run(const compare_choice *c, const char *folder, folder_state state)
     if (!run)
         return complain(c->command, "no memory");
     run->choice = c;
-    run->shows = isatty(STDERR_FILENO);
-    run->contest =
-        (contest){.threads = (unsigned)c->threads, .seed = c->seed, .progress = show_progress, .user = run};
-    if (run->shows)
-        fputs("\r\033[Kreading the scene, making its tables", stderr);
+    run->progress = progress_begin("comparing", 0);
+    run->contest = (contest){
+        .threads = (unsigned)c->threads, .seed = c->seed, .progress = progress_tell, .user = &run->progress};
+    progress_show(0, "reading the scene, making its tables", &run->progress);
     int status = ways_prepare(run);
-    run->held = output_hold_signals();
-    run->start = clock_seconds();
+    run->progress = progress_begin("comparing", output_hold_signals());
+    run->progress.tells_left = 1;
     if (status == STATUS_GOOD)
         status = render(run);
-    if (run->shows)
-        fputs("\r\033[K", stderr);
+    progress_end(&run->progress);
     if (status == STATUS_GOOD)
         status = tell(run, folder, state);
-    output_release_signals(run->held);
+    output_release_signals(run->progress.held);
     free_run(run);
     free(run);
     return status;

@@ -3,6 +3,7 @@
 #ifndef COMPARE_WAYS_H
 #define COMPARE_WAYS_H
 
+#include "cli/progress.h"
 #include "compare/run.h"
 
 typedef struct under_way {
@@ -14,9 +15,7 @@ typedef struct under_way {
     film reference;
     comparison result;
     char reference_is[96];
-    unsigned held;
-    int shows;
-    double start, shown, from, to; /* of the progress: clock, and the part of all work that is under way */
+    progress progress;
 } under_way;
 
 /* Reads the scene, as often as tables differ, and fills the contest's ways; an exit status, with a complaint if

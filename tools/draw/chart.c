@@ -1,24 +1,9 @@
 #include "draw/chart.h"
+#include "draw/svg.h"
 
 #include <math.h>
 
 static const double mark_radius = 4;
-
-void chart_escape(FILE *file, const char *text)
-{
-    for (; *text; text++) {
-        if (*text == '&')
-            fputs("&amp;", file);
-        else if (*text == '<')
-            fputs("&lt;", file);
-        else if (*text == '>')
-            fputs("&gt;", file);
-        else if (*text == '"')
-            fputs("&quot;", file);
-        else if ((unsigned char)*text >= 32 || *text == '\n')
-            fputc(*text, file);
-    }
-}
 
 /* ---- colours ------------------------------------------------------------------------------------- */
 
@@ -85,7 +70,7 @@ static double pixel_y(const chart *c, const chart_frame *f, double y)
 static void write_text(FILE *file, const char *kind, const char *anchor, double x, double y, const char *text)
 {
     fprintf(file, "<text class=\"%s\" text-anchor=\"%s\" x=\"%.1f\" y=\"%.1f\">", kind, anchor, x, y);
-    chart_escape(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 
@@ -120,7 +105,7 @@ static void draw_y_axis(FILE *file, const chart *c, const chart_frame *f)
         write_text(file, "tick quiet", "end", f->left - 6, f->top + f->height + f->band / 2 + 4, c->zero);
     fprintf(file, "<text class=\"ink\" text-anchor=\"middle\" transform=\"translate(15 %.1f) rotate(-90)\">",
             f->top + f->height / 2);
-    chart_escape(file, c->y.label);
+    svg_escape(file, c->y.label);
     fputs("</text>\n", file);
 }
 
@@ -276,7 +261,7 @@ static void open_element(FILE *file, const chart *c)
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" width=\"%.0f\" height=\"%.0f\" "
             "viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"",
             c->width, c->height, c->width, c->height);
-    chart_escape(file, c->about ? c->about : c->title);
+    svg_escape(file, c->about ? c->about : c->title);
     fputs("\">\n", file);
 }
 

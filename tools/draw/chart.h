@@ -83,9 +83,6 @@ void chart_draw_alone(FILE *file, const chart *c);
 /* The rules for the classes of chart_draw, those for dark screens included. */
 void chart_style(FILE *file);
 
-/* Text for an element or an attribute. */
-void chart_escape(FILE *file, const char *text);
-
 /* ---- axes: chart_axis.c ---- */
 
 /* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */
@@ -93,6 +90,16 @@ double chart_place(const chart_axis *axis, double value);
 
 /* Ends of a logarithmic axis that holds what lies from low to high: whole decades, or powers of two. */
 void chart_fit(chart_axis *axis, double low, double high);
+
+/* The least and the greatest positive number; {HUGE_VAL, 0} to begin with. */
+typedef struct chart_range {
+    double low, high;
+} chart_range;
+
+void chart_widen(chart_range *range, double value);
+
+/* Both axes, logarithmic ones, to all series; those whose high end is set stay. `least`: of y, nothing below is shown. */
+void chart_fit_series(chart *c, double least);
 
 typedef struct chart_tick {
     double value;

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "draw/table.h"
+
 double chart_place(const chart_axis *axis, double value)
 {
     if (axis->scale == CHART_LINEAR)
@@ -23,6 +25,28 @@ void chart_fit(chart_axis *axis, double low, double high)
     double room = axis->scale == CHART_BYTES ? 1.15 : 1;
     axis->low = pow(base, first) / room;
     axis->high = pow(base, last > first ? last : first + 1) * room;
+}
+
+void chart_widen(chart_range *range, double value)
+{
+    if (!(value > 0))
+        return;
+    range->low = fmin(range->low, value);
+    range->high = fmax(range->high, value);
+}
+
+void chart_fit_series(chart *c, double least)
+{
+    chart_range x = {HUGE_VAL, 0}, y = {HUGE_VAL, 0};
+    for (size_t k = 0; k < c->count; k++)
+        for (size_t i = 0; i < c->series[k].count; i++) {
+            chart_widen(&x, c->series[k].x[i]);
+            chart_widen(&y, c->series[k].y[i]);
+        }
+    if (!(c->x.high > c->x.low))
+        chart_fit(&c->x, x.low, x.high);
+    if (!(c->y.high > c->y.low))
+        chart_fit(&c->y, fmax(y.low, least), y.high);
 }
 
 /* 10 to a power, with the digits above the line. */
@@ -53,8 +77,7 @@ static size_t add_tick(const chart_axis *axis, chart_tick *ticks, size_t count, 
     ticks[count].value = value;
     ticks[count].name[0] = '\0';
     if (named && axis->scale == CHART_BYTES)
-        snprintf(ticks[count].name, sizeof ticks[count].name, value < 1048576 ? "%.3g KiB" : "%.3g MiB",
-                 value / (value < 1048576 ? 1024 : 1048576));
+        table_bytes_text(ticks[count].name, value);
     else if (named && axis->scale == CHART_LOG)
         name_number(axis, ticks[count].name, value);
     else if (named)

@@ -2,6 +2,7 @@
  * near places first, and takes the one where it covers least of the drawing. Labels at the ends of curves stand in
  * a column and push each other apart. */
 #include "draw/chart.h"
+#include "draw/svg.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +56,7 @@ static chart_box box_around(double x, double y, double width, double distance, i
 static void write_text(FILE *file, double x, double y, unsigned colour, const char *text)
 {
     fprintf(file, "<text class=\"name t%u\" x=\"%.1f\" y=\"%.1f\">", colour, x, y);
-    chart_escape(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 

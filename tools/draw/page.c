@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "draw/chart.h"
+#include "draw/svg.h"
 #include "vndf.h"
 
 void page_mark(char mark[PAGE_MARK_MAX], const char *command)
@@ -56,17 +57,6 @@ int page_file_end(html_page *page)
     return close_file(&page->data);
 }
 
-void page_field(FILE *data, const char *text)
-{
-    fputc('"', data);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', data);
-        fputc(*text, data);
-    }
-    fputc('"', data);
-}
-
 int page_data_end(html_page *page, const char *what)
 {
     const page_file *file = &page->file[page->count - 1];
@@ -79,9 +69,24 @@ int page_data_end(html_page *page, const char *what)
             "<details class=\"data\"><summary>Data: %s (%zu rows)</summary>\n"
             "<p><a href=\"%s\" download=\"%s\">%s</a></p>\n<pre>",
             what, lines - 1, file->name, file->name, file->name);
-    chart_escape(page->html, file->text);
+    svg_escape(page->html, file->text);
     fputs("</pre></details>\n", page->html);
     return 1;
+}
+
+int page_table(html_page *page, text_table t)
+{
+    int good = table_print_html(page->html, &t);
+    table_free(&t);
+    return good;
+}
+
+int page_data(html_page *page, const char *name, const char *what, text_table t)
+{
+    FILE *data = page_file_begin(page, name);
+    int good = data && table_print_csv(data, &t);
+    table_free(&t);
+    return good && page_data_end(page, what);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
@@ -107,7 +112,7 @@ static const char style[] =
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
-    "th:first-child,td:first-child{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:normal}\n"
+    "th:first-child,td:first-child{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
     "tr.chosen td{font-weight:600;background:var(--box)}.no{color:var(--bad)}.yes{color:var(--good)}\n"
     "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
@@ -135,12 +140,12 @@ int page_begin(html_page *page, const char *command, const char *title)
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n%s\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
             mark);
-    chart_escape(page->html, title);
+    svg_escape(page->html, title);
     fputs("</title>\n<style>\n", page->html);
     fputs(style, page->html);
     chart_style(page->html);
     fputs("</style>\n</head>\n<body>\n<h1>", page->html);
-    chart_escape(page->html, title);
+    svg_escape(page->html, title);
     fputs("</h1>\n", page->html);
     return 1;
 }
@@ -164,9 +169,9 @@ void page_free(html_page *page)
 void page_section(html_page *page, const char *id, const char *title, const char *lead)
 {
     fprintf(page->html, "<section id=\"%s\">\n<h2>", id);
-    chart_escape(page->html, title);
+    svg_escape(page->html, title);
     fputs("</h2>\n<p class=\"lead\">", page->html);
-    chart_escape(page->html, lead);
+    svg_escape(page->html, lead);
     fputs("</p>\n", page->html);
 }
 

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "draw/table.h"
+
 enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
 
 typedef struct page_file {
@@ -45,7 +47,8 @@ int page_file_end(html_page *page);
 /* Ends the file; the page links it and shows it inside, folded. */
 int page_data_end(html_page *page, const char *what);
 
-/* A field of a row between quotes. */
-void page_field(FILE *data, const char *text);
+/* A table in the page, and as CSV a whole file of data; it is freed. 0 if there is no memory. */
+int page_table(html_page *page, text_table t);
+int page_data(html_page *page, const char *name, const char *what, text_table t);
 
 #endif

@@ -131,7 +131,7 @@ static void put_header(bytes *image, size_t width, size_t height, unsigned char 
     put_chunk(image, "IHDR", head.data, head.size);
 }
 
-static void put_palette(bytes *image, const colour palette[256])
+static void put_palette(bytes *image, const png_colour palette[256])
 {
     put_chunk(image, "PLTE", &palette[0].red, 256 * sizeof palette[0]);
     put_chunk(image, "tRNS", (const unsigned char[1]){0}, 1); /* opacity of the first colour; the rest is opaque */
@@ -139,7 +139,7 @@ static void put_palette(bytes *image, const colour palette[256])
 
 /* The file of rows with their filters; the caller frees image->data. 0 if there is no memory. */
 static int make_file(bytes *image, const unsigned char *rows, size_t row_size, size_t width, size_t height,
-                     const colour *palette)
+                     const png_colour *palette)
 {
     size_t packed = 0;
     unsigned char *stream = deflate_bytes(rows, row_size * height, &packed);
@@ -156,7 +156,7 @@ static int make_file(bytes *image, const unsigned char *rows, size_t row_size, s
 }
 
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
-                     const colour palette[256])
+                     const png_colour palette[256])
 {
     bytes image;
     unsigned char *rows = calloc(height, width + 1); /* the first byte of each: no filter */

@@ -5,14 +5,14 @@
 #include <stddef.h>
 #include <stdio.h>
 
-typedef struct colour {
+typedef struct png_colour {
     unsigned char red, green, blue;
-} colour;
+} png_colour;
 
 /* Writes width x height palette indices (rows from the top) as base64; index 0 is transparent. 0 if there is no
  * memory. */
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
-                     const colour palette[256]);
+                     const png_colour palette[256]);
 
 /* Writes width x height pixels of three bytes, rows from the top. 0 if there is no memory or writing fails. */
 int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height);

@@ -19,7 +19,7 @@ void svg_end(FILE *file)
     fputs("</svg>\n", file);
 }
 
-static void write_escaped(FILE *file, const char *text)
+void svg_escape(FILE *file, const char *text)
 {
     for (; *text; text++) {
         if (*text == '&')
@@ -28,7 +28,9 @@ static void write_escaped(FILE *file, const char *text)
             fputs("&lt;", file);
         else if (*text == '>')
             fputs("&gt;", file);
-        else if ((unsigned char)*text >= 32) /* XML has no control characters */
+        else if (*text == '"')
+            fputs("&quot;", file);
+        else if ((unsigned char)*text >= 32 || *text == '\n') /* XML has no control characters */
             fputc(*text, file);
     }
 }
@@ -38,7 +40,7 @@ void svg_text(FILE *file, double x, double y, double size, svg_anchor anchor, co
     static const char *const names[] = {"start", "middle", "end"};
     fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" text-anchor=\"%s\" fill=\"%s\">", x, y, size,
             names[anchor], ink);
-    write_escaped(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 
@@ -48,7 +50,7 @@ void svg_text_on_picture(FILE *file, double x, double y, double size, const char
             "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" "
             "stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">",
             x, y, size, ink);
-    write_escaped(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 
@@ -58,7 +60,7 @@ void svg_text_upwards(FILE *file, double x, double y, double size, const char *t
             "<text transform=\"translate(%.1f %.1f) rotate(-90)\" font-size=\"%.1f\" text-anchor=\"middle\" "
             "fill=\"%s\">",
             x, y, size, ink);
-    write_escaped(file, text);
+    svg_escape(file, text);
     fputs("</text>\n", file);
 }
 
@@ -87,7 +89,7 @@ void svg_frame(FILE *file, double x, double y, double width, double height)
 /* ---- rasters ------------------------------------------------------------------------------------- */
 
 /* From nearly white to dark blue through green: lightness falls steadily, so it also reads in grey. */
-static colour ramp_colour(double place)
+static png_colour ramp_colour(double place)
 {
     static const double stops[][3] = {{250, 251, 247}, {205, 232, 206}, {120, 198, 186},
                                       {44, 140, 180},  {26, 79, 142},   {10, 26, 74}};
@@ -96,12 +98,12 @@ static colour ramp_colour(double place)
     double t = at - low, rgb[3];
     for (int i = 0; i < 3; i++)
         rgb[i] = stops[low][i] + t * (stops[low + 1][i] - stops[low][i]) + rounding;
-    return (colour){(unsigned char)rgb[0], (unsigned char)rgb[1], (unsigned char)rgb[2]};
+    return (png_colour){(unsigned char)rgb[0], (unsigned char)rgb[1], (unsigned char)rgb[2]};
 }
 
-static void fill_palette(colour palette[256])
+static void fill_palette(png_colour palette[256])
 {
-    palette[0] = (colour){255, 255, 255};
+    palette[0] = (png_colour){255, 255, 255};
     for (int i = 1; i < 256; i++)
         palette[i] = ramp_colour((i - 1) / 254.0);
 }
@@ -114,7 +116,7 @@ unsigned char svg_shade(double density)
 
 static int write_image(FILE *file, const double box[4], const unsigned char *index, size_t columns, size_t rows)
 {
-    colour palette[256];
+    png_colour palette[256];
     fill_palette(palette);
     fprintf(file,
             "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "

@@ -13,6 +13,9 @@ typedef enum svg_anchor { SVG_START, SVG_MIDDLE, SVG_END } svg_anchor;
 void svg_begin(FILE *file, double width, double height);
 void svg_end(FILE *file);
 
+/* Text for an element or an attribute, of a page too. */
+void svg_escape(FILE *file, const char *text);
+
 /* One line of text, escaped; y is its base line. */
 void svg_text(FILE *file, double x, double y, double size, svg_anchor anchor, const char *text);
 

@@ -18,8 +18,8 @@ typedef struct chi_square {
     int blind;        /* the view sees nothing (every density 0): there is nothing to test, and p is 1 */
 } chi_square;
 
-/* Draws `samples` normals with pairs of 24-bit uniform numbers of stream `seed`. Returns 0 if there is
- * no memory, else 1 with the result. */
+/* Draws `samples` normals, at least 1, with pairs of 24-bit uniform numbers of stream `seed`. wi is a unit vector.
+ * Returns 0 if there is no memory, else 1 with the result. */
 int chi_square_test(const vndf_surface *surface, vndf_vec3 wi, size_t samples, uint64_t seed, chi_square *result);
 
 #endif

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "draw/chart.h"
+#include "draw/svg.h"
 #include "report/report.h"
 
 static const double most_weight = 2, most_variance = 0.01, most_tv = 1e-3, most_area = 1e-4;
@@ -76,9 +77,9 @@ static void write_choice(FILE *html, const report_subject *s)
 {
     const report_table *t = &s->table[s->chosen];
     char size[16];
-    report_bytes_text(size, (double)t->info.bytes);
+    table_bytes_text(size, (double)t->info.bytes);
     fputs("<p><strong>", html);
-    chart_escape(html, s->name);
+    svg_escape(html, s->name);
     fprintf(html, ": ship the table of %s.</strong> ", size);
     verdict v = judge(t);
     if (keeps_all(t))
@@ -105,7 +106,7 @@ static void write_reflection(FILE *html, const report_subject *s)
         verdict v = judge(t);
         if (!v.kept[0] || !v.kept[1] || !v.kept[3] || t->tv_above > most_tv)
             continue;
-        report_bytes_text(size, (double)t->info.bytes);
+        table_bytes_text(size, (double)t->info.bytes);
         fprintf(html, " For reflection alone %s will do: from above the horizon its total variation is %.2g.",
                 size, t->tv_above);
         return;
@@ -119,7 +120,7 @@ static void write_advice(FILE *html, const report_subject *s)
     if (s->chosen > 0 && keeps_all(&s->table[s->chosen])) {
         char size[16];
         verdict v = judge(&s->table[s->chosen - 1]);
-        report_bytes_text(size, (double)s->table[s->chosen - 1].info.bytes);
+        table_bytes_text(size, (double)s->table[s->chosen - 1].info.bytes);
         fprintf(html, " The next smaller one, %s, has ", size);
         write_broken(html, &v);
         fputs("; with the weight it is unbiased all the same.", html);
@@ -128,69 +129,85 @@ static void write_advice(FILE *html, const report_subject *s)
     if (s->left_out)
         fputs(" Larger sizes were left out to keep to the time that this page may take (--seconds).", html);
     fputs("<br><code>vndf build ", html);
-    chart_escape(html, s->arguments);
+    svg_escape(html, s->arguments);
     fprintf(html, " --max-bytes %zu -o table.vndf</code></p>\n", s->table[s->chosen].asked);
 }
 
 /* ---- the table ----------------------------------------------------------------------------------- */
 
-static void write_cell(FILE *html, const char *format, double value, int kept)
+/* A figure that ends with a mark, in a colour, where a limit is not kept. */
+static void put_limited(text_table *t, const char *heading, const char *format, double value, int kept)
 {
-    fprintf(html, "<td%s>", kept ? "" : " class=\"no\"");
-    fprintf(html, format, value);
-    fputs(kept ? "</td>" : " ✗</td>", html);
+    char figure[32], marked[40];
+    snprintf(figure, sizeof figure, format, value);
+    snprintf(marked, sizeof marked, "%s%s", figure, kept ? "" : " ✗");
+    table_figure(t, heading, marked);
+    table_mark(t, kept ? NULL : "no");
 }
 
-static void write_row(FILE *html, const report_table *t, int chosen)
+static void shown_columns(text_table *t, const report_table *of, int chosen)
 {
-    char size[16];
-    verdict v = judge(t);
-    report_bytes_text(size, (double)t->info.bytes);
-    fprintf(html, "<tr%s><td>%s%s</td>", chosen ? " class=\"chosen\"" : "", size, chosen ? " ✓" : "");
-    fprintf(html, "<td>%zu</td>", t->info.bytes);
-    write_cell(html, "%.2e", v.value[2], v.kept[2]);
-    fprintf(html, "<td>%.2e</td>", t->tv_above);
-    write_cell(html, "%.3g", v.value[0], v.kept[0]);
-    write_cell(html, "%.2g%%", 100 * v.value[1], v.kept[1]);
-    write_cell(html, "%.1e", v.value[3], v.kept[3]);
-    fprintf(html, "<td>%.0f</td><td>%.1f</td><td>%.1f</td></tr>\n", t->time.view + t->time.sample, t->time.batch,
-            t->time.batch_shared);
+    char size[TABLE_BYTES], name[TABLE_BYTES + 8];
+    verdict v = judge(of);
+    table_bytes_text(size, (double)of->info.bytes);
+    snprintf(name, sizeof name, "%s%s", size, chosen ? " ✓" : "");
+    table_word(t, "size", name);
+    table_mark(t, chosen ? "chosen" : NULL);
+    table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    put_limited(t, "total variation", "%.2e", v.value[2], v.kept[2]);
+    table_number(t, "above the horizon", "%.2e", of->tv_above);
+    put_limited(t, "largest weight", "%.3g", v.value[0], v.kept[0]);
+    put_limited(t, "added variance", "%.2g%%", 100 * v.value[1], v.kept[1]);
+    put_limited(t, "area, G1 error", "%.1e", v.value[3], v.kept[3]);
+    table_number(t, "ns, one by one", "%.0f", of->time.view + of->time.sample);
+    table_number(t, "ns, batch", "%.1f", of->time.batch);
+    table_number(t, "ns, batch, one direction", "%.1f", of->time.batch_shared);
 }
 
-static void write_table(FILE *html, const report_subject *s)
+static int write_table(html_page *page, const report_subject *s)
 {
-    fputs("<h3>", html);
-    chart_escape(html, s->name);
-    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th>"
-          "<th>total variation</th><th>above the horizon</th><th>largest weight</th>"
-          "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
-          "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n",
-          html);
-    for (size_t i = 0; i < s->count; i++)
-        write_row(html, &s->table[i], i == s->chosen);
-    fputs("</tbody></table></div>\n", html);
+    text_table t = {.rows = 0};
+    fputs("<h3>", page->html);
+    svg_escape(page->html, s->name);
+    fputs("</h3>\n", page->html);
+    for (size_t i = 0; i < s->count; i++) {
+        table_row(&t);
+        shown_columns(&t, &s->table[i], i == s->chosen);
+    }
+    return page_table(page, t);
+}
+
+static void all_columns(text_table *t, const report_subject *s, size_t i)
+{
+    const report_table *of = &s->table[i];
+    const vndf_certificate *c = &of->info.certificate;
+    table_text(t, "distribution", s->name);
+    table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    table_value(t, "tv", (double)c->tv);
+    table_value(t, "tv_theta_deg", (double)c->tv_theta);
+    table_value(t, "max_weight", (double)c->max_weight);
+    table_value(t, "weight_bounded", (double)c->weight_bounded);
+    table_value(t, "added_variance", of->worst.variance);
+    table_value(t, "area_error", (double)c->area_error);
+    table_value(t, "consistency", (double)c->consistency);
+    table_value(t, "ndf_error", (double)c->ndf_error);
+    table_value(t, "tv_here", of->worst.tv);
+    table_value(t, "tv_above", of->tv_above);
+    table_value(t, "ns", of->time.view + of->time.sample);
+    table_value(t, "batch_ns", of->time.batch);
+    table_value(t, "batch_shared_ns", of->time.batch_shared);
+    table_value(t, "chosen", i == s->chosen);
 }
 
 static int write_data(html_page *page, const report *r)
 {
-    FILE *data = page_file_begin(page, "tables.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,bytes,tv,tv_theta_deg,max_weight,weight_bounded,added_variance,area_error,consistency,"
-          "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n",
-          data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
-            const report_table *t = &r->subject[k].table[i];
-            const vndf_certificate *c = &t->info.certificate;
-            page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n",
-                    t->info.bytes, (double)c->tv, (double)c->tv_theta, (double)c->max_weight,
-                    (double)c->weight_bounded, t->worst.variance, (double)c->area_error, (double)c->consistency,
-                    (double)c->ndf_error, t->worst.tv, t->tv_above, t->time.view + t->time.sample, t->time.batch,
-                    t->time.batch_shared, i == r->subject[k].chosen);
+            table_row(&data);
+            all_columns(&data, &r->subject[k], i);
         }
-    return page_data_end(page, "certificates and times of all tables");
+    return page_data(page, "tables.csv", "certificates and times of all tables", data);
 }
 
 int report_write_advice(html_page *page, const report *r)
@@ -205,9 +222,10 @@ int report_write_advice(html_page *page, const report *r)
     for (size_t i = 0; i < r->count; i++)
         write_advice(page->html, &r->subject[i]);
     fputs("</div>\n", page->html);
-    for (size_t i = 0; i < r->count; i++)
-        write_table(page->html, &r->subject[i]);
-    int good = write_data(page, r);
+    int good = 1;
+    for (size_t i = 0; i < r->count && good; i++)
+        good = write_table(page, &r->subject[i]);
+    good = good && write_data(page, r);
     page_section_end(page);
     return good;
 }

@@ -1,6 +1,5 @@
 /* Error against bytes: a curve over its tables for each distribution, and other methods that have tables as
  * points. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,45 +30,26 @@ static void collect_others(const bench_rows *rows, byte_points *points)
     }
 }
 
-static void widen(double value, double *low, double *high)
+static void add_row(text_table *t, const char *method, const char *distribution, double bytes, double tv)
 {
-    if (!(value > 0))
-        return;
-    *low = fmin(*low, value);
-    *high = fmax(*high, value);
-}
-
-static void fit_axes(chart *c)
-{
-    double low_x = HUGE_VAL, high_x = 0, low_y = HUGE_VAL, high_y = 0;
-    for (size_t k = 0; k < c->count; k++)
-        for (size_t i = 0; i < c->series[k].count; i++) {
-            widen(c->series[k].x[i], &low_x, &high_x);
-            widen(c->series[k].y[i], &low_y, &high_y);
-        }
-    chart_fit(&c->x, low_x, high_x);
-    chart_fit(&c->y, low_y, high_y);
+    table_row(t);
+    table_text(t, "method", method);
+    table_text(t, "distribution", distribution);
+    table_number(t, "bytes", "%.0f", bytes);
+    table_value(t, "tv", tv);
 }
 
 static int write_data(html_page *page, const report *r, const byte_points *others)
 {
-    FILE *data = page_file_begin(page, "bytes.csv");
-    if (!data)
-        return 0;
-    fputs("method,distribution,bytes,tv\n", data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
-            fputs("table,", data);
-            page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes, r->subject[k].table[i].tv);
+            const report_table *of = &r->subject[k].table[i];
+            add_row(&data, "table", r->subject[k].name, (double)of->info.bytes, of->tv);
         }
-    for (size_t i = 0; i < others->count; i++) {
-        page_field(data, others->label[i]);
-        fputc(',', data);
-        page_field(data, r->subject[0].name);
-        fprintf(data, ",%.0f,%.5g\n", others->x[i], others->y[i]);
-    }
-    return page_data_end(page, "total variation of each size");
+    for (size_t i = 0; i < others->count; i++)
+        add_row(&data, others->label[i], r->subject[0].name, others->x[i], others->y[i]);
+    return page_data(page, "bytes.csv", "total variation of each size", data);
 }
 
 enum { LABEL_MOST = 36 };
@@ -102,20 +82,15 @@ int report_write_bytes(html_page *page, const report *r)
     collect_others(&r->rows, &others);
     series[r->count] =
         (chart_series){NULL, others.x, others.y, others.count, 7, CHART_CROSS, CHART_NO_LINE, others.text};
-    chart c = {NULL,
-               "error against bytes",
-               1080,
-               460,
-               270,
-               {CHART_BYTES, 0, 0, 0, "size of the table"},
-               {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
-               NULL,
-               0,
-               series,
-               r->count + 1,
-               NULL,
-               0};
-    fit_axes(&c);
+    chart c = {.about = "error against bytes",
+               .width = 1080,
+               .height = 460,
+               .right = 270,
+               .x = {CHART_BYTES, 0, 0, 0, "size of the table"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
+               .series = series,
+               .count = r->count + 1};
+    chart_fit_series(&c, 0);
     page_section(
         page, "bytes", "Error against bytes",
         "The largest total variation over all directions, by the size of the table. Curves: tables of this "

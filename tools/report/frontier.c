@@ -25,7 +25,7 @@ typedef struct frontier {
     const char *text[SERIES_MAX][ROWS_MAX];
     chart_series series[SERIES_MAX];
     size_t count;
-    double low_x, high_x, low_y, high_y;
+    chart_range x_range, y_range;
     char title[160];
     chart_key key[3 + SETS];
     size_t key_count;
@@ -57,7 +57,7 @@ static void label_row(const bench_row *row, char label[LABEL])
     const char *batch = strstr(row->method, ", batch");
     int length = batch ? (int)(batch - row->method) : (int)strlen(row->method);
     if (row->kind == BENCH_TABLE)
-        report_bytes_text(label, (double)row->bytes);
+        table_bytes_text(label, (double)row->bytes);
     else if (names_distribution(row) || row->bytes > 0)
         snprintf(label, LABEL, "%.*s", length, row->method);
     else
@@ -82,12 +82,8 @@ static void add_row(frontier *f, const bench_row *row)
     label_row(row, f->label[f->count][at]);
     f->text[f->count][at] = f->label[f->count][at];
     s->count++;
-    f->low_x = fmin(f->low_x, row->ns);
-    f->high_x = fmax(f->high_x, row->ns);
-    if (f->y[f->count][at] > 0) {
-        f->low_y = fmin(f->low_y, row->tv);
-        f->high_y = fmax(f->high_y, row->tv);
-    }
+    chart_widen(&f->x_range, row->ns);
+    chart_widen(&f->y_range, f->y[f->count][at]);
 }
 
 /* The rows of one kind and instruction set; a series if there are any. */
@@ -112,13 +108,13 @@ static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, siz
 
 static void collect(frontier *f, const bench_rows *rows)
 {
-    *f = (frontier){.low_x = HUGE_VAL, .low_y = HUGE_VAL};
+    *f = (frontier){.x_range = {HUGE_VAL, 0}, .y_range = {HUGE_VAL, 0}};
     for (size_t set = 0; set < SETS; set++)
         for (int kind = BENCH_PUBLISHED; kind <= BENCH_TABLE; kind++)
             add_series(f, rows, (bench_kind)kind, set);
 }
 
-/* Shapes say who, colours say how many at once: those that occur. */
+/* Shapes say who, colours say how many at once. The key names the colours that occur. */
 static void fill_key(frontier *f)
 {
     static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},
@@ -140,57 +136,30 @@ static chart chart_of(frontier *f, const char *name)
 {
     snprintf(f->title, sizeof f->title, "Error against time: tables of %s beside other methods", name);
     fill_key(f);
-    chart c = {f->title,
-               NULL,
-               1080,
-               710,
-               20,
-               {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
-               "exact",
-               100,
-               f->series,
-               f->count,
-               f->key,
-               f->key_count};
-    chart_fit(&c.x, f->low_x, f->high_x);
-    chart_fit(&c.y, fmax(f->low_y, 1e-7), f->high_y);
-    c.x.low = fmax(c.x.low, f->low_x / 1.6);
-    c.x.high = fmin(c.x.high, f->high_x * 2.5);
+    chart c = {.title = f->title,
+               .width = 1080,
+               .height = 710,
+               .right = 20,
+               .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
+               .zero = "exact",
+               .band = 100,
+               .series = f->series,
+               .count = f->count,
+               .key = f->key,
+               .key_count = f->key_count};
+    chart_fit(&c.x, f->x_range.low, f->x_range.high);
+    chart_fit(&c.y, fmax(f->y_range.low, 1e-7), f->y_range.high);
+    c.x.low = fmax(c.x.low, f->x_range.low / 1.6);
+    c.x.high = fmin(c.x.high, f->x_range.high * 2.5);
     return c;
-}
-
-static void write_number(FILE *data, double value)
-{
-    if (isnan(value))
-        fputc(',', data);
-    else
-        fprintf(data, ",%.5g", value);
 }
 
 static int write_data(html_page *page, const bench_rows *rows)
 {
     FILE *data = page_file_begin(page, "frontier.csv");
-    if (!data)
-        return 0;
-    fputs("method,distribution,instructions,bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
-          "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
-          data);
-    for (size_t i = 0; i < rows->count; i++) {
-        const bench_row *row = &rows->row[i];
-        const double values[] = {
-            row->ns,       row->ns_low,     row->ns_high,       row->ratio,         row->tv,
-            row->tv_theta, row->max_weight, row->efficiency[0], row->efficiency[1], row->efficiency_light,
-            row->bias[0],  row->bias[1]};
-        page_field(data, row->method);
-        fputc(',', data);
-        page_field(data, row->distribution);
-        fprintf(data, ",%s,%zu", row->instructions, row->bytes);
-        for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
-            write_number(data, values[k]);
-        fputc('\n', data);
-    }
-    return page_data_end(page, "all methods, as vndf bench measures them");
+    return data && bench_printers.csv(data, rows) &&
+           page_data_end(page, "all methods, as `vndf bench --csv` has them");
 }
 
 static int write_alone(html_page *page, const chart *c)

@@ -4,6 +4,7 @@
 #include "draw/chart.h"
 #include "cli/distribution.h"
 #include "draw/panels.h"
+#include "draw/svg.h"
 #include "cli/random.h"
 #include "report/report.h"
 
@@ -43,7 +44,7 @@ static int draw_subject(FILE *file, const report_subject *s)
     vndf_surface surface = surface_of(s), finest = finest_of(s);
     int good = 1;
     fputs("<h3>", file);
-    chart_escape(file, s->name);
+    svg_escape(file, s->name);
     fputs("</h3>\n<figure class=\"panels\">\n", file);
     begin_panel(file, left.width, left.height);
     panel_ndf(file, left, &finest);
@@ -61,67 +62,65 @@ static int draw_subject(FILE *file, const report_subject *s)
 
 static int write_ndf(html_page *page, const report *r)
 {
-    FILE *data = page_file_begin(page, "ndf.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,theta_m_deg,ndf\n", data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++) {
         vndf_surface surface = finest_of(&r->subject[k]);
         for (int i = 0; i <= NDF_STEPS; i++) {
             double theta = widest_angle(&r->subject[k]) * i / NDF_STEPS;
-            page_field(data, r->subject[k].name);
-            fprintf(data, ",%.6g,%.6g\n", theta, (double)vndf_ndf(&surface, direction_from(theta, 0)));
+            table_row(&data);
+            table_text(&data, "distribution", r->subject[k].name);
+            table_value(&data, "theta_m_deg", theta);
+            table_value(&data, "ndf", (double)vndf_ndf(&surface, direction_from(theta, 0)));
         }
     }
-    return page_data_end(page, "D against the angle of the normal");
+    return page_data(page, "ndf.csv", "D against the angle of the normal", data);
 }
 
 /* The dots of panel_disc: the same numbers. */
-static int write_samples(html_page *page, const report *r)
-{
-    FILE *data = page_file_begin(page, "samples.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,theta_deg,wm.x,wm.y,wm.z,pdf\n", data);
-    for (size_t k = 0; k < r->count; k++)
-        for (unsigned v = 0; v < VIEWS; v++) {
-            vndf_surface surface = surface_of(&r->subject[k]);
-            vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
-            random_stream stream = random_from(v + 1);
-            for (int i = 0; i < PANEL_DOTS; i++) {
-                float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
-                vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
-                page_field(data, r->subject[k].name);
-                fprintf(data, ",%g,%.6g,%.6g,%.6g,%.6g\n", thetas[v], (double)wm.x, (double)wm.y, (double)wm.z,
-                        (double)pdf);
-            }
-        }
-    return page_data_end(page, "the samples that are drawn as dots");
-}
-
-static void write_grid(FILE *data, const report_subject *s, double theta)
+static void add_samples(text_table *t, const report_subject *s, unsigned v)
 {
     vndf_surface surface = surface_of(s);
-    vndf_view view = vndf_view_from(&surface, direction_from(theta, 0));
+    vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
+    random_stream stream = random_from(v + 1);
+    for (int i = 0; i < PANEL_DOTS; i++) {
+        float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
+        vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
+        table_row(t);
+        table_text(t, "distribution", s->name);
+        table_value(t, "theta_deg", thetas[v]);
+        table_value(t, "wm.x", (double)wm.x);
+        table_value(t, "wm.y", (double)wm.y);
+        table_value(t, "wm.z", (double)wm.z);
+        table_value(t, "pdf", (double)pdf);
+    }
+}
+
+static void add_grid(text_table *t, const report_subject *s, unsigned v)
+{
+    vndf_surface surface = surface_of(s);
+    vndf_view view = vndf_view_from(&surface, direction_from(thetas[v], 0));
     for (int i = 0; i <= DENSITY_STEPS; i++)
         for (int turn = 0; turn <= (i > 0 ? 180 : 0); turn += TURN_STEP) {
             double theta_m = widest_angle(s) * i / DENSITY_STEPS;
-            page_field(data, s->name);
-            fprintf(data, ",%g,%.6g,%d,%.6g\n", theta, theta_m, turn,
-                    (double)vndf_pdf(&view, direction_from(theta_m, turn)));
+            table_row(t);
+            table_text(t, "distribution", s->name);
+            table_value(t, "theta_deg", thetas[v]);
+            table_value(t, "theta_m_deg", theta_m);
+            table_value(t, "phi_m_deg", turn);
+            table_value(t, "pdf", (double)vndf_pdf(&view, direction_from(theta_m, turn)));
         }
 }
 
-static int write_density(html_page *page, const report *r)
+static int write_views(html_page *page, const report *r)
 {
-    FILE *data = page_file_begin(page, "density.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,theta_deg,theta_m_deg,phi_m_deg,pdf\n", data);
+    text_table samples = {.rows = 0}, density = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
-        for (int v = 0; v < VIEWS; v++)
-            write_grid(data, &r->subject[k], thetas[v]);
-    return page_data_end(page, "density of visible normals on a grid");
+        for (unsigned v = 0; v < VIEWS; v++) {
+            add_samples(&samples, &r->subject[k], v);
+            add_grid(&density, &r->subject[k], v);
+        }
+    int good = page_data(page, "samples.csv", "the samples that are drawn as dots", samples);
+    return page_data(page, "density.csv", "density of visible normals on a grid", density) && good;
 }
 
 int report_write_normals(html_page *page, const report *r)
@@ -134,7 +133,7 @@ int report_write_normals(html_page *page, const report *r)
     int good = 1;
     for (size_t i = 0; i < r->count && good; i++)
         good = draw_subject(page->html, &r->subject[i]);
-    good = good && write_ndf(page, r) && write_samples(page, r) && write_density(page, r);
+    good = good && write_ndf(page, r) && write_views(page, r);
     page_section_end(page);
     return good;
 }

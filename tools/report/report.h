@@ -1,16 +1,14 @@
-/* What the parts of `vndf report` share.
+/* What the parts of `vndf report` share. commands/report.c reads the words, measures one thing after the other and has
+ * the page written; a section calls no other.
  *
- *   report.c            the command: words, order of work, progress
  *   subject.c    a distribution of normals, its tables of several sizes, and how far each is from the truth
  *   time.c       nanoseconds of view, sample and pdf, one by one and in batches
  *   variance.c   the noise of two integrals that are estimated with the samples
  *   advice.c     which table to ship; and the same as a table
  *   frontier.c   error against time, with the rows of tools/bench/bench.h
- *   bytes.c      error against bytes, likewise
+ *   bytes.c      error against bytes, of the tables and of other methods
  *   theta.c      error against the angle of incidence
  *   normals.c    density and samples (tools/draw/panels.h)
- *   page.c              the page's frame, its sections and the data behind them
- *   folder.c            files that appear together or not at all
  */
 #ifndef TOOLS_REPORT_REPORT_H
 #define TOOLS_REPORT_REPORT_H
@@ -19,6 +17,7 @@
 
 #include "bench/bench.h"
 #include "draw/page.h"
+#include "draw/table.h"
 #include "vndf_build.h"
 
 enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
@@ -87,9 +86,6 @@ typedef struct report_watch {
 } report_watch;
 
 double report_theta(size_t angle);
-
-/* "16 KiB", "1 MiB", "25.8 KiB", to 3%. */
-void report_bytes_text(char text[16], double bytes);
 
 /* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
 

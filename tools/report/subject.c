@@ -24,17 +24,6 @@ double report_theta(size_t angle)
     return angle + 1 == REPORT_ANGLES ? 179 : 180.0 * (double)angle / (REPORT_ANGLES - 1);
 }
 
-/* Files stay a little below a power of two: within 3% they have its name. */
-void report_bytes_text(char text[16], double bytes)
-{
-    double power = exp2(round(log2(bytes)));
-    double shown = fabs(bytes / power - 1) < 0.03 ? power : bytes;
-    if (shown >= 1048576)
-        snprintf(text, 16, "%.3g MiB", shown / 1048576);
-    else
-        snprintf(text, 16, "%.3g KiB", shown / 1024);
-}
-
 /* ---- error --------------------------------------------------------------------------------------- */
 
 typedef struct direction {

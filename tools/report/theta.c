@@ -20,7 +20,6 @@ static size_t shown_tables(const report_subject *s, size_t shown[SHOWN_MAX])
 typedef struct theta_curves {
     double x[REPORT_ANGLES], y[SHOWN_MAX][REPORT_ANGLES];
     char label[SHOWN_MAX][16];
-    double low, high;
     size_t count;
 } theta_curves;
 
@@ -28,16 +27,12 @@ static void fill_curves(const report_subject *s, theta_curves *curves)
 {
     size_t shown[SHOWN_MAX];
     curves->count = shown_tables(s, shown);
-    curves->low = HUGE_VAL;
-    curves->high = 0;
     for (size_t k = 0; k < curves->count; k++) {
         const report_table *t = &s->table[shown[k]];
-        report_bytes_text(curves->label[k], (double)t->info.bytes);
+        table_bytes_text(curves->label[k], (double)t->info.bytes);
         for (size_t a = 0; a < REPORT_ANGLES; a++) {
             curves->x[a] = report_theta(a);
             curves->y[k][a] = t->error[a].tv;
-            curves->low = t->error[a].tv > 0 ? fmin(curves->low, t->error[a].tv) : curves->low;
-            curves->high = fmax(curves->high, t->error[a].tv);
         }
     }
 }
@@ -49,47 +44,46 @@ static void draw_subject(FILE *file, const report_subject *s)
     theta_curves curves;
     chart_series series[SHOWN_MAX + 1];
     fill_curves(s, &curves);
-    chart c = {s->name,
-               NULL,
-               CHART_WIDTH,
-               CHART_HEIGHT,
-               84,
-               {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
-               {CHART_LOG, 0, 0, 0, "total variation"},
-               NULL,
-               0,
-               series,
-               curves.count + 1,
-               NULL,
-               0};
-    chart_fit(&c.y, fmax(curves.low, 1e-8), curves.high);
-    const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
+    chart c = {.title = s->name,
+               .width = CHART_WIDTH,
+               .height = CHART_HEIGHT,
+               .right = 84,
+               .x = {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation"},
+               .series = series,
+               .count = curves.count};
     for (size_t k = 0; k < curves.count; k++)
         series[k] = (chart_series){curves.label[k], curves.x,      curves.y[k], REPORT_ANGLES,
                                    colours[k],      CHART_NO_MARK, lines[k],    NULL};
-    series[curves.count] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
+    chart_fit_series(&c, 1e-8);
+    const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
+    series[c.count++] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fputs("</figure>\n", file);
 }
 
+static void add_row(text_table *t, const report_subject *s, const report_table *of, size_t angle)
+{
+    const report_error *e = &of->error[angle];
+    table_row(t);
+    table_text(t, "distribution", s->name);
+    table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    table_value(t, "theta_deg", report_theta(angle));
+    table_value(t, "tv", e->tv);
+    table_value(t, "weight_variance", e->variance);
+    table_value(t, "max_weight", e->max_weight);
+}
+
 static int write_data(html_page *page, const report *r)
 {
-    FILE *data = page_file_begin(page, "theta.csv");
-    if (!data)
-        return 0;
-    fputs("distribution,bytes,theta_deg,tv,weight_variance,max_weight\n", data);
+    text_table data = {.rows = 0};
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++)
-            for (size_t a = 0; a < REPORT_ANGLES; a++) {
-                const report_table *t = &r->subject[k].table[i];
-                if (isnan(t->error[a].tv))
-                    continue;
-                page_field(data, r->subject[k].name);
-                fprintf(data, ",%zu,%g,%.5g,%.5g,%.5g\n", t->info.bytes, report_theta(a), t->error[a].tv,
-                        t->error[a].variance, t->error[a].max_weight);
-            }
-    return page_data_end(page, "error of every table at every angle");
+            for (size_t a = 0; a < REPORT_ANGLES; a++)
+                if (!isnan(r->subject[k].table[i].error[a].tv))
+                    add_row(&data, &r->subject[k], &r->subject[k].table[i], a);
+    return page_data(page, "theta.csv", "error of every table at every angle", data);
 }
 
 int report_write_theta(html_page *page, const report *r)

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "draw/chart.h"
+#include "draw/svg.h"
 #include "cli/clock.h"
 #include "cli/random.h"
 #include "measure/turns.h"
@@ -164,7 +165,7 @@ static size_t lines_of(const report *r, time_line lines[LINES_MAX])
     lines[count++] = line_of("beckmann, closed form", &r->beckmann);
     for (size_t i = 0; i < r->subject[0].count; i++) {
         char size[16], name[48];
-        report_bytes_text(size, (double)r->subject[0].table[i].info.bytes);
+        table_bytes_text(size, (double)r->subject[0].table[i].info.bytes);
         snprintf(name, sizeof name, "table, %s", size);
         lines[count++] = line_of(name, &r->subject[0].table[i].time);
     }
@@ -264,16 +265,17 @@ int report_write_time(html_page *page, const report *r)
     fputs("<figure class=\"scroll wide\">\n", page->html);
     draw_times(page->html, lines, count);
     fprintf(page->html, "<figcaption>Tables are those of ");
-    chart_escape(page->html, r->subject[0].name);
+    svg_escape(page->html, r->subject[0].name);
     fputs(".</figcaption></figure>\n", page->html);
-    FILE *data = page_file_begin(page, "time.csv");
-    if (!data)
-        return 0;
-    fputs("sampler,view_ns,sample_ns,pdf_ns,batch_ns,batch_shared_ns\n", data);
-    for (size_t i = 0; i < count; i++)
-        fprintf(data, "\"%s\",%.4g,%.4g,%.4g,%.4g,%.4g\n", lines[i].name, lines[i].part[0], lines[i].part[1],
-                lines[i].part[2], lines[i].part[3], lines[i].part[4]);
-    int good = page_data_end(page, "nanoseconds of each part");
+    text_table data = {.rows = 0};
+    for (size_t i = 0; i < count; i++) {
+        static const char *const fields[PARTS] = {"view_ns", "sample_ns", "pdf_ns", "batch_ns", "batch_shared_ns"};
+        table_row(&data);
+        table_text(&data, "sampler", lines[i].name);
+        for (int p = 0; p < PARTS; p++)
+            table_value(&data, fields[p], lines[i].part[p]);
+    }
+    int good = page_data(page, "time.csv", "nanoseconds of each part", data);
     page_section_end(page);
     return good;
 }

@@ -185,7 +185,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, "cosine of wo");
     e = estimator_of(s, WAY_ALL_NORMALS, s->exact.distribution);
     add_noise(integral, &e, "all normals");
-    report_bytes_text(size, (double)first->info.bytes);
+    table_bytes_text(size, (double)first->info.bytes);
     e = estimator_of(s, WAY_UNWEIGHTED, first->table);
     snprintf(text, sizeof text, "%s, no weight", size);
     add_noise(integral, &e, text);
@@ -193,7 +193,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, size);
     if (chosen == first)
         return;
-    report_bytes_text(size, (double)chosen->info.bytes);
+    table_bytes_text(size, (double)chosen->info.bytes);
     e = estimator_of(s, WAY_WEIGHTED, chosen->table);
     add_noise(integral, &e, size);
 }
@@ -221,7 +221,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
                                                      CHART_DOT};
     static const unsigned colours[REPORT_METHODS] = {7, 1, 4, 5, 0};
     chart_series series[REPORT_METHODS];
-    double low = HUGE_VAL, high = 0;
+    chart_range range = {HUGE_VAL, 0};
     for (size_t m = 0; m < integral->count; m++) {
         const report_noise *noise = &integral->noise[m];
         series[m] = (chart_series){noise->method,
@@ -232,26 +232,19 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
                                    marks[m],
                                    m == 2 ? CHART_DASHED : CHART_SOLID,
                                    NULL};
-        for (int k = 0; k < REPORT_COUNTS; k++) {
-            low = noise->error[k] > 0 ? fmin(low, noise->error[k]) : low;
-            high = fmax(high, noise->error[k]);
-        }
+        for (int k = 0; k < REPORT_COUNTS; k++)
+            chart_widen(&range, noise->error[k]);
     }
-    low = pow(10, floor(log10(fmax(low, 1e-7)) * 2) / 2);
-    high = fmax(pow(10, ceil(log10(high) * 2) / 2), 10 * low);
-    chart c = {integral->title,
-               NULL,
-               CHART_WIDTH,
-               CHART_HEIGHT,
-               132,
-               {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
-               {CHART_LOG, low, high, 0, "relative RMS error"},
-               NULL,
-               0,
-               series,
-               integral->count,
-               NULL,
-               0};
+    double low = pow(10, floor(log10(fmax(range.low, 1e-7)) * 2) / 2);
+    double high = fmax(pow(10, ceil(log10(range.high) * 2) / 2), 10 * low);
+    chart c = {.title = integral->title,
+               .width = CHART_WIDTH,
+               .height = CHART_HEIGHT,
+               .right = 132,
+               .x = {CHART_LOG, 1, counts[REPORT_COUNTS - 1], 0, "samples"},
+               .y = {CHART_LOG, low, high, 0, "relative RMS error"},
+               .series = series,
+               .count = integral->count};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);
@@ -259,16 +252,17 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
 
 static int write_data(html_page *page, const report *r, const double counts[REPORT_COUNTS])
 {
-    FILE *data = page_file_begin(page, "variance.csv");
-    if (!data)
-        return 0;
-    fputs("integral,method,samples,relative_rms_error\n", data);
+    text_table data = {.rows = 0};
     for (int i = 0; i < 2; i++)
         for (size_t m = 0; m < r->integral[i].count; m++)
-            for (int k = 0; k < REPORT_COUNTS; k++)
-                fprintf(data, "\"%s\",\"%s\",%.0f,%.5g\n", r->integral[i].title, r->integral[i].noise[m].method,
-                        counts[k], r->integral[i].noise[m].error[k]);
-    return page_data_end(page, "error of each method at each number of samples");
+            for (int k = 0; k < REPORT_COUNTS; k++) {
+                table_row(&data);
+                table_text(&data, "integral", r->integral[i].title);
+                table_text(&data, "method", r->integral[i].noise[m].method);
+                table_value(&data, "samples", counts[k]);
+                table_value(&data, "relative_rms_error", r->integral[i].noise[m].error[k]);
+            }
+    return page_data(page, "variance.csv", "error of each method at each number of samples", data);
 }
 
 int report_write_variance(html_page *page, const report *r)

@@ -1,6 +1,5 @@
 /* What each effect of vndf_bsdf.h costs and what it is worth: the inside of `vndf bench effects`.
  *
- *     effects.c               the command: words, output, exit status
  *     open.c          distributions
  *     set.c           the sets of effects, and what each is made into
  *     run.c           the loops that are timed, with the library
@@ -11,7 +10,7 @@
  *     worth.c         verification; mean, lost samples, largest weight and variance
  *     time.c          time, in turns
  *     instructions.c  instructions, by valgrind
- *     print.c         tables for people, csv.c all numbers */
+ *     print.c         tables for people, and all numbers as CSV */
 #ifndef TOOLS_BENCH_EFFECTS_EFFECTS_H
 #define TOOLS_BENCH_EFFECTS_EFFECTS_H
 
@@ -19,6 +18,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "vndf_bsdf.h"
 
 /* ---- sets --------------------------------------------------------------------------------------- */
@@ -58,8 +59,7 @@ typedef struct effects_input {
 
 typedef struct effects_loops effects_loops;
 
-/* What a set is of one distribution and roughness. A plain value that stays where it is, as the material in it.
- * */
+/* A set made ready for one distribution and roughness. Do not copy: hits point to its material. */
 typedef struct effects_subject {
     const effects_set *set;
     const effects_loops *loops;
@@ -100,9 +100,9 @@ typedef struct effects_block {
     vndf_roughness roughness[EFFECTS_BLOCK];
 } effects_block;
 
-/* Inputs of stream `seed`, the same for all sets but for the side that wi and wo are on: directions wo uniform
- * over the hemisphere, and so wi if theta is NaN, else at that angle, in degrees. Roughness between 0.5 and 1.5
- * times that of the subject, of which it becomes that of the block. */
+/* Inputs of stream `seed`, the same for all sets except for the side of wi and wo. The directions wo are uniform over the
+ * hemisphere, and so is wi if theta is NaN; else wi is at theta degrees. The block's roughness is 0.5 to 1.5 times the
+ * subject's, which from here on is that of the block. */
 void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed);
 
 /* One direction for all, that angle from the normal. */
@@ -157,8 +157,7 @@ typedef struct effects_plan {
     double theta;     /* of the direction that variance is measured for */
     const char *only; /* NULL, or a part of the name of a set or distribution, or "variance" */
     double seconds;
-    int (*go_on)(double done, const char *what, void *user); /* 0 stops */
-    void *user;
+    progress *progress;
 } effects_plan;
 
 /* An empty list and an error if `only` fits nothing or a set cannot be. */
@@ -175,13 +174,12 @@ void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
 /* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT: stopped. */
 vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_block *block);
 
-/* Fills the instructions of the entries shown. Where valgrind is not to be had, one line in `why`, else "". */
+/* Fills the instructions of the entries that are shown. `why` gets a line where valgrind cannot run, else "". */
 vndf_status effects_count(effects_list *list, const effects_plan *plan, char *why, size_t size);
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 
-void effects_print_text(FILE *file, const effects_list *list);
-void effects_print_markdown(FILE *file, const effects_list *list);
-void effects_print_csv(FILE *file, const effects_list *list);
+/* Of effects_list. */
+extern const output_printers effects_printers;
 
 #endif

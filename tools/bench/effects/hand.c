@@ -27,7 +27,7 @@ static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vnd
     return 1.0f / (wo.z * area + wi.z * (area_of(s, wo, kind) - wo.z));
 }
 
-/* The view is not part of a struct with wi and the area: to be copied there it would be waited for. */
+/* The view is not part of a struct with wi and the area: the processor would wait for the copy. */
 static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area, const float u[3],
                           vndf_scattered *out, hand_kind kind)
 {

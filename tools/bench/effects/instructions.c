@@ -145,7 +145,7 @@ vndf_status effects_count(effects_list *list, const effects_plan *plan, char *wh
         effects_entry *e = &list->entry[i];
         if (!e->shown || e->of_variance || e->row.wrong)
             continue;
-        if (!plan->go_on((double)i / (double)list->count, "counting instructions", plan->user))
+        if (progress_show((double)i / (double)list->count, "counting instructions", plan->progress))
             return VNDF_ERROR_ARGUMENT;
         if (!count_entry(&w, e, plan, why, size))
             break;

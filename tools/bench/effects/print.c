@@ -1,94 +1,105 @@
-/* The two tables for people: costs of the sets by distribution, and plain visible beside bounded normals. */
+/* The rows as lists of columns. For people two tables: the costs of the sets by distribution, which stand side by side
+ * in Markdown, and visible beside bounded normals. As CSV every number. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "bench/cells.h"
 #include "bench/effects/effects.h"
-
-enum { COLUMNS = 12 };
-
-typedef struct cells {
-    char of[COLUMNS][CELL];
-} cells;
-
-static const char *const cost_headings[COLUMNS] = {"ns",    "spread", "to bare", "shared", "eval",     "pdf",
-                                                   "instr", "mean",   "lost",    "max",    "variance", "eff"};
-static const char *const variance_headings[COLUMNS] = {"alpha",    "theta", "mean", "lost", "lost", "variance",
-                                                       "variance", "ratio", "ns",   "ns",   "eff",  "max"};
-static const char *const variance_of[COLUMNS] = {"",        "", "",        "visible", "bounded", "visible",
-                                                 "bounded", "", "visible", "bounded", "",        "bounded"};
+#include "draw/table.h"
 
 static const char cost_legend[] =
     "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies\n"
     "between quartiles); to bare: ns more than bare reflection in the same turn; shared, eval, pdf: one hit for\n"
     "256; instr: instructions of hit and sample. Of the weights of one direction: mean, part of samples lost,\n"
-    "largest, variance; eff: 1/(variance ns) over that of the same with visible normals.\n";
+    "largest, variance; eff: 1/(variance ns) over that of the same with visible normals.\n\n";
 
 static const char variance_legend[] =
     "Bare reflection, the albedo in one direction: variance of the weight with visible normals and with those\n"
     "of them that reflect to above the horizon, ratio of the two, eff: 1/(variance ns) of bounded over visible.\n";
 
-static void percent(char cell[CELL], double part)
+static void percent(text_table *t, const char *heading, double part)
 {
-    cell_number(cell, part == 0 ? "%.0f" : "%.2f%%", 100 * part);
+    table_number(t, heading, part == 0 ? "%.0f" : "%.2f%%", 100 * part);
 }
 
-static void fill_cost(cells *c, const effects_row *r)
+static void time_or_wrong(text_table *t, const char *heading, const effects_row *r)
 {
-    cell_time(c->of[0], r->ns);
-    cell_number(c->of[1], "%.1f%%", 50 * (r->ns_high - r->ns_low) / r->ns);
-    cell_number(c->of[2], "%+.1f", r->to_bare);
-    cell_time(c->of[3], r->shared_ns);
-    cell_time(c->of[4], r->eval_ns);
-    cell_time(c->of[5], r->pdf_ns);
-    cell_number(c->of[6], "%.0f", r->instructions);
-    cell_number(c->of[7], "%.4f", r->mean);
-    percent(c->of[8], r->lost);
-    cell_number(c->of[9], "%.4g", r->max_weight);
-    cell_number(c->of[10], "%.3e", r->variance);
-    cell_number(c->of[11], "%.3g", r->efficiency);
     if (r->wrong)
-        snprintf(c->of[0], CELL, "wrong");
+        table_figure(t, heading, "wrong");
+    else
+        table_time(t, heading, r->ns);
+}
+
+static void worth_columns(text_table *t, const effects_row *r)
+{
+    table_number(t, "mean", "%.4f", r->mean);
+    percent(t, "lost", r->lost);
+    table_number(t, "max", "%.4g", r->max_weight);
+    table_number(t, "variance", "%.3e", r->variance);
+    table_number(t, "eff", "%.3g", r->efficiency);
+}
+
+static void cost_columns(text_table *t, const effects_entry *e)
+{
+    const effects_row *r = &e->row;
+    table_text(t, "distribution", e->distribution);
+    table_text(t, "effects", e->subject.set->name);
+    time_or_wrong(t, "ns", r);
+    table_number(t, "spread", "%.1f%%", 50 * (r->ns_high - r->ns_low) / r->ns);
+    table_number(t, "to bare", "%+.1f", r->to_bare);
+    table_time(t, "shared", r->shared_ns);
+    table_time(t, "eval", r->eval_ns);
+    table_time(t, "pdf", r->pdf_ns);
+    table_number(t, "instr", "%.0f", r->instructions);
+    worth_columns(t, r);
 }
 
 /* A pair: visible normals, then bounded. */
-static void fill_variance(cells *c, const effects_entry *pair)
+static void variance_columns(text_table *t, const effects_entry *pair)
 {
     const effects_row *v = &pair[0].row, *b = &pair[1].row;
-    cell_number(c->of[0], "%.3g", (double)pair->subject.surface.alpha_x);
-    cell_number(c->of[1], "%.3g", pair->theta);
-    cell_number(c->of[2], "%.4f", b->mean);
-    percent(c->of[3], v->lost);
-    percent(c->of[4], b->lost);
-    cell_number(c->of[5], "%.3e", v->variance);
-    cell_number(c->of[6], "%.3e", b->variance);
-    cell_number(c->of[7], "%.3g", v->variance / b->variance);
-    cell_time(c->of[8], v->ns);
-    cell_time(c->of[9], b->ns);
-    cell_number(c->of[10], "%.3g", b->efficiency);
-    cell_number(c->of[11], "%.4g", b->max_weight);
-    if (v->wrong | b->wrong)
-        snprintf(c->of[7], CELL, "wrong");
+    table_text(t, "distribution", pair->distribution);
+    table_number(t, "alpha", "%.3g", (double)pair->subject.surface.alpha_x);
+    table_number(t, "theta", "%.3g", pair->theta);
+    table_number(t, "mean", "%.4f", b->mean);
+    percent(t, "lost:\nvisible", v->lost);
+    percent(t, "lost:\nbounded", b->lost);
+    table_number(t, "variance:\nvisible", "%.3e", v->variance);
+    table_number(t, "variance:\nbounded", "%.3e", b->variance);
+    table_number(t, "ratio", "%.3g", v->variance / b->variance);
+    time_or_wrong(t, "ns:\nvisible", v);
+    time_or_wrong(t, "ns:\nbounded", b);
+    table_number(t, "eff", "%.3g", b->efficiency);
+    table_number(t, "max:\nbounded", "%.4g", b->max_weight);
 }
 
-/* ---- text -------------------------------------------------------------------------------------- */
-
-static void text_row(FILE *file, int width, const char *name, const cells *c)
+/* Every number. */
+static void all_columns(text_table *t, const effects_entry *e)
 {
-    fprintf(file, "  %-*s", width, name);
-    for (int k = 0; k < COLUMNS; k++)
-        fprintf(file, " %9s", c->of[k]);
-    fputs("\n", file);
+    const effects_row *r = &e->row;
+    table_text(t, "set", e->subject.set->name);
+    table_text(t, "distribution", e->distribution);
+    table_value(t, "alpha_x", (double)e->subject.surface.alpha_x);
+    table_value(t, "alpha_y", (double)e->subject.surface.alpha_y);
+    table_value(t, "directions_theta", e->theta);
+    table_value(t, "weight_theta", e->worth_theta);
+    table_value(t, "wrong", r->wrong);
+    table_value(t, "ns", r->ns);
+    table_value(t, "ns_low", r->ns_low);
+    table_value(t, "ns_high", r->ns_high);
+    table_value(t, "to_bare", r->to_bare);
+    table_value(t, "shared_ns", r->shared_ns);
+    table_value(t, "eval_ns", r->eval_ns);
+    table_value(t, "pdf_ns", r->pdf_ns);
+    table_value(t, "instructions", r->instructions);
+    table_value(t, "mean", r->mean);
+    table_value(t, "noise", r->noise);
+    table_value(t, "lost", r->lost);
+    table_value(t, "max_weight", r->max_weight);
+    table_value(t, "variance", r->variance);
+    table_value(t, "efficiency", r->efficiency);
 }
 
-static void text_heading(FILE *file, int width, const char *name, const char *const *headings)
-{
-    fprintf(file, "%-*s  ", width, name);
-    for (int k = 0; k < COLUMNS; k++)
-        fprintf(file, " %9s", headings[k]);
-    fputs("\n", file);
-}
+/* ---- which rows -------------------------------------------------------------------------------- */
 
 static int is_cost(const effects_entry *e)
 {
@@ -100,57 +111,110 @@ static int is_pair(const effects_entry *e)
     return e->shown && e->of_variance && e->visible == EFFECTS_NONE;
 }
 
-/* The first of a distribution's rows in its table. */
-static int is_first(const effects_list *list, size_t i, int of_variance)
+static int is_shown(const effects_entry *e)
 {
-    for (size_t before = i; before-- > 0;)
-        if (list->entry[before].shown && list->entry[before].of_variance == of_variance)
-            return strcmp(list->entry[before].distribution, list->entry[i].distribution) != 0;
-    return 1;
+    return e->shown;
 }
 
-static void print_costs(FILE *file, const effects_list *list, int width)
+/* Nothing at all if there are no rows. */
+static int print(FILE *file, const effects_list *list, int (*is_row)(const effects_entry *),
+                 void (*columns)(text_table *, const effects_entry *), int (*form)(FILE *, const text_table *),
+                 const char *legend)
 {
-    size_t printed = 0;
-    for (size_t i = 0; i < list->count; i++) {
-        const effects_entry *e = &list->entry[i];
-        cells c;
-        if (!is_cost(e))
-            continue;
-        if (!printed++ || is_first(list, i, 0))
-            text_heading(file, width, e->distribution, cost_headings);
-        fill_cost(&c, &e->row);
-        text_row(file, width, e->subject.set->name, &c);
-    }
-    if (printed)
-        fprintf(file, "%s\n", cost_legend);
-}
-
-static void print_variances(FILE *file, const effects_list *list, int width)
-{
-    size_t printed = 0;
-    for (size_t i = 0; i < list->count; i++) {
-        const effects_entry *e = &list->entry[i];
-        cells c;
-        if (!is_pair(e))
-            continue;
-        if (!printed++ || is_first(list, i, 1)) {
-            text_heading(file, width, e->distribution, variance_headings);
-            text_heading(file, width, "", variance_of);
-        }
-        fill_variance(&c, e);
-        text_row(file, width, "", &c);
-    }
-    if (printed)
-        fputs(variance_legend, file);
-}
-
-void effects_print_text(FILE *file, const effects_list *list)
-{
-    int width = 0;
+    text_table t = {.rows = 0};
     for (size_t i = 0; i < list->count; i++)
-        if (list->entry[i].shown)
-            width = cell_wider(cell_wider(width, list->entry[i].subject.set->name), list->entry[i].distribution);
-    print_costs(file, list, width);
-    print_variances(file, list, width);
+        if (is_row(&list->entry[i])) {
+            table_row(&t);
+            columns(&t, &list->entry[i]);
+        }
+    int good = !t.rows || form(file, &t);
+    if (t.rows)
+        fputs(legend, file);
+    table_free(&t);
+    return good;
 }
+
+/* ---- distributions side by side ---------------------------------------------------------------- */
+
+static const effects_entry *find(const effects_list *list, const char *set, const char *distribution)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const effects_entry *e = &list->entry[i];
+        if (is_cost(e) && strcmp(e->subject.set->name, set) == 0 && strcmp(e->distribution, distribution) == 0)
+            return e;
+    }
+    return NULL;
+}
+
+/* The distributions that have costs, in their order. Returns how many. */
+static size_t distributions_of(const effects_list *list, const char *of[EFFECTS_DISTRIBUTIONS_MAX])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        const effects_entry *e = &list->entry[i];
+        if (is_cost(e) && (!count || strcmp(of[count - 1], e->distribution) != 0))
+            of[count++] = e->distribution;
+    }
+    return count;
+}
+
+/* A set: its costs by each of the distributions, what it is worth by the last one. */
+static void side_by_side(text_table *t, const effects_list *list, const char *set, const char *const *of,
+                         size_t count)
+{
+    static const effects_entry none = {
+        .row = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN}};
+    const effects_entry *e = NULL;
+    table_row(t);
+    table_text(t, "effects", set);
+    for (size_t k = 0; k < count; k++) {
+        char heading[256];
+        e = find(list, set, of[k]);
+        const effects_row *r = e ? &e->row : &none.row;
+        snprintf(heading, sizeof heading, "%s: ns", of[k]);
+        time_or_wrong(t, heading, r);
+        table_number(t, "instr", "%.0f", r->instructions);
+        table_time(t, "eval", r->eval_ns);
+        table_time(t, "pdf", r->pdf_ns);
+    }
+    worth_columns(t, e ? &e->row : &none.row);
+}
+
+static int print_side_by_side(FILE *file, const effects_list *list)
+{
+    const char *of[EFFECTS_DISTRIBUTIONS_MAX];
+    size_t count = distributions_of(list, of);
+    text_table t = {.rows = 0};
+    for (size_t i = 0; i < effects_set_count; i++) {
+        size_t found = 0;
+        for (size_t k = 0; k < count; k++)
+            found += find(list, effects_sets[i].name, of[k]) != NULL;
+        if (found)
+            side_by_side(&t, list, effects_sets[i].name, of, count);
+    }
+    int good = !t.rows || table_print_markdown(file, &t);
+    fputs(t.rows ? "\n" : "", file);
+    table_free(&t);
+    return good;
+}
+
+/* ---- printing ---------------------------------------------------------------------------------- */
+
+static int print_text(FILE *file, const void *list)
+{
+    return print(file, list, is_cost, cost_columns, table_print_text, cost_legend) &&
+           print(file, list, is_pair, variance_columns, table_print_text, variance_legend);
+}
+
+static int print_markdown(FILE *file, const void *list)
+{
+    return print_side_by_side(file, list) &&
+           print(file, list, is_pair, variance_columns, table_print_markdown, "");
+}
+
+static int print_csv(FILE *file, const void *list)
+{
+    return print(file, list, is_shown, all_columns, table_print_csv, "");
+}
+
+const output_printers effects_printers = {print_text, print_markdown, print_csv};

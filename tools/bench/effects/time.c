@@ -58,7 +58,7 @@ static int take_turn(void *user, size_t turn, double *number)
 {
     const contenders *c = user;
     double done = fmin((clock_seconds() - c->start) / c->plan->seconds, 0.99);
-    if (!c->plan->go_on(done, "taking turns", c->plan->user))
+    if (progress_show(done, "taking turns", c->plan->progress))
         return 0;
     for (size_t i = 0; i < c->list->count; i++) {
         effects_entry *e = &c->list->entry[i];

@@ -28,7 +28,7 @@ static inline vndf_vec3 draw(const caps_view *v, float u1, float u2, float *pdf)
     return m;
 }
 
-static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
+static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 {
     (void)m;
     caps_view v = view_from(in->wi, in->alpha);
@@ -37,14 +37,7 @@ static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    (void)m;
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        caps_view v = view_from(at->wi, at->alpha);
-        float pdf;
-        vndf_vec3 wm = draw(&v, at->u1, at->u2, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(one, m, in, out);
 }
 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)

@@ -128,19 +128,9 @@ static inline vndf_vec3 draw(const method *m, const method_input *in, float *pdf
     return wm;
 }
 
-static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
-{
-    return draw(m, in, pdf);
-}
-
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = draw(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(draw, m, in, out);
 }
 
 /* ---- the method -------------------------------------------------------------------------------- */
@@ -173,12 +163,14 @@ method method_inverse_tables(const method_truth *truth, size_t side)
     method m = {.instructions = "scalar",
                 .kind = BENCH_PUBLISHED,
                 .release = release,
-                .one = one,
+                .one = draw,
                 .biased = 1,
                 .turned = 1};
+    snprintf(m.name, sizeof m.name, "inverse CDFs (2014), 2 x %zu^2", side);
+    if (!truth)
+        return m;
     inverse_tables *t = tables_of(side, truth->scale);
     double *mass = malloc(2 * FINE * sizeof *mass);
-    snprintf(m.name, sizeof m.name, "inverse CDFs (2014), 2 x %zu^2", side);
     m.bytes = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
     if (t && mass) {
         fill_across(t, truth, mass);

@@ -72,7 +72,7 @@ method method_beckmann_all_normals(void);
 method method_ggx_caps_batch(vndf_instructions set);
 method method_move(vndf_instructions set);
 
-/* Any D, from the publications. */
+/* Any D, from the publications. Without a truth no more than a name. */
 method method_any_all_normals(const method_truth *truth);
 method method_inverse_tables(const method_truth *truth, size_t side);
 method method_warp(const method_truth *truth, size_t side);

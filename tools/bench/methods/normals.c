@@ -97,47 +97,17 @@ static void fill_cdf(radial_cdf *t, const double *mass, int top)
 
 static void each_ggx(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = draw_ggx(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(draw_ggx, m, in, out);
 }
 
 static void each_beckmann(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = draw_beckmann(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(draw_beckmann, m, in, out);
 }
 
 static void each_any(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = draw_any(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
-}
-
-static vndf_vec3 one_ggx(const method *m, const method_input *in, float *pdf)
-{
-    return draw_ggx(m, in, pdf);
-}
-
-static vndf_vec3 one_beckmann(const method *m, const method_input *in, float *pdf)
-{
-    return draw_beckmann(m, in, pdf);
-}
-
-static vndf_vec3 one_any(const method *m, const method_input *in, float *pdf)
-{
-    return draw_any(m, in, pdf);
+    method_loop(draw_any, m, in, out);
 }
 
 method method_ggx_all_normals(void)
@@ -145,7 +115,7 @@ method method_ggx_all_normals(void)
     return (method){.name = "all normals (2007)",
                     .instructions = "scalar",
                     .kind = BENCH_PUBLISHED,
-                    .one = one_ggx,
+                    .one = draw_ggx,
                     .each = each_ggx,
                     .turned = 1};
 }
@@ -155,7 +125,7 @@ method method_beckmann_all_normals(void)
     return (method){.name = "all normals (2007)",
                     .instructions = "scalar",
                     .kind = BENCH_PUBLISHED,
-                    .one = one_beckmann,
+                    .one = draw_beckmann,
                     .each = each_beckmann,
                     .turned = 1};
 }
@@ -167,8 +137,10 @@ method method_any_all_normals(const method_truth *truth)
                 .kind = BENCH_PUBLISHED,
                 .bytes = sizeof(radial_cdf),
                 .release = free,
-                .one = one_any,
+                .one = draw_any,
                 .turned = 1};
+    if (!truth)
+        return m;
     radial_cdf *t = malloc(sizeof *t);
     double *mass = malloc((FINE + 1) * sizeof *mass);
     if (t && mass) {

@@ -16,7 +16,7 @@ static vndf_batch batch_of(const method *m, const method_inputs *in, unsigned sh
 
 /* ---- sampling ---------------------------------------------------------------------------------- */
 
-static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
+static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 {
     vndf_surface surface = surface_of(m, in->alpha);
     vndf_view view = vndf_view_from(&surface, in->wi);
@@ -25,12 +25,7 @@ static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = one(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(one, m, in, out);
 }
 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)

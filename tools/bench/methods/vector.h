@@ -27,6 +27,17 @@ static inline void method_put(const method_outputs *out, size_t i, vndf_vec3 wm,
     out->pdf[i] = pdf;
 }
 
+/* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler takes its body in. */
+static inline void method_loop(method_one *one, const method *m, const method_inputs *in,
+                               const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        float pdf;
+        vndf_vec3 wm = one(m, &in->at[i], &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
 /* The direction of the unit problem: stretched by alpha, turned about z so that its y is 0. */
 typedef struct method_turn {
     float s, c;             /* the unit direction (s, 0, c) */

@@ -173,19 +173,9 @@ static inline vndf_vec3 draw(const method *m, const method_input *in, float *pdf
                        fmaxf(z, 0.0f));
 }
 
-static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
-{
-    return draw(m, in, pdf);
-}
-
 static void each(const method *m, const method_inputs *in, const method_outputs *out)
 {
-    for (size_t i = 0; i < in->count; i++) {
-        const method_input *at = &in->at[i];
-        float pdf;
-        vndf_vec3 wm = draw(m, at, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    method_loop(draw, m, in, out);
 }
 
 /* ---- the method -------------------------------------------------------------------------------- */
@@ -220,8 +210,8 @@ static warp *warp_of(const method_truth *truth, size_t side)
 
 method method_warp(const method_truth *truth, size_t side)
 {
-    method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = one, .turned = 1};
-    m.state = warp_of(truth, side);
+    method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = draw, .turned = 1};
+    m.state = truth ? warp_of(truth, side) : NULL;
     m.bytes = SLICES * (2 * side * side + side) * sizeof(float);
     m.each = m.state ? each : NULL;
     snprintf(m.name, sizeof m.name, "bilinear warps, %d x %zu^2", SLICES, side);

@@ -1,0 +1,305 @@
+#include "draw/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/svg.h"
+
+void table_free(text_table *t)
+{
+    for (size_t k = 0; k < t->columns; k++)
+        free(t->heading[k]);
+    for (size_t i = 0; i < t->count; i++)
+        free(t->cell[i].text);
+    free(t->cell);
+    *t = (text_table){.count = 0};
+}
+
+/* ---- filling ----------------------------------------------------------------------------------- */
+
+static char *copy_of(text_table *t, const char *text)
+{
+    char *copy = malloc(strlen(text) + 1);
+    t->failed |= copy == NULL;
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+static int make_room(text_table *t)
+{
+    size_t room = t->room ? 2 * t->room : 256;
+    table_cell *cell = t->count < t->room ? t->cell : realloc(t->cell, room * sizeof *cell);
+    t->failed |= cell == NULL;
+    if (!cell)
+        return 0;
+    t->room = t->count < t->room ? t->room : room;
+    t->cell = cell;
+    return 1;
+}
+
+void table_row(text_table *t)
+{
+    t->rows++;
+}
+
+static void add(text_table *t, const char *heading, table_kind kind, const char *text)
+{
+    if (t->rows == 1 && t->columns < TABLE_COLUMNS_MAX) {
+        t->kind[t->columns] = kind;
+        t->heading[t->columns++] = copy_of(t, heading);
+    }
+    if (make_room(t))
+        t->cell[t->count++] = (table_cell){copy_of(t, text), NULL};
+}
+
+void table_text(text_table *t, const char *heading, const char *text)
+{
+    add(t, heading, TABLE_TEXT, text);
+}
+
+void table_word(text_table *t, const char *heading, const char *word)
+{
+    add(t, heading, TABLE_WORD, word);
+}
+
+void table_figure(text_table *t, const char *heading, const char *figure)
+{
+    add(t, heading, TABLE_NUMBER, figure);
+}
+
+void table_number(text_table *t, const char *heading, const char *format, double x)
+{
+    char text[64];
+    snprintf(text, sizeof text, format, x);
+    table_figure(t, heading, isnan(x) ? "" : text);
+}
+
+void table_time(text_table *t, const char *heading, double ns)
+{
+    table_number(t, heading, ns < 10 ? "%.2f" : "%.1f", ns);
+}
+
+void table_value(text_table *t, const char *heading, double x)
+{
+    table_number(t, heading, "%.6g", x);
+}
+
+void table_mark(text_table *t, const char *mark)
+{
+    if (t->count)
+        t->cell[t->count - 1].mark = mark;
+}
+
+/* ---- text -------------------------------------------------------------------------------------- */
+
+static const char *shown(const text_table *t, size_t row, size_t column)
+{
+    const char *text = t->cell[row * t->columns + column].text;
+    return *text || t->kind[column] != TABLE_NUMBER ? text : "-";
+}
+
+/* Characters of UTF-8. */
+static size_t length_of(const char *text, size_t bytes)
+{
+    size_t length = 0;
+    for (size_t i = 0; i < bytes; i++)
+        length += ((unsigned char)text[i] & 0xc0) != 0x80;
+    return length;
+}
+
+/* The first `bytes` of a text, with spaces before or behind it. */
+static void put_padded(FILE *file, const char *text, size_t bytes, size_t width, int is_right)
+{
+    size_t length = length_of(text, bytes), spaces = width > length ? width - length : 0;
+    fprintf(file, "%*s%.*s%*s", is_right ? (int)spaces : 0, "", (int)bytes, text, is_right ? 0 : (int)spaces, "");
+}
+
+/* A line of a heading; its bytes. */
+static size_t line_of(const char **heading, size_t line)
+{
+    for (; line && **heading; line--) {
+        *heading += strcspn(*heading, "\n");
+        *heading += **heading == '\n';
+    }
+    return strcspn(*heading, "\n");
+}
+
+/* What a terminal shows: groups by the first column, then a label if the second one holds texts. */
+typedef struct layout {
+    size_t label, numbers; /* width of the label; the first column behind it */
+    size_t lines;          /* of headings */
+    size_t width[TABLE_COLUMNS_MAX];
+} layout;
+
+static void widen(size_t *width, const char *text, size_t bytes)
+{
+    size_t length = length_of(text, bytes);
+    *width = length > *width ? length : *width;
+}
+
+static void measure_heading(layout *l, const text_table *t, size_t column)
+{
+    for (size_t line = 0;; line++) {
+        const char *from = t->heading[column];
+        size_t bytes = line_of(&from, line);
+        if (!bytes)
+            break;
+        widen(&l->width[column], from, bytes);
+        l->lines = line + 1 > l->lines ? line + 1 : l->lines;
+    }
+}
+
+static layout layout_of(const text_table *t)
+{
+    layout l = {.numbers = t->columns > 1 && t->kind[1] == TABLE_TEXT ? 2 : 1};
+    for (size_t k = l.numbers; k < t->columns; k++)
+        measure_heading(&l, t, k);
+    for (size_t i = 0; i < t->rows; i++) {
+        for (size_t k = 0; k < t->columns; k++)
+            widen(k < l.numbers ? &l.label : &l.width[k], shown(t, i, k), strlen(shown(t, i, k)));
+    }
+    return l;
+}
+
+static void put_heading(FILE *file, const text_table *t, const layout *l, const char *group)
+{
+    for (size_t line = 0; line < l->lines; line++) {
+        put_padded(file, group, line ? 0 : strlen(group), l->label + 2, 0);
+        for (size_t k = l->numbers; k < t->columns; k++) {
+            const char *from = t->heading[k];
+            size_t bytes = line_of(&from, line);
+            fputs("  ", file);
+            put_padded(file, from, bytes, l->width[k], t->kind[k] == TABLE_NUMBER);
+        }
+        fputc('\n', file);
+    }
+}
+
+int table_print_text(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    layout l = layout_of(t);
+    for (size_t i = 0; i < t->rows; i++) {
+        const char *label = l.numbers > 1 ? shown(t, i, 1) : "";
+        if (i == 0 || strcmp(shown(t, i, 0), shown(t, i - 1, 0)) != 0) {
+            fputs(i ? "\n" : "", file);
+            put_heading(file, t, &l, shown(t, i, 0));
+        }
+        fputs("  ", file);
+        put_padded(file, label, strlen(label), l.label, 0);
+        for (size_t k = l.numbers; k < t->columns; k++) {
+            fputs("  ", file);
+            put_padded(file, shown(t, i, k), strlen(shown(t, i, k)), l.width[k], t->kind[k] == TABLE_NUMBER);
+        }
+        fputc('\n', file);
+    }
+    return 1;
+}
+
+/* ---- Markdown ---------------------------------------------------------------------------------- */
+
+/* A bar would end the cell, and a line the row. */
+static void put_markdown(FILE *file, const char *text)
+{
+    fputc(' ', file);
+    for (; *text; text++) {
+        if (*text == '|')
+            fputc('\\', file);
+        fputc(*text == '\n' ? ' ' : *text, file);
+    }
+    fputs(" |", file);
+}
+
+int table_print_markdown(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    fputc('|', file);
+    for (size_t k = 0; k < t->columns; k++)
+        put_markdown(file, t->heading[k]);
+    fputs("\n|", file);
+    for (size_t k = 0; k < t->columns; k++)
+        fputs(t->kind[k] == TABLE_NUMBER ? "--:|" : "---|", file);
+    for (size_t i = 0; i < t->rows; i++) {
+        fputs("\n|", file);
+        for (size_t k = 0; k < t->columns; k++)
+            put_markdown(file, shown(t, i, k));
+    }
+    fputc('\n', file);
+    return 1;
+}
+
+/* ---- CSV --------------------------------------------------------------------------------------- */
+
+void table_quote(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        if (*text == '"')
+            fputc('"', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+int table_print_csv(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    for (size_t k = 0; k < t->columns; k++) {
+        fputs(k ? "," : "", file);
+        for (const char *at = t->heading[k]; *at; at++)
+            fputc(*at == '\n' ? ' ' : *at, file);
+    }
+    for (size_t i = 0; i < t->count; i++) {
+        fputs(i % t->columns ? "," : "\n", file);
+        if (t->kind[i % t->columns] == TABLE_TEXT)
+            table_quote(file, t->cell[i].text);
+        else
+            fputs(t->cell[i].text, file);
+    }
+    fputc('\n', file);
+    return 1;
+}
+
+/* ---- a page ------------------------------------------------------------------------------------ */
+
+static void put_tag(FILE *file, const char *tag, const char *class)
+{
+    fprintf(file, class ? "<%s class=\"%s\">" : "<%s>", tag, class);
+}
+
+int table_print_html(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    fputs("<div class=\"scroll\"><table><thead><tr>", file);
+    for (size_t k = 0; k < t->columns; k++) {
+        fputs("<th>", file);
+        svg_escape(file, t->heading[k]);
+        fputs("</th>", file);
+    }
+    fputs("</tr></thead>\n<tbody>\n", file);
+    for (size_t i = 0; i < t->rows; i++) {
+        put_tag(file, "tr", t->cell[i * t->columns].mark);
+        for (size_t k = 0; k < t->columns; k++) {
+            put_tag(file, "td", k ? t->cell[i * t->columns + k].mark : NULL);
+            svg_escape(file, shown(t, i, k));
+            fputs("</td>", file);
+        }
+        fputs("</tr>\n", file);
+    }
+    fputs("</tbody></table></div>\n", file);
+    return 1;
+}
+
+/* ---- sizes ------------------------------------------------------------------------------------- */
+
+void table_bytes_text(char text[TABLE_BYTES], double bytes)
+{
+    double power = exp2(round(log2(bytes)));
+    double size = fabs(bytes / power - 1) < 0.03 ? power : bytes;
+    int is_large = size >= 1048576;
+    snprintf(text, TABLE_BYTES, "%.3g %s", size / (is_large ? 1048576 : 1024), is_large ? "MiB" : "KiB");
+}
