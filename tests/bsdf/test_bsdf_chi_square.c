@@ -126,7 +126,7 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
 int main(int arguments, char **argument)
 {
     static const char *const names[KIND_COUNT] = {"ggx", "beckmann", "student-t-2.5"};
-    size_t every = arguments > 2 ? 1 : test_amount(5, 9, 1); /* of the settings */
+    size_t every = arguments > 2 ? 1 : test_amount(9, 9, 1); /* of the settings */
     size_t samples = arguments > 2 ? (size_t)strtoul(argument[2], NULL, 10) : test_amount(30000, 200000, 200000);
     size_t sets = 0, done = 0;
     for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {

@@ -34,7 +34,8 @@ endfunction()
 function(build_with_cmake)
     file(REMOVE_RECURSE ${OUT})
     run("configuring" ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${OUT} -G ${GENERATOR} -DWAY=${WAY}
-        -DLANGUAGE=${LANGUAGE} -DVNDF_SOURCE=${SOURCE} -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_BUILD_TYPE=Debug -DVNDF_WERROR=ON
+        -DLANGUAGE=${LANGUAGE} -DVNDF_SOURCE=${SOURCE} -DCMAKE_PREFIX_PATH=${PREFIX}
+        -DCMAKE_BUILD_TYPE=Debug -DVNDF_WERROR=ON
         -DCMAKE_${LANGUAGE}_COMPILER=${${LANGUAGE}_COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
     run("building" ${CMAKE_COMMAND} --build ${OUT} --config Debug)
     foreach(library shared static)

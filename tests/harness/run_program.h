@@ -1,29 +1,39 @@
-/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout. For tests
- * whose property is about processes and files; POSIX. */
+/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout, limits and
+ * signals. For tests whose property is about processes and files; POSIX. */
 #ifndef TESTS_HARNESS_RUN_PROGRAM_H
 #define TESTS_HARNESS_RUN_PROGRAM_H
 
+#include <dirent.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "harness/test.h"
 
-enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
+enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16, RUN_NOBODY = 65534 };
 
 typedef struct run_setting {
     unsigned closed;    /* a bit for each of the descriptors 0 to 2 */
     const char *in;     /* what stdin is opened from; NULL: /dev/null */
-    const char *append; /* what stdout is appended to; NULL: `text` of the outcome, as stderr */
+    const char *append; /* what stdout is appended to; NULL: `out` */
     const char *left;   /* a file for which a temporary of the same process number is there already */
+    int out,
+        input; /* descriptors in the place of stdout and stdin; 0: `text` of the outcome, as stderr, and `in` */
+    rlim_t file_limit; /* bytes of a file, for a full disk; 0: none */
+    int unprivileged;  /* becomes nobody if it is root, whom no folder refuses */
+    int ignores_pipe;
 } run_setting;
 
 static const run_setting run_plain = {.closed = 0};
 
 typedef struct run_outcome {
     int status;          /* of exit; -1: another end */
+    int signal;          /* that ended it; 0: none */
     char text[RUN_TEXT]; /* stdout and stderr, their first bytes */
 } run_outcome;
 
@@ -36,11 +46,24 @@ static inline int run_leave(const char *name)
     return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
 }
 
+/* A limit, another user, and signals as a shell in the foreground leaves them. Whether that can be. */
+static inline int run_limit(const run_setting *s)
+{
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    const struct rlimit limit = {s->file_limit, s->file_limit};
+    for (int i = 0; i < 3; i++)
+        signal(signals[i], SIG_DFL);
+    signal(SIGPIPE, s->ignores_pipe ? SIG_IGN : SIG_DFL);
+    if (s->file_limit && setrlimit(RLIMIT_FSIZE, &limit) != 0)
+        return 0;
+    return !s->unprivileged || geteuid() != 0 || (setgid(RUN_NOBODY) == 0 && setuid(RUN_NOBODY) == 0);
+}
+
 /* In the child; `said` is the pipe. */
 static inline void run_become(const run_setting *s, int said)
 {
     int in = open(s->in ? s->in : "/dev/null", O_RDONLY);
-    int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : said;
+    int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : s->out ? s->out : said;
     if (s->left && !run_leave(s->left))
         _exit(RUN_NOT_RUN);
     if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
@@ -50,6 +73,8 @@ static inline void run_become(const run_setting *s, int said)
     for (int i = 0; i < 3; i++)
         if (s->closed >> i & 1u)
             close(i);
+    if (!run_limit(s))
+        _exit(RUN_NOT_RUN);
 }
 
 static inline void run_read(int from, run_outcome *o)
@@ -64,29 +89,57 @@ static inline void run_read(int from, run_outcome *o)
         continue;
 }
 
-/* words: ended by NULL. The outcome stays until the next run. */
-static inline const run_outcome *run_program(const run_setting *s, const char *const *words)
+typedef struct run_child {
+    pid_t pid;
+    int said; /* the reading end of its text */
+} run_child;
+
+/* words: ended by NULL. */
+static inline run_child run_start(const run_setting *s, const char *const *words)
 {
-    static run_outcome o;
-    int ends[2], status = 0;
+    int ends[2];
+    run_child c = {-1, -1};
     char *argv[RUN_WORDS + 2] = {(char *)(size_t)(const void *)VNDF_PROGRAM};
     for (int i = 0; i < RUN_WORDS && words[i]; i++)
         argv[i + 1] = (char *)(size_t)(const void *)words[i];
-    o = (run_outcome){-1, ""};
     if (!TEST(pipe(ends) == 0))
-        return &o;
-    pid_t pid = fork();
-    if (pid == 0) {
+        return c;
+    c.pid = fork();
+    if (c.pid == 0) {
         run_become(s, ends[1]);
         execv(VNDF_PROGRAM, argv);
         _exit(RUN_NOT_RUN);
     }
     close(ends[1]);
-    run_read(ends[0], &o);
-    close(ends[0]);
-    waitpid(pid, &status, 0);
+    c.said = ends[0];
+    return c;
+}
+
+/* The outcome stays until the next is asked for. */
+static inline const run_outcome *run_finish(run_child c)
+{
+    static run_outcome o;
+    int status = 0;
+    o = (run_outcome){-1, 0, ""};
+    if (c.pid < 0)
+        return &o;
+    run_read(c.said, &o);
+    close(c.said);
+    waitpid(c.pid, &status, 0);
     o.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    o.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     return &o;
+}
+
+static inline const run_outcome *run_program(const run_setting *s, const char *const *words)
+{
+    return run_finish(run_start(s, words));
+}
+
+static inline void run_pause(long milliseconds)
+{
+    const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000};
+    nanosleep(&time, NULL);
 }
 
 /* ---- files ---- */
@@ -101,6 +154,21 @@ static inline char *run_file(const char *name, size_t *size)
     if (file)
         fclose(file);
     return text;
+}
+
+/* Names in a folder that hold `part`, without . and ..; -1: there is no such folder. */
+static inline int run_count(const char *folder, const char *part)
+{
+    DIR *directory = opendir(folder);
+    const struct dirent *entry;
+    int count = 0;
+    while (directory && (entry = readdir(directory)) != NULL)
+        count +=
+            strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 && strstr(entry->d_name, part);
+    if (!directory)
+        return -1;
+    closedir(directory);
+    return count;
 }
 
 static inline int run_put(const char *name, const char *text)
@@ -141,7 +209,7 @@ static inline void run_tell(const char *const *words, const run_outcome *o)
     fputs("  vndf", stderr);
     for (int i = 0; i < RUN_WORDS && words[i]; i++)
         fprintf(stderr, " %s", words[i]);
-    fprintf(stderr, ": status %d\n%.300s\n", o->status, o->text);
+    fprintf(stderr, ": status %d, signal %d\n%.300s\n", o->status, o->signal, o->text);
 }
 
 #endif

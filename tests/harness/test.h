@@ -44,7 +44,7 @@ static inline int test_done(void)
 }
 
 /* How much is asked for: VNDF_TEST_QUICK=1, as little as still sees the defects of tests/house/mutants.txt;
- * VNDF_TEST_LONG=1, everything, in the tests long_NAME; otherwise what a programmer waits for. */
+ * VNDF_TEST_LONG=1, everything, in the tests more_NAME; otherwise what a programmer waits for. */
 static inline int test_quick(void)
 {
     const char *quick = getenv("VNDF_TEST_QUICK");

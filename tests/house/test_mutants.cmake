@@ -3,8 +3,7 @@
 # that is no longer found exactly once is an error too: the list has to follow the sources.
 #
 # The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those whose
-# mark matches MARK, `always` unless it is said: long_mutants plants those marked `often` as well, long_all_mutants
-# all.
+# mark matches MARK, `always` unless it is said: more_mutants plants those marked `often` as well, long_mutants all.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)

@@ -1,7 +1,8 @@
 # The order of the house, which src/README.md draws: a room includes rooms below it, a sub-room its own room and
 # the sub-rooms that are listed before it, and no header comes back to itself. The run time (core to bsdf) does not
 # know vndf_build.h, tools/ know src/ through include/ alone, and src/ takes from the system the headers of the C
-# library, but for what is stated below. A folder holds no more than 20 sources and headers.
+# library, but for what is stated below. A folder holds no more than 20 sources and headers. No line of a source is
+# longer than 120 columns.
 cmake_minimum_required(VERSION 3.16)
 
 # ---- the order ----------------------------------------------------------------------------------
@@ -166,8 +167,22 @@ foreach(tower src tools)
     foreach(folder IN LISTS folders)
         list(LENGTH "in ${folder}" flat)
         if(flat GREATER most_files)
-            message(SEND_ERROR "${tower}/${folder} holds ${flat} files, more than ${most_files}: sub-rooms show the architecture")
+            message(SEND_ERROR "${tower}/${folder} holds ${flat} files, more than ${most_files}: "
+                "sub-rooms show the architecture")
         endif()
     endforeach()
     message("${tower}/: ${count} files in order")
+endforeach()
+
+# ---- long lines ---------------------------------------------------------------------------------
+
+string(REPEAT "." 121 too_long)
+foreach(tower include tools tests)
+    file(GLOB_RECURSE files ${SOURCE}/${tower}/*.[ch] ${SOURCE}/${tower}/*.cmake ${SOURCE}/${tower}/CMakeLists.txt)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} lines REGEX "^${too_long}")
+        if(lines)
+            message(SEND_ERROR "${file}: longer than 120 columns:\n${lines}")
+        endif()
+    endforeach()
 endforeach()

@@ -57,7 +57,7 @@ static void test_ends(void)
 int main(void)
 {
     test_ends();
-    for (size_t i = 0; i < test_amount(1, CASE_COUNT, CASE_COUNT); i += test_long() ? 1 : 2)
+    for (size_t i = 0; i < test_amount(1, CASE_COUNT, CASE_COUNT); i += test_amount(1, 4, 1))
         test_mass(&CASES[i]);
     return test_done();
 }

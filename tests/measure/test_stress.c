@@ -1,10 +1,9 @@
-/* No input is too hard: every property of tools/measure/stress.h holds over its whole product of directions, roughnesses
+/* No input is too hard: every property of tools/measure/stress.h holds over its product of directions, roughnesses
  * and uniform numbers, for every shipped table, the smallest table of each source, the closed forms, and
  * distributions that are pathological: jumps, a hole at the pole, a narrow ring, an unbounded peak, a tail at the
- * edge of integrability, two scales a hundred apart, and a scale of 1e-9. Of the smallest tables and the
- * pathological ones every fifth view, which `vndf check --hard` does not leave out; with VNDF_TEST_QUICK every
- * 37th of all. With the name of a shipped table as its argument it looks at that and the smallest of the
- * source. */
+ * edge of integrability, two scales a hundred apart, and a scale of 1e-9. more_stress takes the whole product, as
+ * `vndf check --hard` does, but of the smallest tables and the pathological ones every fifth view; stress takes every
+ * 19th and every 37th. With the name of a shipped table it looks at that and the smallest of the source. */
 #include "oracle/oracle.h"
 #include "measure/stress.h"
 #include "harness/test.h"

@@ -1,5 +1,5 @@
-/* The density of a table's samples: azimuth a first, then the slope length R given a (src/sampler/tabulated/theory.h derives
- * both; here they are written out with every sum and no shortcut).
+/* The density of a table's samples: azimuth a first, then the slope length R given a
+ * (src/sampler/tabulated/theory.h derives both; here they are written out with every sum and no shortcut).
  *
  * Azimuth. Mass is even in a; half a turn consists of a front (c >= 0, cos a >= 0) of density c F0 + s F1 cos a,
  * and a wedge, whose row is a mix of three, (1-m)^2, 2 m (1-m), m^2.

@@ -10,115 +10,24 @@
 
 #ifdef HAS_PROCESSES
 
-#  include <dirent.h>
-#  include <fcntl.h>
-#  include <signal.h>
-#  include <stdlib.h>
-#  include <sys/resource.h>
-#  include <sys/stat.h>
-#  include <sys/wait.h>
-#  include <time.h>
-#  include <unistd.h>
-
 #  include "command.h"
-#  include "cli/output.h"
+#  include "harness/run_program.h"
 
-enum { PATH_SIZE = 512, WORDS_OF_RUN = 12, DEPTH_MAX = 64 };
-
-/* ---- running ---- */
-
-typedef struct outcome {
-    int status;      /* of waitpid */
-    char text[8192]; /* stdout and stderr */
-} outcome;
-
-static void read_all(int from, char *text, size_t size)
-{
-    size_t length = 0;
-    ssize_t got;
-    while (length + 1 < size && (got = read(from, text + length, size - 1 - length)) > 0)
-        length += (size_t)got;
-    text[length] = '\0';
-}
-
-/* How a run is to fail. */
-typedef struct trouble {
-    long milliseconds; /* until SIGINT comes; 0: never */
-    rlim_t file_limit; /* bytes of a file: a full disk; 0: none */
-} trouble;
-
-static const trouble none = {0, 0};
-
-/* `vndf report words...` in a child. */
-static outcome run(const char *const *words, trouble t)
-{
-    outcome result = {-1, ""};
-    int channel[2];
-    if (!TEST(pipe(channel) == 0))
-        return result;
-    pid_t child = fork();
-    if (child == 0) {
-        char *argv[WORDS_OF_RUN + 1] = {NULL};
-        int argc = 0;
-        for (; words[argc] && argc < WORDS_OF_RUN; argc++)
-            argv[argc] = (char *)(size_t)(const void *)words[argc];
-        struct rlimit limit = {t.file_limit, t.file_limit};
-        output_ignore_size_signal();
-        if (t.file_limit)
-            setrlimit(RLIMIT_FSIZE, &limit);
-        dup2(channel[1], 1);
-        dup2(channel[1], 2);
-        close(channel[0]);
-        int status = command_report(argc, argv);
-        fflush(stdout);
-        _exit(status);
-    }
-    close(channel[1]);
-    if (t.milliseconds) {
-        struct timespec wait = {t.milliseconds / 1000, t.milliseconds % 1000 * 1000000};
-        nanosleep(&wait, NULL);
-        kill(child, SIGINT);
-    }
-    read_all(channel[0], result.text, sizeof result.text);
-    close(channel[0]);
-    waitpid(child, &result.status, 0);
-    return result;
-}
-
-static int ended_with(const outcome *o, int status)
-{
-    return WIFEXITED(o->status) && WEXITSTATUS(o->status) == status;
-}
+enum { PATH_SIZE = 512, DEPTH_MAX = 64 };
 
 /* ---- files ---- */
 
 static char *read_file(const char *folder, const char *name)
 {
     char path[PATH_SIZE];
-    struct stat status;
+    size_t size;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "rb");
-    if (!file || stat(path, &status) != 0)
-        return NULL;
-    char *text = calloc(1, (size_t)status.st_size + 1);
-    if (text && fread(text, 1, (size_t)status.st_size, file) != (size_t)status.st_size)
-        text[0] = '\0';
-    fclose(file);
-    return text;
+    return run_file(path, &size);
 }
 
-/* Without . and .. */
 static int count_entries(const char *folder)
 {
-    DIR *directory = opendir(folder);
-    const struct dirent *entry;
-    int count = 0;
-    if (!directory)
-        return -1;
-    while ((entry = readdir(directory)) != NULL)
-        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
-    closedir(directory);
-    return count;
+    return run_count(folder, "");
 }
 
 static void remove_folder(const char *folder)
@@ -323,33 +232,35 @@ static void test_checkers(void)
 
 static void test_page(const char *folder, const char *option, const char *value)
 {
-    const char *words[] = {option, value, "--seconds", "1", folder, NULL};
-    outcome o = run(words, none);
-    TEST(ended_with(&o, STATUS_GOOD));
-    TEST_HAS(o.text, "/index.html\n");
+    const char *words[] = {"report", option, value, "--seconds", "1", folder, NULL};
+    const run_outcome *o = run_program(&run_plain, words);
+    TEST(o->status == STATUS_GOOD);
+    TEST_HAS(o->text, "/index.html\n");
     TEST(count_entries(folder) == 11);
     check_page(folder);
 }
 
 static void test_replaced(const char *folder)
 {
-    const char *words[] = {"--csv", VNDF_SOURCE_DIR "/tables/example.csv", "--seconds=1", folder, NULL};
-    char path[PATH_SIZE];
+    const char *words[] = {"report", "--csv", VNDF_SOURCE_DIR "/tables/example.csv", "--seconds=1", folder, NULL};
+    char path[PATH_SIZE + 16];
     snprintf(path, sizeof path, "%s/note.txt", folder);
     close(open(path, O_WRONLY | O_CREAT, 0666));
-    outcome o = run(words, none);
-    TEST(ended_with(&o, STATUS_GOOD));
-    TEST_HAS(o.text, "replaced the report in ");
+    const run_outcome *o = run_program(&run_plain, words);
+    TEST(o->status == STATUS_GOOD);
+    TEST_HAS(o->text, "replaced the report in ");
     TEST(count_entries(folder) == 12); /* the note is still there */
     check_page(folder);
 }
 
 static void test_refused(const char *folder)
 {
-    const char *foreign[] = {folder, NULL}, *file[] = {VNDF_SOURCE_DIR "/tables/example.csv", NULL};
-    const char *two[] = {"--ndf", "c", "--slope", "exp(-r)", "x", NULL}, *nothing[] = {NULL};
-    const char *bad[] = {"--slope", "exp(-r", "no-such-folder", NULL}, *deep[] = {"no-such-folder/x", NULL};
-    const char *set[] = {"--family", "ggx", "--set", "k=1", "x", NULL};
+    const char *foreign[] = {"report", folder, NULL},
+               *file[] = {"report", VNDF_SOURCE_DIR "/tables/example.csv", NULL};
+    const char *two[] = {"report", "--ndf", "c", "--slope", "exp(-r)", "x", NULL}, *nothing[] = {"report", NULL};
+    const char *bad[] = {"report", "--slope", "exp(-r", "no-such-folder", NULL},
+               *deep[] = {"report", "no-such-folder/x", NULL};
+    const char *set[] = {"report", "--family", "ggx", "--set", "k=1", "x", NULL};
     const char *const *all[] = {foreign, file, two, nothing, bad, set};
     const char *const reasons[] = {"has files in it, and no page of",
                                    "is no folder",
@@ -358,33 +269,37 @@ static void test_refused(const char *folder)
                                    "column",
                                    "--set is for"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        outcome o = run(all[i], none);
-        TEST(ended_with(&o, STATUS_USE));
-        TEST_HAS(o.text, reasons[i]);
+        const run_outcome *o = run_program(&run_plain, all[i]);
+        TEST(o->status == STATUS_USE);
+        TEST_HAS(o->text, reasons[i]);
     }
-    outcome o = run(deep, none);
-    TEST(ended_with(&o, STATUS_USE)); /* before anything is measured */
-    TEST_HAS(o.text, "no-such-folder");
+    const run_outcome *o = run_program(&run_plain, deep);
+    TEST(o->status == STATUS_USE); /* before anything is measured */
+    TEST_HAS(o->text, "no-such-folder");
     TEST(count_entries("no-such-folder") == -1 && count_entries("x") == -1);
     TEST(count_entries(folder) == 1);
 }
 
 static void test_interrupted(const char *folder)
 {
-    const char *words[] = {"--seconds", "60", folder, NULL};
-    outcome o = run(words, (trouble){1000, 0});
-    TEST(WIFSIGNALED(o.status) && WTERMSIG(o.status) == SIGINT);
-    TEST_HAS(o.text, "interrupted");
+    const char *words[] = {"report", "--seconds", "60", folder, NULL};
+    run_child c = run_start(&run_plain, words);
+    run_pause(1000);
+    kill(c.pid, SIGINT);
+    const run_outcome *o = run_finish(c);
+    TEST(o->signal == SIGINT);
+    TEST_HAS(o->text, "interrupted");
     TEST(count_entries(folder) == -1);
 }
 
 /* The page is larger than that, most of the data is not. */
 static void test_full_disk(const char *folder)
 {
-    const char *words[] = {"--family", "ggx", "--seconds", "1", folder, NULL};
-    outcome o = run(words, (trouble){0, 100000});
-    TEST(ended_with(&o, STATUS_USE));
-    TEST_HAS(o.text, "cannot write");
+    const char *words[] = {"report", "--family", "ggx", "--seconds", "1", folder, NULL};
+    const run_setting full = {.file_limit = 100000};
+    const run_outcome *o = run_program(&full, words);
+    TEST(o->status == STATUS_USE);
+    TEST_HAS(o->text, "cannot write");
     TEST(count_entries(folder) == -1);
 }
 

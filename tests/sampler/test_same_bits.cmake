@@ -3,10 +3,11 @@
 # through qemu, all compared with tests/corpus/same_bits.txt, so that machines that never met are compared too.
 # Only the rooms of the run time are compiled here, so they do not need the offline ones.
 #
-# LONG=ON (long_same_bits) does all of this: the optimised builds for this machine take 1e6 samples of every
+# LONG=ON (more_same_bits) does all of this: the optimised builds for this machine take 1e6 samples of every
 # distribution, the slow ones - not optimised, emulated, or 32-bit - the first 2e4 of the same. Without it three of
 # them take 2e4: the library as it was built here, a compiler that did not build it with all that the processor
-# has, and one machine through qemu, big-endian if it can be. What cannot be built or run here is named on a line "not here: ...".
+# has, and one machine through qemu, big-endian if it can be. What cannot be built or
+# run here is named on a line "not here: ...".
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
 # runs this with -DRENEW=ON and writes the file anew, if all builds agree.
