@@ -136,21 +136,22 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
-        table->knots.x[j] = a.x;
-        table->knots.z[j] = a.z;
+        table->knots.at[j] = (vndf_knot){a.x, a.z};
         table->cells[j] = vndf_fit_cell(&plan->radial_fit, a, b);
         a = b;
     }
-    table->knots.x[n] = a.x;
-    table->knots.z[n] = a.z;
+    table->knots.at[n] = (vndf_knot){a.x, a.z};
 }
 
 static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
 {
-    wedge->aspect_p[i] = (float)row->p;
-    wedge->aspect_r[i] = (float)row->r;
-    memcpy(wedge->cell_mass + (size_t)i * wedge->stride, row->mass, cells * sizeof *row->mass);
-    memcpy(wedge->density + (size_t)i * (cells + 1), row->density, (cells + 1) * sizeof *row->density);
+    vndf_row_cell *cell = vndf_row_cells(wedge, i);
+    *vndf_aspect_p(wedge, i) = (float)row->p;
+    *vndf_aspect_r(wedge, i) = (float)row->r;
+    for (uint32_t j = 0; j <= cells; j++) {
+        cell[j].mass = j < cells ? row->mass[j] : 0.0f;
+        cell[j].density = row->density[j];
+    }
 }
 
 static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
@@ -173,7 +174,7 @@ static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_
         }
     }
     if (!fit->side.below) /* at the horizon the wedge has no width */
-        wedge->aspect_p[0] = 0.0f;
+        *vndf_aspect_p(wedge, 0) = 0.0f;
     return 1;
 }
 

@@ -26,14 +26,13 @@ VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const floa
     return count;
 }
 
-/* a e[i] + max(a z[i] + b x[i], 0) g[i] <= most. */
-VNDF_INLINE uint32_t vndf_count_positive(const float *z, const float *x, const float *e, const float *g, float a,
-                                         float b, float most)
+/* a e + max(a z + b x, 0) g <= most for pairs (x, z) and (e, g). */
+VNDF_INLINE uint32_t vndf_count_positive(const float *xz, const float *eg, float a, float b, float most)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < 8; i++) {
-        float w = a * z[i] + b * x[i];
-        count += a * e[i] + (w > 0.0f ? w : 0.0f) * g[i] <= most;
+        float w = a * xz[2 * i + 1] + b * xz[2 * i];
+        count += a * eg[2 * i] + (w > 0.0f ? w : 0.0f) * eg[2 * i + 1] <= most;
     }
     return count;
 }
@@ -59,12 +58,16 @@ VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const floa
     return vndf_count_at_most(two + _mm256_set1_ps(c) * _mm256_loadu_ps(z), most);
 }
 
-VNDF_INLINE uint32_t vndf_count_positive(const float *z, const float *x, const float *e, const float *g, float a,
-                                         float b, float most)
+/* Pairs are taken apart in an order of their own, which a count does not see. */
+VNDF_INLINE uint32_t vndf_count_positive(const float *xz, const float *eg, float a, float b, float most)
 {
-    __m256 w = _mm256_set1_ps(a) * _mm256_loadu_ps(z) + _mm256_set1_ps(b) * _mm256_loadu_ps(x);
+    __m256 k0 = _mm256_loadu_ps(xz), k1 = _mm256_loadu_ps(xz + 8);
+    __m256 s0 = _mm256_loadu_ps(eg), s1 = _mm256_loadu_ps(eg + 8);
+    __m256 w =
+        _mm256_set1_ps(a) * _mm256_shuffle_ps(k0, k1, 0xdd) + _mm256_set1_ps(b) * _mm256_shuffle_ps(k0, k1, 0x88);
     __m256 seen = _mm256_max_ps(w, _mm256_setzero_ps()); /* 0 for NaN, as above */
-    return vndf_count_at_most(_mm256_set1_ps(a) * _mm256_loadu_ps(e) + seen * _mm256_loadu_ps(g), most);
+    return vndf_count_at_most(
+        _mm256_set1_ps(a) * _mm256_shuffle_ps(s0, s1, 0x88) + seen * _mm256_shuffle_ps(s0, s1, 0xdd), most);
 }
 
 #endif

@@ -61,8 +61,7 @@ VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, 
 }
 
 /* Where there are `count` knots and no more than VNDF_FEW pieces: read in registers. */
-VNDF_INLINE lanes_f vndf_area_few_at(const float few[VNDF_AREA_ORDER + 2][VNDF_FEW], uint32_t count, lanes_f y,
-                                     lanes_f *per_width)
+VNDF_INLINE lanes_f vndf_area_few_at(float (*few)[VNDF_FEW], uint32_t count, lanes_f y, lanes_f *per_width)
 {
     const float *begin = few[VNDF_AREA_ORDER];
     lanes_u i = vndf_guide_count(begin, count, y);

@@ -32,8 +32,8 @@ static void write_text(vndf_writer *w, const char *text)
 static void write_radial(vndf_writer *w, const vndf_distribution *table)
 {
     size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
-    write_array(w, table->knots.x, n + 1, 1);
-    write_array(w, table->knots.z, n + 1, 1);
+    write_array(w, &table->knots.at->x, n + 1, 2);
+    write_array(w, &table->knots.at->z, n + 1, 2);
     write_array(w, &table->cells->f0, n, cell);
     write_array(w, &table->cells->f1, n, cell);
     write_array(w, &table->cells->mu0, n, cell);
@@ -45,12 +45,14 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
     size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     write_array(w, wedge->q, cells + 1, 1);
     write_array(w, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
-    write_array(w, wedge->aspect_p, rows, 1);
-    write_array(w, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
-        write_array(w, wedge->cell_mass + i * wedge->stride, cells, 1);
+        vndf_write_f32(w, *vndf_aspect_p(wedge, i));
     for (size_t i = 0; i < rows; i++)
-        write_array(w, wedge->density + i * (cells + 1), cells + 1, 1);
+        vndf_write_f32(w, *vndf_aspect_r(wedge, i));
+    for (size_t i = 0; i < rows; i++)
+        write_array(w, &vndf_row_cells(wedge, i)->mass, cells, 2);
+    for (size_t i = 0; i < rows; i++)
+        write_array(w, &vndf_row_cells(wedge, i)->density, cells + 1, 2);
     write_array(w, wedge->knot_y, knots, 1);
     write_array(w, wedge->mass, knots, 1);
     write_array(w, wedge->slope, knots, 1);
@@ -131,8 +133,8 @@ static char *read_text(vndf_reader *r)
 static void read_radial(vndf_reader *r, vndf_distribution *table)
 {
     size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
-    read_array(r, table->knots.x, n + 1, 1);
-    read_array(r, table->knots.z, n + 1, 1);
+    read_array(r, &table->knots.at->x, n + 1, 2);
+    read_array(r, &table->knots.at->z, n + 1, 2);
     read_array(r, &table->cells->f0, n, cell);
     read_array(r, &table->cells->f1, n, cell);
     read_array(r, &table->cells->mu0, n, cell);
@@ -144,12 +146,14 @@ static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
     size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
     read_array(r, wedge->q, cells + 1, 1);
     read_array(r, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
-    read_array(r, wedge->aspect_p, rows, 1);
-    read_array(r, wedge->aspect_r, rows, 1);
     for (size_t i = 0; i < rows; i++)
-        read_array(r, wedge->cell_mass + i * wedge->stride, cells, 1);
+        *vndf_aspect_p(wedge, i) = vndf_read_f32(r);
     for (size_t i = 0; i < rows; i++)
-        read_array(r, wedge->density + i * (cells + 1), cells + 1, 1);
+        *vndf_aspect_r(wedge, i) = vndf_read_f32(r);
+    for (size_t i = 0; i < rows; i++)
+        read_array(r, &vndf_row_cells(wedge, i)->mass, cells, 2);
+    for (size_t i = 0; i < rows; i++)
+        read_array(r, &vndf_row_cells(wedge, i)->density, cells + 1, 2);
     read_array(r, wedge->knot_y, knots, 1);
     read_array(r, wedge->mass, knots, 1);
     read_array(r, wedge->slope, knots, 1);

@@ -17,18 +17,19 @@ static uint32_t shift_for(uint32_t span, uint32_t count)
  * less than it is. Beyond every value if it is in none. */
 static uint32_t place_in_bucket(const vndf_guide *guide, uint32_t b)
 {
-    uint32_t start = guide->low + (b << guide->shift), next = guide->next[guide->first[b]];
+    uint32_t start = guide->low + (b << guide->shift), next = guide->next[guide->entry[b]];
     uint32_t off = next > start ? next - start : 0;
     return off >> guide->shift > 0 ? 1u << (VNDF_GUIDE_SHIFT - 1) : off >> guide->drop;
 }
 
+/* From the knots below the buckets. */
 static void make_entries(vndf_guide *guide, uint32_t count)
 {
     const uint32_t places = VNDF_GUIDE_SHIFT - 1;
     guide->drop = guide->shift > places ? guide->shift - places : 0;
     guide->single = 1;
     for (uint32_t b = 0; b <= guide->last; b++) {
-        uint32_t i = guide->first[b], after = i + 2 < count ? guide->next[i + 1] : UINT32_MAX;
+        uint32_t i = guide->entry[b], after = i + 2 < count ? guide->next[i + 1] : UINT32_MAX;
         uint32_t end = b < guide->last ? guide->low + ((b + 1) << guide->shift) : UINT32_MAX;
         guide->entry[b] = i << VNDF_GUIDE_SHIFT | place_in_bucket(guide, b);
         guide->single &= after >= end;
@@ -44,19 +45,17 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
         high = guide->low;
     guide->shift = shift_for(high - guide->low, count);
     guide->last = (high - guide->low) >> guide->shift;
-    size_t words = (size_t)count + guide->last + 1;
-    guide->next = malloc(words * sizeof *guide->next + (guide->last + 2) * sizeof *guide->first);
+    guide->next = malloc(((size_t)count + guide->last + 1) * sizeof *guide->next);
     if (!guide->next)
         return 0;
     guide->entry = guide->next + count;
-    guide->first = (uint16_t *)(guide->entry + guide->last + 1);
     for (uint32_t j = 0; j < count; j++)
         guide->next[j] = j + 2 < count ? vndf_float_bits(knots[j + 1]) : UINT32_MAX;
     for (uint32_t b = 0; b <= guide->last; b++) {
         uint32_t start = guide->low + (b << guide->shift);
         while (guide->next[i] <= start)
             i++;
-        guide->first[b] = (uint16_t)(b == 0 ? 0 : i);
+        guide->entry[b] = b == 0 ? 0 : i;
     }
     make_entries(guide, count);
     return 1;

@@ -27,7 +27,7 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 {
     uint32_t bits = vndf_float_bits(value), above = bits > guide->low ? bits - guide->low : 0;
     uint32_t bucket = above >> guide->shift;
-    uint32_t i = guide->first[bucket < guide->last ? bucket : guide->last];
+    uint32_t i = guide->entry[bucket < guide->last ? bucket : guide->last] >> VNDF_GUIDE_SHIFT;
     i += bits >= guide->next[i];
     while (bits >= guide->next[i])
         i++;
@@ -38,7 +38,8 @@ VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)
 VNDF_INLINE lanes_u vndf_guide_lanes(const vndf_guide *guide, lanes_f value)
 {
     lanes_u bits = lanes_bits(value), above = bits - lanes_limit_u(lanes_set_u(guide->low), bits);
-    lanes_u i = lanes_gather_u16(guide->first, lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last)));
+    lanes_u bucket = lanes_limit_u(above >> guide->shift, lanes_set_u(guide->last));
+    lanes_u i = lanes_gather_u(guide->entry, bucket) >> VNDF_GUIDE_SHIFT;
     lanes_m more = lanes_at_most_u(lanes_gather_u(guide->next, i), bits);
     i = lanes_count(i, more);
     for (;;) {

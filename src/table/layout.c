@@ -9,75 +9,123 @@
 #include "table/steep.h"
 #include "table/window.h"
 
-/* The eight arrays in one block. */
-static int allocate_knots(vndf_knots *knots, uint32_t count, uint32_t multiple)
+/* ---- room ---- */
+
+/* Arrays one after the other in a block, or only counted while there is none. The largest come first, so that
+ * cells and pieces do not cross lines of the cache. */
+typedef struct room {
+    char *block;
+    size_t used;
+} room;
+
+enum { LINE = 64 };
+
+static void *take(room *r, size_t count, size_t size)
 {
-    uint32_t padded = (count + VNDF_WINDOW + multiple - 1) / multiple * multiple;
-    float *block = calloc((size_t)8 * padded, sizeof *block);
-    knots->count = padded;
-    knots->x = block;
-    if (!block)
+    void *array = r->block ? r->block + r->used : NULL;
+    r->used += count * size;
+    return array;
+}
+
+static void align(room *r)
+{
+    r->used = (r->used + LINE - 1) / LINE * LINE;
+}
+
+/* So many knots that neither a window nor a block reads beyond. */
+static uint32_t padded(uint32_t knots, uint32_t multiple)
+{
+    uint32_t whole = (knots + multiple - 1) / multiple * multiple, window = knots - 1 + VNDF_WINDOW;
+    return whole > window ? whole : window;
+}
+
+static uint32_t block_count(uint32_t radial)
+{
+    return (radial / VNDF_BLOCK + VNDF_PADDING) / VNDF_PADDING * VNDF_PADDING;
+}
+
+static int has_few_pieces(const vndf_wedge *w)
+{
+    return w->knot_count <= VNDF_FEW + 1;
+}
+
+static int has_few_rows(const vndf_wedge *w)
+{
+    return w->row_count / 2 < VNDF_FEW;
+}
+
+static void place_pieces(room *r, vndf_wedge *w, int above)
+{
+    w->piece = take(r, w->knot_count - 1, sizeof *w->piece);
+    w->few_exact = has_few_pieces(w) ? take(r, VNDF_AREA_SPAN, sizeof *w->few_exact) : NULL;
+    w->few = above && has_few_pieces(w) ? take(r, VNDF_AREA_ORDER + 2, sizeof *w->few) : NULL;
+    w->quick = above ? take(r, w->knot_count - 1, sizeof *w->quick) : NULL;
+    w->row_span = take(r, vndf_row_knots(w->row_count), sizeof *w->row_span);
+    w->row_line = above ? take(r, (size_t)w->row_count * w->cell_count, sizeof *w->row_line) : NULL;
+}
+
+static void place_rows(room *r, vndf_wedge *w)
+{
+    uint32_t knots = vndf_row_knots(w->row_count);
+    w->stride = (w->cell_count + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING;
+    w->row_cell = take(r, (size_t)w->row_count * (w->cell_count + 1), sizeof *w->row_cell);
+    w->cdf = take(r, (size_t)w->row_count * w->stride, sizeof *w->cdf);
+    w->q = take(r, w->cell_count + 1, sizeof *w->q);
+    w->row_y = take(r, has_few_rows(w) ? VNDF_FEW + 1 : knots, sizeof *w->row_y);
+    w->few_aspects = has_few_rows(w) ? take(r, 4, sizeof *w->few_aspects) : NULL;
+    w->knot_y = take(r, w->knot_count, sizeof *w->knot_y);
+    w->mass = take(r, w->knot_count, sizeof *w->mass);
+    w->slope = take(r, w->knot_count, sizeof *w->slope);
+    w->curve = take(r, w->knot_count, sizeof *w->curve);
+}
+
+static void place_knots(room *r, vndf_distribution *table)
+{
+    vndf_knots *k = &table->knots, *b = &table->blocks;
+    k->count = padded(table->radial_count + 1, VNDF_BLOCK);
+    k->at = take(r, k->count, sizeof *k->at);
+    k->pole = take(r, k->count, sizeof *k->pole);
+    k->tail = take(r, k->count, sizeof *k->tail);
+    k->f0 = take(r, k->count, sizeof *k->f0);
+    k->f1 = take(r, k->count, sizeof *k->f1);
+    b->count = block_count(table->radial_count);
+    b->at = take(r, b->count, sizeof *b->at);
+    b->tail = take(r, b->count, sizeof *b->tail);
+    table->bends = take(r, table->radial_count, sizeof *table->bends);
+}
+
+/* Where all arrays stand in the block; after the last, room for lanes that read all of what is few. */
+static size_t place_all(vndf_distribution *table, char *block)
+{
+    room r = {block, 0};
+    table->cells = take(&r, table->radial_count, sizeof *table->cells);
+    align(&r);
+    place_pieces(&r, &table->above, 1);
+    align(&r);
+    place_pieces(&r, &table->below, 0);
+    place_knots(&r, table);
+    place_rows(&r, &table->above);
+    place_rows(&r, &table->below);
+    take(&r, VNDF_FEW, sizeof(float));
+    return r.used;
+}
+
+static int allocate_block(vndf_distribution *table)
+{
+    table->block_bytes = place_all(table, NULL) + LINE - 1;
+    table->block = calloc(table->block_bytes, 1);
+    if (!table->block)
         return 0;
-    knots->z = block + padded;
-    knots->e = block + 2 * (size_t)padded;
-    knots->g = block + 3 * (size_t)padded;
-    knots->s = block + 4 * (size_t)padded;
-    knots->t = block + 5 * (size_t)padded;
-    knots->f0 = block + 6 * (size_t)padded;
-    knots->f1 = block + 7 * (size_t)padded;
+    size_t past = (uintptr_t)table->block % LINE;
+    place_all(table, (char *)table->block + (past > 0 ? LINE - past : 0));
     return 1;
 }
 
-static int allocate_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
+static void count_wedge(vndf_wedge *wedge, uint32_t cells, uint32_t rows, uint32_t knots)
 {
-    uint32_t stride = (cells + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING;
-    size_t row_floats = (size_t)rows * stride, ends = (size_t)rows * (cells + 1), row_knots = vndf_row_knots(rows);
-    size_t per_rows = row_knots + 2 * (size_t)rows, per_knots = 4 * (size_t)knots;
-    float *block = calloc(2 * row_floats + ends + per_rows + per_knots + cells + 1 + VNDF_FEW, sizeof *block);
     wedge->cell_count = cells;
     wedge->row_count = rows;
     wedge->knot_count = knots;
-    wedge->stride = stride;
-    wedge->cdf = block;
-    size_t per_piece = sizeof *wedge->piece + sizeof *wedge->quick;
-    wedge->piece =
-        calloc(1, knots * per_piece + row_floats * sizeof *wedge->row_cell + row_knots * sizeof *wedge->row_span);
-    if (!block || !wedge->piece)
-        return 0;
-    wedge->quick = (vndf_area_quick *)(wedge->piece + knots);
-    wedge->row_cell = (vndf_row_cell *)(wedge->quick + knots);
-    wedge->row_span = (vndf_row_span *)(wedge->row_cell + row_floats);
-    wedge->cell_mass = block + row_floats;
-    wedge->density = block + 2 * row_floats;
-    wedge->row_y = wedge->density + ends;
-    wedge->aspect_p = wedge->row_y + row_knots;
-    wedge->aspect_r = wedge->aspect_p + rows;
-    wedge->knot_y = wedge->aspect_r + rows;
-    wedge->mass = wedge->knot_y + knots;
-    wedge->slope = wedge->mass + knots;
-    wedge->curve = wedge->slope + knots;
-    wedge->q = wedge->curve + knots;
-    return 1;
-}
-
-static void free_wedge(vndf_wedge *wedge)
-{
-    free(wedge->cdf);
-    free(wedge->piece);
-    vndf_guide_free(&wedge->row_guide);
-    vndf_guide_free(&wedge->knot_guide);
-}
-
-/* Each on a line of the cache, which calloc does not promise. */
-static int allocate_cells(vndf_distribution *table, uint32_t count)
-{
-    size_t line = sizeof *table->cells;
-    table->cells_memory = calloc((size_t)count + 1, line);
-    if (!table->cells_memory)
-        return 0;
-    size_t past = (uintptr_t)table->cells_memory % line;
-    table->cells = (vndf_radial_cell *)((char *)table->cells_memory + (past > 0 ? line - past : 0));
-    return 1;
 }
 
 vndf_distribution *vndf_table_allocate(vndf_table_size size)
@@ -87,38 +135,40 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
         return NULL;
     table->kind = VNDF_KIND_TABLE;
     table->radial_count = size.radial;
-    table->slope = calloc(size.radial + 1, sizeof *table->slope);
-    int whole = allocate_cells(table, size.radial);
-    whole &= allocate_knots(&table->knots, size.radial + 1, VNDF_BLOCK);
-    whole &= allocate_knots(&table->blocks, size.radial / VNDF_BLOCK + 1, VNDF_PADDING);
-    whole &= allocate_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
-    whole &= allocate_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
-    if (whole && table->slope)
+    count_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
+    count_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
+    if (allocate_block(table))
         return table;
     vndf_free(table);
     return NULL;
+}
+
+static void free_guides(vndf_wedge *wedge)
+{
+    vndf_guide_free(&wedge->row_guide);
+    vndf_guide_free(&wedge->knot_guide);
 }
 
 void vndf_free(vndf_distribution *table)
 {
     if (!table || table->kind != VNDF_KIND_TABLE)
         return;
-    free(table->knots.x);
-    free(table->blocks.x);
-    free(table->slope);
-    free(table->cells_memory);
+    vndf_windows_free(&table->windows);
     vndf_guide_free(&table->slope_guide);
-    free_wedge(&table->above);
-    free_wedge(&table->below);
+    free_guides(&table->above);
+    free_guides(&table->below);
+    free(table->block);
     free((char *)table->source);
     free((char *)table->tool);
     free(table);
 }
 
+/* ---- what follows from the arrays of the file ---- */
+
 /* X1 Z0 - X0 Z1. */
 static double width_of(const vndf_knots *k, uint32_t j)
 {
-    return (double)k->x[j + 1] * k->z[j] - (double)k->x[j] * k->z[j + 1];
+    return (double)k->at[j + 1].x * k->at[j].z - (double)k->at[j].x * k->at[j + 1].z;
 }
 
 /* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= VNDF_STEEP_CELL min(e0, e1, mass) width for W1/W0 = ratio; convex in it,
@@ -135,11 +185,11 @@ static void derive_cells(vndf_distribution *table)
     for (uint32_t j = 0; j < table->radial_count; j++) {
         vndf_radial_cell *cell = &table->cells[j];
         vndf_moment_cubic cubic = vndf_moment_cubic_from(cell->f0, cell->f1, cell->mu0, cell->mu1);
-        cell->a = (float)cubic.a;
-        cell->b = (float)cubic.b;
+        table->bends[j].a = (float)cubic.a;
+        table->bends[j].b = (float)cubic.b;
         cell->width = (float)width_of(&table->knots, j);
-        double x0 = table->knots.x[j], x1 = table->knots.x[j + 1];
-        double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
+        double x0 = table->knots.at[j].x, x1 = table->knots.at[j + 1].x;
+        double z0 = table->knots.at[j].z, z1 = table->knots.at[j + 1].z;
         cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
                      is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
     }
@@ -163,20 +213,12 @@ static void derive_smooth(vndf_distribution *table)
     }
 }
 
-/* What a cell repeats of its knots. */
+/* What a cell repeats of its first knot. */
 static void derive_copies(vndf_distribution *table)
 {
-    const vndf_knots *k = &table->knots;
     for (uint32_t j = 0; j < table->radial_count; j++) {
-        vndf_radial_cell *cell = &table->cells[j];
-        cell->x0 = k->x[j];
-        cell->x1 = k->x[j + 1];
-        cell->z0 = k->z[j];
-        cell->z1 = k->z[j + 1];
-        cell->before0 = k->f0[j];
-        cell->before1 = k->f1[j];
-        cell->e = k->e[j];
-        cell->g = k->g[j];
+        table->cells[j].before0 = table->knots.f0[j];
+        table->cells[j].before1 = table->knots.f1[j];
     }
 }
 
@@ -186,12 +228,14 @@ static void derive_pole(vndf_distribution *table)
     vndf_knots *k = &table->knots;
     double e = 0.0, f0 = 0.0, f1 = 0.0;
     for (uint32_t j = 0; j < table->radial_count; j++) {
-        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, x1 = k->x[j + 1], width = width_of(k, j);
-        e += (j ? f1 * width / (k->x[j] * x1) : 0.0) + mu0 * width / x1;
-        f0 += k->z[j] * mu0 + k->z[j + 1] * mu1;
-        f1 += k->x[j] * mu0 + x1 * mu1;
-        k->e[j + 1] = (float)e;
-        k->g[j + 1] = (float)(f1 / x1);
+        double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1, width = width_of(k, j);
+        vndf_knot from = k->at[j], to = k->at[j + 1];
+        double x1 = to.x;
+        e += (j ? f1 * width / (from.x * x1) : 0.0) + mu0 * width / x1;
+        f0 += from.z * mu0 + to.z * mu1;
+        f1 += from.x * mu0 + x1 * mu1;
+        k->pole[j + 1].e = (float)e;
+        k->pole[j + 1].g = (float)(f1 / x1);
         k->f0[j + 1] = (float)f0;
         k->f1[j + 1] = (float)f1;
     }
@@ -206,21 +250,20 @@ static void derive_tail(vndf_distribution *table)
     double s = 0.0, t0 = 0.0;
     for (uint32_t j = table->radial_count; j-- > 0;) {
         double mu0 = table->cells[j].mu0, mu1 = table->cells[j].mu1;
-        double z0 = k->z[j], z1 = k->z[j + 1], width = width_of(k, j);
+        double z0 = k->at[j].z, z1 = k->at[j + 1].z, width = width_of(k, j);
         s += (z1 > 0 ? t0 * width / (z0 * z1) : 0.0) + mu1 * width / z0;
         t0 += z0 * mu0 + z1 * mu1;
-        k->s[j] = (float)s;
-        k->t[j] = (float)(t0 / z0);
+        k->tail[j].s = (float)s;
+        k->tail[j].t = (float)(t0 / z0);
     }
 }
 
-/* Sums that are beyond every target from the pole, and below every one from the tail. */
+/* Sums that are beyond every target from the pole, and, as they are 0, below every one from the tail. */
 static void pad_knots(vndf_knots *k, uint32_t from)
 {
     for (uint32_t j = from; j < k->count; j++) {
-        k->x[j] = 1.0f;
-        k->z[j] = k->s[j] = k->t[j] = 0.0f;
-        k->e[j] = k->g[j] = k->f0[j] = k->f1[j] = 1e30f;
+        k->at[j].x = 1.0f;
+        k->pole[j].e = k->pole[j].g = k->f0[j] = k->f1[j] = 1e30f;
     }
 }
 
@@ -228,16 +271,13 @@ static void derive_blocks(vndf_distribution *table)
 {
     const vndf_knots *k = &table->knots;
     vndf_knots *b = &table->blocks;
-    uint32_t blocks = table->radial_count / VNDF_BLOCK + 1;
-    pad_knots(&table->knots, table->radial_count + 1);
-    pad_knots(b, blocks);
-    b->count = (blocks + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING; /* as far as a search goes */
-    for (uint32_t i = 0; i < blocks; i++) {
+    for (uint32_t i = 0; i < b->count; i++) {
         uint32_t j = i * VNDF_BLOCK;
-        b->x[i] = k->x[j];
-        b->z[i] = k->z[j];
-        b->s[i] = k->s[j];
-        b->t[i] = k->t[j];
+        b->at[i].x = 1.0f; /* beyond the last as in pad_knots */
+        if (j <= table->radial_count) {
+            b->at[i] = k->at[j];
+            b->tail[i] = k->tail[j];
+        }
     }
 }
 
@@ -246,92 +286,145 @@ static void derive_blocks(vndf_distribution *table)
 static void derive_rows(vndf_wedge *wedge)
 {
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        float *cdf = wedge->cdf + (size_t)i * wedge->stride, *mass = wedge->cell_mass + (size_t)i * wedge->stride;
-        float *density = wedge->density + (size_t)i * (wedge->cell_count + 1);
+        float *cdf = wedge->cdf + (size_t)i * wedge->stride;
+        vndf_row_cell *cell = vndf_row_cells(wedge, i);
         double total = 0.0, sum = 0.0;
         for (uint32_t j = 0; j < wedge->cell_count; j++)
-            total += mass[j];
+            total += cell[j].mass;
         if (fabs(total - 1.0) < 3e-7)
             total = 1.0;
         for (uint32_t j = 0; j < wedge->stride; j++) {
             cdf[j] = j < wedge->cell_count ? (float)(sum / total) : 2.0f;
-            sum += mass[j];
-            mass[j] = (float)(mass[j] / total);
+            sum += j < wedge->cell_count ? cell[j].mass : 0.0f;
         }
-        for (uint32_t j = 0; j <= wedge->cell_count; j++)
-            density[j] = (float)(density[j] / total);
-        for (uint32_t j = 0; j < wedge->cell_count; j++) {
-            vndf_row_cell cell = {cdf[j], mass[j], density[j], density[j + 1]};
-            wedge->row_cell[(size_t)i * wedge->stride + j] = cell;
+        for (uint32_t j = 0; j <= wedge->cell_count; j++) {
+            cell[j].mass = (float)(cell[j].mass / total);
+            cell[j].density = (float)(cell[j].density / total);
         }
     }
+}
+
+static void derive_row_lines(vndf_wedge *wedge)
+{
+    vndf_row_line *line = wedge->row_line;
+    for (uint32_t i = 0; i < wedge->row_count; i++) {
+        const vndf_row_cell *cell = vndf_row_cells(wedge, i);
+        for (uint32_t j = 0; j < wedge->cell_count; j++, line++) {
+            line->before = wedge->cdf[(size_t)i * wedge->stride + j];
+            line->mass = cell[j].mass;
+            line->begin = cell[j].density;
+            line->end = cell[j + 1].density;
+        }
+    }
+}
+
+/* Piece i in double, and in float. */
+static vndf_area_span area_span(const vndf_wedge *wedge, uint32_t i)
+{
+    double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
+    vndf_area_knot from = {wedge->mass[i], wedge->slope[i], wedge->curve[i]};
+    vndf_area_knot to = {wedge->mass[i + 1], wedge->slope[i + 1], wedge->curve[i + 1]};
+    vndf_area_span span = {.begin = begin, .per_width = 1.0 / width};
+    vndf_area_piece(width, from, to, span.coefficient);
+    return span;
+}
+
+static vndf_area_quick area_quick(const vndf_area_span *span)
+{
+    vndf_area_quick quick = {.begin = (float)span->begin, .per_width = (float)span->per_width};
+    for (int n = 0; n < VNDF_AREA_ORDER; n++)
+        quick.coefficient[n] = (float)span->coefficient[n];
+    return quick;
 }
 
 /* The spline of a wedge's mass, piece by piece. */
 static void derive_area(vndf_wedge *wedge)
 {
-    for (uint32_t i = 0; i < VNDF_FEW; i++)
-        wedge->few_exact[VNDF_AREA_ORDER][i] = wedge->few[VNDF_AREA_ORDER][i] = 2.0f; /* beyond every y */
     for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
-        vndf_area_span *span = &wedge->piece[i];
-        double begin = wedge->knot_y[i], width = wedge->knot_y[i + 1] - begin;
-        vndf_area_knot from = {wedge->mass[i], wedge->slope[i], wedge->curve[i]};
-        vndf_area_knot to = {wedge->mass[i + 1], wedge->slope[i + 1], wedge->curve[i + 1]};
-        vndf_area_piece(width, from, to, span->coefficient);
-        span->begin = begin;
-        span->per_width = 1.0 / width;
-        vndf_area_quick *quick = &wedge->quick[i];
-        for (int n = 0; n < VNDF_AREA_ORDER; n++)
-            quick->coefficient[n] = (float)span->coefficient[n];
-        quick->begin = (float)begin;
-        quick->per_width = (float)span->per_width;
-        for (int n = 0; n < VNDF_AREA_ORDER && i < VNDF_FEW; n++)
-            wedge->few[n][i] = quick->coefficient[n];
-        if (i < VNDF_FEW) {
-            wedge->few[VNDF_AREA_ORDER][i] = quick->begin;
-            wedge->few[VNDF_AREA_ORDER + 1][i] = quick->per_width;
-            for (int n = 0; n < VNDF_AREA_ORDER; n++)
-                wedge->few_exact[n][i] = span->coefficient[n];
-            wedge->few_exact[VNDF_AREA_ORDER][i] = span->begin;
-            wedge->few_exact[VNDF_AREA_ORDER + 1][i] = span->per_width;
-        }
+        wedge->piece[i] = area_span(wedge, i);
+        if (wedge->quick)
+            wedge->quick[i] = area_quick(&wedge->piece[i]);
     }
 }
 
-/* What is looked up in registers; beyond the last row all y are less. */
+/* Pieces as they are looked up in registers: a member of all side by side. Beyond the last all y are less. */
+static void derive_few_exact(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i < VNDF_FEW; i++) {
+        int is_piece = i + 1 < wedge->knot_count;
+        const vndf_area_span *span = &wedge->piece[is_piece ? i : 0];
+        for (int n = 0; n < VNDF_AREA_ORDER; n++)
+            wedge->few_exact[n][i] = is_piece ? span->coefficient[n] : 0.0;
+        wedge->few_exact[VNDF_AREA_ORDER][i] = is_piece ? span->begin : 2.0;
+        wedge->few_exact[VNDF_AREA_ORDER + 1][i] = is_piece ? span->per_width : 0.0;
+    }
+}
+
+static void derive_few(vndf_wedge *wedge)
+{
+    for (uint32_t i = 0; i < VNDF_FEW; i++) {
+        int is_piece = i + 1 < wedge->knot_count;
+        const vndf_area_quick *quick = &wedge->quick[is_piece ? i : 0];
+        for (int n = 0; n < VNDF_AREA_ORDER; n++)
+            wedge->few[n][i] = is_piece ? quick->coefficient[n] : 0.0f;
+        wedge->few[VNDF_AREA_ORDER][i] = is_piece ? quick->begin : 2.0f;
+        wedge->few[VNDF_AREA_ORDER + 1][i] = is_piece ? quick->per_width : 0.0f;
+    }
+}
+
+/* Rows likewise. */
 static void derive_few_rows(vndf_wedge *wedge)
 {
-    for (uint32_t i = 0; i <= VNDF_FEW; i++)
-        wedge->few_y[i] = 2.0f;
-    for (uint32_t i = 0; i < wedge->row_count && i / 2 <= VNDF_FEW; i++) {
-        wedge->few_aspects[i % 2][i / 2] = wedge->aspect_p[i];
-        wedge->few_aspects[2 + i % 2][i / 2] = wedge->aspect_r[i];
-        if (i % 2 == 0)
-            wedge->few_y[i / 2] = wedge->row_y[i / 2];
+    for (uint32_t i = vndf_row_knots(wedge->row_count); i <= VNDF_FEW; i++)
+        wedge->row_y[i] = 2.0f;
+    for (uint32_t i = 0; i < wedge->row_count; i++) {
+        wedge->few_aspects[i % 2][i / 2] = *vndf_aspect_p(wedge, i);
+        wedge->few_aspects[2 + i % 2][i / 2] = *vndf_aspect_r(wedge, i);
     }
 }
 
 static void derive_row_spans(vndf_wedge *wedge)
 {
-    for (uint32_t i = 0; i + 1 < vndf_row_knots(wedge->row_count); i++) {
+    uint32_t last = vndf_row_knots(wedge->row_count) - 1;
+    for (uint32_t i = 0; i <= last; i++)
+        wedge->row_span[i].begin = wedge->row_y[i];
+    for (uint32_t i = 0; i < last; i++) {
         vndf_row_span *span = &wedge->row_span[i];
-        span->begin = wedge->row_y[i];
-        span->per_width = (float)(1.0 / ((double)wedge->row_y[i + 1] - wedge->row_y[i]));
-        for (uint32_t n = 0; n < 3; n++) {
-            span->p[n] = wedge->aspect_p[2 * i + n];
-            span->r[n] = wedge->aspect_r[2 * i + n];
-        }
+        span->per_width = (float)(1.0 / ((double)span[1].begin - span->begin));
+        span->p[2] = span[1].p[0];
+        span->r[2] = span[1].r[0];
     }
 }
 
 static int derive_wedge(vndf_wedge *wedge)
 {
     derive_rows(wedge);
-    derive_few_rows(wedge);
     derive_row_spans(wedge);
     derive_area(wedge);
+    if (wedge->row_line)
+        derive_row_lines(wedge);
+    if (wedge->few_aspects)
+        derive_few_rows(wedge);
+    if (wedge->few)
+        derive_few(wedge);
+    if (wedge->few_exact)
+        derive_few_exact(wedge);
     return vndf_guide_make(&wedge->row_guide, wedge->row_y, vndf_row_knots(wedge->row_count)) &&
            vndf_guide_make(&wedge->knot_guide, wedge->knot_y, wedge->knot_count);
+}
+
+/* X/Z of the knots, ascending, the last infinite: only their guide stays. */
+static int derive_slopes(vndf_distribution *table)
+{
+    uint32_t count = table->radial_count + 1;
+    float *slope = malloc(count * sizeof *slope);
+    if (!slope)
+        return 0;
+    for (uint32_t j = 0; j < count; j++)
+        slope[j] = vndf_knot_slope(table, j);
+    int made = vndf_guide_make(&table->slope_guide, slope, count);
+    free(slope);
+    return made;
 }
 
 int vndf_table_derive(vndf_distribution *table)
@@ -341,10 +434,8 @@ int vndf_table_derive(vndf_distribution *table)
     derive_pole(table);
     derive_tail(table);
     derive_copies(table);
+    pad_knots(&table->knots, table->radial_count + 1);
     derive_blocks(table);
-    vndf_windows_make(table);
-    for (uint32_t j = 0; j <= table->radial_count; j++)
-        table->slope[j] = table->knots.z[j] > 0.0f ? table->knots.x[j] / table->knots.z[j] : HUGE_VALF;
-    return vndf_guide_make(&table->slope_guide, table->slope, table->radial_count + 1) &&
-           derive_wedge(&table->above) && derive_wedge(&table->below);
+    return vndf_windows_make(table) && derive_slopes(table) && derive_wedge(&table->above) &&
+           derive_wedge(&table->below);
 }

@@ -2,6 +2,8 @@
 #ifndef VNDF_TABLE_LAYOUT_H
 #define VNDF_TABLE_LAYOUT_H
 
+#include <math.h>
+
 #include "table/table.h"
 
 typedef struct vndf_table_size {
@@ -21,11 +23,18 @@ static inline uint32_t vndf_row_knots(uint32_t rows)
     return rows / 2 + 1;
 }
 
+/* X/Z at a knot, infinite at the last. */
+static inline float vndf_knot_slope(const vndf_distribution *table, uint32_t j)
+{
+    vndf_knot k = table->knots.at[j];
+    return k.z > 0.0f ? k.x / k.z : HUGE_VALF;
+}
+
 /* An empty table with room for everything, zeroed; NULL if there is no memory. */
 vndf_distribution *vndf_table_allocate(vndf_table_size size);
 
-/* After the arrays of the file are filled (knots.x and knots.z, cells' f0 f1 mu0 mu1, rows' cell_mass and
- * density, area splines): prefix sums, coefficients of cubics and area pieces, windows, guides. In double where
+/* After the arrays of the file are filled (knots.at, cells' f0 f1 mu0 mu1, row_y, aspects, row_cell,
+ * area splines): prefix sums, coefficients of cubics and area pieces, windows, guides. In double where
  * sums are long. 0 if there is no memory. */
 int vndf_table_derive(vndf_distribution *table);
 

@@ -37,41 +37,71 @@ enum {
     VNDF_FEW = 16,          /* so many numbers are looked up in registers */
     VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */
     VNDF_AREA_SPAN = 8,     /* doubles from piece to piece */
-    VNDF_GUIDE_SHIFT = 19   /* bits of a guide's entry below the index of a knot */
+    VNDF_GUIDE_SHIFT = 16   /* bits of a guide's entry below the index of a knot */
 };
+
+/* A knot of the slope length. */
+typedef struct vndf_knot {
+    float x, z;
+} vndf_knot;
+
+/* Sums up to a knot and beyond it (vndf_knots). */
+typedef struct vndf_pole_sums {
+    float e, g;
+} vndf_pole_sums;
+
+typedef struct vndf_tail_sums {
+    float s, t;
+} vndf_tail_sums;
 
 /* The knots and the sums up to them. For W = c z + k x at knot j,
  *   integral from the pole to knot j of f (c Z + k X) dxi = c e + W g, both terms >= 0 when c > 0 and W >= 0;
  *   integral from knot j to infinity                      = k s + W t, both terms >= 0 when k > 0 and W >= 0,
  * where e = F0 - F1 z/x, g = F1/x, s = T1 - T0 x/z, t = T0/z; F_n = integral P22 R^(n+1) dR up to the knot,
- * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference. Arrays, so that a search can count
- * through all knots of a block or a window at once; `count` includes padding: what lies beyond the last knot has
- * sums that no search reaches. Of blocks x, z, s and t are filled: they are for directions below the horizon. */
+ * T_n the rest. Where k >= 0 the first is c F0 + k F1 without a difference.
+ *
+ * A search counts through all knots of a block or a window at once: above the horizon through `at` and `pole`
+ * behind wi and through f0 and f1 in front, below it through `at` and `tail`. Pairs, so that a cell finds both its
+ * knots in four successive floats. `count` includes padding: what lies beyond the last knot has sums that no
+ * search reaches. Blocks have `at` and `tail` alone: they are for directions below the horizon. */
 typedef struct vndf_knots {
     uint32_t count;
-    float *x, *z, *e, *g, *s, *t, *f0, *f1;
+    vndf_knot *at;
+    vndf_pole_sums *pole;
+    vndf_tail_sums *tail;
+    float *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. Beside it
- * what the sampler wants of its knots: 64 bytes, a line of the cache, all floats. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. What every
+ * sample in front of wi reads of its cell, beside the knots: 32 bytes, half a line of the cache, all floats.
+ * before0 and before1 are knots.f0 and knots.f1 once more: 8 bytes, and a load less. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
-    float x0, x1, z0, z1;   /* the knots */
-    float before0, before1; /* sums up to the first (vndf_knots): F0, F1 */
+    float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
     float width, calm; /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/tabulated/radial.h), 2 if
                                   * those beside it are calm too and D does not jump at its ends */
-    float a, b, e, g;  /* e, g: sums once more */
 } vndf_radial_cell;
 
-/* Index of the last knot <= a value, found from the value's bits: first[...] then at most a few steps
+/* a and b of a cell, for samples behind wi. */
+typedef struct vndf_radial_bend {
+    float a, b;
+} vndf_radial_bend;
+
+/* Index of the last knot <= a value, found from the value's bits: an entry, then at most a few steps
  * (table/guide.h). */
 typedef struct vndf_guide {
     uint32_t low, shift, last; /* bits of the least key; resolution; last entry */
     uint32_t drop, single;     /* of entries; whether one step is always enough */
-    uint16_t *first;
-    uint32_t *next;  /* bits of the knot after each, beyond every value where the last cell has begun */
-    uint32_t *entry; /* first, and where in its bucket the next is: for lanes of doubles */
+    uint32_t *next;            /* bits of the knot after each, beyond every value where the last cell has begun */
+    uint32_t *entry;           /* of a bucket: the last knot at or below it, and where in it the next is */
 } vndf_guide;
+
+/* Where a search above the horizon begins (table/window.h): for 2 VNDF_RATIOS ratios k/c, the second half for
+ * k < 0, and VNDF_RANGES ranges of u; in tables of few cells 2^ratio_shift and 2^range_shift of them share a window. */
+typedef struct vndf_windows {
+    uint32_t ratio_shift, range_shift, ranges; /* ranges: windows to a ratio */
+    uint16_t *code;                            /* and a half word, which lanes read */
+} vndf_windows;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
 typedef struct vndf_area_span {
@@ -83,41 +113,66 @@ typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
 
-/* What the sampler wants of the three rows between two knots: where they begin, one over their width, and their
- * aspects. 32 bytes, all floats. */
+/* The three rows between two knots: where they begin, one over their width, and their aspects. 32 bytes, all
+ * floats. After the last stands one that only begins. */
 typedef struct vndf_row_span {
     float begin, per_width, p[3], r[3];
 } vndf_row_span;
 
-/* A cell of a row as the sampler wants it: 16 bytes. */
+/* A cell of a row: its mass, and the density where it begins. The density where it ends is that of the next: four
+ * successive floats hold all that is wanted of a cell. After the last stands one that only begins. */
 typedef struct vndf_row_cell {
-    float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
+    float mass, density;
 } vndf_row_cell;
+
+/* The same once more, as lanes load it: 16 bytes. */
+typedef struct vndf_row_line {
+    float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
+} vndf_row_line;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/tabulated/azimuth.h) with aspect (p, r): a row at each of the
  * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
  * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|)
- * is a quintic spline on knots of its own (table/area_piece.h). */
+ * is a quintic spline on knots of its own (table/area_piece.h).
+ *
+ * Lanes read in registers what is few: then the same numbers stand in another order too, the pointers `few_...`
+ * are not NULL, and that is worth some 500 bytes to 1 KiB each (table/layout.c). */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
+    uint32_t stride;                            /* floats from row to row in cdf: a multiple of VNDF_PADDING */
     float *q;                                   /* cell_count + 1, from 0 to 1 */
-    float *row_y;                               /* (row_count + 1)/2: where rows 0, 2, 4, ... stand */
-    float *aspect_p, *aspect_r;                 /* row_count */
-    uint32_t stride;                      /* floats from row to row in the next two: a multiple of VNDF_PADDING */
-    float *cdf, *cell_mass;               /* mass before a cell and in it; each row's mass is 1 */
-    float *density;                       /* at the ends of the cells, cell_count + 1 to a row */
-    float *knot_y, *mass, *slope, *curve; /* knot_count; curve is the second derivative */
-    vndf_area_span *piece;                /* the spline once more, knot_count - 1 */
-    vndf_area_quick *quick;               /* and once more */
-    float few[VNDF_AREA_ORDER + 2][VNDF_FEW];   /* members of quick, for lanes, if there are so few pieces */
-    double few_exact[VNDF_AREA_SPAN][VNDF_FEW]; /* members of piece likewise */
-    float few_y[VNDF_FEW + 1];                  /* row_y, if there are so few */
-    float few_aspects[4][VNDF_FEW + 1];         /* p and then r of rows 0, 2, 4, ..., then of those between */
-    vndf_row_span *row_span;                    /* row_y and aspects once more, (row_count - 1)/2 */
-    vndf_row_cell *row_cell; /* cdf, cell_mass and density once more; from row to row `stride` */
+    float *row_y;            /* where rows 0, 2, 4, ... stand, then 2 where few are looked up: row_span's begin */
+    vndf_row_span *row_span; /* (row_count + 1)/2 */
+    float *cdf;              /* mass before a cell, each row's mass being 1: what a search counts through */
+    vndf_row_cell *row_cell; /* cell_count + 1 to a row */
+    vndf_row_line *row_line; /* cell_count to a row, for lanes: NULL below the horizon, where none draw */
+    float *knot_y;           /* knot_count, and so have the next three, which the file holds */
+    float *mass, *slope, *curve;        /* curve is the second derivative */
+    vndf_area_span *piece;              /* made of them, knot_count - 1: for areas and densities, in double */
+    vndf_area_quick *quick;             /* in float, for drawing: NULL below the horizon, where nothing reads it */
+    float (*few)[VNDF_FEW];             /* members of quick, for lanes, if there are so few pieces */
+    double (*few_exact)[VNDF_FEW];      /* members of piece likewise */
+    float (*few_aspects)[VNDF_FEW + 1]; /* p and then r of rows 0, 2, 4, ..., then of those between, likewise */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
+
+/* The aspect of a row, where it is written: what a span repeats of the next follows (vndf_table_derive). */
+static inline float *vndf_aspect_p(const vndf_wedge *wedge, size_t row)
+{
+    return &wedge->row_span[row / 2].p[row % 2];
+}
+
+static inline float *vndf_aspect_r(const vndf_wedge *wedge, size_t row)
+{
+    return &wedge->row_span[row / 2].r[row % 2];
+}
+
+/* The cells of a row. */
+static inline vndf_row_cell *vndf_row_cells(const vndf_wedge *wedge, size_t row)
+{
+    return wedge->row_cell + row * (wedge->cell_count + 1);
+}
 
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
@@ -127,11 +182,12 @@ struct vndf_distribution {
     float f0_total, f1_total; /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
     vndf_knots knots;         /* radial_count + 1 and padding */
     vndf_knots blocks;        /* the first knot of each block, padded likewise */
-    float *slope;             /* X/Z of the knots, ascending, last is infinite */
-    vndf_radial_cell *cells;  /* radial_count, on borders of lines of the cache in cells_memory */
-    void *cells_memory;
-    uint16_t windows[2][VNDF_RATIOS][VNDF_RANGES]; /* the second half for k < 0 */
-    vndf_guide slope_guide;                        /* not last: lanes read a half word beyond the windows */
+    vndf_radial_cell *cells;  /* radial_count */
+    vndf_radial_bend *bends;  /* radial_count */
+    void *block;              /* of block_bytes: all arrays but those of guides */
+    size_t block_bytes;
+    vndf_windows windows;
+    vndf_guide slope_guide; /* of X/Z */
     vndf_wedge above, below;
     double normalization; /* the source was multiplied by it */
     double scale;         /* canonical slope 1 is this slope of the source */

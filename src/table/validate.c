@@ -22,19 +22,20 @@ static int ascending(const float *values, uint32_t count)
 static const char *radial_invalid(const vndf_distribution *table)
 {
     uint32_t n = table->radial_count;
-    const float *x = table->knots.x, *z = table->knots.z;
+    const vndf_knot *k = table->knots.at;
     for (uint32_t j = 0; j <= n; j++)
-        if (!in_range(x[j], 0.0f, 1.0f) || !in_range(z[j], 0.0f, 1.0f) || fabsf(x[j] + z[j] - 1.0f) > 1e-6f)
+        if (!in_range(k[j].x, 0.0f, 1.0f) || !in_range(k[j].z, 0.0f, 1.0f) ||
+            fabsf(k[j].x + k[j].z - 1.0f) > 1e-6f)
             return "a radial knot lies off the line x + z = 1";
     for (uint32_t j = 0; j < n; j++) {
         vndf_radial_cell c = table->cells[j];
-        if (x[j + 1] < x[j] || z[j + 1] > z[j])
+        if (k[j + 1].x < k[j].x || k[j + 1].z > k[j].z)
             return "the radial knots do not ascend";
         if (!in_range(c.f0, 0.0f, 1e18f) || !in_range(c.f1, 0.0f, 1e18f) || !in_range(c.mu0, 1e-37f, 1e6f) ||
             !in_range(c.mu1, 1e-37f, 1e6f))
             return "a radial cell has a density or moment out of range";
     }
-    if (x[0] != 0.0f || z[0] != 1.0f || x[n] != 1.0f || z[n] != 0.0f || table->cells[0].f0 != 0.0f)
+    if (k[0].x != 0.0f || k[0].z != 1.0f || k[n].x != 1.0f || k[n].z != 0.0f || table->cells[0].f0 != 0.0f)
         return "the radial knots do not run from the pole to the horizon";
     return NULL;
 }
@@ -45,17 +46,17 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     if (!ascending(wedge->q, cells + 1))
         return "the azimuth cells do not ascend from 0 to 1";
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const float *mass = wedge->cell_mass + (size_t)i * wedge->stride;
-        const float *density = wedge->density + (size_t)i * (cells + 1);
+        const vndf_row_cell *cell = vndf_row_cells(wedge, i);
         double total = 0.0;
         for (uint32_t j = 0; j <= cells; j++) {
-            if (!in_range(density[j], 0.0f, 1e6f) || (j < cells && !in_range(mass[j], 1e-12f, 1.0f)))
+            if (!in_range(cell[j].density, 0.0f, 1e6f) || (j < cells && !in_range(cell[j].mass, 1e-12f, 1.0f)))
                 return "an azimuth row has a mass or density out of range";
-            total += j < cells ? mass[j] : 0.0f;
+            total += j < cells ? cell[j].mass : 0.0f;
         }
         if (!(fabs(total - 1.0) < 1e-4))
             return "the masses of an azimuth row do not add up to 1";
-        if (!in_range(wedge->aspect_p[i], i ? 1e-12f : 0.0f, 2.0f) || !in_range(wedge->aspect_r[i], 1e-12f, 2.0f))
+        if (!in_range(*vndf_aspect_p(wedge, i), i ? 1e-12f : 0.0f, 2.0f) ||
+            !in_range(*vndf_aspect_r(wedge, i), 1e-12f, 2.0f))
             return "the aspect of an azimuth row is out of range";
     }
     if (!ascending(wedge->row_y, vndf_row_knots(wedge->row_count)))
@@ -103,20 +104,20 @@ const char *vndf_table_invalid(const vndf_distribution *table)
 
 /* Bernstein coefficients of the cubic: all >= 0 keeps the density >= 0 in the whole cell. Rounding of a
  * moment moves a coefficient by some 1e-5 of the larger end; that much is forgiven here and cut in the sampler. */
-static int cubic_positive(const vndf_radial_cell *c)
+static int cubic_positive(const vndf_radial_cell *c, const vndf_radial_bend *bend)
 {
     float least = -1e-4f * (c->f0 + c->f1 + c->mu0 + c->mu1);
-    float first = c->f0 + (c->f1 - c->f0 + c->a) / 3.0f;
-    float second = c->f1 + (c->f0 - c->f1 + c->a + c->b) / 3.0f;
+    float first = c->f0 + (c->f1 - c->f0 + bend->a) / 3.0f;
+    float second = c->f1 + (c->f0 - c->f1 + bend->a + bend->b) / 3.0f;
     return first >= least && second >= least;
 }
 
 const char *vndf_table_invalid_derived(const vndf_distribution *table)
 {
     for (uint32_t j = 0; j < table->radial_count; j++) {
-        if (!(table->cells[j].width > 0.0f) || !(table->slope[j] < table->slope[j + 1]))
+        if (!(table->cells[j].width > 0.0f) || !(vndf_knot_slope(table, j) < vndf_knot_slope(table, j + 1)))
             return "two radial knots coincide";
-        if (!cubic_positive(&table->cells[j]))
+        if (!cubic_positive(&table->cells[j], &table->bends[j]))
             return "the density of a radial cell falls below zero";
     }
     if (!isfinite(table->f0_total) || !isfinite(table->f1_total))

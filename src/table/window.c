@@ -1,10 +1,12 @@
 #include "table/window.h"
 
+#include <stdlib.h>
+
 /* Of a law with weights (c, k): mass up to knot j. */
 static double before(const vndf_knots *knots, double c, double k, uint32_t j)
 {
-    double w = c * knots->z[j] + k * knots->x[j];
-    return c * knots->e[j] + (w > 0.0 ? w : 0.0) * knots->g[j];
+    double w = c * knots->at[j].z + k * knots->at[j].x;
+    return c * knots->pole[j].e + (w > 0.0 ? w : 0.0) * knots->pole[j].g;
 }
 
 /* Where range i of vndf_window_range begins; that of VNDF_RANGES is 1. */
@@ -25,7 +27,7 @@ static double range_begin(uint32_t i)
 static void quantiles(const vndf_distribution *d, double c, double k, int side, uint32_t *cell)
 {
     uint32_t last = d->radial_count - 1, cut = 0, j = 0;
-    while (cut < last && c * d->knots.z[cut + 1] + k * d->knots.x[cut + 1] > 0.0)
+    while (cut < last && c * d->knots.at[cut + 1].z + k * d->knots.at[cut + 1].x > 0.0)
         cut++;
     double least = before(&d->knots, c, k, cut);
     double most = before(&d->knots, c, k, cut + 1); /* beyond the cut that is c e */
@@ -50,20 +52,103 @@ static double ratio_bound(uint32_t ratio, int upper)
     return upper ? bound * 1.07 : bound / 1.07;
 }
 
-void vndf_windows_make(vndf_distribution *d)
+/* The lowest and the highest cell of each ratio and range, the second half for k < 0. */
+typedef struct reach {
+    uint32_t low[2 * VNDF_RATIOS][VNDF_RANGES], high[2 * VNDF_RATIOS][VNDF_RANGES];
+} reach;
+
+static void reach_of_ratio(const vndf_distribution *d, int cut, uint32_t r, uint32_t *low, uint32_t *high)
 {
-    uint32_t low[VNDF_RANGES + 1], high[VNDF_RANGES + 1];
-    for (int cut = 0; cut < 2; cut++)
-        for (uint32_t r = 0; r < VNDF_RATIOS; r++) {
-            double least = r > 0 ? ratio_bound(r, 0) : 0.0, most = ratio_bound(r + 1, 1);
-            int open = r + 1 == VNDF_RATIOS; /* up to c = 0 */
-            quantiles(d, cut && open ? 0.0 : 1.0, cut ? -most : least, -1, low);
-            quantiles(d, !cut && open ? 0.0 : 1.0, cut ? -least : open ? 1.0 : most, 1, high);
-            for (uint32_t i = 0; i < VNDF_RANGES; i++) {
-                uint32_t width = 0;
-                while (high[i + 1] - low[i] > (uint32_t)VNDF_WINDOW << 3 * width)
-                    width++;
-                d->windows[cut][r][i] = (uint16_t)(low[i] | width << VNDF_WINDOW_SHIFT);
-            }
+    uint32_t from[VNDF_RANGES + 1], to[VNDF_RANGES + 1];
+    double least = r > 0 ? ratio_bound(r, 0) : 0.0, most = ratio_bound(r + 1, 1);
+    int open = r + 1 == VNDF_RATIOS; /* up to c = 0 */
+    quantiles(d, cut && open ? 0.0 : 1.0, cut ? -most : least, -1, from);
+    quantiles(d, !cut && open ? 0.0 : 1.0, cut ? -least : open ? 1.0 : most, 1, to);
+    for (uint32_t i = 0; i < VNDF_RANGES; i++) {
+        low[i] = from[i];
+        high[i] = to[i + 1];
+    }
+}
+
+static uint32_t code_of(uint32_t low, uint32_t high)
+{
+    uint32_t width = 0;
+    while (high - low > (uint32_t)VNDF_WINDOW << 3 * width)
+        width++;
+    return low | width << VNDF_WINDOW_SHIFT;
+}
+
+/* The window that all ratios and ranges share with one. */
+static uint32_t shared_code(const reach *all, const vndf_windows *w, uint32_t ratio, uint32_t range)
+{
+    uint32_t row = ratio >> w->ratio_shift << w->ratio_shift, from = range >> w->range_shift << w->range_shift;
+    uint32_t low = all->low[row][from], high = all->high[row][from];
+    for (uint32_t r = row; r < 2 * VNDF_RATIOS && r >> w->ratio_shift == ratio >> w->ratio_shift; r++)
+        for (uint32_t i = from; i < VNDF_RANGES && i >> w->range_shift == range >> w->range_shift; i++) {
+            low = all->low[r][i] < low ? all->low[r][i] : low;
+            high = all->high[r][i] > high ? all->high[r][i] : high;
         }
+    return code_of(low, high);
+}
+
+/* The part of samples in front of wi, then behind it, whose search sharing makes longer, ratios being alike. */
+static double made_wider(const reach *all, const vndf_windows *w, uint32_t first)
+{
+    double wider = 0.0;
+    for (uint32_t r = first; r < first + VNDF_RATIOS; r++)
+        for (uint32_t i = 0; i < VNDF_RANGES; i++) {
+            uint32_t own = code_of(all->low[r][i], all->high[r][i]) >> VNDF_WINDOW_SHIFT;
+            if (shared_code(all, w, r, i) >> VNDF_WINDOW_SHIFT > own)
+                wider += range_begin(i + 1) - range_begin(i);
+        }
+    return wider / VNDF_RATIOS;
+}
+
+/* The coarsest that costs no time to speak of. */
+static void choose_shifts(const reach *all, vndf_windows *w)
+{
+    static const struct {
+        uint32_t ratio, range;
+    } shifts[] = {{1, 2}, {0, 2}, {1, 1}, {0, 1}, {1, 0}};
+    const double most = 0.005;
+    for (unsigned i = 0; i < sizeof shifts / sizeof *shifts; i++) {
+        w->ratio_shift = shifts[i].ratio;
+        w->range_shift = shifts[i].range;
+        if (made_wider(all, w, 0) <= most && made_wider(all, w, VNDF_RATIOS) <= most)
+            return;
+    }
+    w->ratio_shift = w->range_shift = 0;
+}
+
+static uint32_t rows_of(const vndf_windows *w)
+{
+    return (uint32_t)(2 * VNDF_RATIOS) >> w->ratio_shift;
+}
+
+size_t vndf_windows_bytes(const vndf_windows *w)
+{
+    return ((size_t)rows_of(w) * w->ranges + 1) * sizeof *w->code;
+}
+
+int vndf_windows_make(vndf_distribution *d)
+{
+    vndf_windows *w = &d->windows;
+    reach *all = malloc(sizeof *all);
+    if (!all)
+        return 0;
+    for (uint32_t r = 0; r < 2 * VNDF_RATIOS; r++)
+        reach_of_ratio(d, r >= VNDF_RATIOS, r % (uint32_t)VNDF_RATIOS, all->low[r], all->high[r]);
+    choose_shifts(all, w);
+    w->ranges = ((uint32_t)(VNDF_RANGES - 1) >> w->range_shift) + 1;
+    w->code = calloc(vndf_windows_bytes(w), 1);
+    for (uint32_t r = 0; w->code && r < rows_of(w); r++)
+        for (uint32_t i = 0; i < w->ranges; i++)
+            w->code[r * w->ranges + i] = (uint16_t)shared_code(all, w, r << w->ratio_shift, i << w->range_shift);
+    free(all);
+    return w->code != NULL;
+}
+
+void vndf_windows_free(vndf_windows *windows)
+{
+    free(windows->code);
 }

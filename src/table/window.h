@@ -16,8 +16,10 @@
 
 #include "table/guide.h"
 
-/* Fills d->windows from the sums of d->knots. */
-void vndf_windows_make(vndf_distribution *d);
+/* Makes d->windows from the sums of d->knots. 0 if there is no memory. */
+int vndf_windows_make(vndf_distribution *d);
+void vndf_windows_free(vndf_windows *windows);
+size_t vndf_windows_bytes(const vndf_windows *windows);
 
 /* 0 for |k|/c below 1/16, the last for 16 and above; c and |k| at most 4. */
 VNDF_INLINE lanes_u vndf_window_ratio(lanes_f c, lanes_f k)
@@ -45,8 +47,9 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
 VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
     lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
-    lanes_u at = (cut + vndf_window_ratio(c, k)) * VNDF_RANGES + vndf_window_range(u);
-    return lanes_gather_u16(d->windows[0][0], at);
+    lanes_u row = (cut + vndf_window_ratio(c, k)) >> d->windows.ratio_shift;
+    return lanes_gather_u16(d->windows.code,
+                            row * d->windows.ranges + (vndf_window_range(u) >> d->windows.range_shift));
 }
 
 /* A window taken apart: its first cell, and the cells from one of its eight places to the next. */

@@ -202,7 +202,7 @@ static void test_edge(void)
     vndf_distribution *table = source ? vndf_build(source, &small, NULL, NULL) : NULL;
     double nearest = 1;
     for (uint32_t j = 0; TEST(table != NULL) && j < table->radial_count; j++) {
-        double slope = (double)table->knots.x[j] / (double)table->knots.z[j] * table->scale;
+        double slope = (double)table->knots.at[j].x / (double)table->knots.at[j].z * table->scale;
         nearest = fabs(slope - 1) < fabs(nearest) ? slope - 1 : nearest;
     }
     if (!TEST(nearest >= -1e-12 && nearest < 3e-8))

@@ -165,8 +165,9 @@ static double integrate_cell(const law *l, double x0, double x1, double a0, doub
 /* Knots of a table, where the density has kinks; even ones for the closed forms. */
 static double knot_at(const law *l, uint32_t i, uint32_t count)
 {
-    return l->d->kind == VNDF_KIND_TABLE ? (double)l->d->knots.x[i] / ((double)l->d->knots.x[i] + l->d->knots.z[i])
-                                         : (double)i / count;
+    return l->d->kind == VNDF_KIND_TABLE
+               ? (double)l->d->knots.at[i].x / ((double)l->d->knots.at[i].x + l->d->knots.at[i].z)
+               : (double)i / count;
 }
 
 static double integral(const law *l, uint32_t turns)

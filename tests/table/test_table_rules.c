@@ -33,7 +33,7 @@ static void test_refused(unsigned char *bytes, size_t size, const char *part)
 
 static void off_line(vndf_distribution *t)
 {
-    t->knots.x[3] += 1e-4f;
+    t->knots.at[3].x += 1e-4f;
 }
 
 static void moment_zero(vndf_distribution *t)
@@ -93,23 +93,23 @@ static void cells_coincide(vndf_wedge *w)
 
 static void row_mass_zero(vndf_wedge *w)
 {
-    w->cell_mass[1] += w->cell_mass[0];
-    w->cell_mass[0] = 0;
+    w->row_cell[1].mass += w->row_cell[0].mass;
+    w->row_cell[0].mass = 0;
 }
 
 static void row_density_negative(vndf_wedge *w)
 {
-    w->density[1] = -1e-3f;
+    w->row_cell[1].density = -1e-3f;
 }
 
 static void row_heavy(vndf_wedge *w)
 {
-    w->cell_mass[1] += 0.001f;
+    w->row_cell[1].mass += 0.001f;
 }
 
 static void aspect_zero(vndf_wedge *w)
 {
-    w->aspect_r[1] = 0;
+    *vndf_aspect_r(w, 1) = 0;
 }
 
 static void rows_coincide(vndf_wedge *w)
@@ -144,17 +144,14 @@ static void mass_falls(vndf_wedge *w)
 
 static void knots_swapped(vndf_distribution *t)
 {
-    float x = t->knots.x[3], z = t->knots.z[3];
-    t->knots.x[3] = t->knots.x[4];
-    t->knots.z[3] = t->knots.z[4];
-    t->knots.x[4] = x;
-    t->knots.z[4] = z;
+    vndf_knot knot = t->knots.at[3];
+    t->knots.at[3] = t->knots.at[4];
+    t->knots.at[4] = knot;
 }
 
 static void knots_equal(vndf_distribution *t)
 {
-    t->knots.x[4] = t->knots.x[3];
-    t->knots.z[4] = t->knots.z[3];
+    t->knots.at[4] = t->knots.at[3];
 }
 
 static const struct {

@@ -34,9 +34,9 @@ static uint32_t parts_for(uint32_t cells, uint32_t least)
 /* In double at the knots too: the visible part beyond a cut may be so narrow that rounding of its end shows. */
 double vndf_survey_slope(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
 {
-    double xi = (double)part / parts, x0 = d->knots.x[cell], z0 = d->knots.z[cell];
-    double x = part < parts ? x0 + xi * (d->knots.x[cell + 1] - x0) : d->knots.x[cell + 1];
-    double z = part < parts ? z0 + xi * (d->knots.z[cell + 1] - z0) : d->knots.z[cell + 1];
+    double xi = (double)part / parts, x0 = d->knots.at[cell].x, z0 = d->knots.at[cell].z;
+    double x = part < parts ? x0 + xi * (d->knots.at[cell + 1].x - x0) : d->knots.at[cell + 1].x;
+    double z = part < parts ? z0 + xi * (d->knots.at[cell + 1].z - z0) : d->knots.at[cell + 1].z;
     return z > 0 ? x / z : HUGE_VAL;
 }
 
@@ -55,7 +55,8 @@ typedef struct knots {
 
 static knots knots_of(const vndf_distribution *d, uint32_t j)
 {
-    knots k = {d->knots.x[j], d->knots.x[j + 1], d->knots.z[j], d->knots.z[j + 1]};
+    vndf_knot from = d->knots.at[j], to = d->knots.at[j + 1];
+    knots k = {from.x, to.x, from.z, to.z};
     return k;
 }
 

@@ -50,8 +50,7 @@ VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
 /* Cells that have long been found. */
 VNDF_INLINE vndf_radial_lanes vndf_load_cells(const vndf_distribution *d, const uint32_t *cell)
 {
-    lanes_lines lines = lanes_lines_from(&d->cells->f0, sizeof *d->cells / sizeof(float), cell);
-    return vndf_radial_load_lines(&lines);
+    return vndf_radial_load_from(d, cell);
 }
 
 /* ---- cells of azimuths ---- */
@@ -85,22 +84,23 @@ VNDF_INLINE float vndf_first_lane(lanes_f x)
     return all[0];
 }
 
-/* As vndf_azimuth_cell_from does. */
+/* As vndf_azimuth_mix does. */
 VNDF_INLINE void vndf_mix_row(const vndf_azimuth_row *row, vndf_mixed_row *to)
 {
     const vndf_wedge *wedge = row->wedge;
     const float u = vndf_first_lane(row->first), v = vndf_first_lane(row->middle), t = vndf_first_lane(row->last);
     uint32_t first[VNDF_LANES];
     lanes_store_u(first, row->row);
-    const vndf_row_cell *a = wedge->row_cell + (size_t)first[0] * wedge->stride, *b = a + wedge->stride;
-    const vndf_row_cell *c = b + wedge->stride;
+    const vndf_row_cell *a = vndf_row_cells(wedge, first[0]), *b = vndf_row_cells(wedge, first[0] + 1);
+    const vndf_row_cell *c = vndf_row_cells(wedge, first[0] + 2);
+    const float *before = wedge->cdf + (size_t)first[0] * wedge->stride;
     to->count = wedge->cell_count;
     for (uint32_t j = 0; j < wedge->cell_count; j++) {
         float h = wedge->q[j + 1] - wedge->q[j];
-        to->before[j] = u * a[j].before + v * b[j].before + t * c[j].before;
+        to->before[j] = u * before[j] + v * before[wedge->stride + j] + t * before[2 * wedge->stride + j];
         to->mass[j] = u * a[j].mass + v * b[j].mass + t * c[j].mass;
-        to->e0[j] = (u * a[j].begin + v * b[j].begin + t * c[j].begin) * h;
-        to->e1[j] = (u * a[j].end + v * b[j].end + t * c[j].end) * h;
+        to->e0[j] = (u * a[j].density + v * b[j].density + t * c[j].density) * h;
+        to->e1[j] = (u * a[j + 1].density + v * b[j + 1].density + t * c[j + 1].density) * h;
         to->q[j] = wedge->q[j];
         to->width[j] = h;
     }
@@ -150,7 +150,7 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
     }
     for (uint32_t i = 0; i < count; i++) {
         s->cell[i] = vndf_azimuth_find(&d->above, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
-        s->at[i] = s->row[i] * d->above.stride + s->cell[i];
+        s->at[i] = s->row[i] * d->above.cell_count + s->cell[i];
     }
 }
 
@@ -161,8 +161,8 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, c
     lanes_u cell = lanes_load_u(s->cell + i);
     if (vndf_has_one_row(d, from))
         return vndf_mixed_cell(&s->mixed, cell);
-    lanes_lines lines = lanes_lines_from(&d->above.row_cell->before, 4, s->at + i);
-    return vndf_azimuth_cell_from(&s->rows[i / VNDF_LANES], cell, &lines);
+    lanes_lines lines = lanes_lines_from(&d->above.row_line->before, 4, s->at + i);
+    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, &lines);
 }
 
 #endif

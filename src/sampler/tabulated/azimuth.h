@@ -44,16 +44,18 @@ VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_
     return lanes_gather(wedge->q + end, j);
 }
 
-/* Cell j, from where it is to be loaded. */
-VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row, lanes_u j,
-                                                     const lanes_lines *lines)
+/* The same cell of three rows: mass before it, its mass, densities at its ends. */
+typedef struct vndf_azimuth_parts {
+    lanes_four a, b, c;
+} vndf_azimuth_parts;
+
+/* Their mix, where it is cell j. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_mix(const vndf_azimuth_row *row, lanes_u j,
+                                               const vndf_azimuth_parts *parts)
 {
-    const vndf_wedge *w = row->wedge;
-    const size_t stride = 4 * (size_t)w->stride;
-    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, stride);
-    lanes_four c = lanes_load_four(lines, 2 * stride);
-    lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(w, 0, j);
-    lanes_f h = vndf_azimuth_q(w, 1, j) - q;
+    const lanes_four a = parts->a, b = parts->b, c = parts->c;
+    lanes_f u = row->first, v = row->middle, t = row->last, q = vndf_azimuth_q(row->wedge, 0, j);
+    lanes_f h = vndf_azimuth_q(row->wedge, 1, j) - q;
     vndf_azimuth_cell cell = {
         {(u * a.c + v * b.c + t * c.c) * h, (u * a.d + v * b.d + t * c.d) * h, u * a.b + v * b.b + t * c.b},
         u * a.a + v * b.a + t * c.a,
@@ -118,14 +120,42 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vn
 
 #if VNDF_LANES == 1
 
+/* Cell j of a row. */
+VNDF_INLINE lanes_four vndf_azimuth_part(const vndf_wedge *wedge, uint32_t row, uint32_t j)
+{
+    const vndf_row_cell *cell = vndf_row_cells(wedge, row) + j;
+    lanes_four part = {wedge->cdf[(size_t)row * wedge->stride + j], cell[0].mass, cell[0].density,
+                       cell[1].density};
+    return part;
+}
+
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, uint32_t j)
+{
+    const vndf_wedge *wedge = row->wedge;
+    vndf_azimuth_parts parts = {vndf_azimuth_part(wedge, row->row, j), vndf_azimuth_part(wedge, row->row + 1, j),
+                                vndf_azimuth_part(wedge, row->row + 2, j)};
+    return vndf_azimuth_mix(row, j, &parts);
+}
+
 /* The azimuth of a row with the mass `target` before it. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *plain)
 {
     const vndf_wedge *wedge = row->wedge;
     uint32_t j = vndf_azimuth_find(wedge, row->row, row->first, row->middle, row->last, target);
-    lanes_lines lines = lanes_lines_at(&wedge->row_cell->before, 4, row->row * wedge->stride + j);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_from(row, j, &lines);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
     return vndf_azimuth_draw(row, &cell, target, plain);
+}
+
+#else
+
+/* Cells j, from where their row_line is to be loaded. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j,
+                                                   const lanes_lines *lines)
+{
+    const size_t stride = 4 * (size_t)row->wedge->cell_count;
+    vndf_azimuth_parts parts = {lanes_load_four(lines, 0), lanes_load_four(lines, stride),
+                                lanes_load_four(lines, 2 * stride)};
+    return vndf_azimuth_mix(row, j, &parts);
 }
 
 #endif

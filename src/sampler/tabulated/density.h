@@ -76,7 +76,7 @@ VNDF_INLINE vndf_bare vndf_bare_of(const vndf_given *g)
 VNDF_INLINE doubles vndf_given_ndf(const vndf_distribution *d, const vndf_bare *n)
 {
     vndf_spot at = vndf_spot_at(d, n->across, n->z);
-    vndf_quotient p22 = vndf_spot_p22(&at);
+    vndf_quotient p22 = vndf_spot_p22(d, &at);
     doubles length = n->across + n->z, square = length * length, a2 = n->product * n->product;
     return doubles_positive(p22.above * (a2 * n->product) / (p22.below * (square * square)));
 }
@@ -102,9 +102,10 @@ VNDF_INLINE doubles_m vndf_given_is_first(const vndf_spot *at, doubles f0)
 }
 
 /* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k). */
-VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bare *n, doubles c, doubles k)
+VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_distribution *d, const vndf_spot *at, const vndf_bare *n,
+                                             doubles c, doubles k)
 {
-    doubles_four f = doubles_load_four(&at->line, 0);
+    doubles_four f = vndf_spot_cell(d, at);
     doubles w0 = c * at->z0 + k * at->x0, w1 = c * at->z1 + k * at->x1, e0 = f.a * w0, e1 = f.b * w1;
     doubles m = w0 * f.c + w1 * f.d, xi = at->inner, eta = at->outer, twice = 2.0 * m, whole = xi + eta;
     doubles b = m * (whole * whole) + (e0 + e1 - twice) * (xi * eta);
@@ -114,10 +115,10 @@ VNDF_INLINE vndf_quotient vndf_given_in_cell(const vndf_spot *at, const vndf_bar
 }
 
 /* The same for a weighted cell (math/weighted_cell.h) whose V is W: all of them beyond the cut. */
-VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_spot *at, const vndf_bare *n, doubles c,
-                                                      doubles k)
+VNDF_INLINE vndf_quotient vndf_given_in_weighted_cell(const vndf_distribution *d, const vndf_spot *at,
+                                                      const vndf_bare *n, doubles c, doubles k)
 {
-    doubles_four f = doubles_load_four(&at->line, 0);
+    doubles_four f = vndf_spot_cell(d, at);
     doubles w0 = doubles_positive(c * at->z0 + k * at->x0), w1 = doubles_positive(c * at->z1 + k * at->x1);
     doubles xi = at->inner, eta = at->outer, whole = xi + eta, w = w0 * eta + w1 * xi, half = 0.5 * (w0 + w1);
     doubles m = w0 * f.c + w1 * f.d, e0 = f.a * half, e1 = f.b * half, twice = 2.0 * m;
@@ -164,7 +165,7 @@ VNDF_INLINE doubles vndf_given_in_front(const vndf_distribution *d, const vndf_g
     doubles total = 2.0 * (vndf_given_front(d, across, up) + vndf_given_wedge(d, across, up));
     vndf_bare n = vndf_bare_of(g);
     vndf_spot at = vndf_spot_at(d, n.across, n.z);
-    vndf_quotient q = vndf_given_in_cell(&at, &n, up * n.across, vndf_given_level(g) * n.product);
+    vndf_quotient q = vndf_given_in_cell(d, &at, &n, up * n.across, vndf_given_level(g) * n.product);
     *plain = doubles_both(*plain, doubles_at_most_u(at.cell + 3u, doubles_set_u(d->radial_count)));
     return vndf_given_density(q.above, q.below * (n.across * total), plain);
 }

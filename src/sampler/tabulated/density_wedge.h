@@ -16,12 +16,6 @@ typedef struct vndf_shares {
     doubles first, middle, last, square, p, r;
 } vndf_shares;
 
-VNDF_INLINE doubles vndf_shares_mix(const vndf_shares *s, const float *array)
-{
-    return s->first * doubles_gather(array, s->row) + s->middle * doubles_gather(array + 1, s->row) +
-           s->last * doubles_gather(array + 2, s->row);
-}
-
 VNDF_INLINE vndf_shares vndf_shares_from(doubles_u i, doubles y, doubles from, doubles to)
 {
     doubles m = y - from, rest = to - y, width = to - from;
@@ -36,9 +30,9 @@ VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
 {
     doubles_u i = doubles_set_u(0);
     for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
-        i = doubles_pick_u(doubles_at_most(doubles_few_f(w->few_y, i + step), y), i + step, i);
+        i = doubles_pick_u(doubles_at_most(doubles_few_f(w->row_y, i + step), y), i + step, i);
     i = doubles_least_u(i, doubles_set_u(w->row_count / 2 - 1)); /* at the last knot, too, there are three */
-    vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->few_y, i), doubles_few_f(w->few_y + 1, i));
+    vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->row_y, i), doubles_few_f(w->row_y + 1, i));
     const float *p = w->few_aspects[0], *pm = w->few_aspects[1], *r = w->few_aspects[2], *rm = w->few_aspects[3];
     s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(pm, i) + s.last * doubles_few_f(p + 1, i);
     s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(rm, i) + s.last * doubles_few_f(r + 1, i);
@@ -51,16 +45,18 @@ VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
 VNDF_INLINE vndf_shares vndf_shares_at(const vndf_wedge *w, doubles y)
 {
 #if VNDF_DOUBLES == 8
-    if (w->row_count / 2 < VNDF_FEW)
+    if (w->few_aspects)
         return vndf_shares_few(w, y);
 #endif
     const doubles_u one = doubles_set_u(1), none = doubles_set_u(0);
     doubles_u i = vndf_guide_doubles(&w->row_guide, doubles_narrow(y));
     doubles_m early = doubles_both(doubles_less(y, doubles_gather(w->row_y, i)), doubles_at_most_u(one, i));
     i -= doubles_pick_u(early, one, none);
-    vndf_shares s = vndf_shares_from(i, y, doubles_gather(w->row_y, i), doubles_gather(w->row_y + 1, i));
-    s.p = vndf_shares_mix(&s, w->aspect_p);
-    s.r = vndf_shares_mix(&s, w->aspect_r);
+    doubles_lines lines = doubles_lines_at(&w->row_span->begin, sizeof *w->row_span / sizeof(float), i);
+    doubles_four a = doubles_load_four(&lines, 0), b = doubles_load_four(&lines, 4); /* begin, per_width, p, r */
+    vndf_shares s = vndf_shares_from(i, y, a.a, doubles_gather(w->row_y + 1, i));
+    s.p = s.first * a.c + s.middle * a.d + s.last * b.a;
+    s.r = s.first * b.b + s.middle * b.c + s.last * b.d;
     return s;
 }
 
@@ -71,12 +67,13 @@ typedef struct vndf_mixed_cell {
 
 VNDF_INLINE vndf_mixed_cell vndf_shares_cell(const vndf_wedge *w, const vndf_shares *s, doubles_u j)
 {
-    const size_t stride = 4 * (size_t)w->stride;
-    doubles_lines lines = doubles_lines_at(&w->row_cell->before, 4, s->row * w->stride + j);
+    const uint32_t ends = w->cell_count + 1;
+    const size_t stride = 2 * (size_t)ends;
+    doubles_lines lines = doubles_lines_at(&w->row_cell->mass, 2, s->row * ends + j);
     doubles_four a = doubles_load_four(&lines, 0), b = doubles_load_four(&lines, stride);
     doubles_four c = doubles_load_four(&lines, 2 * stride);
-    vndf_mixed_cell cell = {s->first * a.b + s->middle * b.b + s->last * c.b,
-                            s->first * a.c + s->middle * b.c + s->last * c.c,
+    vndf_mixed_cell cell = {s->first * a.a + s->middle * b.a + s->last * c.a,
+                            s->first * a.b + s->middle * b.b + s->last * c.b,
                             s->first * a.d + s->middle * b.d + s->last * c.d};
     return cell;
 }
@@ -146,10 +143,11 @@ VNDF_INLINE doubles vndf_visible_part(doubles w, doubles end)
 VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles c, doubles k)
 {
     vndf_spot at = vndf_spot_at(d, c, -k);
-    doubles_four f = doubles_load_four(&at.line, 0), sums = doubles_load_four(&at.line, 12);
+    doubles_lines pole = doubles_lines_at(&d->knots.pole->e, 2, at.cell);
+    doubles_four f = vndf_spot_cell(d, &at), sums = doubles_load_four(&pole, 0);
     doubles w = doubles_positive(c * at.z0 + k * at.x0), h = vndf_visible_part(w, c * at.z1 + k * at.x1);
     doubles part = w * h * vndf_bump_part(f.a, f.b, vndf_bump_of(f), h);
-    vndf_cut_law law = {c * sums.c + w * sums.d + part, at.cell};
+    vndf_cut_law law = {c * sums.a + w * sums.b + part, at.cell};
     return law;
 }
 
@@ -157,12 +155,12 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles 
 VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles c, doubles k)
 {
     vndf_spot at = vndf_spot_at(d, -c, k);
-    doubles_four f = doubles_load_four(&at.line, 0);
+    doubles_lines tail = doubles_lines_at(&d->knots.tail[1].s, 2, at.cell);
+    doubles_four f = vndf_spot_cell(d, &at), sums = doubles_load_four(&tail, 0);
     doubles w = doubles_positive(c * at.z1 + k * at.x1), h = vndf_visible_part(w, c * at.z0 + k * at.x0);
     vndf_bump bump = vndf_bump_of(f), turned = {bump.a + bump.b, -bump.b};
     doubles part = w * h * vndf_bump_part(f.b, f.a, turned, h);
-    doubles s = doubles_gather(d->knots.s + 1, at.cell), t = doubles_gather(d->knots.t + 1, at.cell);
-    vndf_cut_law law = {k * s + w * t + part, at.cell};
+    vndf_cut_law law = {k * sums.a + w * sums.b + part, at.cell};
     return law;
 }
 
@@ -183,7 +181,7 @@ VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_g
     vndf_quotient azimuth = vndf_row_density(w, &shares, cosine, sine);
     vndf_cut_law law = below ? vndf_cut_law_below(d, c, k) : vndf_cut_law_above(d, c, k);
     vndf_spot at = vndf_spot_at(d, n.across, n.z);
-    vndf_quotient q = below ? vndf_given_in_weighted_cell(&at, &n, c, k) : vndf_given_in_cell(&at, &n, c, k);
+    vndf_quotient q = below ? vndf_given_in_weighted_cell(d, &at, &n, c, k) : vndf_given_in_cell(d, &at, &n, c, k);
     *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
                                         : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
     doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);

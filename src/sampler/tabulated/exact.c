@@ -40,14 +40,24 @@ static double rational_density_over(double e1, double mass, double xi, double et
 
 /* Rows of cells and their shares. */
 typedef struct mixed_row {
-    const float *mass[3], *density[3], *q;
+    const vndf_row_cell *cell[3]; /* of each row */
+    const float *q;
     double share[3], p, r;
     uint32_t cells;
 } mixed_row;
 
-static double mixed(const mixed_row *row, const float *const *part, uint32_t j)
+static double mixed_mass(const mixed_row *row, uint32_t j)
 {
-    return row->share[0] * part[0][j] + row->share[1] * part[1][j] + row->share[2] * part[2][j];
+    const vndf_row_cell *const *cell = row->cell;
+    return row->share[0] * cell[0][j].mass + row->share[1] * cell[1][j].mass + row->share[2] * cell[2][j].mass;
+}
+
+/* Where cell j begins. */
+static double mixed_density(const mixed_row *row, uint32_t j)
+{
+    const vndf_row_cell *const *cell = row->cell;
+    return row->share[0] * cell[0][j].density + row->share[1] * cell[1][j].density +
+           row->share[2] * cell[2][j].density;
 }
 
 /* The last of ascending knots at or below y: the guide finds it but for the rounding of y. */
@@ -61,18 +71,16 @@ static mixed_row wedge_row(const vndf_wedge *w, double y)
 {
     uint32_t i = knot_before(&w->row_guide, w->row_y, y);
     double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
-    size_t cells = w->stride, ends = w->cell_count + 1, first = 2 * (size_t)i;
-    const float *mass = w->cell_mass + first * cells, *density = w->density + first * ends;
-    mixed_row row = {{mass, mass + cells, mass + 2 * cells},
-                     {density, density + ends, density + 2 * ends},
+    size_t first = 2 * (size_t)i;
+    mixed_row row = {{vndf_row_cells(w, first), vndf_row_cells(w, first + 1), vndf_row_cells(w, first + 2)},
                      w->q,
                      {rest * rest, 2.0 * rest * m, m * m},
                      0.0,
                      0.0,
                      w->cell_count};
     for (size_t n = 0; n < 3; n++) {
-        row.p += row.share[n] * w->aspect_p[first + n];
-        row.r += row.share[n] * w->aspect_r[first + n];
+        row.p += row.share[n] * w->row_span[i].p[n];
+        row.r += row.share[n] * w->row_span[i].r[n];
     }
     return row;
 }
@@ -89,9 +97,9 @@ static double row_density(const mixed_row *row, double cosine, double sine)
         j += row->q[i] <= q;
     double from = row->q[j], to = row->q[j + 1], h = to - from;
     double xi = (q - from) / h, eta = (rest - (1.0 - to)) / h;
-    double per_q = rational_density(mixed(row, row->density, j) * h, mixed(row, row->density, j + 1) * h,
-                                    mixed(row, row->mass, j), xi, eta) /
-                   h;
+    double per_q =
+        rational_density(mixed_density(row, j) * h, mixed_density(row, j + 1) * h, mixed_mass(row, j), xi, eta) /
+        h;
     double x = row->p * rest * (1.0 + q), y = 2.0 * row->r * q;
     return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
 }
@@ -126,13 +134,13 @@ typedef struct place {
 /* The guide finds the cell but for the rounding of the slope. */
 static place place_of(const vndf_distribution *d, double x, double z)
 {
-    const float *kx = d->knots.x, *kz = d->knots.z;
+    const vndf_knot *k = d->knots.at;
     uint32_t j = vndf_guide_find(&d->slope_guide, z > 0.0 ? (float)(x / z) : HUGE_VALF);
-    if (j > 0 && x * kz[j] < z * kx[j])
+    if (j > 0 && x * k[j].z < z * k[j].x)
         j--;
-    if (j + 1 < d->radial_count && x * kz[j + 1] >= z * kx[j + 1])
+    if (j + 1 < d->radial_count && x * k[j + 1].z >= z * k[j + 1].x)
         j++;
-    double inner = x * kz[j] - z * kx[j], outer = z * kx[j + 1] - x * kz[j + 1];
+    double inner = x * k[j].z - z * k[j].x, outer = z * k[j + 1].x - x * k[j + 1].z;
     place at = {j, inner / (inner + outer), outer / (inner + outer)};
     return at;
 }
@@ -141,8 +149,8 @@ static place place_of(const vndf_distribution *d, double x, double z)
  * that. */
 static double sum_at(const vndf_distribution *d, place at)
 {
-    const float *x = d->knots.x + at.cell, *z = d->knots.z + at.cell;
-    return at.eta * ((double)x[0] + z[0]) + at.xi * ((double)x[1] + z[1]);
+    const vndf_knot *k = d->knots.at + at.cell;
+    return at.eta * ((double)k[0].x + k[0].z) + at.xi * ((double)k[1].x + k[1].z);
 }
 
 /* The cell's cubic, from its moments: rounded to float its bump would show where f nearly vanishes. */
@@ -169,7 +177,7 @@ static double part_integral(double f0, double f1, double a, double b, double h)
 
 static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
 {
-    double w = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    double w = ray->c * ray->table->knots.at[j].z + ray->k * ray->table->knots.at[j].x;
     return w > 0.0 ? w : 0.0;
 }
 
@@ -177,8 +185,8 @@ static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
 static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    const vndf_knots *k = &ray->table->knots;
-    double w = knot_weight(ray, j), end = ray->c * k->z[j + 1] + ray->k * k->x[j + 1];
+    vndf_knot to = ray->table->knots.at[j + 1];
+    double w = knot_weight(ray, j), end = ray->c * to.z + ray->k * to.x;
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
     double half = 0.5 * w * h, mass = w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h);
@@ -189,7 +197,8 @@ static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
 static vndf_engine_piece piece_below(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w = knot_weight(ray, j + 1), end = ray->c * ray->table->knots.z[j] + ray->k * ray->table->knots.x[j];
+    double w = knot_weight(ray, j + 1),
+           end = ray->c * ray->table->knots.at[j].z + ray->k * ray->table->knots.at[j].x;
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
     double half = 0.5 * w * h, mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
@@ -251,12 +260,12 @@ static inner inner_of(const vndf_engine_piece *p, place at, double w)
  * X does. */
 static double density_over_x(const vndf_engine_ray *ray, const vndf_engine_piece *p, place at, double w)
 {
-    const vndf_knots *k = &ray->table->knots;
+    const vndf_knot *k = ray->table->knots.at;
     inner in = inner_of(p, at, w);
     double per = in.per / p->length;
     if (at.cell == 0 && p->e0 == 0.0)
-        return per * in.ratio * rational_density_over(p->e1, p->mass, in.zeta, in.rest) / (p->length * k->x[1]);
-    double x = at.eta * k->x[at.cell] + at.xi * k->x[at.cell + 1];
+        return per * in.ratio * rational_density_over(p->e1, p->mass, in.zeta, in.rest) / (p->length * k[1].x);
+    double x = at.eta * k[at.cell].x + at.xi * k[at.cell + 1].x;
     return per * rational_density(p->e0, p->e1, p->mass, in.zeta, in.rest) / x;
 }
 
@@ -277,9 +286,9 @@ static void find_law(vndf_engine_ray *ray)
     vndf_engine_piece p = vndf_engine_piece_of(ray, j);
     ray->part = p.length;
     if (c > 0.0)
-        ray->mass = c * d->knots.e[j] + p.v0 * d->knots.g[j] + p.mass;
+        ray->mass = c * d->knots.pole[j].e + p.v0 * d->knots.pole[j].g + p.mass;
     else
-        ray->mass = k * d->knots.s[j + 1] + p.v1 * d->knots.t[j + 1] + p.mass;
+        ray->mass = k * d->knots.tail[j + 1].s + p.v1 * d->knots.tail[j + 1].t + p.mass;
 }
 
 /* ---- both ---- */
@@ -319,9 +328,9 @@ double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, d
 double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *p, uint32_t j, double xi,
                                  double eta)
 {
-    const vndf_knots *k = &ray->table->knots;
+    const vndf_knot *k = ray->table->knots.at + j;
     place at = {j, xi, eta};
-    double x = eta * k->x[j] + xi * k->x[j + 1], w = ray->k * x + ray->c * (eta * k->z[j] + xi * k->z[j + 1]);
+    double x = eta * k[0].x + xi * k[1].x, w = ray->k * x + ray->c * (eta * k[0].z + xi * k[1].z);
     return w > 0.0 && p->length > 0.0 && ray->mass > 0.0
                ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass
                : 0.0;
@@ -331,7 +340,7 @@ double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_p
 static double mass_before(const vndf_engine_ray *ray, uint32_t j)
 {
     const vndf_knots *knots = &ray->table->knots;
-    return ray->k < 0.0 ? ray->c * knots->e[j] + knot_weight(ray, j) * knots->g[j]
+    return ray->k < 0.0 ? ray->c * knots->pole[j].e + knot_weight(ray, j) * knots->pole[j].g
                         : ray->c * knots->f0[j] + ray->k * knots->f1[j];
 }
 
@@ -402,6 +411,6 @@ float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 {
     vndf_spot at = vndf_spot_at(d, x, z);
-    vndf_quotient p22 = vndf_spot_p22(&at);
+    vndf_quotient p22 = vndf_spot_p22(d, &at);
     return p22.above > 0.0 ? p22.above / p22.below : 0.0;
 }

@@ -43,26 +43,53 @@ typedef struct vndf_radial_law {
     lanes_f part_w0, part_w1; /* W there */
 } vndf_radial_law;
 
-/* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
+/* A cell, lane by lane: the members of vndf_radial_cell, both knots, the bend, and the sums up to the first. */
 typedef struct vndf_radial_lanes {
     lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, calm, a, b, e, g;
 } vndf_radial_lanes;
 
-/* What is not used of it is not loaded. */
-VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *lines)
+/* From lines of d's cells, knots, bends and sums. What is not used of it is not loaded. */
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *cells, const lanes_lines *at,
+                                                     const lanes_lines *bends, const lanes_lines *pole)
 {
-    lanes_four f = lanes_load_four(lines, 0), knots = lanes_load_four(lines, 4);
-    lanes_four whole = lanes_load_four(lines, 8), cut = lanes_load_four(lines, 12);
-    vndf_radial_lanes cell = {f.a,     f.b,     f.c,     f.d,     knots.a, knots.b, knots.c, knots.d,
-                              whole.a, whole.b, whole.c, whole.d, cut.a,   cut.b,   cut.c,   cut.d};
+    lanes_four f = lanes_load_four(cells, 0), whole = lanes_load_four(cells, 4);
+    lanes_four knots = lanes_load_four(at, 0), bend = lanes_load_four(bends, 0), sums = lanes_load_four(pole, 0);
+    vndf_radial_lanes cell = {f.a,     f.b,     f.c,     f.d,     knots.a, knots.c, knots.b, knots.d,
+                              whole.a, whole.b, whole.c, whole.d, bend.a,  bend.b,  sums.a,  sums.b};
     return cell;
+}
+
+enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
+
+#if VNDF_LANES == 1
+
+VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
+{
+    lanes_lines cells = lanes_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, j);
+    lanes_lines at = lanes_lines_at(&d->knots.at->x, 2, j), bends = lanes_lines_at(&d->bends->a, 2, j);
+    lanes_lines pole = lanes_lines_at(&d->knots.pole->e, 2, j);
+    return vndf_radial_load_lines(&cells, &at, &bends, &pole);
+}
+
+#else
+
+/* Cells that have long been in memory (lanes_lines_from). */
+VNDF_INLINE vndf_radial_lanes vndf_radial_load_from(const vndf_distribution *d, const uint32_t *j)
+{
+    lanes_lines cells = lanes_lines_from(&d->cells->f0, VNDF_CELL_FLOATS, j);
+    lanes_lines at = lanes_lines_from(&d->knots.at->x, 2, j), bends = lanes_lines_from(&d->bends->a, 2, j);
+    lanes_lines pole = lanes_lines_from(&d->knots.pole->e, 2, j);
+    return vndf_radial_load_lines(&cells, &at, &bends, &pole);
 }
 
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-    lanes_lines lines = lanes_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), j);
-    return vndf_radial_load_lines(&lines);
+    uint32_t cell[VNDF_LANES];
+    lanes_store_u(cell, j);
+    return vndf_radial_load_from(d, cell);
 }
+
+#endif
 
 /* f at xi from the cubic. */
 VNDF_INLINE lanes_f vndf_radial_f(const vndf_radial_lanes *cell, lanes_f xi)
@@ -174,7 +201,7 @@ VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
 VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k,
                                              float target)
 {
-    return vndf_count_positive(knots->z + from, knots->x + from, knots->e + from, knots->g + from, c, k, target);
+    return vndf_count_positive(&knots->at[from].x, &knots->pole[from].e, c, k, target);
 }
 
 /* The same for c, k >= 0. */
@@ -191,8 +218,8 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
         uint32_t count = 0;
         for (uint32_t i = 1; i < VNDF_WINDOW; i++) {
             uint32_t at = w.first + i * w.step, j = at < knots->count ? at : knots->count - 1;
-            float weight = c * knots->z[j] + k * knots->x[j];
-            count += (k < 0.0f ? c * knots->e[j] + (weight > 0.0f ? weight : 0.0f) * knots->g[j]
+            float weight = c * knots->at[j].z + k * knots->at[j].x;
+            count += (k < 0.0f ? c * knots->pole[j].e + (weight > 0.0f ? weight : 0.0f) * knots->pole[j].g
                                : c * knots->f0[j] + k * knots->f1[j]) <= target;
         }
         w.first += count * w.step;

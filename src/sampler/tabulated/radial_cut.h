@@ -14,14 +14,14 @@ typedef struct vndf_radius {
 
 VNDF_INLINE float vndf_radial_weight(const vndf_radial_law *law, uint32_t j)
 {
-    float w = law->c * law->table->knots.z[j] + law->k * law->table->knots.x[j];
+    float w = law->c * law->table->knots.at[j].z + law->k * law->table->knots.at[j].x;
     return w > 0.0f ? w : 0.0f;
 }
 
 /* Mass beyond knot j, less the gain (k > 0). */
 VNDF_INLINE float vndf_radial_beyond(const vndf_radial_law *law, uint32_t j)
 {
-    return law->k * law->table->knots.s[j] + vndf_radial_weight(law, j) * law->table->knots.t[j];
+    return law->k * law->table->knots.tail[j].s + vndf_radial_weight(law, j) * law->table->knots.tail[j].t;
 }
 
 /* c < 0 < k. In the last cell, beyond which there is no mass, all masses are per visible part. */
@@ -31,7 +31,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
     uint32_t j = vndf_guide_find(&d->slope_guide, rho);
     vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
+    float w0 = d->knots.at[j].x - rho * d->knots.at[j].z, w1 = vndf_radial_weight(&law, j + 1);
     law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
     float unit = j + 1 < d->radial_count ? law.part : 1.0f;
     law.part_mass = w1 * unit * vndf_radial_part(cell.f1, cell.f0, cell.a + cell.b, -cell.b, law.part);

@@ -17,11 +17,12 @@ typedef struct vndf_radial_drawn {
 VNDF_INLINE uint32_t vndf_radial_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float k,
                                               float target)
 {
-    const float *z = knots->z + from, *x = knots->x + from, *s = knots->s + from, *t = knots->t + from;
+    const vndf_knot *at = knots->at + from;
+    const vndf_tail_sums *tail = knots->tail + from;
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; i++) {
-        float w = c * z[i] + k * x[i];
-        count += k * s[i] + (w > 0.0f ? w : 0.0f) * t[i] > target;
+        float w = c * at[i].z + k * at[i].x;
+        count += k * tail[i].s + (w > 0.0f ? w : 0.0f) * tail[i].t > target;
     }
     return count;
 }

@@ -154,10 +154,10 @@ typedef struct place {
 
 static vndf_radius radius_of(const vndf_distribution *d, float x, float z)
 {
-    const vndf_knots *k = &d->knots;
     float slope = z > 0.0f ? x / z : HUGE_VALF;
     uint32_t j = vndf_guide_find(&d->slope_guide, slope);
-    float inner = x * k->z[j] - z * k->x[j], outer = z * k->x[j + 1] - x * k->z[j + 1];
+    vndf_knot from = d->knots.at[j], to = d->knots.at[j + 1];
+    float inner = x * from.z - z * from.x, outer = z * to.x - x * to.z;
     inner = inner > 0.0f ? inner : 0.0f;
     outer = outer > 0.0f ? outer : 0.0f;
     float sum = inner + outer;
@@ -208,8 +208,7 @@ static portion before_in_wedge(const vndf_view *view, float cos_phi, float sin_p
     vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), !vndf_is_below(view) ? view->c : view->s);
     uint32_t j;
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
-    lanes_lines lines = lanes_lines_at(&row.wedge->row_cell->before, 4, row.row * row.wedge->stride + j);
-    vndf_azimuth_cell cell = vndf_azimuth_cell_from(&row, j, &lines);
+    vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
     portion before = {cell.before + vndf_rational_cdf(&cell.cell, xi),
                       vndf_rational_inner_density(&cell.cell, xi) / vndf_azimuth_turned(&row, &cell, xi)};
     return before;

@@ -12,11 +12,8 @@
 #include "table/guide.h"
 #include "table/table.h"
 
-enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
-
 typedef struct vndf_spot {
     doubles_u cell;
-    doubles_lines line; /* the cell's members */
     doubles inner, outer;
     doubles x0, x1, z0, z1; /* the knots */
 } vndf_spot;
@@ -40,9 +37,9 @@ VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, double
     vndf_spot at;
     at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z));
     for (;;) {
-        at.line = doubles_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, at.cell);
-        doubles_four knots = doubles_load_four(&at.line, 4);
-        doubles inner = x * knots.c - z * knots.a, outer = z * knots.b - x * knots.d;
+        doubles_lines line = doubles_lines_at(&d->knots.at->x, 2, at.cell);
+        doubles_four knots = doubles_load_four(&line, 0); /* x0, z0, x1, z1 */
+        doubles inner = x * knots.b - z * knots.a, outer = z * knots.c - x * knots.d;
         doubles_u step = vndf_spot_step(at.cell, inner, outer, d->radial_count);
         if (doubles_differ_u(step, none)) {
             at.cell += step;
@@ -51,11 +48,18 @@ VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, double
         at.inner = inner;
         at.outer = outer;
         at.x0 = knots.a;
-        at.x1 = knots.b;
-        at.z0 = knots.c;
+        at.z0 = knots.b;
+        at.x1 = knots.c;
         at.z1 = knots.d;
         return at;
     }
+}
+
+/* f0, f1, mu0, mu1 of its cell. */
+VNDF_INLINE doubles_four vndf_spot_cell(const vndf_distribution *d, const vndf_spot *at)
+{
+    doubles_lines line = doubles_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), at->cell);
+    return doubles_load_four(&line, 0);
 }
 
 /* Of numbers at the inner and at the outer knot, that at the place, times inner + outer. */
@@ -93,9 +97,9 @@ typedef struct vndf_quotient {
     doubles above, below;
 } vndf_quotient;
 
-VNDF_INLINE vndf_quotient vndf_spot_p22(const vndf_spot *at)
+VNDF_INLINE vndf_quotient vndf_spot_p22(const vndf_distribution *d, const vndf_spot *at)
 {
-    doubles_four f = doubles_load_four(&at->line, 0);
+    doubles_four f = vndf_spot_cell(d, at);
     vndf_bump bump = vndf_bump_of(f);
     doubles per = 1.0 / (at->inner + at->outer), xi = at->inner * per, eta = at->outer * per;
     doubles rise = f.b + eta * (bump.a + bump.b * xi);

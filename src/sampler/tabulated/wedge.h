@@ -17,7 +17,7 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
 /* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
 VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
 {
-    const double(*few)[VNDF_FEW] = wedge->few_exact;
+    double(*few)[VNDF_FEW] = wedge->few_exact;
     doubles_u i = doubles_set_u(0);
     doubles b[VNDF_AREA_ORDER];
     for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
@@ -35,7 +35,7 @@ VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
 VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
 {
 #if VNDF_DOUBLES == 8
-    if (wedge->knot_count <= VNDF_FEW + 1)
+    if (wedge->few_exact)
         return vndf_wedge_mass_few(wedge, y);
 #endif
     doubles_u i = vndf_guide_doubles(&wedge->knot_guide, doubles_narrow(y)), one = doubles_set_u(1);
@@ -54,12 +54,12 @@ VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
     }
 }
 
-/* The same in float, where that is good enough: for drawing, and for densities where *per_width, one
+/* The same above the horizon in float, where that is good enough: for drawing, and for densities where *per_width, one
  * over the width of its piece, is trusted. */
 VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f *per_width)
 {
 #if VNDF_LANES > 1
-    if (wedge->knot_count <= VNDF_FEW + 1)
+    if (wedge->few)
         return vndf_area_few_at(wedge->few, wedge->knot_count, y, per_width);
 #endif
     return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y, per_width);

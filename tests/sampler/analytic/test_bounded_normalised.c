@@ -221,8 +221,8 @@ static double over_radius(const subject *g)
 {
     const vndf_distribution *d = g->view.distribution;
     double sum = 0, end = border(g, at_radius, 0, 1);
-    for (uint32_t j = 0; j < d->radial_count && d->knots.x[j] < end; j++) {
-        double from = d->knots.x[j], to = fmin(d->knots.x[j + 1], end);
+    for (uint32_t j = 0; j < d->radial_count && d->knots.at[j].x < end; j++) {
+        double from = d->knots.at[j].x, to = fmin(d->knots.at[j + 1].x, end);
         for (int i = 0; i < 8; i++) {
             double t = from + (to - from) * (i / 4 + NODE[i % 4]) / 2;
             vndf_normal m = at_radius(g, t);

@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "oracle/oracle.h"
-#include "table/table.h"
+#include "table/layout.h"
 #include "sampler/tabulated/theory.h"
 #include "sampler/frame.h"
 #include "sampler/stretch.h"
@@ -19,8 +19,8 @@
 static double part_before(const vndf_view *view, double slope, double shift, uint32_t cell, double xi)
 {
     const vndf_distribution *d = view->distribution;
-    double x = d->knots.x[cell] * (1 - xi) + d->knots.x[cell + 1] * xi;
-    double z = d->knots.z[cell] * (1 - xi) + d->knots.z[cell + 1] * xi;
+    vndf_knot from = d->knots.at[cell], to = d->knots.at[cell + 1];
+    double x = from.x * (1 - xi) + to.x * xi, z = from.z * (1 - xi) + to.z * xi;
     vndf_stretched w = vndf_stretched_of(view);
     double cosine = -w.c / (w.s * slope * (1 + shift)), sine = sqrt(1 - cosine * cosine);
     double across = x * view->alpha_x, l = hypot(across, z);
@@ -35,7 +35,7 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
 static double jump_of(const vndf_view *view, uint32_t j, uint32_t cell, double xi)
 {
     const double h = 2e-6;
-    double part[4], slope = view->distribution->slope[j];
+    double part[4], slope = vndf_knot_slope(view->distribution, j);
     for (int i = 0; i < 4; i++)
         part[i] = part_before(view, slope, (2 * i - 3) * h, cell, xi);
     return fabs(part[2] - part[1] - 0.5 * (part[3] - part[2] + part[1] - part[0]));
@@ -47,7 +47,7 @@ static double largest_jump(const vndf_view *view, uint32_t j)
     const vndf_distribution *d = view->distribution;
     double worst = 0;
     uint32_t first = view->c < 0 ? j : j > 4 ? j - 4 : 0, end = view->c < 0 ? j + 4 : j;
-    if (!(fabs((double)view->c) < 0.99 * view->s * d->slope[j]))
+    if (!(fabs((double)view->c) < 0.99 * view->s * vndf_knot_slope(d, j)))
         return 0;
     for (uint32_t cell = first; cell < end && cell + 1 < d->radial_count; cell++)
         for (int i = 1; i < 8; i++)

@@ -7,7 +7,7 @@
  * wedge begin: u1 is sought likewise, and slopes are large as well, for which a rounding of the azimuth shows
  * in wi.wm. */
 #include "oracle/oracle.h"
-#include "table/table.h"
+#include "table/layout.h"
 #include "harness/test.h"
 
 enum { NEIGHBOURS = 16 };
@@ -113,7 +113,8 @@ static void test_knots(const char *p22)
         vndf_surface surface = {table, 0.5f, 0.5f};
         vndf_vec3 wi = {(float)sqrt(1 - z * z), 0, (float)z};
         vndf_view view = vndf_view_from(&surface, wi);
-        try_azimuth(&surface, &view, test_uniform(&state), table->slope[(int)knot] * table->scale, 1.1e-4, &t);
+        try_azimuth(&surface, &view, test_uniform(&state), vndf_knot_slope(table, (uint32_t)knot) * table->scale,
+                    1.1e-4, &t);
     }
     if (!(TEST(t.worst <= 1e-5) & TEST(t.inside > 1000) & TEST(t.outside > 1000)))
         fprintf(stderr, "  %s: beside knots worst %.3g, %d inside, %d outside\n", p22, t.worst, t.inside,

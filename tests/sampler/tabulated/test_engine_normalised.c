@@ -67,7 +67,7 @@ static void add_panel(integral *g, double cos_a, double sin_a, double weight, do
 /* Of a knot, unrounded: a jump of D may stand there. */
 static double slope_of(const integral *g, uint32_t j)
 {
-    double x = g->table->knots.x[j], z = g->table->knots.z[j];
+    double x = g->table->knots.at[j].x, z = g->table->knots.at[j].z;
     return z > 0 ? x / z * g->table->scale : INFINITY;
 }
 
