@@ -98,7 +98,8 @@ typedef struct chart_range {
 
 void chart_widen(chart_range *range, double value);
 
-/* Both axes, logarithmic ones, to all series; those whose high end is set stay. `least`: of y, nothing below is shown. */
+/* Fits both axes, which are logarithmic, to all series; an axis whose high end is set stays.
+ * `least`: the lowest y that is shown. */
 void chart_fit_series(chart *c, double least);
 
 typedef struct chart_tick {

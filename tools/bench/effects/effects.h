@@ -100,9 +100,9 @@ typedef struct effects_block {
     vndf_roughness roughness[EFFECTS_BLOCK];
 } effects_block;
 
-/* Inputs of stream `seed`, the same for all sets except for the side of wi and wo. The directions wo are uniform over the
- * hemisphere, and so is wi if theta is NaN; else wi is at theta degrees. The block's roughness is 0.5 to 1.5 times the
- * subject's, which from here on is that of the block. */
+/* Fills a block with the inputs of stream `seed`, the same for all sets except for the side of wi and wo. The
+ * directions wo are uniform over the hemisphere, and so is wi if theta is NaN; else wi is at theta degrees. The block's
+ * roughness is 0.5 to 1.5 times the subject's; the subject takes it over. */
 void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed);
 
 /* One direction for all, that angle from the normal. */
