@@ -38,18 +38,17 @@ static int print_help(void)
          "usage: vndf COMMAND ...        vndf COMMAND --help says more, with an example\n");
     for (size_t i = 0; i < subcommand_count; i++)
         printf("  %-8s %s\n", subcommands[i].name, subcommands[i].purpose);
-    puts(
-        "\n"
-        "example: vndf build --slope 'exp(-3*r)*(1+0.8*cos(6*r))' -o wavy.vndf\n"
-        "         vndf check wavy.vndf\n"
-        "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
-        "\n"
-        "exit status: 0 good, 1 the answer is no, 2 wrong use or an input or output that failed, text for a\n"
-        "closed or full stdout included, even where the file of -o is whole; a reader that closes the pipe ends\n"
-        "the program quietly, by SIGPIPE or, where that is ignored, with status 2\n"
-        "\n"
-        "files: one that is written appears whole or not at all, keeps its permissions, and is never an input of\n"
-        "the same command; behind a symbolic link it is the link's file. `-o -` is stdout, without other text");
+    puts("\n"
+         "example: vndf build --slope 'exp(-3*r)*(1+0.8*cos(6*r))' -o wavy.vndf\n"
+         "         vndf check wavy.vndf\n"
+         "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
+         "\n"
+         "exit status: 0 good; 1 the answer is no; 2 wrong use, or an input or output failed. Text for a closed\n"
+         "or full stdout is such a failure, even if the file of -o is whole. A reader that closes the pipe ends\n"
+         "the program quietly, by SIGPIPE or, where SIGPIPE is ignored, with status 2\n"
+         "\n"
+         "files: a written file appears whole or not at all, keeps its permissions, and is never an input of the\n"
+         "same command; symbolic links are followed to their file. `-o -` is stdout, without other text");
     return STATUS_GOOD;
 }
 

@@ -217,7 +217,7 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
 }
 
 /* The weight of errors at slope r for a view below the horizon that sees this part of the area at grazing
- * incidence; 0 where the slope is next to infinite. */
+ * incidence; it falls to 0 as the slope becomes infinite. */
 static double weight_of_view(const vndf_radial_fit *fit, double seen, double r)
 {
     return vndf_profile_fade(fit->profile, seen, fit->fade) / (1 + r * 1e-8);

@@ -37,7 +37,7 @@ VNDF_INLINE doubles vndf_exp_near(doubles x)
     return (1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))) * doubles_power_of_two(shifted);
 }
 
-#if VNDF_LANES == 1 /* the rest is for one */
+#if VNDF_LANES == 1 /* the rest is for one lane */
 
 /* Any x: infinity above 1400, where exp(x/2) squared overflows, 0 below -1400, NaN for NaN. */
 static inline double vndf_exp_far(double x)

@@ -44,9 +44,9 @@ static const char help[] =
     "               limit, and the input that gave it, as words for --at.\n"
     "\n"
     "  --hard       adds the hard cases\n"
-    "  --at ...     one input alone: what the calls return there, and the properties of --hard\n"
+    "  --at ...     one input alone: prints the results of all calls there, and the properties of --hard\n"
     "  --samples N  samples per chi-square test (default 1000000)\n"
-    "  --csv FILE   the CSV that the table was built from; without it such a certificate is not measured again\n"
+    "  --csv FILE   the CSV that the table was built from; without it the certificate is not measured again\n"
     "  --seed S     the stream of random numbers, a whole number (default 1)\n"
     "\n"
     "example: vndf check wavy.vndf --hard --samples 4000000\n";

@@ -14,7 +14,7 @@ static const char name[] = "vndf eval";
 static const char help[] =
     "usage: vndf eval FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
     "\n"
-    "Reads a normal per line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), prints a line for each:\n"
+    "Reads one normal a line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), and prints a line for each:\n"
     "\n"
     "  ndf,pdf,lambda,g1\n"
     "\n"

@@ -17,8 +17,8 @@ typedef struct page_file {
 } page_file;
 
 typedef struct html_page {
-    const char *command;            /* that makes it */
-    FILE *html;                     /* to write to */
+    const char *command;            /* makes the page */
+    FILE *html;                     /* the page goes here */
     page_file file[PAGE_FILES_MAX]; /* the first is the page itself */
     size_t count;
     FILE *data; /* open between page_file_begin and its end */

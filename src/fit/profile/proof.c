@@ -41,7 +41,7 @@ static int is_narrow(const piece *p)
     return p->high - p->low <= NARROW * p->high;
 }
 
-/* Nothing lies between neighbouring doubles. A pole between two of them is replaced by their values. */
+/* No value lies between neighbouring doubles. A pole between two of them counts by the values at both. */
 static double between_doubles(const vndf_profile *profile, const piece *p)
 {
     return 2 * log(p->high / p->low) * (integrand(profile, p->low) + integrand(profile, p->high));

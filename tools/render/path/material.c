@@ -140,7 +140,7 @@ static void make_glass(path_material *m)
     m->eta = m->is->is.eta;
 }
 
-/* At right angles. */
+/* At normal incidence. */
 static float reflectance(const vndf_description *is, int i)
 {
     switch (is->effects.fresnel) {

@@ -31,7 +31,7 @@ typedef struct path_point {
     const path_material *material;
     const hit *hit;
     frame frame;  /* of shading; geometric where the two differ about the side of the ray */
-    vndf_vec3 wi; /* in it */
+    vndf_vec3 wi; /* in that frame */
     const float *colour;
     float mapped[3];     /* the colour of a map */
     vndf_bsdf bsdf;      /* of rough materials */
@@ -68,7 +68,7 @@ struct path_material {
 typedef struct path_perfects {
     path_perfect **list;
     size_t count;
-    double seconds; /* that making them took */
+    double seconds; /* to make them */
 } path_perfects;
 
 void path_perfects_free(path_perfects *all);

@@ -19,7 +19,7 @@ typedef struct path_perfect {
 typedef struct perfect_hit {
     const path_perfect *is;
     float xx, xy, yx, yy; /* the frame of the table: x' = xx x + xy y, y' = yx x + yy y */
-    vndf_vec3 wi;         /* in it: x, y >= 0 */
+    vndf_vec3 wi;         /* in that frame: x, y >= 0 */
     float eta;            /* index on the other side over that on the side of wi */
     vndf_bsdf bsdf;
     vndf_view view; /* of wi turned up */
@@ -37,7 +37,7 @@ void path_perfect_free(path_perfect *p);
 /* Whether the sampler serves this description too. */
 int path_perfect_is_of(const path_perfect *p, const vndf_description *is);
 
-/* All that it holds. */
+/* The bytes that it holds. */
 size_t path_perfect_bytes(const path_perfect *p);
 
 /* As the calls of vndf_bsdf.h do, in the frame of the hit, with the axes of the roughness turned in it (alpha of
