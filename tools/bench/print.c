@@ -20,7 +20,9 @@ static void biases(char cell[CELL], const double bias[2])
     char part[2][CELL / 2];
     for (int k = 0; k < 2; k++)
         snprintf(part[k], CELL / 2, bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
-    snprintf(cell, CELL, isnan(bias[0]) ? "" : "%s, %s", part[0], part[1]);
+    cell[0] = '\0';
+    if (!isnan(bias[0]))
+        snprintf(cell, CELL, "%s, %s", part[0], part[1]);
 }
 
 /* For people. */
