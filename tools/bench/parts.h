@@ -22,8 +22,6 @@ typedef struct bench_clock {
     double start; /* seconds */
 } bench_clock;
 
-double bench_elapsed(const bench_clock *at);
-
 /* Tells the progress; 0 if that wants to stop. */
 int bench_go_on(const bench_clock *at, const char *what);
 

@@ -12,15 +12,17 @@ static const char legend[] =
     "1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and under a small\n"
     "light; bias: of that albedo, where it is beyond its noise.\n";
 
-enum { CELL = 32 };
+enum { CELL = 40 };
 
 /* The two albedos in one cell. */
 static void biases(char cell[CELL], const double bias[2])
 {
-    char part[2][CELL / 2];
+    char part[2][16];
     for (int k = 0; k < 2; k++)
-        snprintf(part[k], CELL / 2, bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
-    snprintf(cell, CELL, isnan(bias[0]) ? "" : "%s, %s", part[0], part[1]);
+        snprintf(part[k], sizeof part[k], bias[k] == 0 ? "%.0f" : "%+.2g%%", 100 * bias[k]);
+    cell[0] = '\0';
+    if (!isnan(bias[0]))
+        snprintf(cell, CELL, "%s, %s", part[0], part[1]);
 }
 
 /* For people. */

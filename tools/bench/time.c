@@ -9,14 +9,14 @@
 
 enum { EACH = 0, SHARED = 1, LATENCY = 2, WAYS = 3 };
 
-double bench_elapsed(const bench_clock *at)
+static double elapsed(const bench_clock *at)
 {
     return clock_seconds() - at->start;
 }
 
 int bench_go_on(const bench_clock *at, const char *what)
 {
-    double done = fmin(bench_elapsed(at) / at->plan->seconds, 0.99);
+    double done = fmin(elapsed(at) / at->plan->seconds, 0.99);
     return !at->plan->progress || at->plan->progress(done, what, at->plan->progress_user) == 0;
 }
 
@@ -107,7 +107,7 @@ vndf_status bench_time(bench_list *list, const bench_clock *at)
     const turns_plan plan = {.series = list->count * WAYS,
                              .least = 7,
                              .most = 501,
-                             .seconds = at->plan->seconds - bench_elapsed(at),
+                             .seconds = at->plan->seconds - elapsed(at),
                              .take = take_turn,
                              .user = &c};
     vndf_status status = block && found ? turns_run(&plan, found) : VNDF_ERROR_MEMORY;

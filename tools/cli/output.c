@@ -233,8 +233,22 @@ int outputs_print(const char *command, const char *csv, const char *markdown, co
     return text != STATUS_GOOD ? text : first != STATUS_GOOD ? first : second;
 }
 
-const char *output_extension(const char *path)
+static const char *extension_of(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return dot && !strchr(dot, '/') ? dot + 1 : "";
+}
+
+int output_form(const char *command, const char *path, const char *format, const char *const forms[2])
+{
+    const char *chosen = format ? format : output_is_stdout(path) ? forms[0] : extension_of(path);
+    for (int i = 0; i < 2 && forms[i]; i++)
+        if (strcmp(chosen, forms[i]) == 0)
+            return i;
+    if (format)
+        complain(command, "--format '%s' is none of %s and %s", format, forms[0], forms[1]);
+    else
+        complain(command, "-o '%s': the name must end in .%s%s%s, or be - for stdout", path, forms[0],
+                 forms[1] ? " or ." : "", forms[1] ? forms[1] : "");
+    return -1;
 }

@@ -80,7 +80,8 @@ void output_release_signals(unsigned held);
 /* Flushes stdout; an exit status, with a complaint if what was printed could not be delivered. */
 int output_finish_stdout(const char *command);
 
-/* The part of path after its last dot, "" if there is none. */
-const char *output_extension(const char *path);
+/* Which of up to two forms, "csv" say, an output has: the one that --format names, if there is one, else the end of -o
+ * path; the first for stdout. The second may be NULL. -1 after a complaint. */
+int output_form(const char *command, const char *path, const char *format, const char *const forms[2]);
 
 #endif

@@ -2,7 +2,6 @@
  * normals for each function over incident angles, and a verdict. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "command.h"
@@ -228,12 +227,13 @@ static int report_with_own(masking_plan *plan)
 
 static int check_words(masking_words *given)
 {
+    static const char *const forms[2] = {"csv", NULL};
     const char *path = only_word(&given->output);
     size_t sources = source_words_count(&given->source);
     if (sources > 1)
         return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
-    if (path && !output_is_stdout(path) && strcmp(output_extension(path), "csv") != 0)
-        return complain(name, "-o '%s': the name must end in .csv, or be - for stdout", path);
+    if (path && output_form(name, path, NULL, forms) < 0)
+        return STATUS_USE;
     if (!given->subjects.count && !sources) {
         given->subjects.item[given->subjects.count++] = "ggx";
         given->subjects.item[given->subjects.count++] = "beckmann";

@@ -95,9 +95,8 @@ static int draw_figure(FILE *file, const figure_plan *figure)
 static int plot_to_file(const figure_plan *figure, const char *path)
 {
     output_file output;
-    if (!output_is_stdout(path) && strcmp(output_extension(path), "svg") != 0)
-        return complain(name, "-o '%s': the name has to end in .svg, or be - for stdout", path);
-    if (!output_open(&output, name, path))
+    static const char *const forms[2] = {"svg", NULL};
+    if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
     if (draw_figure(output.file, figure) && !output_interrupted(&output))
         return output_commit(&output);

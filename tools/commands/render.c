@@ -90,16 +90,9 @@ static int write_pfm(FILE *file, const image *made, float exposure)
 
 static image_writer *writer_of(const char *path, const char *format)
 {
-    const char *chosen = format ? format : output_is_stdout(path) ? "png" : output_extension(path);
-    if (strcmp(chosen, "png") == 0)
-        return image_write_png;
-    if (strcmp(chosen, "pfm") == 0)
-        return write_pfm;
-    if (format)
-        complain(name, "--format '%s' is none of png and pfm", format);
-    else
-        complain(name, "-o '%s': the name must end in .png or .pfm, or be - for stdout", path);
-    return NULL;
+    static const char *const forms[2] = {"png", "pfm"};
+    int form = output_form(name, path, format, forms);
+    return form < 0 ? NULL : form == 0 ? image_write_png : write_pfm;
 }
 
 /* ---- progress ---- */

@@ -56,16 +56,9 @@ static void write_f32(FILE *file, vndf_vec3 wm, float pdf)
 
 static write_normal *writer_for(const char *path, const char *format)
 {
-    const char *chosen = format ? format : output_is_stdout(path) ? "csv" : output_extension(path);
-    if (strcmp(chosen, "csv") == 0)
-        return write_csv;
-    if (strcmp(chosen, "f32") == 0)
-        return write_f32;
-    if (format)
-        complain(name, "--format '%s' is none of csv and f32", format);
-    else
-        complain(name, "-o '%s': the name has to end in .csv or .f32, or be - for stdout", path);
-    return NULL;
+    static const char *const forms[2] = {"csv", "f32"};
+    int form = output_form(name, path, format, forms);
+    return form < 0 ? NULL : form == 0 ? write_csv : write_f32;
 }
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */

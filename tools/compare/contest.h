@@ -89,9 +89,8 @@ double common_error(const film of[2], const film exact[2], double *noise);
 /* Errors of every pixel for a map: |I - R| / (R + floor). */
 void error_map(const film *of, const film *reference, float *relative);
 
-/* Luminance of a pixel's mean, and the variance of that mean. */
+/* Luminance of the mean of a pixel. */
 double film_light(const film *f, size_t pixel);
-double film_variance(const film *f, size_t pixel);
 
 /* Mean luminance of all pixels. */
 double film_mean(const film *f);

@@ -13,8 +13,8 @@ double film_light(const film *f, size_t pixel)
     return (0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / (double)f->samples;
 }
 
-/* 0 of one sample, and of an image that was read. */
-double film_variance(const film *f, size_t pixel)
+/* Of the mean of a pixel; 0 for one sample, and for an image that was read. */
+static double film_variance(const film *f, size_t pixel)
 {
     double n = (double)f->samples, mean = film_light(f, pixel);
     return f->samples < 2 ? 0 : fmax(f->square[pixel] / n - mean * mean, 0) / (n - 1);

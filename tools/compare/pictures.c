@@ -134,7 +134,8 @@ int choose_crops(const contest *c, float exposure, crop crops[CROPS])
     return good;
 }
 
-int crop_factor(const crop *where)
+/* How often a pixel of a crop is repeated. */
+static int crop_factor(const crop *where)
 {
     return (CROP_MAGNIFIED + where->width - 1) / where->width;
 }

@@ -14,9 +14,6 @@ enum { CROPS = 2, CROP_MAGNIFIED = 320 /* pixels across, at least, when it is sh
  * Their size follows the film's. 0 if there is no memory. */
 int choose_crops(const contest *c, float exposure, crop crops[CROPS]);
 
-/* How often a pixel of a crop is repeated. */
-int crop_factor(const crop *where);
-
 /* 0 if there is no memory or the file takes no more. */
 int picture_of_film(FILE *file, const film *f, float exposure);
 

@@ -89,9 +89,6 @@ extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
                                  vndf_error *error);
 
-/* Index ratio of what transmits. */
-extern const float effects_eta;
-
 /* ---- inputs ------------------------------------------------------------------------------------- */
 
 typedef struct effects_block {
@@ -125,6 +122,9 @@ typedef struct effects_row {
     double max_weight, variance;
     double efficiency; /* 1/(variance ns) over that of visible normals */
 } effects_row;
+
+/* Nothing was measured. */
+extern const effects_row effects_nothing;
 
 enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 48 * EFFECTS_DISTRIBUTIONS_MAX };
 

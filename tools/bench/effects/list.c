@@ -13,10 +13,7 @@ static const double variance_thetas[] = {0, 30, 60, 85};
 static const char bare_name[] = "bare reflection", bounded_name[] = "bounded normals";
 static const char variance_name[] = "variance";
 
-static effects_row empty_row(void)
-{
-    return (effects_row){0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-}
+const effects_row effects_nothing = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 
 /* The next entry, for the cost table; the material stays where it is made. */
 static vndf_status add(effects_list *list, const effects_named *of, const effects_set *set, const float alpha[2],
@@ -28,7 +25,7 @@ static vndf_status add(effects_list *list, const effects_named *of, const effect
     e->theta = NAN;
     e->of_variance = e->shown = e->needed = 0;
     e->bare = e->visible = EFFECTS_NONE;
-    e->row = empty_row();
+    e->row = effects_nothing;
     vndf_status status = effects_subject_make(&e->subject, set, &surface, error);
     list->count += status == VNDF_OK;
     return status;

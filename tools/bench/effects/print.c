@@ -162,22 +162,20 @@ static size_t distributions_of(const effects_list *list, const char *of[EFFECTS_
 static void side_by_side(text_table *t, const effects_list *list, const char *set, const char *const *of,
                          size_t count)
 {
-    static const effects_entry none = {
-        .row = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN}};
     const effects_entry *e = NULL;
     table_row(t);
     table_text(t, "effects", set);
     for (size_t k = 0; k < count; k++) {
         char heading[256];
         e = find(list, set, of[k]);
-        const effects_row *r = e ? &e->row : &none.row;
+        const effects_row *r = e ? &e->row : &effects_nothing;
         snprintf(heading, sizeof heading, "%s: ns", of[k]);
         time_or_wrong(t, heading, r);
         table_number(t, "instr", "%.0f", r->instructions);
         table_time(t, "eval", r->eval_ns);
         table_time(t, "pdf", r->pdf_ns);
     }
-    worth_columns(t, e ? &e->row : &none.row);
+    worth_columns(t, e ? &e->row : &effects_nothing);
 }
 
 static int print_side_by_side(FILE *file, const effects_list *list)

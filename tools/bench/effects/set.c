@@ -4,7 +4,7 @@
 
 #include "bench/effects/effects.h"
 
-const float effects_eta = 1.5f;
+static const float index_ratio = 1.5f; /* of what transmits */
 
 static const char bare[] = "bare reflection";
 
@@ -72,7 +72,7 @@ static const effects_loops *loops_of(const effects_set *set)
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
                                  vndf_error *error)
 {
-    vndf_description is = {.distribution = surface->distribution, .effects = set->effects, .eta = effects_eta};
+    vndf_description is = {.distribution = surface->distribution, .effects = set->effects, .eta = index_ratio};
     memset(subject, 0, sizeof *subject);
     subject->set = set;
     subject->loops = loops_of(set);

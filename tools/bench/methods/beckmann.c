@@ -72,8 +72,9 @@ static inline float slope_along(const beckmann_view *v, float u1)
     return x;
 }
 
-static inline vndf_vec3 draw(const beckmann_view *v, float u1, float u2, float *pdf)
+static inline vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
 {
+    const beckmann_view *v = view;
     float a = v->alpha, x = slope_along(v, u1), y = erf_inverse(2.0f * fmaxf(u2, 1e-6f) - 1.0f);
     vndf_vec3 m = method_normal(&v->turn, a, x, y);
     float z2 = m.z * m.z;
@@ -97,13 +98,8 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    const method_input *first = &in->at[0];
-    beckmann_view v = view_from(first->wi, first->alpha);
-    for (size_t i = 0; i < in->count; i++) {
-        float pdf;
-        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    beckmann_view v = view_from(in->at[0].wi, in->at[0].alpha);
+    method_shared_loop(draw, &v, in, out);
 }
 
 method method_beckmann_newton(void)

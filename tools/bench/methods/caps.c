@@ -18,8 +18,9 @@ static inline caps_view view_from(vndf_vec3 wi, float alpha)
     return v;
 }
 
-static inline vndf_vec3 draw(const caps_view *v, float u1, float u2, float *pdf)
+static inline vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
 {
+    const caps_view *v = view;
     float phi = 2 * method_pi * u1, z = (1.0f - u2) * (1.0f + v->w.z) - v->w.z, a = v->alpha;
     float s = sqrtf(fmaxf(0.0f, 1.0f - z * z));
     vndf_vec3 m = method_unit(a * (s * cosf(phi) + v->w.x), a * (s * sinf(phi) + v->w.y), z + v->w.z);
@@ -43,13 +44,8 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    const method_input *first = &in->at[0];
-    caps_view v = view_from(first->wi, first->alpha);
-    for (size_t i = 0; i < in->count; i++) {
-        float pdf;
-        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    caps_view v = view_from(in->at[0].wi, in->at[0].alpha);
+    method_shared_loop(draw, &v, in, out);
 }
 
 method method_ggx_caps(void)

@@ -26,8 +26,9 @@ static inline disc_view view_from(vndf_vec3 wi, float alpha)
     return v;
 }
 
-static inline vndf_vec3 draw(const disc_view *v, float u1, float u2, float *pdf)
+static inline vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
 {
+    const disc_view *v = view;
     float r = sqrtf(u1), phi = 2 * method_pi * u2, a = v->alpha;
     float p = r * cosf(phi), rest = 1.0f - p * p;
     float q = (1.0f - v->squeeze) * sqrtf(rest) + v->squeeze * r * sinf(phi);
@@ -55,13 +56,8 @@ static void each(const method *m, const method_inputs *in, const method_outputs 
 static void shared(const method *m, const method_inputs *in, const method_outputs *out)
 {
     (void)m;
-    const method_input *first = &in->at[0];
-    disc_view v = view_from(first->wi, first->alpha);
-    for (size_t i = 0; i < in->count; i++) {
-        float pdf;
-        vndf_vec3 wm = draw(&v, in->at[i].u1, in->at[i].u2, &pdf);
-        method_put(out, i, wm, pdf);
-    }
+    disc_view v = view_from(in->at[0].wi, in->at[0].alpha);
+    method_shared_loop(draw, &v, in, out);
 }
 
 method method_ggx_2018(void)

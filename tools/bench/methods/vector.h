@@ -38,6 +38,17 @@ static inline void method_loop(method_one *one, const method *m, const method_in
     }
 }
 
+/* And the loop of its `shared`: all samples are drawn from one view, of whatever type the method has. */
+static inline void method_shared_loop(vndf_vec3 (*draw)(const void *view, float u1, float u2, float *pdf),
+                                      const void *view, const method_inputs *in, const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        float pdf;
+        vndf_vec3 wm = draw(view, in->at[i].u1, in->at[i].u2, &pdf);
+        method_put(out, i, wm, pdf);
+    }
+}
+
 /* The direction of the unit problem: stretched by alpha, turned about z so that its y is 0. */
 typedef struct method_turn {
     float s, c;             /* the unit direction (s, 0, c) */
