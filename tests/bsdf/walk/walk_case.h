@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "bsdf/walk/walk.h"
+#include "oracle/oracle.h"
 #include "measure/pearson.h"
 #include "measure/statistics.h"
 #include "harness/constants.h"
@@ -30,14 +31,10 @@ static inline const char *walk_subject_name(int i)
 /* Freed at the end of the process: vndf_free of a closed form does nothing. */
 static inline const vndf_distribution *walk_subject(int i)
 {
-    char path[512];
-    vndf_error error = {VNDF_OK, ""};
     if (i < 2)
         return i ? vndf_beckmann() : vndf_ggx();
-    snprintf(path, sizeof path, "%s/tables/%s.vndf", VNDF_SOURCE_DIR, walk_subject_name(i));
-    vndf_distribution *d = vndf_load(path, &error);
-    if (!TEST(d != NULL))
-        fprintf(stderr, "%s\n", error.message);
+    const vndf_distribution *d = oracle_shipped(walk_subject_name(i));
+    TEST(d != NULL);
     return d;
 }
 
