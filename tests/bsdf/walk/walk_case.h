@@ -7,8 +7,8 @@
 
 #include "bsdf/walk/walk.h"
 #include "oracle/oracle.h"
-#include "measure/pearson.h"
 #include "measure/statistics.h"
+#include "statistics/grid.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 
@@ -161,13 +161,17 @@ static inline int walk_agree(const walk_mean *a, const walk_mean *b, double sigm
 
 enum { WALK_HEIGHTS = 12, WALK_TURNS = 8, WALK_BINS = WALK_HEIGHTS * WALK_TURNS };
 
-static inline int walk_bin(vndf_vec3 w)
+static inline void walk_bins(grid *g)
 {
-    int height = (int)((w.z + 1.0) * 0.5 * WALK_HEIGHTS);
-    int turn = (int)((atan2((double)w.y, (double)w.x) + PI) / (2.0 * PI) * WALK_TURNS);
-    height = height < 0 ? 0 : height >= WALK_HEIGHTS ? WALK_HEIGHTS - 1 : height;
-    turn = turn < 0 ? 0 : turn >= WALK_TURNS ? WALK_TURNS - 1 : turn;
-    return height * WALK_TURNS + turn;
+    grid_even(g, WALK_HEIGHTS, -1, 1, WALK_TURNS, -PI, PI);
+}
+
+static inline size_t walk_bin(vndf_vec3 w)
+{
+    static grid g;
+    if (!g.rows)
+        walk_bins(&g);
+    return grid_bin(&g, (double)w.z, atan2((double)w.y, (double)w.x));
 }
 
 #endif
