@@ -1,5 +1,6 @@
 /* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is
  * not. */
+#include "oracle/oracle.h"
 #include "harness/test.h"
 #include "vndf_build.h"
 
@@ -47,20 +48,11 @@ static const char *const resolved[] = {
     "(1-cos(r))/r^2*exp(-r)",   /* few digits near 0 */
 };
 
-static vndf_distribution *build(const char *slope, vndf_error *error)
-{
-    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
-    vndf_build_options options = {.max_bytes = 4096};
-    vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
-    vndf_source_free(source);
-    return table;
-}
-
 static void test_refusals(void)
 {
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         vndf_error error = {VNDF_OK, ""};
-        vndf_distribution *table = build(refusals[i].slope, &error);
+        vndf_distribution *table = oracle_build_of(refusals[i].slope, 4096, NULL, &error);
         if (!(TEST(!table) & TEST(error.status == VNDF_ERROR_DISTRIBUTION) &
               TEST_HAS(error.message, refusals[i].reason)))
             fprintf(stderr, "  %s: %s\n", refusals[i].slope, error.message);
@@ -71,7 +63,7 @@ static void test_refusals(void)
 static void test_accepted(const char *slope)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = build(slope, &error);
+    vndf_distribution *table = oracle_build_of(slope, 4096, NULL, &error);
     if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
         fprintf(stderr, "  %s: %s\n", slope, error.message);
     vndf_free(table);

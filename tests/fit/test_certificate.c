@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "fit/certificate/survey.h"
+#include "oracle/oracle.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf_build.h"
@@ -88,12 +89,6 @@ static const struct subject {
     {"1/(0.01+(r-1)^2)^2", 0, 0},
 };
 
-static vndf_source *open_source(const char *name)
-{
-    vndf_source *family = vndf_source_family(name, NULL);
-    return family ? family : vndf_source_slope_expression(name, NULL, 0, NULL);
-}
-
 /* What is worst over some directions. */
 typedef struct worst {
     double tv, tv_theta, above, max_weight, area_error;
@@ -159,7 +154,7 @@ static void test_dense(const struct subject *s, const vndf_source *source, const
 static void test_subject(const struct subject *s, int count)
 {
     vndf_certificate claim;
-    vndf_source *source = open_source(s->name);
+    vndf_source *source = oracle_source_of(s->name, NULL);
     vndf_distribution *table = source ? vndf_build(source, NULL, &claim, NULL) : NULL;
     if (TEST(table != NULL))
         test_dense(s, source, table, &claim, count);
@@ -182,14 +177,11 @@ static void test_needles(void)
     };
     for (size_t i = 0; i < sizeof needles / sizeof *needles; i++) {
         vndf_certificate claim = {0};
-        vndf_build_options small = {.max_bytes = 4096};
-        vndf_source *source = vndf_source_slope_expression(needles[i].p22, NULL, 0, NULL);
-        vndf_distribution *table = source ? vndf_build(source, &small, &claim, NULL) : NULL;
+        vndf_distribution *table = oracle_build_of(needles[i].p22, 4096, &claim, NULL);
         TEST(table != NULL);
         if (!(TEST(claim.tv > needles[i].least && claim.tv < needles[i].most) & TEST(claim.ndf_error > 100)))
             fprintf(stderr, "  %s certifies TV %.4g\n", needles[i].p22, (double)claim.tv);
         vndf_free(table);
-        vndf_source_free(source);
     }
 }
 
@@ -197,9 +189,7 @@ static void test_needles(void)
  * together, on the far side: next to the edge so little is seen that a step of floats shows. */
 static void test_edge(void)
 {
-    vndf_build_options small = {.max_bytes = 4096};
-    vndf_source *source = vndf_source_slope_expression("step(1-r)", NULL, 0, NULL);
-    vndf_distribution *table = source ? vndf_build(source, &small, NULL, NULL) : NULL;
+    vndf_distribution *table = oracle_build_of("step(1-r)", 4096, NULL, NULL);
     double nearest = 1;
     for (uint32_t j = 0; TEST(table != NULL) && j < table->radial_count; j++) {
         double slope = (double)table->knots.at[j].x / (double)table->knots.at[j].z * table->scale;
@@ -208,7 +198,6 @@ static void test_edge(void)
     if (!TEST(nearest >= -1e-12 && nearest < 3e-8))
         fprintf(stderr, "  the knot stands %.3g beyond the edge\n", nearest);
     vndf_free(table);
-    vndf_source_free(source);
 }
 
 /* D of student-t:1.7 grows as cos^-0.6 towards the horizon; that of GGX has a limit there. */
@@ -220,16 +209,13 @@ static void test_horizon(void)
     } cases[] = {{"student-t:1.7", -0.6}, {"ggx", 0}};
     for (int i = 0; i < 2; i++) {
         vndf_certificate claim = {0};
-        vndf_build_options small = {.max_bytes = 4096};
-        vndf_source *source = vndf_source_family(cases[i].name, NULL);
-        vndf_distribution *table = source ? vndf_build(source, &small, &claim, NULL) : NULL;
+        vndf_distribution *table = oracle_build_of(cases[i].name, 4096, &claim, NULL);
         TEST(table != NULL);
         TEST_NEAR(claim.horizon_power, cases[i].power, 1e-3);
         TEST(claim.weight_bounded == (float)(cases[i].power == 0));
         TEST(cases[i].power == 0 ? claim.max_weight < 3 : claim.max_weight > 1000); /* 1e-6 is far out there */
         TEST(claim.tv_above <= claim.tv && claim.tv_above > 0 && claim.tv_above_theta <= 90);
         vndf_free(table);
-        vndf_source_free(source);
     }
 }
 

@@ -151,18 +151,10 @@ static void test_stated_size(void)
 
 /* ---- builds ---- */
 
-static vndf_distribution *build_slope(const char *slope, vndf_error *error)
-{
-    vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, error);
-    vndf_distribution *table = source ? vndf_build(source, NULL, NULL, error) : NULL;
-    vndf_source_free(source);
-    return table;
-}
-
 static void test_panels(void)
 {
     vndf_error error = {VNDF_OK, ""};
-    TEST(!build_slope("step(sin(1e3*r))*exp(-r)", &error) && error.status == VNDF_ERROR_DISTRIBUTION);
+    TEST(!oracle_build_of("step(sin(1e3*r))*exp(-r)", 0, NULL, &error) && error.status == VNDF_ERROR_DISTRIBUTION);
     TEST_HAS(error.message, "not resolved by 60000 panels");
 }
 

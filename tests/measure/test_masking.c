@@ -127,9 +127,7 @@ static void test_verdicts(const vndf_distribution *d, const char *name)
 
 static void test_table(const char *name)
 {
-    char path[512];
-    snprintf(path, sizeof path, "%s/tables/%s.vndf", VNDF_SOURCE_DIR, name);
-    vndf_distribution *d = vndf_load(path, NULL);
+    vndf_distribution *d = oracle_shipped(name);
     test_verdicts(d, name);
     vndf_free(d);
 }

@@ -201,6 +201,32 @@ vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certific
     return table;
 }
 
+vndf_source *oracle_source_of(const char *text, vndf_error *error)
+{
+    vndf_source *family = vndf_source_family(text, NULL);
+    return family ? family : vndf_source_slope_expression(text, NULL, 0, error);
+}
+
+vndf_distribution *oracle_build_of(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error)
+{
+    const vndf_build_options options = {.max_bytes = max_bytes};
+    vndf_source *source = oracle_source_of(text, error);
+    vndf_distribution *table = source ? vndf_build(source, &options, claim, error) : NULL;
+    vndf_source_free(source);
+    return table;
+}
+
+vndf_distribution *oracle_shipped(const char *name)
+{
+    char path[4096];
+    vndf_error error = {VNDF_OK, ""};
+    snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", name);
+    vndf_distribution *table = vndf_load(path, &error);
+    if (!table)
+        fprintf(stderr, "%s: %s\n", path, error.message);
+    return table;
+}
+
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name)
 {
     char number[24];

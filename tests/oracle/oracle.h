@@ -41,6 +41,13 @@ const char *oracle_name(const oracle *o);
 vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate);
 vndf_source *oracle_source(const oracle *o);
 
+/* The same of a family or a slope expression; claim and error may be NULL. */
+vndf_source *oracle_source_of(const char *text, vndf_error *error);
+vndf_distribution *oracle_build_of(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error);
+
+/* A table of tables/ by its name without .vndf, or NULL after printing why. Free with vndf_free. */
+vndf_distribution *oracle_shipped(const char *name);
+
 double oracle_p22(const oracle *o, double r);
 
 /* integral over slopes of P22 max(0, c + s r cos a): relative error below 1e-9 where it exceeds 1e-200. */

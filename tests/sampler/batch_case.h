@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include "oracle/oracle.h"
 #include "harness/test.h"
 #include "vndf.h"
 
@@ -32,10 +33,7 @@ static inline int batch_main(int arguments, char **argument, batch_test *test)
     test(vndf_beckmann(), "beckmann", only);
     test(NULL, "none", only);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[4096];
-        vndf_error error = {VNDF_OK, ""};
-        snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", names[i]);
-        vndf_distribution *table = vndf_load(path, &error);
+        vndf_distribution *table = oracle_shipped(names[i]);
         if (TEST(table != NULL))
             test(table, names[i], only);
         vndf_free(table);

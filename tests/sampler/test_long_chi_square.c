@@ -47,10 +47,7 @@ static vndf_distribution *table_of(const char *subject, vndf_error *error)
     size_t n = strlen(subject);
     if (n > 5 && strcmp(subject + n - 5, ".vndf") == 0)
         return vndf_load(subject, error);
-    vndf_source *source = vndf_source_slope_expression(subject, NULL, 0, error);
-    vndf_distribution *table = source ? vndf_build(source, NULL, NULL, error) : NULL;
-    vndf_source_free(source);
-    return table;
+    return oracle_build_of(subject, 0, NULL, error);
 }
 
 int main(int argc, char **argv)

@@ -57,10 +57,7 @@ int main(void)
     static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large",
                                         "student-t-1.8", "example"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[4096];
-        vndf_error error = {VNDF_OK, ""};
-        snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s.vndf", names[i]);
-        vndf_distribution *table = vndf_load(path, &error);
+        vndf_distribution *table = oracle_shipped(names[i]);
         if (TEST(table != NULL))
             test_table(table, names[i]);
         vndf_free(table);

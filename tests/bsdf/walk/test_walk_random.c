@@ -2,26 +2,26 @@
  * follow each other or uniform numbers differ in their last bit: chi-square over 64 x 64 cells of pairs, 1e-4
  * each; and the exponential has its mean and variance. */
 #include "bsdf/walk/random.h"
-#include "measure/pearson.h"
+#include "statistics/grid.h"
 #include "harness/test.h"
 
 enum { CELLS = 64, PAIRS = 400000 };
 
-typedef struct grid {
-    double counts[CELLS * CELLS];
-} grid;
-
 static void put(grid *g, double x, double y)
 {
-    g->counts[(int)(x * CELLS) * CELLS + (int)(y * CELLS)] += 1.0;
+    g->observed[grid_bin(g, x, y)] += 1.0;
+}
+
+static void begin(grid *g)
+{
+    grid_even(g, CELLS, 0, 1, CELLS, 0, 1);
+    for (size_t i = 0; i < grid_elsewhere(g); i++)
+        g->expected[i] = (double)PAIRS / (CELLS * CELLS);
 }
 
 static void check(const grid *g)
 {
-    static double expected[CELLS * CELLS];
-    for (int i = 0; i < CELLS * CELLS; i++)
-        expected[i] = (double)PAIRS / (CELLS * CELLS);
-    double p = pearson_of(expected, g->counts, NULL, CELLS * CELLS, 5).p;
+    double p = grid_test(g).p;
     TEST(p > 1e-4 && p < 1.0 - 1e-4);
 }
 
@@ -29,6 +29,8 @@ static void test_within(void)
 {
     static grid numbers, floats;
     vndf_walk_random random = vndf_walk_random_from(1), other = vndf_walk_random_from(2);
+    begin(&numbers);
+    begin(&floats);
     for (int i = 0; i < PAIRS; i++) {
         float u[2];
         double x = vndf_walk_uniform(&random);
@@ -44,6 +46,8 @@ static void test_within(void)
 static void test_between(void)
 {
     static grid seeds, numbers;
+    begin(&seeds);
+    begin(&numbers);
     for (uint64_t i = 0; i < PAIRS; i++) {
         vndf_walk_random a = vndf_walk_random_from(i), b = vndf_walk_random_from(i + 1);
         put(&seeds, vndf_walk_uniform(&a), vndf_walk_uniform(&b));

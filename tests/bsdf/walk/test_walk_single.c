@@ -90,39 +90,37 @@ static void test_formula(const model *m, double cosine)
     TEST(most > 0.0);
 }
 
-/* Midpoints, denser in height: about z the narrowest lobe here has cosines within 0.015. */
-static double expected_of(const model *m, const double i[3], int bin)
+typedef struct lit {
+    const model *m;
+    double i[3];
+} lit;
+
+static double single_towards(double z, double phi, const void *of)
 {
-    enum { UP = 500, ROUND = 10 };
-    double sum = 0.0;
-    for (int j = 0; j < UP * ROUND; j++) {
-        double z = -1.0 + 2.0 * (bin / WALK_TURNS + (j / ROUND + 0.5) / UP) / WALK_HEIGHTS;
-        double phi = -PI + 2.0 * PI * (bin % WALK_TURNS + (j % ROUND + 0.5) / ROUND) / WALK_TURNS;
-        double s = sqrt(1.0 - z * z), o[3] = {s * cos(phi), s * sin(phi), z};
-        sum += single(m, i, o);
-    }
-    return sum * 4.0 * PI / WALK_BINS / (UP * ROUND);
+    const lit *l = of;
+    double s = sqrt(1.0 - z * z), o[3] = {s * cos(phi), s * sin(phi), z};
+    return single(l->m, l->i, o);
 }
 
 static void test_samples(const model *m, double cosine, double level)
 {
+    static grid g;
     size_t count = walk_count(400000);
-    double counts[WALK_BINS + 1] = {0}, expected[WALK_BINS + 1] = {0}, left = (double)count, i[3];
     vndf_walk walk = walk_for(m);
     vndf_view view = view_of(m, cosine);
     unsigned long long state = 99;
+    lit l = {m, {0}};
+    widen(view.wi, l.i);
+    walk_bins(&g);
+    grid_expect(&g, single_towards, &l, (double)count, 1e-7);
     for (size_t k = 0; k < count; k++) {
         float u[3];
         vndf_walked w;
         walk_numbers(&state, u);
         vndf_walk_sample(&walk, &view, u, &w);
-        counts[w.lobe == VNDF_LOBE_NONE ? WALK_BINS : walk_bin(w.wo)] += 1.0;
+        g.observed[w.lobe == VNDF_LOBE_NONE ? grid_elsewhere(&g) : walk_bin(w.wo)] += 1.0;
     }
-    widen(view.wi, i);
-    for (int b = 0; b < WALK_BINS; b++)
-        left -= expected[b] = expected_of(m, i, b) * (double)count;
-    expected[WALK_BINS] = fmax(left, 0.0);
-    pearson found = pearson_of(expected, counts, NULL, WALK_BINS + 1, 20);
+    pearson found = grid_test(&g);
     if (!TEST(found.p > level && found.classes > 6))
         fprintf(stderr, "  beckmann %d, alpha %g %g, eta %g, cos %g: p %g, %lu classes\n", m->beckmann, m->ax,
                 m->ay, m->eta, cosine, found.p, (unsigned long)found.classes);

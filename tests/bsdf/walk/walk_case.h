@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 #include "bsdf/walk/walk.h"
-#include "measure/pearson.h"
+#include "oracle/oracle.h"
 #include "measure/statistics.h"
+#include "statistics/grid.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 
@@ -30,14 +31,10 @@ static inline const char *walk_subject_name(int i)
 /* Freed at the end of the process: vndf_free of a closed form does nothing. */
 static inline const vndf_distribution *walk_subject(int i)
 {
-    char path[512];
-    vndf_error error = {VNDF_OK, ""};
     if (i < 2)
         return i ? vndf_beckmann() : vndf_ggx();
-    snprintf(path, sizeof path, "%s/tables/%s.vndf", VNDF_SOURCE_DIR, walk_subject_name(i));
-    vndf_distribution *d = vndf_load(path, &error);
-    if (!TEST(d != NULL))
-        fprintf(stderr, "%s\n", error.message);
+    const vndf_distribution *d = oracle_shipped(walk_subject_name(i));
+    TEST(d != NULL);
     return d;
 }
 
@@ -164,13 +161,17 @@ static inline int walk_agree(const walk_mean *a, const walk_mean *b, double sigm
 
 enum { WALK_HEIGHTS = 12, WALK_TURNS = 8, WALK_BINS = WALK_HEIGHTS * WALK_TURNS };
 
-static inline int walk_bin(vndf_vec3 w)
+static inline void walk_bins(grid *g)
 {
-    int height = (int)((w.z + 1.0) * 0.5 * WALK_HEIGHTS);
-    int turn = (int)((atan2((double)w.y, (double)w.x) + PI) / (2.0 * PI) * WALK_TURNS);
-    height = height < 0 ? 0 : height >= WALK_HEIGHTS ? WALK_HEIGHTS - 1 : height;
-    turn = turn < 0 ? 0 : turn >= WALK_TURNS ? WALK_TURNS - 1 : turn;
-    return height * WALK_TURNS + turn;
+    grid_even(g, WALK_HEIGHTS, -1, 1, WALK_TURNS, -PI, PI);
+}
+
+static inline size_t walk_bin(vndf_vec3 w)
+{
+    static grid g;
+    if (!g.rows)
+        walk_bins(&g);
+    return grid_bin(&g, (double)w.z, atan2((double)w.y, (double)w.x));
 }
 
 #endif
