@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "table/area_piece.h"
 #include "table/guide.h"
@@ -437,4 +438,18 @@ int vndf_table_derive(vndf_distribution *table)
     derive_blocks(table);
     return vndf_windows_make(table) && derive_slopes(table) && derive_wedge(&table->above) &&
            derive_wedge(&table->below);
+}
+
+static size_t guide_bytes(const vndf_wedge *wedge)
+{
+    return vndf_guide_bytes(&wedge->row_guide, vndf_row_knots(wedge->row_count)) +
+           vndf_guide_bytes(&wedge->knot_guide, wedge->knot_count);
+}
+
+size_t vndf_table_memory(const vndf_distribution *table)
+{
+    size_t texts = strlen(table->source) + strlen(table->tool) + 2;
+    size_t guides = vndf_guide_bytes(&table->slope_guide, table->radial_count + 1) + guide_bytes(&table->above) +
+                    guide_bytes(&table->below);
+    return sizeof *table + table->block_bytes + vndf_windows_bytes(&table->windows) + guides + texts;
 }

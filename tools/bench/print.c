@@ -6,16 +6,18 @@
 #include "bench/parts.h"
 #include "bench/cells.h"
 
-enum { COLUMNS = 12 };
+enum { COLUMNS = 13 };
 
 typedef struct cells {
     char of[COLUMNS][CELL];
 } cells;
 
-static const char *const headings[COLUMNS] = {"bytes", "ns",     "spread", "shared", "latency",   "ratio",
-                                              "TV",    "weight", "eff 60", "eff 85", "eff light", "bias 60, 85"};
+static const char *const headings[COLUMNS] = {"memory",  "file",      "ns",         "spread", "shared",
+                                              "latency", "ratio",     "TV",         "weight", "eff 60",
+                                              "eff 85",  "eff light", "bias 60, 85"};
 
 static const char legend[] =
+    "memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
     "quartiles);\n"
     "shared: many samples for one direction; latency: each waits for the last; ratio: to spherical caps, scalar.\n"
@@ -40,20 +42,24 @@ static void biases(char cell[CELL], const double bias[2])
 
 static void fill(cells *c, const bench_row *row)
 {
-    size(c->of[0], row->bytes);
-    cell_time(c->of[1], row->ns);
-    cell_number(c->of[2], "%.1f%%", 50 * (row->ns_high - row->ns_low) / row->ns);
-    cell_time(c->of[3], row->shared_ns);
-    cell_time(c->of[4], row->latency_ns);
-    cell_number(c->of[5], "%.3g", row->ratio);
-    cell_number(c->of[6], row->tv < 1e-9 ? "%.0f" : "%.1e", row->tv);
-    cell_number(c->of[7], "%.4g", row->max_weight);
-    cell_number(c->of[8], "%.3g", row->efficiency[0]);
-    cell_number(c->of[9], "%.3g", row->efficiency[1]);
-    cell_number(c->of[10], "%.3g", row->efficiency_light);
-    biases(c->of[11], row->bias);
+    size(c->of[0], row->memory);
+    if (row->file_bytes)
+        size(c->of[1], row->file_bytes);
+    else
+        snprintf(c->of[1], CELL, "-");
+    cell_time(c->of[2], row->ns);
+    cell_number(c->of[3], "%.1f%%", 50 * (row->ns_high - row->ns_low) / row->ns);
+    cell_time(c->of[4], row->shared_ns);
+    cell_time(c->of[5], row->latency_ns);
+    cell_number(c->of[6], "%.3g", row->ratio);
+    cell_number(c->of[7], row->tv < 1e-9 ? "%.0f" : "%.1e", row->tv);
+    cell_number(c->of[8], "%.4g", row->max_weight);
+    cell_number(c->of[9], "%.3g", row->efficiency[0]);
+    cell_number(c->of[10], "%.3g", row->efficiency[1]);
+    cell_number(c->of[11], "%.3g", row->efficiency_light);
+    biases(c->of[12], row->bias);
     if (row->wrong)
-        snprintf(c->of[1], CELL, "wrong");
+        snprintf(c->of[2], CELL, "wrong");
 }
 
 /* ---- text -------------------------------------------------------------------------------------- */
@@ -120,9 +126,10 @@ static const char *kind_name(bench_kind kind)
 
 void bench_print_csv(FILE *file, const bench_rows *rows)
 {
-    fputs("method,distribution,instructions,kind,bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,"
-          "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
-          file);
+    fputs(
+        "method,distribution,instructions,kind,memory,file_bytes,wrong,ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,"
+        "tv_theta,max_weight,efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
+        file);
     for (size_t i = 0; i < rows->count; i++) {
         const bench_row *r = &rows->row[i];
         const double numbers[] = {
@@ -132,7 +139,8 @@ void bench_print_csv(FILE *file, const bench_rows *rows)
         csv_text(file, r->method);
         fputc(',', file);
         csv_text(file, r->distribution);
-        fprintf(file, ",%s,%s,%zu,%d", r->instructions, kind_name(r->kind), r->bytes, r->wrong);
+        fprintf(file, ",%s,%s,%zu,%zu,%d", r->instructions, kind_name(r->kind), r->memory, r->file_bytes,
+                r->wrong);
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
             csv_number(file, numbers[k]);
         fputs("\n", file);

@@ -147,7 +147,7 @@ static void write_row(FILE *html, const report_table *t, int chosen)
     verdict v = judge(t);
     report_bytes_text(size, (double)t->info.bytes);
     fprintf(html, "<tr%s><td>%s%s</td>", chosen ? " class=\"chosen\"" : "", size, chosen ? " ✓" : "");
-    fprintf(html, "<td>%zu</td>", t->info.bytes);
+    fprintf(html, "<td>%zu</td><td>%zu</td>", t->info.bytes, t->info.memory);
     write_cell(html, "%.2e", v.value[2], v.kept[2]);
     fprintf(html, "<td>%.2e</td>", t->tv_above);
     write_cell(html, "%.3g", v.value[0], v.kept[0]);
@@ -161,11 +161,12 @@ static void write_table(FILE *html, const report_subject *s)
 {
     fputs("<h3>", html);
     chart_escape(html, s->name);
-    fputs("</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes</th>"
-          "<th>total variation</th><th>above the horizon</th><th>largest weight</th>"
-          "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
-          "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n",
-          html);
+    fputs(
+        "</h3>\n<div class=\"scroll\"><table><thead><tr><th>size</th><th>bytes of the file</th><th>in memory</th>"
+        "<th>total variation</th><th>above the horizon</th><th>largest weight</th>"
+        "<th>added variance</th><th>area, G1 error</th><th>ns, one by one</th><th>ns, batch</th>"
+        "<th>ns, batch, one direction</th></tr></thead>\n<tbody>\n",
+        html);
     for (size_t i = 0; i < s->count; i++)
         write_row(html, &s->table[i], i == s->chosen);
     fputs("</tbody></table></div>\n", html);
@@ -176,16 +177,17 @@ static int write_data(html_page *page, const report *r)
     FILE *data = page_file_begin(page, "tables.csv");
     if (!data)
         return 0;
-    fputs("distribution,bytes,tv,tv_theta_deg,max_weight,weight_bounded,added_variance,area_error,consistency,"
-          "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n",
-          data);
+    fputs(
+        "distribution,bytes,memory,tv,tv_theta_deg,max_weight,weight_bounded,added_variance,area_error,consistency,"
+        "ndf_error,tv_here,tv_above,ns,batch_ns,batch_shared_ns,chosen\n",
+        data);
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             const report_table *t = &r->subject[k].table[i];
             const vndf_certificate *c = &t->info.certificate;
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n",
-                    t->info.bytes, (double)c->tv, (double)c->tv_theta, (double)c->max_weight,
+            fprintf(data, ",%zu,%zu,%.5g,%.4g,%.5g,%.0f,%.5g,%.4g,%.4g,%.4g,%.5g,%.5g,%.4g,%.4g,%.4g,%d\n",
+                    t->info.bytes, t->info.memory, (double)c->tv, (double)c->tv_theta, (double)c->max_weight,
                     (double)c->weight_bounded, t->worst.variance, (double)c->area_error, (double)c->consistency,
                     (double)c->ndf_error, t->worst.tv, t->tv_above, t->time.view + t->time.sample, t->time.batch,
                     t->time.batch_shared, i == r->subject[k].chosen);

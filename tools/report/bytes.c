@@ -1,4 +1,4 @@
-/* Error against bytes: a curve over its tables for each distribution, and other methods that have tables as
+/* Error against bytes in memory: a curve over its tables for each distribution, and other methods that have tables as
  * points. */
 #include <math.h>
 #include <stdio.h>
@@ -21,10 +21,10 @@ static void collect_others(const bench_rows *rows, byte_points *points)
     points->count = 0;
     for (size_t i = 0; i < rows->count && points->count < ROWS_MAX; i++) {
         const bench_row *row = &rows->row[i];
-        if (row->kind != BENCH_PUBLISHED || row->bytes == 0 || !(row->tv > 0))
+        if (row->kind != BENCH_PUBLISHED || row->memory == 0 || !(row->tv > 0))
             continue;
         size_t at = points->count++;
-        points->x[at] = (double)row->bytes;
+        points->x[at] = (double)row->memory;
         points->y[at] = row->tv;
         snprintf(points->label[at], LABEL, "%s", row->method);
         points->text[at] = points->label[at];
@@ -56,18 +56,19 @@ static int write_data(html_page *page, const report *r, const byte_points *other
     FILE *data = page_file_begin(page, "bytes.csv");
     if (!data)
         return 0;
-    fputs("method,distribution,bytes,tv\n", data);
+    fputs("method,distribution,memory,file_bytes,tv\n", data);
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             fputs("table,", data);
             page_field(data, r->subject[k].name);
-            fprintf(data, ",%zu,%.5g\n", r->subject[k].table[i].info.bytes, r->subject[k].table[i].tv);
+            const report_table *t = &r->subject[k].table[i];
+            fprintf(data, ",%zu,%zu,%.5g\n", t->info.memory, t->info.bytes, t->tv);
         }
     for (size_t i = 0; i < others->count; i++) {
         page_field(data, others->label[i]);
         fputc(',', data);
         page_field(data, r->subject[0].name);
-        fprintf(data, ",%.0f,%.5g\n", others->x[i], others->y[i]);
+        fprintf(data, ",%.0f,0,%.5g\n", others->x[i], others->y[i]);
     }
     return page_data_end(page, "total variation of each size");
 }
@@ -92,7 +93,7 @@ int report_write_bytes(html_page *page, const report *r)
     byte_points others;
     for (size_t k = 0; k < r->count; k++) {
         for (size_t i = 0; i < r->subject[k].count; i++) {
-            x[k][i] = (double)r->subject[k].table[i].info.bytes;
+            x[k][i] = (double)r->subject[k].table[i].info.memory;
             y[k][i] = r->subject[k].table[i].tv;
         }
         shorten(r->subject[k].name, label[k]);
@@ -107,7 +108,7 @@ int report_write_bytes(html_page *page, const report *r)
                1080,
                460,
                270,
-               {CHART_BYTES, 0, 0, 0, "size of the table"},
+               {CHART_BYTES, 0, 0, 0, "memory that the table takes"},
                {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
                NULL,
                0,
@@ -118,8 +119,8 @@ int report_write_bytes(html_page *page, const report *r)
     fit_axes(&c);
     page_section(
         page, "bytes", "Error against bytes",
-        "The largest total variation over all directions, by the size of the table. Curves: tables of this "
-        "library. Crosses: other methods that keep tables, for the first distribution.");
+        "The largest total variation over all directions, by the memory that a loaded table takes. Curves: "
+        "tables of this library. Crosses: other methods that keep tables, for the first distribution.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("</figure>\n", page->html);

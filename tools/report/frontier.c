@@ -57,8 +57,8 @@ static void label_row(const bench_row *row, char label[LABEL])
     const char *batch = strstr(row->method, ", batch");
     int length = batch ? (int)(batch - row->method) : (int)strlen(row->method);
     if (row->kind == BENCH_TABLE)
-        report_bytes_text(label, (double)row->bytes);
-    else if (names_distribution(row) || row->bytes > 0)
+        report_bytes_text(label, (double)row->file_bytes);
+    else if (names_distribution(row) || row->memory > 0)
         snprintf(label, LABEL, "%.*s", length, row->method);
     else
         snprintf(label, LABEL, "%.*s, %s", length, row->method, row->distribution);
@@ -173,7 +173,7 @@ static int write_data(html_page *page, const bench_rows *rows)
     FILE *data = page_file_begin(page, "frontier.csv");
     if (!data)
         return 0;
-    fputs("method,distribution,instructions,bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
+    fputs("method,distribution,instructions,memory,file_bytes,ns,ns_low,ns_high,ratio,tv,tv_theta_deg,max_weight,"
           "efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85\n",
           data);
     for (size_t i = 0; i < rows->count; i++) {
@@ -185,7 +185,7 @@ static int write_data(html_page *page, const bench_rows *rows)
         page_field(data, row->method);
         fputc(',', data);
         page_field(data, row->distribution);
-        fprintf(data, ",%s,%zu", row->instructions, row->bytes);
+        fprintf(data, ",%s,%zu,%zu", row->instructions, row->memory, row->file_bytes);
         for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
             write_number(data, values[k]);
         fputc('\n', data);

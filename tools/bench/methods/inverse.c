@@ -179,7 +179,7 @@ method method_inverse_tables(const method_truth *truth, size_t side)
     inverse_tables *t = tables_of(side, truth->scale);
     double *mass = malloc(2 * FINE * sizeof *mass);
     snprintf(m.name, sizeof m.name, "inverse CDFs (2014), 2 x %zu^2", side);
-    m.bytes = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
+    m.memory = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
     if (t && mass) {
         fill_across(t, truth, mass);
         fill_marginal(truth, mass + FINE);
