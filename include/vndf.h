@@ -141,6 +141,7 @@ typedef struct vndf_info {
     const char *source;   /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
     const char *tool;     /* version that made it, "vndf 0.1.0" */
     size_t bytes;         /* size of the table file; 0 for closed forms */
+    size_t memory;        /* bytes that the loaded table takes, all its allocations together; 0 for closed forms */
     size_t radial_cells;  /* cells of the radial table */
     size_t azimuth_rows;  /* rows of the azimuth tables, above and below the horizon together */
     size_t azimuth_cells; /* cells of a row above the horizon */

@@ -1,5 +1,5 @@
 /* The two closed forms as distributions, and what any distribution says of itself. */
-#include "table/table.h"
+#include "table/layout.h"
 
 static const vndf_distribution ggx = {.kind = VNDF_KIND_GGX,
                                       .normalization = 1.0,
@@ -30,7 +30,8 @@ vndf_info vndf_distribution_info(const vndf_distribution *d)
         return nothing;
     }
     size_t rows = (size_t)d->above.row_count + d->below.row_count;
-    vndf_info info = {d->source,           d->tool,          d->bytes, d->radial_count, rows,
+    size_t memory = d->kind == VNDF_KIND_TABLE ? vndf_table_memory(d) : 0;
+    vndf_info info = {d->source,           d->tool,          d->bytes, memory,        d->radial_count, rows,
                       d->above.cell_count, d->normalization, d->scale, d->certificate};
     return info;
 }

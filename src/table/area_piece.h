@@ -61,14 +61,15 @@ VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, 
 }
 
 /* Where there are `count` knots and no more than VNDF_FEW pieces: read in registers. */
-VNDF_INLINE lanes_f vndf_area_few_at(float (*few)[VNDF_FEW], uint32_t count, lanes_f y, lanes_f *per_width)
+VNDF_INLINE lanes_f vndf_area_few_at(const float *few, uint32_t pitch, uint32_t count, lanes_f y,
+                                     lanes_f *per_width)
 {
-    const float *begin = few[VNDF_AREA_ORDER];
+    const float *begin = few + VNDF_AREA_ORDER * pitch;
     lanes_u i = vndf_guide_count(begin, count, y);
     lanes_f b[VNDF_AREA_ORDER];
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
-        b[n] = lanes_few(few[n], count - 1, i);
-    *per_width = lanes_few(few[VNDF_AREA_ORDER + 1], count - 1, i);
+        b[n] = lanes_few(few + (uint32_t)n * pitch, count - 1, i);
+    *per_width = lanes_few(begin + pitch, count - 1, i);
     return vndf_area_quick_sum(b, (y - lanes_few(begin, count - 1, i)) * *per_width);
 }
 

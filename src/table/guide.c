@@ -45,7 +45,7 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
         high = guide->low;
     guide->shift = shift_for(high - guide->low, count);
     guide->last = (high - guide->low) >> guide->shift;
-    guide->next = malloc(((size_t)count + guide->last + 1) * sizeof *guide->next);
+    guide->next = malloc(vndf_guide_bytes(guide, count));
     if (!guide->next)
         return 0;
     guide->entry = guide->next + count;

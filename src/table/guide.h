@@ -21,6 +21,12 @@ VNDF_INLINE uint32_t vndf_float_bits(float x)
 int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count);
 void vndf_guide_free(vndf_guide *guide);
 
+/* Bytes that it takes, of so many knots. */
+static inline size_t vndf_guide_bytes(const vndf_guide *guide, uint32_t count)
+{
+    return ((size_t)count + guide->last + 1) * sizeof *guide->next;
+}
+
 /* Index i in [0, count - 2] with knots[i] <= value < knots[i+1], the ends extended; value >= 0. One step without a
  * branch to mispredict is enough for nearly every value. */
 VNDF_INLINE uint32_t vndf_guide_find(const vndf_guide *guide, float value)

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "table/area_piece.h"
 #include "table/guide.h"
@@ -57,8 +58,10 @@ static int has_few_rows(const vndf_wedge *w)
 static void place_pieces(room *r, vndf_wedge *w, int above)
 {
     w->piece = take(r, w->knot_count - 1, sizeof *w->piece);
-    w->few_exact = has_few_pieces(w) ? take(r, VNDF_AREA_SPAN, sizeof *w->few_exact) : NULL;
-    w->few = above && has_few_pieces(w) ? take(r, VNDF_AREA_ORDER + 2, sizeof *w->few) : NULL;
+    w->few_pitch = w->knot_count <= VNDF_FEW / 2 + 1 ? VNDF_FEW / 2 : VNDF_FEW;
+    size_t few = (size_t)VNDF_AREA_SPAN * w->few_pitch;
+    w->few_exact = has_few_pieces(w) ? take(r, few, sizeof *w->few_exact) : NULL;
+    w->few = above && has_few_pieces(w) ? take(r, few, sizeof *w->few) : NULL;
     w->quick = above ? take(r, w->knot_count - 1, sizeof *w->quick) : NULL;
     w->row_span = take(r, vndf_row_knots(w->row_count), sizeof *w->row_span);
     w->row_line = above ? take(r, (size_t)w->row_count * w->cell_count, sizeof *w->row_line) : NULL;
@@ -72,7 +75,7 @@ static void place_rows(room *r, vndf_wedge *w)
     w->cdf = take(r, (size_t)w->row_count * w->stride, sizeof *w->cdf);
     w->q = take(r, w->cell_count + 1, sizeof *w->q);
     w->row_y = take(r, has_few_rows(w) ? VNDF_FEW + 1 : knots, sizeof *w->row_y);
-    w->few_aspects = has_few_rows(w) ? take(r, 4, sizeof *w->few_aspects) : NULL;
+    w->few_aspects = has_few_rows(w) ? take(r, 4 * (size_t)knots, sizeof *w->few_aspects) : NULL;
     w->knot_y = take(r, w->knot_count, sizeof *w->knot_y);
     w->mass = take(r, w->knot_count, sizeof *w->mass);
     w->slope = take(r, w->knot_count, sizeof *w->slope);
@@ -350,36 +353,41 @@ static void derive_area(vndf_wedge *wedge)
 /* Pieces as they are looked up in registers: a member of all side by side. Beyond the last all y are less. */
 static void derive_few_exact(vndf_wedge *wedge)
 {
-    for (uint32_t i = 0; i < VNDF_FEW; i++) {
-        int is_piece = i + 1 < wedge->knot_count;
-        const vndf_area_span *span = &wedge->piece[is_piece ? i : 0];
-        for (int n = 0; n < VNDF_AREA_ORDER; n++)
-            wedge->few_exact[n][i] = is_piece ? span->coefficient[n] : 0.0;
-        wedge->few_exact[VNDF_AREA_ORDER][i] = is_piece ? span->begin : 2.0;
-        wedge->few_exact[VNDF_AREA_ORDER + 1][i] = is_piece ? span->per_width : 0.0;
+    const uint32_t pitch = wedge->few_pitch, pieces = wedge->knot_count - 1;
+    double *begin = wedge->few_exact + VNDF_AREA_ORDER * pitch;
+    for (uint32_t i = 0; i < pieces; i++) {
+        const vndf_area_span *span = &wedge->piece[i];
+        for (uint32_t n = 0; n < VNDF_AREA_ORDER; n++)
+            wedge->few_exact[n * pitch + i] = span->coefficient[n];
+        begin[i] = span->begin;
+        begin[pitch + i] = span->per_width;
     }
+    for (uint32_t i = pieces; i < pitch; i++)
+        begin[i] = 2.0;
 }
 
 static void derive_few(vndf_wedge *wedge)
 {
-    for (uint32_t i = 0; i < VNDF_FEW; i++) {
-        int is_piece = i + 1 < wedge->knot_count;
-        const vndf_area_quick *quick = &wedge->quick[is_piece ? i : 0];
-        for (int n = 0; n < VNDF_AREA_ORDER; n++)
-            wedge->few[n][i] = is_piece ? quick->coefficient[n] : 0.0f;
-        wedge->few[VNDF_AREA_ORDER][i] = is_piece ? quick->begin : 2.0f;
-        wedge->few[VNDF_AREA_ORDER + 1][i] = is_piece ? quick->per_width : 0.0f;
+    const uint32_t pitch = wedge->few_pitch;
+    float *begin = wedge->few + VNDF_AREA_ORDER * pitch;
+    for (uint32_t i = 0; i + 1 < wedge->knot_count; i++) {
+        const vndf_area_quick *quick = &wedge->quick[i];
+        for (uint32_t n = 0; n < VNDF_AREA_ORDER; n++)
+            wedge->few[n * pitch + i] = quick->coefficient[n];
+        begin[i] = quick->begin;
+        begin[pitch + i] = quick->per_width;
     }
 }
 
 /* Rows likewise. */
 static void derive_few_rows(vndf_wedge *wedge)
 {
-    for (uint32_t i = vndf_row_knots(wedge->row_count); i <= VNDF_FEW; i++)
+    const uint32_t knots = vndf_row_knots(wedge->row_count);
+    for (uint32_t i = knots; i <= VNDF_FEW; i++)
         wedge->row_y[i] = 2.0f;
     for (uint32_t i = 0; i < wedge->row_count; i++) {
-        wedge->few_aspects[i % 2][i / 2] = *vndf_aspect_p(wedge, i);
-        wedge->few_aspects[2 + i % 2][i / 2] = *vndf_aspect_r(wedge, i);
+        wedge->few_aspects[i % 2 * knots + i / 2] = *vndf_aspect_p(wedge, i);
+        wedge->few_aspects[(2 + i % 2) * knots + i / 2] = *vndf_aspect_r(wedge, i);
     }
 }
 
@@ -438,4 +446,18 @@ int vndf_table_derive(vndf_distribution *table)
     derive_blocks(table);
     return vndf_windows_make(table) && derive_slopes(table) && derive_wedge(&table->above) &&
            derive_wedge(&table->below);
+}
+
+static size_t guide_bytes(const vndf_wedge *wedge)
+{
+    return vndf_guide_bytes(&wedge->row_guide, vndf_row_knots(wedge->row_count)) +
+           vndf_guide_bytes(&wedge->knot_guide, wedge->knot_count);
+}
+
+size_t vndf_table_memory(const vndf_distribution *table)
+{
+    size_t texts = strlen(table->source) + strlen(table->tool) + 2;
+    size_t guides = vndf_guide_bytes(&table->slope_guide, table->radial_count + 1) + guide_bytes(&table->above) +
+                    guide_bytes(&table->below);
+    return sizeof *table + table->block_bytes + vndf_windows_bytes(&table->windows) + guides + texts;
 }

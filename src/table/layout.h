@@ -38,4 +38,7 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size);
  * sums are long. 0 if there is no memory. */
 int vndf_table_derive(vndf_distribution *table);
 
+/* Bytes of all allocations of a table that is derived. */
+size_t vndf_table_memory(const vndf_distribution *table);
+
 #endif

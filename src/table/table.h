@@ -137,7 +137,7 @@ typedef struct vndf_row_line {
  * is a quintic spline on knots of its own (table/area_piece.h).
  *
  * Lanes read in registers what is few: then the same numbers stand in another order too, the pointers `few_...`
- * are not NULL, and that is worth some 500 bytes to 1 KiB each (table/layout.c). */
+ * are not NULL (table/layout.c). What is read beyond them is not used. */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     uint32_t stride;                            /* floats from row to row in cdf: a multiple of VNDF_PADDING */
@@ -148,12 +148,13 @@ typedef struct vndf_wedge {
     vndf_row_cell *row_cell; /* cell_count + 1 to a row */
     vndf_row_line *row_line; /* cell_count to a row, for lanes: NULL below the horizon, where none draw */
     float *knot_y;           /* knot_count, and so have the next three, which the file holds */
-    float *mass, *slope, *curve;        /* curve is the second derivative */
-    vndf_area_span *piece;              /* made of them, knot_count - 1: for areas and densities, in double */
-    vndf_area_quick *quick;             /* in float, for drawing: NULL below the horizon, where nothing reads it */
-    float (*few)[VNDF_FEW];             /* members of quick, for lanes, if there are so few pieces */
-    double (*few_exact)[VNDF_FEW];      /* members of piece likewise */
-    float (*few_aspects)[VNDF_FEW + 1]; /* p and then r of rows 0, 2, 4, ..., then of those between, likewise */
+    float *mass, *slope, *curve; /* curve is the second derivative */
+    vndf_area_span *piece;       /* made of them, knot_count - 1: for areas and densities, in double */
+    vndf_area_quick *quick;      /* in float, for drawing: NULL below the horizon, where nothing reads it */
+    uint32_t few_pitch;          /* numbers from member to member of the next two: VNDF_FEW, or half of it */
+    float *few;                  /* members of quick, for lanes, if there are no more than VNDF_FEW pieces */
+    double *few_exact;           /* members of piece likewise */
+    float *few_aspects; /* if knots of rows are so few, p of rows 0, 2, 4, ..., then of those between, then r */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 

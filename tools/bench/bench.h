@@ -25,7 +25,8 @@ typedef struct bench_row {
     char distribution[64]; /* what it samples: "ggx", "beckmann", the caller's name for the source */
     char instructions[16]; /* "scalar", "portable", "avx2", "avx512" */
     bench_kind kind;
-    size_t bytes;               /* of its tables; 0 for closed forms */
+    size_t memory;              /* bytes that its tables take when loaded; 0 for closed forms */
+    size_t file_bytes;          /* of a table of ours; 0 for all others */
     int wrong;                  /* 1: its results failed verification, so nothing was timed */
     double ns, ns_low, ns_high; /* per sample, a direction each (view, sample, density): median and quartiles */
     double shared_ns;           /* many samples for one direction; NaN if the method has no such use */

@@ -37,7 +37,7 @@ static const char *distribution_name(const bench_list *list, bench_subject subje
 static void describe(bench_entry *e, const char *distribution)
 {
     bench_row *row = &e->row;
-    *row = (bench_row){.kind = e->m.kind, .bytes = e->m.bytes};
+    *row = (bench_row){.kind = e->m.kind, .memory = e->m.memory, .file_bytes = e->m.file_bytes};
     row->ns = row->ns_low = row->ns_high = row->shared_ns = row->latency_ns = row->ratio = NAN;
     row->tv = row->tv_theta = row->max_weight = row->efficiency_light = NAN;
     row->efficiency[0] = row->efficiency[1] = row->bias[0] = row->bias[1] = NAN;

@@ -5,6 +5,7 @@
 #include "draw/table.h"
 
 static const char legend[] =
+    "memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
     "quartiles);\n"
     "shared: many samples for one direction; latency: each waits for the last; ratio: to spherical caps, scalar.\n"
@@ -25,16 +26,25 @@ static void biases(char cell[CELL], const double bias[2])
         snprintf(cell, CELL, "%s, %s", part[0], part[1]);
 }
 
+static void put_bytes(text_table *t, const char *heading, size_t bytes)
+{
+    int large = bytes >= 10240;
+    table_number(t, heading, large ? "%.0f KiB" : "%.0f", (double)bytes / (large ? 1024 : 1));
+}
+
 /* For people. */
 static void shown_columns(text_table *t, const bench_row *r)
 {
     char bias[CELL];
-    int large = r->bytes >= 10240;
     biases(bias, r->bias);
     table_text(t, "distribution", r->kind == BENCH_MOVE ? "yardstick" : r->distribution);
     table_text(t, "method", r->method);
     table_word(t, "instructions", r->instructions);
-    table_number(t, "bytes", large ? "%.0f KiB" : "%.0f", (double)r->bytes / (large ? 1024 : 1));
+    put_bytes(t, "memory", r->memory);
+    if (r->file_bytes)
+        put_bytes(t, "file", r->file_bytes);
+    else
+        table_number(t, "file", "", NAN);
     if (r->wrong)
         table_figure(t, "ns", "wrong");
     else
@@ -64,7 +74,8 @@ static void all_columns(text_table *t, const bench_row *r)
     table_text(t, "distribution", r->distribution);
     table_word(t, "instructions", r->instructions);
     table_word(t, "kind", kind_name(r->kind));
-    table_number(t, "bytes", "%.0f", (double)r->bytes);
+    table_number(t, "memory", "%.0f", (double)r->memory);
+    table_number(t, "file_bytes", "%.0f", (double)r->file_bytes);
     table_value(t, "wrong", r->wrong);
     table_value(t, "ns", r->ns);
     table_value(t, "ns_low", r->ns_low);

@@ -12,7 +12,8 @@ static const char help[] =
     "Prints `key value` lines:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
     "  tool           the version that made it\n"
-    "  bytes          size of the table; 0 for the closed forms\n"
+    "  bytes          size of the table's file; 0 for the closed forms\n"
+    "  memory         bytes that it takes when loaded\n"
     "  radial_cells, azimuth_rows, azimuth_cells    its shape\n"
     "  normalization  the factor by which the given D or P22 was multiplied\n"
     "  scale          median slope length at alpha = 1\n"
@@ -52,6 +53,7 @@ void describe_info(const vndf_info *info)
     printf("source %s\n", info->source);
     printf("tool %s\n", info->tool);
     printf("bytes %zu\n", info->bytes);
+    printf("memory %zu\n", info->memory);
     printf("radial_cells %zu\n", info->radial_cells);
     printf("azimuth_rows %zu\n", info->azimuth_rows);
     printf("azimuth_cells %zu\n", info->azimuth_cells);

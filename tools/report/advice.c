@@ -153,7 +153,8 @@ static void shown_columns(text_table *t, const report_table *of, int chosen)
     snprintf(name, sizeof name, "%s%s", size, chosen ? " ✓" : "");
     table_word(t, "size", name);
     table_mark(t, chosen ? "chosen" : NULL);
-    table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    table_number(t, "bytes of the file", "%.0f", (double)of->info.bytes);
+    table_number(t, "in memory", "%.0f", (double)of->info.memory);
     put_limited(t, "total variation", "%.2e", v.value[2], v.kept[2]);
     table_number(t, "above the horizon", "%.2e", of->tv_above);
     put_limited(t, "largest weight", "%.3g", v.value[0], v.kept[0]);
@@ -183,6 +184,7 @@ static void all_columns(text_table *t, const report_subject *s, size_t i)
     const vndf_certificate *c = &of->info.certificate;
     table_text(t, "distribution", s->name);
     table_number(t, "bytes", "%.0f", (double)of->info.bytes);
+    table_number(t, "memory", "%.0f", (double)of->info.memory);
     table_value(t, "tv", (double)c->tv);
     table_value(t, "tv_theta_deg", (double)c->tv_theta);
     table_value(t, "max_weight", (double)c->max_weight);

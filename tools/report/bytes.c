@@ -1,4 +1,4 @@
-/* Error against bytes: a curve over its tables for each distribution, and other methods that have tables as
+/* Error against bytes in memory: a curve over its tables for each distribution, and other methods that have tables as
  * points. */
 #include <stdio.h>
 #include <string.h>
@@ -20,22 +20,24 @@ static void collect_others(const bench_rows *rows, byte_points *points)
     points->count = 0;
     for (size_t i = 0; i < rows->count && points->count < ROWS_MAX; i++) {
         const bench_row *row = &rows->row[i];
-        if (row->kind != BENCH_PUBLISHED || row->bytes == 0 || !(row->tv > 0))
+        if (row->kind != BENCH_PUBLISHED || row->memory == 0 || !(row->tv > 0))
             continue;
         size_t at = points->count++;
-        points->x[at] = (double)row->bytes;
+        points->x[at] = (double)row->memory;
         points->y[at] = row->tv;
         snprintf(points->label[at], LABEL, "%s", row->method);
         points->text[at] = points->label[at];
     }
 }
 
-static void add_row(text_table *t, const char *method, const char *distribution, double bytes, double tv)
+static void add_row(text_table *t, const char *method, const char *distribution, double memory, double file_bytes,
+                    double tv)
 {
     table_row(t);
     table_text(t, "method", method);
     table_text(t, "distribution", distribution);
-    table_number(t, "bytes", "%.0f", bytes);
+    table_number(t, "memory", "%.0f", memory);
+    table_number(t, "file_bytes", "%.0f", file_bytes);
     table_value(t, "tv", tv);
 }
 
@@ -45,10 +47,10 @@ static int write_data(html_page *page, const report *r, const byte_points *other
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             const report_table *of = &r->subject[k].table[i];
-            add_row(&data, "table", r->subject[k].name, (double)of->info.bytes, of->tv);
+            add_row(&data, "table", r->subject[k].name, (double)of->info.memory, (double)of->info.bytes, of->tv);
         }
     for (size_t i = 0; i < others->count; i++)
-        add_row(&data, others->label[i], r->subject[0].name, others->x[i], others->y[i]);
+        add_row(&data, others->label[i], r->subject[0].name, others->x[i], 0, others->y[i]);
     return page_data(page, "bytes.csv", "total variation of each size", data);
 }
 
@@ -72,7 +74,7 @@ int report_write_bytes(html_page *page, const report *r)
     byte_points others;
     for (size_t k = 0; k < r->count; k++) {
         for (size_t i = 0; i < r->subject[k].count; i++) {
-            x[k][i] = (double)r->subject[k].table[i].info.bytes;
+            x[k][i] = (double)r->subject[k].table[i].info.memory;
             y[k][i] = r->subject[k].table[i].tv;
         }
         shorten(r->subject[k].name, label[k]);
@@ -86,15 +88,15 @@ int report_write_bytes(html_page *page, const report *r)
                .width = 1080,
                .height = 460,
                .right = 270,
-               .x = {CHART_BYTES, 0, 0, 0, "size of the table"},
+               .x = {CHART_BYTES, 0, 0, 0, "memory that the table takes"},
                .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
                .series = series,
                .count = r->count + 1};
     chart_fit_series(&c, 0);
     page_section(
         page, "bytes", "Error against bytes",
-        "The largest total variation over all directions, by the size of the table. Curves: tables of this "
-        "library. Crosses: other methods that keep tables, for the first distribution.");
+        "The largest total variation over all directions, by the memory that a loaded table takes. Curves: "
+        "tables of this library. Crosses: other methods that keep tables, for the first distribution.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("</figure>\n", page->html);

@@ -57,8 +57,8 @@ static void label_row(const bench_row *row, char label[LABEL])
     const char *batch = strstr(row->method, ", batch");
     int length = batch ? (int)(batch - row->method) : (int)strlen(row->method);
     if (row->kind == BENCH_TABLE)
-        table_bytes_text(label, (double)row->bytes);
-    else if (names_distribution(row) || row->bytes > 0)
+        table_bytes_text(label, (double)row->file_bytes);
+    else if (names_distribution(row) || row->memory > 0)
         snprintf(label, LABEL, "%.*s", length, row->method);
     else
         snprintf(label, LABEL, "%.*s, %s", length, row->method, row->distribution);

@@ -33,7 +33,8 @@ VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
         i = doubles_pick_u(doubles_at_most(doubles_few_f(w->row_y, i + step), y), i + step, i);
     i = doubles_least_u(i, doubles_set_u(w->row_count / 2 - 1)); /* at the last knot, too, there are three */
     vndf_shares s = vndf_shares_from(i, y, doubles_few_f(w->row_y, i), doubles_few_f(w->row_y + 1, i));
-    const float *p = w->few_aspects[0], *pm = w->few_aspects[1], *r = w->few_aspects[2], *rm = w->few_aspects[3];
+    const uint32_t knots = w->row_count / 2 + 1;
+    const float *p = w->few_aspects, *pm = p + knots, *r = pm + knots, *rm = r + knots;
     s.p = s.first * doubles_few_f(p, i) + s.middle * doubles_few_f(pm, i) + s.last * doubles_few_f(p + 1, i);
     s.r = s.first * doubles_few_f(r, i) + s.middle * doubles_few_f(rm, i) + s.last * doubles_few_f(r + 1, i);
     return s;

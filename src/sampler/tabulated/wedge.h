@@ -17,14 +17,17 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
 /* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
 VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
 {
-    double(*few)[VNDF_FEW] = wedge->few_exact;
+    const uint32_t pitch = wedge->few_pitch;
+    const double *few = wedge->few_exact, *from = few + VNDF_AREA_ORDER * pitch;
     doubles_u i = doubles_set_u(0);
     doubles b[VNDF_AREA_ORDER];
-    for (uint32_t step = VNDF_FEW / 2; step > 0; step /= 2)
-        i = doubles_pick_u(doubles_at_most(doubles_few(few[VNDF_AREA_ORDER], i + step), y), i + step, i);
+    if (pitch == VNDF_FEW)
+        i = doubles_pick_u(doubles_at_most(doubles_set(from[VNDF_FEW / 2]), y), doubles_set_u(VNDF_FEW / 2), i);
+    for (uint32_t step = VNDF_FEW / 4; step > 0; step /= 2)
+        i = doubles_pick_u(doubles_at_most(doubles_few(from, i + step), y), i + step, i);
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
-        b[n] = doubles_few(few[n], i);
-    doubles begin = doubles_few(few[VNDF_AREA_ORDER], i), per_width = doubles_few(few[VNDF_AREA_ORDER + 1], i);
+        b[n] = doubles_few(few + (uint32_t)n * pitch, i);
+    doubles begin = doubles_few(from, i), per_width = doubles_few(from + pitch, i);
     return vndf_area_piece_at(b, (y - begin) * per_width);
 }
 
@@ -60,7 +63,7 @@ VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f
 {
 #if VNDF_LANES > 1
     if (wedge->few)
-        return vndf_area_few_at(wedge->few, wedge->knot_count, y, per_width);
+        return vndf_area_few_at(wedge->few, wedge->few_pitch, wedge->knot_count, y, per_width);
 #endif
     return vndf_area_quick_at(wedge->quick, vndf_guide_lanes(&wedge->knot_guide, y), y, per_width);
 }

@@ -171,7 +171,7 @@ method method_inverse_tables(const method_truth *truth, size_t side)
         return m;
     inverse_tables *t = tables_of(side, truth->scale);
     double *mass = malloc(2 * FINE * sizeof *mass);
-    m.bytes = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
+    m.memory = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
     if (t && mass) {
         fill_across(t, truth, mass);
         fill_marginal(truth, mass + FINE);

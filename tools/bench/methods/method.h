@@ -41,7 +41,7 @@ struct method {
     char name[64];
     const char *instructions;
     bench_kind kind;
-    size_t bytes;
+    size_t memory, file_bytes;    /* as in bench_row */
     const void *state;            /* what was prepared */
     void (*release)(void *state); /* NULL: somebody else's */
     vndf_instructions limit;      /* for batches of ours */

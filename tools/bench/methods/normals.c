@@ -135,7 +135,7 @@ method method_any_all_normals(const method_truth *truth)
     method m = {.name = "all normals (2007), radial CDF",
                 .instructions = "scalar",
                 .kind = BENCH_PUBLISHED,
-                .bytes = sizeof(radial_cdf),
+                .memory = sizeof(radial_cdf),
                 .release = free,
                 .one = draw_any,
                 .turned = 1};

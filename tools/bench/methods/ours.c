@@ -55,7 +55,9 @@ static void shared_batch(const method *m, const method_inputs *in, const method_
 static method ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit)
 {
     method m = {.instructions = method_instructions_name(limit), .state = distribution, .limit = limit};
-    m.bytes = vndf_distribution_info(distribution).bytes;
+    vndf_info info = vndf_distribution_info(distribution);
+    m.memory = info.memory;
+    m.file_bytes = info.bytes;
     snprintf(m.name, sizeof m.name, "%s%s", name, limit ? ", batch" : "");
     return m;
 }
@@ -63,7 +65,7 @@ static method ours(const vndf_distribution *distribution, const char *name, vndf
 method method_ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit)
 {
     method m = ours(distribution, name, limit);
-    m.kind = m.bytes ? BENCH_TABLE : BENCH_CLOSED;
+    m.kind = m.memory ? BENCH_TABLE : BENCH_CLOSED;
     if (limit != VNDF_INSTRUCTIONS_BEST && vndf_instructions_used(limit) != limit)
         return m;
     m.one = limit ? NULL : one;

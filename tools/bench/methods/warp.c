@@ -212,7 +212,7 @@ method method_warp(const method_truth *truth, size_t side)
 {
     method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = draw, .turned = 1};
     m.state = truth ? warp_of(truth, side) : NULL;
-    m.bytes = SLICES * (2 * side * side + side) * sizeof(float);
+    m.memory = SLICES * (2 * side * side + side) * sizeof(float);
     m.each = m.state ? each : NULL;
     snprintf(m.name, sizeof m.name, "bilinear warps, %d x %zu^2", SLICES, side);
     return m;
