@@ -84,7 +84,7 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
     vndf_distribution *table = calloc(1, sizeof *table);
     if (!table)
         return NULL;
-    table->kind = VNDF_KIND_TABLE;
+    vndf_make_table(table);
     table->radial_count = size.radial;
     table->slope = calloc(size.radial + 1, sizeof *table->slope);
     int whole = allocate_cells(table, size.radial);
@@ -100,7 +100,7 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
 
 void vndf_free(vndf_distribution *table)
 {
-    if (!table || table->kind != VNDF_KIND_TABLE)
+    if (!table || !vndf_is_table(table))
         return;
     free(table->knots.x);
     free(table->blocks.x);

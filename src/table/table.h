@@ -19,6 +19,7 @@
 
 #include <stdint.h>
 
+#include "core/inline.h"
 #include "vndf.h"
 
 enum {
@@ -119,6 +120,7 @@ typedef struct vndf_wedge {
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
+/* What a distribution is. sampler/law.h answers for each kind; nobody else asks. */
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
 struct vndf_distribution {
@@ -139,5 +141,16 @@ struct vndf_distribution {
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
 };
+
+/* Whether the members above are filled: what is loaded, saved and freed. */
+VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
+{
+    return d->kind == VNDF_KIND_TABLE;
+}
+
+VNDF_INLINE void vndf_make_table(vndf_distribution *d)
+{
+    d->kind = VNDF_KIND_TABLE;
+}
 
 #endif

@@ -178,7 +178,7 @@ static const float VNDF_GGX_LEAST_FACING = 0.05f;
 
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
-    return normals == VNDF_NORMALS_VISIBLE && b->view.distribution->kind == VNDF_KIND_GGX && b->view.plain &&
+    return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.plain &&
            facing > VNDF_GGX_LEAST_FACING;
 }
 

@@ -18,7 +18,7 @@ static const double WEIGHT[4] = {0.17392742256872693, 0.32607257743127307, 0.326
 
 typedef struct subject {
     vndf_view view;
-    double bounds[VNDF_BOUNDS];
+    vndf_bounds bounds;
 } subject;
 
 /* A place in a map of bins, both in [0, 1), and the density there per unit of the map. */
@@ -61,13 +61,13 @@ static double density_at(const subject *g, map at)
     if (!at.reflected) {
         double border = border_at(g, c, s), r = at.x * border, per = 1 / sqrt(1 + r * r);
         vndf_normal wm = {r * c * per, r * s * per, per};
-        return vndf_pdf_bounded(&g->view, g->bounds, wm) * r * border * (2 * PI) * (per * per * per);
+        return vndf_pdf_bounded(&g->view, &g->bounds, wm) * r * border * (2 * PI) * (per * per * per);
     }
     double level = sqrt(1 - at.x * at.x);
     vndf_normal h = {g->view.wi.x + level * c, g->view.wi.y + level * s, g->view.wi.z + at.x};
     double length = sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
     vndf_normal wm = {h.x / length, h.y / length, h.z / length};
-    return vndf_pdf_bounded(&g->view, g->bounds, wm) / (4 * dot(g->view.wi, wm)) * (2 * PI);
+    return vndf_pdf_bounded(&g->view, &g->bounds, wm) / (4 * dot(g->view.wi, wm)) * (2 * PI);
 }
 
 static double expected_in(const subject *g, int reflected, int bin, int parts)
@@ -127,12 +127,12 @@ static void test_setting(const char *name, const vndf_distribution *d, setting i
     double sine = sqrt(1 - is.cosine * is.cosine);
     double level = statistics_sidak(0.01, 2 * SETTING_COUNT * SUBJECT_COUNT);
     vndf_vec3 wi = {(float)(0.6 * sine), (float)(0.8 * sine), (float)is.cosine};
-    subject g = {vndf_view_from(&surface, wi), {0}};
-    vndf_bounds_of(&g.view, g.bounds);
+    subject g = {.view = vndf_view_from(&surface, wi)};
+    vndf_bounds_of(&g.view, &g.bounds);
     memset(counts, 0, sizeof counts);
     for (long i = 0; i < samples; i++) {
         float u1 = test_uniform(&seed), u2 = test_uniform(&seed);
-        vndf_vec3 wm = vndf_sample_bounded(&g.view, g.bounds, u1, u2).wm;
+        vndf_vec3 wm = vndf_sample_bounded(&g.view, &g.bounds, u1, u2).wm;
         for (int reflected = 0; reflected < 2; reflected++) {
             map at = place_of(&g, wm, reflected);
             int ring = (int)(at.x * RINGS), sector = (int)(at.y * SECTORS);

@@ -1,5 +1,5 @@
-/* The two closed forms as distributions, and what any distribution says of itself. */
-#include "table/table.h"
+/* The closed forms as distributions, and what any distribution says of itself. */
+#include "sampler/law.h"
 
 static const vndf_distribution ggx = {.kind = VNDF_KIND_GGX,
                                       .normalization = 1.0,
