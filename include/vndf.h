@@ -161,6 +161,22 @@ typedef struct vndf_surface {
     float alpha_x, alpha_y;
 } vndf_surface;
 
+/* What a view of each law of normals draws with; private, as all members of a view are. */
+struct vndf_table_view {
+    float s, c, cos_phi, sin_phi; /* stretched direction: across (>= 0), along z, s + |c| = 1; its azimuth */
+    float front, wedge;           /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
+    float area, spread;           /* projected area of the unit problem; times ax ay */
+};
+
+struct vndf_ggx_view {        /* zeros where the view is not plain, as in the next one */
+    float x, y, c, q, spread; /* sampler/analytic/ggx_draw.h */
+};
+
+struct vndf_beckmann_view {
+    float cos_phi, sin_phi, bound, line, tail, spread; /* sampler/analytic/beckmann_draw.h */
+    float near_side, p0, p1, p2, p3, p4;
+};
+
 /* Everything that depends on the surface and wi alone: a plain value, valid while the distribution
  * lives. Its members are private and may change between versions. */
 typedef struct vndf_view {
@@ -169,12 +185,32 @@ typedef struct vndf_view {
     double alpha_x, alpha_y;               /* roughness times the table's own slope scale */
     float ax, ay;                          /* the same */
     int plain;                             /* densities may be formed in float */
-    float closed[12];                      /* closed forms: what drawing in float takes, 0 where it is not plain */
-    /* The others are of tables, and 0 for closed forms. */
-    float s, c, cos_phi, sin_phi; /* stretched direction: across (>= 0), along z; its azimuth */
-    float front, wedge;           /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
-    float area, spread;           /* projected area of the unit problem; times ax ay */
+    union {
+        struct vndf_table_view table;
+        struct vndf_ggx_view ggx;
+        struct vndf_beckmann_view beckmann;
+    } of; /* the distribution says which */
 } vndf_view;
+
+/* What bounded normals (vndf_bsdf.h) take of a view; private too. Tables take nothing. */
+struct vndf_ggx_bounds {
+    float s2, q, e12, e2, c0; /* of a plain view: sampler/bounded/ggx_draw.h */
+    float slow, fast, in_front, in_wedge;
+    struct {
+        double front, in_front, in_wedge, begin, span;
+    } exact; /* where that is not good enough: sampler/bounded/ggx.h */
+};
+
+struct vndf_beckmann_bounds {
+    double x0, x1, begin, span, cos_phi, sin_phi; /* sampler/bounded/beckmann.c */
+    double whole, line;                           /* where the view is not plain */
+    float s, c, spread;
+};
+
+typedef union vndf_bounds {
+    struct vndf_ggx_bounds ggx;
+    struct vndf_beckmann_bounds beckmann;
+} vndf_bounds;
 
 /* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
  * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha

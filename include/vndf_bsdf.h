@@ -175,7 +175,7 @@ typedef struct vndf_bsdf {
     float side;     /* -1 where wi is on the side of -z, 1 else */
     float area;     /* projected area along wi */
     float cos_rotation, sin_rotation;
-    double bounds[8]; /* bounded normals: what their law takes of the direction */
+    vndf_bounds bounds; /* of bounded normals */
 } vndf_bsdf;
 
 /* Prepares a hit with the roughness of the material. wi is unit within 2e-6. A material that does not transmit and

@@ -227,7 +227,7 @@ static vndf_status write_file(const char *path, const unsigned char *bytes, size
 
 vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error)
 {
-    if (!distribution || !path || distribution->kind != VNDF_KIND_TABLE)
+    if (!distribution || !path || !vndf_is_table(distribution))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "a table and a path are needed to save; closed forms have no file");
     size_t size = vndf_table_encode(distribution, NULL, 0);
@@ -242,7 +242,7 @@ vndf_status vndf_save(const vndf_distribution *distribution, const char *path, v
 
 vndf_status vndf_save_memory(const vndf_distribution *distribution, void *bytes, size_t size, vndf_error *error)
 {
-    if (!distribution || !bytes || distribution->kind != VNDF_KIND_TABLE)
+    if (!distribution || !bytes || !vndf_is_table(distribution))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "a table and memory are needed to save; closed forms have no file");
     if (size != vndf_table_encode(distribution, NULL, 0))

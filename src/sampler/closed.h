@@ -27,15 +27,6 @@ VNDF_INLINE vndf_normal vndf_normal_of(vndf_vec3 wm)
     return n;
 }
 
-/* wm taken back to the unit problem, in the turned frame, as if cos_phi^2 + sin_phi^2 were 1: not unit. */
-VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_view *view, vndf_vec3 wm)
-{
-    double a = view->cos_phi, b = view->sin_phi, per = 1.0 / (a * a + b * b);
-    double x = wm.x * per / view->alpha_x, y = wm.y * per / view->alpha_y;
-    vndf_normal n = {a * x + b * y, a * y - b * x, wm.z};
-    return n;
-}
-
 #endif
 
 /* ---- GGX ---- */

@@ -5,24 +5,64 @@
 #define VNDF_SAMPLER_FRAME_H
 
 #include "math/vector.h"
+#include "sampler/closed.h"
+#include "sampler/stretch.h"
+
+/* A view's direction and roughness, the direction stretched, and its azimuth. */
+typedef struct vndf_frame {
+    vndf_vec3 wi;
+    double alpha_x, alpha_y;
+    float s, c, cos_phi, sin_phi;
+} vndf_frame;
+
+VNDF_INLINE vndf_frame vndf_table_frame(const vndf_view *view)
+{
+    const struct vndf_table_view *of = &view->of.table;
+    vndf_frame f = {view->wi, view->alpha_x, view->alpha_y, of->s, of->c, of->cos_phi, of->sin_phi};
+    return f;
+}
+
+VNDF_INLINE vndf_frame vndf_closed_frame(const vndf_view *view)
+{
+    vndf_stretched w = vndf_stretched_closed(view);
+    vndf_heading to = vndf_heading_of(&w);
+    vndf_frame f = {view->wi,   view->alpha_x,    view->alpha_y, (float)w.s,
+                    (float)w.c, (float)to.cosine, (float)to.sine};
+    return f;
+}
 
 /* wm taken back to the unit problem, in the turned frame: not of unit length. */
-VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_view *view, vndf_vec3 wm)
+VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_frame *f, vndf_vec3 wm)
 {
-    float x = wm.x / (float)view->alpha_x, y = wm.y / (float)view->alpha_y;
-    vndf_vec3 n = {view->cos_phi * x + view->sin_phi * y, view->cos_phi * y - view->sin_phi * x, wm.z};
+    float x = wm.x / (float)f->alpha_x, y = wm.y / (float)f->alpha_y;
+    vndf_vec3 n = {f->cos_phi * x + f->sin_phi * y, f->cos_phi * y - f->sin_phi * x, wm.z};
+    return n;
+}
+
+/* The same in double, as if cos_phi^2 + sin_phi^2 were 1. */
+VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_frame *f, vndf_vec3 wm)
+{
+    double a = f->cos_phi, b = f->sin_phi, per = 1.0 / (a * a + b * b);
+    double x = wm.x * per / f->alpha_x, y = wm.y * per / f->alpha_y;
+    vndf_normal n = {a * x + b * y, a * y - b * x, wm.z};
     return n;
 }
 
 /* The real normal of one of the unit problem: not of unit length. */
-VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_view *view, vndf_vec3 n)
+VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_frame *f, vndf_vec3 n)
 {
-    vndf_vec3 wm = {(float)view->alpha_x * (view->cos_phi * n.x - view->sin_phi * n.y),
-                    (float)view->alpha_y * (view->sin_phi * n.x + view->cos_phi * n.y), n.z};
+    vndf_vec3 wm = {(float)f->alpha_x * (f->cos_phi * n.x - f->sin_phi * n.y),
+                    (float)f->alpha_y * (f->sin_phi * n.x + f->cos_phi * n.y), n.z};
     return wm;
 }
 
 /* A normal that rounding has turned away from wi, turned back: frame.c. */
-vndf_vec3 vndf_turn_to_face(const vndf_view *view, vndf_vec3 wm);
+vndf_vec3 vndf_turn_to_face(const vndf_frame *f, vndf_vec3 wm);
+
+/* Whether wm is a normal that wi sees. */
+VNDF_INLINE int vndf_is_facing(const vndf_view *view, vndf_vec3 wm)
+{
+    return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
+}
 
 #endif

@@ -1,7 +1,6 @@
 #include "sampler/given_normal.h"
 
-#include "sampler/tabulated/theory.h"
-#include "sampler/analytic/density.h"
+#include "sampler/law.h"
 
 static vndf_given given_from(double ax, double ay, vndf_vec3 wi, vndf_normal wm)
 {
@@ -12,20 +11,18 @@ static vndf_given given_from(double ax, double ay, vndf_vec3 wi, vndf_normal wm)
 double vndf_normal_pdf(const vndf_view *view, vndf_normal wm)
 {
     vndf_given g = given_from(view->alpha_x, view->alpha_y, view->wi, wm);
-    if (view->distribution->kind == VNDF_KIND_TABLE)
-        return vndf_engine_density(view, &g);
-    return vndf_visible_of(view->distribution, &g, vndf_given_facing(&g));
+    return vndf_law_density(view, &g);
 }
 
 double vndf_normal_visible(const vndf_view *view, vndf_normal wm, double facing)
 {
     vndf_given g = given_from(view->alpha_x, view->alpha_y, view->wi, wm);
-    return vndf_visible_of(view->distribution, &g, facing);
+    return vndf_law_visible(view->distribution, &g, facing);
 }
 
 double vndf_normal_ndf(const vndf_distribution *d, double ax, double ay, vndf_normal wm)
 {
     vndf_vec3 none = {0.0f, 0.0f, 0.0f};
     vndf_given g = given_from(ax, ay, none, wm);
-    return vndf_ndf_of(d, &g);
+    return vndf_law_ndf(d, &g);
 }

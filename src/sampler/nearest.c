@@ -18,7 +18,8 @@ typedef struct candidate {
 
 static vndf_vec3 unit_normal(const vndf_view *view, vndf_vec3 wm)
 {
-    return vndf_normalize(vndf_to_unit(view, wm));
+    vndf_frame frame = vndf_table_frame(view);
+    return vndf_normalize(vndf_to_unit(&frame, wm));
 }
 
 static candidate candidate_at(const vndf_view *view, vndf_vec3 wanted, float u1, float u2)

@@ -7,27 +7,53 @@
 #include <math.h>
 
 #include "core/inline.h"
-#include "table/table.h"
+#include "vndf.h"
 
-/* (alpha_x wi.x, alpha_y wi.y, wi.z): across, along z, and what brings it there. s + |c| = 1 for tables, s^2 +
- * c^2 = 1 for the closed forms. */
+/* How long the stretched direction is made. */
+typedef enum vndf_length {
+    VNDF_LENGTH_SUM, /* s + |c| = 1: tables */
+    VNDF_LENGTH_ROOT /* s^2 + c^2 = 1: closed forms */
+} vndf_length;
+
+/* (alpha_x wi.x, alpha_y wi.y, wi.z): across, along z, and what brings it there. */
 typedef struct vndf_stretched {
     double x, y; /* before */
     double s, c, per_length;
 } vndf_stretched;
 
-VNDF_INLINE vndf_stretched vndf_stretch(vndf_vec3 wi, double ax, double ay, int table)
+/* `length` is a constant. */
+VNDF_INLINE vndf_stretched vndf_stretch(vndf_vec3 wi, double ax, double ay, vndf_length length)
 {
     double x = ax * wi.x, y = ay * wi.y, across2 = x * x + y * y, across = sqrt(across2);
-    double per = 1.0 / (table ? across + fabs((double)wi.z) : sqrt(across2 + (double)wi.z * wi.z));
+    double sum = across + fabs((double)wi.z), root = sqrt(across2 + (double)wi.z * wi.z);
+    double per = 1.0 / (length == VNDF_LENGTH_SUM ? sum : root);
     /* -0 becomes +0: the horizon is seen from above */
     vndf_stretched w = {x, y, across * per, wi.z * per + 0.0, per};
     return w;
 }
 
+/* The direction of a view of a table. */
 VNDF_INLINE vndf_stretched vndf_stretched_of(const vndf_view *view)
 {
-    return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, view->distribution->kind == VNDF_KIND_TABLE);
+    return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, VNDF_LENGTH_SUM);
+}
+
+/* The same of a closed form. */
+VNDF_INLINE vndf_stretched vndf_stretched_closed(const vndf_view *view)
+{
+    return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, VNDF_LENGTH_ROOT);
+}
+
+/* Cosine and sine of the azimuth to turn to; along z that is x. */
+typedef struct vndf_heading {
+    double cosine, sine;
+} vndf_heading;
+
+VNDF_INLINE vndf_heading vndf_heading_of(const vndf_stretched *w)
+{
+    double across = sqrt(w->x * w->x + w->y * w->y), per = across > 0.0 ? 1.0 / across : 0.0;
+    vndf_heading heading = {across > 0.0 ? w->x * per : 1.0, w->y * per};
+    return heading;
 }
 
 /* Whether a view's direction is below the horizon. */

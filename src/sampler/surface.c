@@ -2,8 +2,7 @@
 #include "sampler/surface.h"
 
 #include "math/vector.h"
-#include "sampler/tabulated/theory.h"
-#include "sampler/analytic/density.h"
+#include "sampler/area.h"
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
@@ -11,7 +10,7 @@ float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
     if (!vndf_surface_scaled(surface, &ax, &ay))
         return 0.0f;
     vndf_given g = {{ax, ay, 0.0, 0.0, 0.0}, wm.x, wm.y, wm.z};
-    return vndf_normal_is_valid(&g) ? vndf_density_from(vndf_ndf_of(surface->distribution, &g)) : 0.0f;
+    return vndf_normal_is_valid(&g) ? vndf_density_from(vndf_law_ndf(surface->distribution, &g)) : 0.0f;
 }
 
 float vndf_p22(const vndf_surface *surface, float x, float y)
@@ -19,11 +18,7 @@ float vndf_p22(const vndf_surface *surface, float x, float y)
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
         return 0.0f;
-    const vndf_distribution *d = surface->distribution;
-    double sx = x / ax, sy = y / ay, r2 = sx * sx + sy * sy, r = sqrt(r2), z = 1.0 / (1.0 + r);
-    double p22 = d->kind == VNDF_KIND_GGX        ? vndf_ggx_p22(r2)
-                 : d->kind == VNDF_KIND_BECKMANN ? vndf_beckmann_p22(r2)
-                                                 : vndf_engine_p22_over_z4(d, r * z, z) * (z * z) * (z * z);
+    double sx = x / ax, sy = y / ay, p22 = vndf_law_p22(surface->distribution, sx * sx + sy * sy);
     return vndf_density_from(p22 / ax / ay);
 }
 
@@ -32,6 +27,12 @@ VNDF_INLINE vndf_direction direction_of(const vndf_surface *surface, vndf_vec3 w
 {
     vndf_direction direction = {0.0, 0.0, w.x, w.y, w.z};
     return vndf_surface_scaled(surface, &direction.ax, &direction.ay) ? direction : (vndf_direction){0};
+}
+
+double vndf_unit_area(const vndf_distribution *d, double s, double c)
+{
+    vndf_direction w = {1.0, 1.0, s, 0.0, c};
+    return vndf_law_area_below(d, &w, 1) + doubles_positive(c); /* A(w) = cos + A(-w) */
 }
 
 float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w)

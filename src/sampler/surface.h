@@ -11,7 +11,7 @@
 /* The scale of slopes at alpha = 1, in the unit problem. */
 VNDF_INLINE double vndf_unit_scale(const vndf_distribution *d)
 {
-    return d->kind == VNDF_KIND_TABLE ? d->scale : 1.0;
+    return vndf_is_table(d) ? d->scale : 1.0;
 }
 
 /* The same in float, 0 where that would lose digits: roughness for drawing is alpha times it. */
@@ -33,6 +33,9 @@ VNDF_INLINE int vndf_surface_scaled(const vndf_surface *surface, double *ax, dou
     return *ax >= 1e-18 && *ax <= 1e18 && *ay >= 1e-18 && *ay <= 1e18;
 }
 
+/* Projected area of the unit problem for the direction (s, 0, c). */
+double vndf_unit_area(const vndf_distribution *d, double s, double c);
+
 /* A(w) of the surface with this roughness times the distribution's scale. */
 float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w);
 
@@ -52,7 +55,7 @@ VNDF_INLINE vndf_view vndf_invalid_view(void)
     return view;
 }
 
-/* The view of a table, of a usable direction for roughness times the table's scale (ax, ay). */
+/* The view of a usable direction for roughness times the distribution's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
 /* No more of a view than densities of given normals read, and as valid. */

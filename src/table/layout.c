@@ -136,7 +136,7 @@ vndf_distribution *vndf_table_allocate(vndf_table_size size)
     vndf_distribution *table = calloc(1, sizeof *table);
     if (!table)
         return NULL;
-    table->kind = VNDF_KIND_TABLE;
+    vndf_make_table(table);
     table->radial_count = size.radial;
     count_wedge(&table->above, size.above_cells, size.above_rows, size.above_knots);
     count_wedge(&table->below, size.below_cells, size.below_rows, size.below_knots);
@@ -154,7 +154,7 @@ static void free_guides(vndf_wedge *wedge)
 
 void vndf_free(vndf_distribution *table)
 {
-    if (!table || table->kind != VNDF_KIND_TABLE)
+    if (!table || !vndf_is_table(table))
         return;
     vndf_windows_free(&table->windows);
     vndf_guide_free(&table->slope_guide);

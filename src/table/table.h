@@ -19,6 +19,7 @@
 
 #include <stdint.h>
 
+#include "core/inline.h"
 #include "vndf.h"
 
 enum {
@@ -175,6 +176,7 @@ static inline vndf_row_cell *vndf_row_cells(const vndf_wedge *wedge, size_t row)
     return wedge->row_cell + row * (wedge->cell_count + 1);
 }
 
+/* What a distribution is. sampler/law.h answers for each kind; nobody else asks. */
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
 struct vndf_distribution {
@@ -196,5 +198,16 @@ struct vndf_distribution {
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
 };
+
+/* Whether the members above are filled: what is loaded, saved and freed. */
+VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
+{
+    return d->kind == VNDF_KIND_TABLE;
+}
+
+VNDF_INLINE void vndf_make_table(vndf_distribution *d)
+{
+    d->kind = VNDF_KIND_TABLE;
+}
 
 #endif

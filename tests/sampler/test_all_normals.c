@@ -162,14 +162,13 @@ static double integrate_cell(const law *l, double x0, double x1, double a0, doub
 /* Knots of a table, where the density has kinks; even ones for the closed forms. */
 static double knot_at(const law *l, uint32_t i, uint32_t count)
 {
-    return l->d->kind == VNDF_KIND_TABLE
-               ? (double)l->d->knots.at[i].x / ((double)l->d->knots.at[i].x + l->d->knots.at[i].z)
-               : (double)i / count;
+    return vndf_is_table(l->d) ? (double)l->d->knots.at[i].x / ((double)l->d->knots.at[i].x + l->d->knots.at[i].z)
+                               : (double)i / count;
 }
 
 static double integral(const law *l, uint32_t turns)
 {
-    uint32_t count = l->d->kind == VNDF_KIND_TABLE ? l->d->radial_count : 100;
+    uint32_t count = vndf_is_table(l->d) ? l->d->radial_count : 100;
     double sum = 0;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = 0; j < turns; j++)

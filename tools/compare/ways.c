@@ -100,8 +100,7 @@ static int is_closed(const scene *s)
 {
     for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
-        if (m->kind == MATERIAL_MICROFACET && m->is.distribution != vndf_ggx() &&
-            m->is.distribution != vndf_beckmann())
+        if (m->kind == MATERIAL_MICROFACET && vndf_distribution_info(m->is.distribution).bytes > 0)
             return 0;
     }
     return 1;

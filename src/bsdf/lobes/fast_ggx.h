@@ -4,7 +4,14 @@
 #define VNDF_BSDF_LOBES_FAST_GGX_H
 
 #include "bsdf/lobes/scatter.h"
-#include "sampler/analytic/view.h"
+#include "sampler/analytic/ggx_law.h"
+
+/* A(w), w.z > 0; of a plain view it is ready. */
+VNDF_INLINE float vndf_plain_ggx_area(const vndf_bsdf *b, vndf_vec3 w)
+{
+    int ready;
+    return vndf_ggx_area_above(b->view.ax, b->view.ay, w, &ready);
+}
 
 /* View and area; 0 where the direction is not plain, and nothing is set. */
 VNDF_INLINE int vndf_prepare_plain_ggx(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
@@ -13,15 +20,15 @@ VNDF_INLINE int vndf_prepare_plain_ggx(vndf_bsdf *b, const vndf_roughness *r, vn
     vndf_ggx_incidence w = vndf_ggx_aim(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
         return 0;
-    vndf_ggx_view_set(&b->view, &surface, wi, &w);
-    b->area = vndf_ggx_area_above(r->alpha_x, r->alpha_y, wi);
+    vndf_ggx_view_put(&b->view, &surface, wi, &w);
+    b->area = vndf_plain_ggx_area(b, wi);
     return 1;
 }
 
 /* cos_i cos_o/G2, height-correlated (masking.h). */
 VNDF_INLINE float vndf_plain_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    float below = vndf_ggx_area_above(b->view.ax, b->view.ay, wo) - wo.z;
+    float below = vndf_plain_ggx_area(b, wo) - wo.z;
     return wo.z * b->area + b->view.wi.z * lanes_positive(below);
 }
 

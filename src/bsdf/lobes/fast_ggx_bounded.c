@@ -10,11 +10,11 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     if (!vndf_prepare_plain_ggx(b, r, wi))
         return vndf_prepare_bounded(b, r, wi);
-    vndf_outlook o = vndf_outlook_set(&b->view);
+    vndf_outlook o = vndf_outlook_set(&b->view, &b->bounds.ggx);
     if (vndf_outlook_is_plain(&b->view, &o))
-        vndf_ggx_law_set(&b->view, &o);
+        vndf_ggx_law_set(&b->bounds.ggx, &o);
     else
-        vndf_bounds_ggx_carefully(&b->view, b->bounds);
+        vndf_bound_ggx_carefully(&b->view, &b->bounds.ggx);
     return 1;
 }
 
@@ -33,12 +33,13 @@ VNDF_INLINE float reach_of(const vndf_bsdf *b, float facing)
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    vndf_outlook o = vndf_outlook_of(&b->view);
+    vndf_outlook o = vndf_outlook_of(&b->view, &b->bounds.ggx);
     if (!vndf_outlook_is_plain(&b->view, &o)) {
         sample_carefully(b, u, s);
         return;
     }
-    vndf_ggx_bounded n = vndf_ggx_draw_bounded(&b->view, &o, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]));
+    vndf_ggx_bounded n =
+        vndf_ggx_draw_bounded(&b->view, &b->bounds.ggx, &o, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]));
     /* wi.M = |A wi| cos(g), so neither M nor wi.wm has to be made unit */
     float stretch = 2.0f * b->area - b->view.wi.z, twice = 2.0f * stretch * n.cosine / n.length2;
     float facing = 0.5f * twice * sqrtf(n.length2);

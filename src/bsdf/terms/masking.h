@@ -9,14 +9,22 @@
 #define VNDF_BSDF_TERMS_MASKING_H
 
 #include "bsdf/routines.h"
-#include "bsdf/terms/area_above.h"
+#include "sampler/law.h"
 
 /* A(w), w.z > 0, with the roughness of the hit. */
 VNDF_INLINE float vndf_bsdf_area(const vndf_bsdf *b, vndf_vec3 w)
 {
     int ready;
-    float area = vndf_area_above(b->view.distribution, b->view.ax, b->view.ay, w, &ready);
+    float area = vndf_law_area_above(b->view.distribution, b->view.ax, b->view.ay, w, &ready);
     return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, w);
+}
+
+/* The same of the direction of the view. */
+VNDF_INLINE float vndf_bsdf_view_area(const vndf_bsdf *b)
+{
+    int ready;
+    float area = vndf_law_view_area(&b->view, &ready);
+    return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, b->view.wi);
 }
 
 /* At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */

@@ -28,11 +28,7 @@ VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf
     vndf_view_set(&b->view, &surface, wi);
     if (!b->view.distribution)
         return 0;
-    if (surface.distribution->kind == VNDF_KIND_TABLE) {
-        float x = b->view.ax * wi.x, y = b->view.ay * wi.y;
-        b->area = b->view.area * (sqrtf(x * x + y * y) + wi.z);
-    } else
-        b->area = vndf_bsdf_area(b, wi);
+    b->area = vndf_bsdf_view_area(b);
     return 1;
 }
 
@@ -40,7 +36,7 @@ VNDF_INLINE int vndf_prepare_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf
 {
     if (!vndf_prepare_visible(b, r, wi))
         return 0;
-    vndf_bounds_of(&b->view, b->bounds);
+    vndf_bounds_of(&b->view, &b->bounds);
     return 1;
 }
 
@@ -72,7 +68,7 @@ VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float fac
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density)
 {
     vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area};
-    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+    if (!vndf_law_is_exact(b->view.distribution))
         n.quotient = vndf_bsdf_quotient(b, wm, n.facing, density);
     return n;
 }
@@ -86,9 +82,9 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)
 {
-    vndf_bounded drawn = vndf_sample_bounded(&b->view, b->bounds, u1, u2);
+    vndf_bounded drawn = vndf_sample_bounded(&b->view, &b->bounds, u1, u2);
     vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.kept};
-    if (b->view.distribution->kind == VNDF_KIND_TABLE)
+    if (!vndf_law_is_exact(b->view.distribution))
         n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
     return n;
 }
@@ -99,8 +95,8 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_all(const vndf_bsdf *b, float u1, fl
     vndf_bsdf_normal n;
     n.wm = vndf_sample_all(v->distribution, v->alpha_x, v->alpha_y, u1, u2, &n.density);
     n.facing = vndf_dot(v->wi, n.wm);
-    n.quotient = v->distribution->kind == VNDF_KIND_TABLE ? vndf_bsdf_quotient(b, n.wm, n.facing, n.density)
-                                                          : n.facing / n.wm.z;
+    n.quotient =
+        vndf_law_is_exact(v->distribution) ? n.facing / n.wm.z : vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
     return n;
 }
 
@@ -131,7 +127,7 @@ VNDF_INLINE double vndf_bsdf_density(const vndf_bsdf *b, vndf_normal wm, vndf_no
 {
     const vndf_view *v = &b->view;
     if (normals == VNDF_NORMALS_BOUNDED)
-        return vndf_pdf_bounded(v, b->bounds, wm);
+        return vndf_pdf_bounded(v, &b->bounds, wm);
     if (normals == VNDF_NORMALS_ALL)
         return vndf_pdf_all(v->distribution, v->alpha_x, v->alpha_y, wm);
     if (normals == VNDF_NORMALS_V_CAVITY)

@@ -26,7 +26,7 @@ typedef struct end {
 static end end_at(const vndf_walk *walk, const vndf_view *view, int beyond)
 {
     vndf_vec3 up = view->wi, down = vndf_vec3_of(-up.x, -up.y, -up.z);
-    vndf_walk_target target = {up, vndf_walk_slant(view, down), beyond};
+    vndf_walk_target target = {up, vndf_law_slant(view, down), beyond};
     end e = {*walk, *view, target, up.z};
     return e;
 }
@@ -48,7 +48,7 @@ static end far_end(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
  * a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
 static double leaving_once(const end *from, const end *to)
 {
-    double a = vndf_walk_slant(&from->view, from->view.wi);
+    double a = vndf_law_slant(&from->view, from->view.wi);
     return to->target.beyond ? a * vndf_beta(a, 1.0 + to->target.lambda) : a / (a + to->target.lambda);
 }
 

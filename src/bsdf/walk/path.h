@@ -5,10 +5,7 @@
 #include "bsdf/walk/walk.h"
 #include "bsdf/walk/random.h"
 #include "math/vector.h"
-#include "sampler/closed.h"
-#include "sampler/tabulated/theory.h"
-#include "sampler/stretch.h"
-#include "sampler/surface.h"
+#include "sampler/law.h"
 
 typedef struct vndf_walk_path {
     vndf_view view; /* at an event: of where the ray came from */
@@ -34,36 +31,17 @@ VNDF_INLINE double vndf_walk_other_depth(double depth)
     return below < 1.0 ? -vndf_log(below > 1e-300 ? below : 1e-300) : 0.0;
 }
 
-/* A(w)/|w.z|: 1 + Lambda(w) above the horizon, Lambda(-w) below; w.z is not 0. */
-VNDF_INLINE double vndf_walk_slant(const vndf_view *view, vndf_vec3 w)
-{
-    const vndf_distribution *d = view->distribution;
-    vndf_stretched s = vndf_stretch(w, view->alpha_x, view->alpha_y, d->kind == VNDF_KIND_TABLE);
-    return vndf_unit_area(d, s.s, s.c) / fabs(s.c);
-}
-
-/* The same of the view's own direction: a table's view has its area. Infinite where c is no more a float. */
-VNDF_INLINE double vndf_walk_view_slant(const vndf_view *view)
-{
-    int table = view->distribution->kind == VNDF_KIND_TABLE;
-    return table ? (double)view->area / fabsf(view->c) : vndf_walk_slant(view, view->wi);
-}
-
 /* The view of another direction. */
 VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
 {
-    const vndf_distribution *d = view->distribution;
-    if (d->kind == VNDF_KIND_TABLE)
-        return vndf_view_scaled(d, view->alpha_x, view->alpha_y, w);
-    vndf_surface surface = {d, view->ax, view->ay};
-    return vndf_view_from(&surface, w);
+    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, w);
 }
 
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
  * leaves. */
 VNDF_INLINE int vndf_walk_leaves(vndf_walk_path *path, vndf_vec3 back, double distance)
 {
-    path->depth -= distance / vndf_walk_slant(&path->view, back);
+    path->depth -= distance / vndf_law_slant(&path->view, back);
     return !(path->depth > 0.0);
 }
 
@@ -75,7 +53,7 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
         return 0;
     path->view = vndf_walk_look(&path->view, back);
     if (back.z > 0.0f)
-        path->depth += distance / vndf_walk_view_slant(&path->view);
+        path->depth += distance / vndf_law_view_slant(&path->view);
     return 1;
 }
 
@@ -84,7 +62,7 @@ VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_vie
 {
     vndf_walk_path path = {
         *view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0, vndf_walk_random_from(seed)};
-    path.depth = vndf_walk_exponential(&path.random) / vndf_walk_view_slant(view);
+    path.depth = vndf_walk_exponential(&path.random) / vndf_law_view_slant(view);
     return path;
 }
 
@@ -163,7 +141,7 @@ VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float
 {
     float density;
     vndf_vec3 wm = vndf_sample(&path->view, u1, u2, &density);
-    if (path->view.distribution->kind == VNDF_KIND_TABLE) {
+    if (!vndf_law_is_exact(path->view.distribution)) {
         double ratio = (double)vndf_visible(&path->view, wm) / vndf_positive(density);
         for (int i = 0; i < VNDF_WAVELENGTHS; i++)
             path->weight[i] *= ratio;

@@ -31,7 +31,7 @@ static double share_of(const vndf_walk *walk, const vndf_view *view)
     if (!walk->transmits)
         share = saturated(9.0 * slope2) * cosine / (cosine + 0.17);
     else if (walk->eta > 1.0f)
-        share = saturated(30.0 * slope2) * (1.0 - 1.0 / vndf_walk_view_slant(view));
+        share = saturated(30.0 * slope2) * (1.0 - 1.0 / vndf_law_view_slant(view));
     else
         share = saturated(9.0 * slope2);
     return 0.001 + 0.998 * (share > 0.0 ? share : 0.0);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "fit/certificate/survey.h"
+#include "sampler/surface.h"
 #include "sampler/tabulated/theory.h"
 
 static const double PI = 3.14159265358979323846;

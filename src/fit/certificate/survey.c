@@ -382,9 +382,9 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
     if (c >= 0)
         add_front(v, &view);
     const vndf_wedge *side = vndf_wedge_of(v->table, c);
-    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.s, view.c));
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.of.table.s, view.of.table.c));
     quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
-    if (view.wedge > 0 && row.p > 0)
+    if (view.of.table.wedge > 0 && row.p > 0)
         add_quarter(v, &view, &wedge);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;

@@ -22,69 +22,8 @@
 
 #include "math/half_turn.h"
 #include "math/vector.h"
-#include "sampler/tabulated/draw.h"
-#include "sampler/tabulated/theory.h"
-#include "sampler/tabulated/radial_draw.h"
 #include "sampler/all_normals/v_cavity.h"
-
-/* ---- radius ---- */
-
-/* X and Z at any scale, P22/Z^3 at that scale, and whether that is good for the rounded normal. */
-typedef struct radius {
-    float x, z, p22_over_z3;
-    int plain;
-} radius;
-
-/* Bounds the slopes that u2 = 1 stands for; far below the step of a float u2 < 1. */
-static const float LEAST_REST = 0x1p-26f;
-
-VNDF_INLINE radius ggx_radius(float u)
-{
-    float rest = 1.0f - u, z = sqrtf(rest > LEAST_REST ? rest : LEAST_REST);
-    radius r = {sqrtf(u), z, 0.318309886f * z, u < 1.0f};
-    return r;
-}
-
-VNDF_INLINE radius beckmann_radius(float u)
-{
-    double rest = u < 1.0f ? 1.0 - u : LEAST_REST, square = -vndf_log(rest);
-    radius r = {(float)sqrt(square > 0.0 ? square : 0.0), 1.0f, 0.318309886f * (float)rest,
-                square < VNDF_TRUST_ALL_BECKMANN};
-    return r;
-}
-
-/* Where the last cells or the border of the unit square want it. */
-VNDF_RARE radius table_radius_carefully(const vndf_distribution *d, float u)
-{
-    vndf_radius at = vndf_radial_draw_whole(d, 1.0f, 0.0f, u).at;
-    vndf_radial_lanes cell = vndf_radial_load(d, at.cell);
-    radius r = {at.eta * cell.x0 + at.xi * cell.x1, at.eta * cell.z0 + at.xi * cell.z1, 0.0f, 0};
-    return r;
-}
-
-VNDF_INLINE radius table_radius(const vndf_distribution *d, float u)
-{
-    float target = u * d->f0_total;
-    uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, 1.0f, 0.0f, u), 1.0f, 0.0f, target, 1);
-    if (j + 3 > d->radial_count)
-        return table_radius_carefully(d, u);
-    vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
-    vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
-    vndf_place at = vndf_place_in(&cell, &in);
-    if (!vndf_plain_place_whole(&cell, &mass, in.xi))
-        return table_radius_carefully(d, u);
-    float x = at.x * at.per;
-    radius r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};
-    return r;
-}
-
-VNDF_INLINE radius radius_at(const vndf_distribution *d, float u)
-{
-    if (d->kind == VNDF_KIND_TABLE)
-        return table_radius(d, u);
-    return d->kind == VNDF_KIND_GGX ? ggx_radius(u) : beckmann_radius(u);
-}
+#include "sampler/law.h"
 
 /* ---- normal ---- */
 
@@ -95,7 +34,7 @@ typedef struct drawn_normal {
 } drawn_normal;
 
 /* A normal at the horizon, which only a far tail rounds to, is lifted by what no float sees: it has a density. */
-VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, double ay, const radius *r,
+VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, double ay, const vndf_slope *r,
                                         float cosine, float sine)
 {
     double x = r->x * (ax * cosine), y = r->x * (ay * sine), z = r->z, per = 1.0 / sqrt(x * x + y * y + z * z);
@@ -105,8 +44,8 @@ VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, d
     return drawn;
 }
 
-VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double ay, const radius *r, float cosine,
-                                   float sine)
+VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double ay, const vndf_slope *r,
+                                   float cosine, float sine)
 {
     float along = (float)ax, across = (float)ay, x = r->x * (along * cosine), y = r->x * (across * sine);
     float length2 = x * x + y * y + r->z * r->z, length = sqrtf(length2), per = 1.0f / length;
@@ -120,7 +59,7 @@ VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double
 vndf_vec3 vndf_sample_all(const vndf_distribution *d, double ax, double ay, float u1, float u2, float *pdf)
 {
     float half = 2.0f * vndf_clamp_unit(u1) - 1.0f;
-    radius r = radius_at(d, vndf_clamp_unit(u2));
+    vndf_slope r = vndf_law_slope(d, vndf_clamp_unit(u2));
     vndf_turn turn = vndf_half_turn(fabsf(half));
     drawn_normal drawn = normal_at(d, ax, ay, &r, turn.cosine, copysignf(turn.sine, half));
     if (pdf)
@@ -128,21 +67,11 @@ vndf_vec3 vndf_sample_all(const vndf_distribution *d, double ax, double ay, floa
     return drawn.wm;
 }
 
-static double table_pdf(const vndf_distribution *d, double ax, double ay, vndf_normal wm)
-{
-    const double per_turn = 0.15915494309189534;
-    vndf_engine_ray ray = {d, 1.0, 0.0, per_turn, d->f0_total, 0.0, d->radial_count};
-    double mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my), scale = 1.0 / (x + wm.z), z = wm.z * scale;
-    return vndf_engine_ray_density(&ray, x * scale, z, z) * (scale / ax) * (scale / ay) * scale;
-}
-
 double vndf_pdf_all(const vndf_distribution *d, double ax, double ay, vndf_normal wm)
 {
     if (!(wm.z >= 0.0))
         return 0.0;
-    if (d->kind == VNDF_KIND_TABLE)
-        return table_pdf(d, ax, ay, wm);
-    return wm.z * (d->kind == VNDF_KIND_GGX ? vndf_ggx_ndf(ax, ay, wm) : vndf_beckmann_ndf(ax, ay, wm));
+    return vndf_law_pdf_all(d, ax, ay, wm);
 }
 
 /* ---- V-cavities ---- */
@@ -155,7 +84,7 @@ static double twin_share(vndf_vec3 wi, vndf_normal wm)
 }
 
 /* The stretched azimuth of a normal with slope X/Z by what it and its twin see of wi. */
-VNDF_INLINE vndf_turn v_cavity_azimuth(vndf_vec3 wi, double ax, double ay, const radius *r, float u1)
+VNDF_INLINE vndf_turn v_cavity_azimuth(vndf_vec3 wi, double ax, double ay, const vndf_slope *r, float u1)
 {
     float along = (float)ax * wi.x, aside = (float)ay * wi.y, across = vndf_length2(along, aside);
     float half = 2.0f * u1 - 1.0f, rest = 2.0f * (half < 0.0f ? u1 : 1.0f - u1), per = 1.0f / across;
@@ -170,7 +99,7 @@ VNDF_INLINE vndf_turn v_cavity_azimuth(vndf_vec3 wi, double ax, double ay, const
 vndf_vec3 vndf_sample_v_cavity(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi, float u1, float u2,
                                float *pdf)
 {
-    radius r = radius_at(d, vndf_clamp_unit(u2));
+    vndf_slope r = vndf_law_slope(d, vndf_clamp_unit(u2));
     vndf_turn turn = v_cavity_azimuth(wi, ax, ay, &r, vndf_clamp_unit(u1));
     drawn_normal drawn = normal_at(d, ax, ay, &r, turn.cosine, turn.sine);
     double share = twin_share(wi, vndf_normal_of(drawn.wm));

@@ -88,12 +88,13 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, la
 /* Of a view, the same in all lanes. */
 VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_of(const vndf_view *v)
 {
-    const float *w = v->closed;
-    vndf_beckmann_incidence of = {lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]),
-                                  lanes_set(w[1]),  lanes_set(w[2]),  lanes_set(w[3]),
-                                  lanes_set(w[4]),  lanes_set(w[5]),  lanes_set(w[6]),
-                                  lanes_set(w[7]),  lanes_set(w[8]),  lanes_set(w[9]),
-                                  lanes_set(w[10]), lanes_set(w[11]), v->plain ? lanes_all() : lanes_none()};
+    const struct vndf_beckmann_view *w = &v->of.beckmann;
+    vndf_beckmann_incidence of = {
+        lanes_set(v->ax),      lanes_set(v->ay),     lanes_set(w->cos_phi),
+        lanes_set(w->sin_phi), lanes_set(w->bound),  lanes_set(w->line),
+        lanes_set(w->tail),    lanes_set(w->spread), lanes_set(w->near_side),
+        lanes_set(w->p0),      lanes_set(w->p1),     lanes_set(w->p2),
+        lanes_set(w->p3),      lanes_set(w->p4),     v->plain ? lanes_all() : lanes_none()};
     return of;
 }
 

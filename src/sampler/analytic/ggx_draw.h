@@ -41,10 +41,10 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
 /* Of a view, the same in all lanes. */
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_of(const vndf_view *v)
 {
-    const float *w = v->closed;
+    const struct vndf_ggx_view *w = &v->of.ggx;
     vndf_ggx_incidence of = {
-        lanes_set(v->ax), lanes_set(v->ay), lanes_set(w[0]), lanes_set(w[1]),
-        lanes_set(w[2]),  lanes_set(w[3]),  lanes_set(w[4]), v->plain ? lanes_all() : lanes_none()};
+        lanes_set(v->ax), lanes_set(v->ay), lanes_set(w->x),      lanes_set(w->y),
+        lanes_set(w->c),  lanes_set(w->q),  lanes_set(w->spread), v->plain ? lanes_all() : lanes_none()};
     return of;
 }
 

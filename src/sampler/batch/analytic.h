@@ -1,4 +1,4 @@
-/* Blocks of the closed forms in lanes, for lanes_sample.c. */
+/* Blocks of the closed forms in lanes, for lanes_draw.c. */
 #ifndef VNDF_SAMPLER_BATCH_ANALYTIC_H
 #define VNDF_SAMPLER_BATCH_ANALYTIC_H
 
@@ -58,7 +58,7 @@ VNDF_INLINE void draw_slopes(const vndf_sample_block *b, beckmann_work *w, const
         w->first[g] = vndf_beckmann_step(one ? one : &w->at[g], w->first[g], w->u1[g]);
 }
 
-static void vndf_draw_beckmann(vndf_sample_block *b)
+static inline void vndf_draw_beckmann(vndf_sample_block *b)
 {
     beckmann_work w;
     uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;

@@ -30,6 +30,12 @@ VNDF_INLINE int vndf_batch_is_one_view(const vndf_batch *b)
     return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI) && b->count > 0;
 }
 
+/* Whether there are lanes that are worth it; a build without lanes uses none. */
+VNDF_INLINE int vndf_batch_has_lanes(const vndf_batch *b)
+{
+    return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
+}
+
 VNDF_INLINE vndf_view vndf_batch_view(const vndf_batch *b, size_t i)
 {
     vndf_surface surface = vndf_batch_surface(b, i);

@@ -99,22 +99,11 @@ static void answer_in_lanes(const call *c)
     }
 }
 
-static int has_lanes(const vndf_batch *b)
-{
-    return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
-}
-
 #else
 
 static void answer_in_lanes(const call *c)
 {
     answer_one_by_one(c);
-}
-
-static int has_lanes(const vndf_batch *b)
-{
-    (void)b;
-    return 0;
 }
 
 #endif
@@ -125,7 +114,7 @@ static void answer(const call *c)
         float all = answer_of(c, 0);
         for (size_t i = 0; i < c->batch->count; i++)
             c->to[i] = all;
-    } else if (has_lanes(c->batch)) {
+    } else if (vndf_batch_has_lanes(c->batch)) {
         answer_in_lanes(c);
     } else {
         answer_one_by_one(c);

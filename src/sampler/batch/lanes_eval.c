@@ -5,9 +5,8 @@
  * them first, and each way is gone for those that take it, gathered. */
 #include "sampler/batch/lanes_eval.h"
 
-#include "sampler/analytic/density.h"
 #include "sampler/tabulated/density_wedge.h"
-#include "sampler/surface.h"
+#include "sampler/area.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
@@ -103,7 +102,7 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
                         input(in, VNDF_EVAL_Z, i)};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
-        doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_ndf_of(d, &g), nothing)));
+        doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_law_ndf(d, &g), nothing)));
     }
 }
 
@@ -115,7 +114,7 @@ VNDF_INLINE doubles_m is_seen(const vndf_given *g, doubles facing)
                         doubles_both(doubles_at_most(nothing, g->z), doubles_less(nothing, facing)));
 }
 
-/* Dv, of closed forms FLT_MIN at least. */
+/* Dv, of an exact law FLT_MIN at least. */
 static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
 {
     const doubles nothing = doubles_set(0.0);
@@ -125,8 +124,8 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
         doubles facing = vndf_given_facing(&g);
         doubles_m seen = is_seen(&g, facing);
         g = picked_given(seen, &g);
-        doubles visible = vndf_visible_of(d, &g, facing);
-        doubles rounded = doubles_widen(d->kind == VNDF_KIND_TABLE ? density_of(visible) : positive_of(visible));
+        doubles visible = vndf_law_visible(d, &g, facing);
+        doubles rounded = doubles_widen(vndf_law_is_exact(d) ? positive_of(visible) : density_of(visible));
         doubles_store_f(b->value + i, doubles_narrow(doubles_pick(seen, rounded, nothing)));
     }
 }
@@ -242,10 +241,10 @@ void vndf_eval_block_avx2(const vndf_distribution *d, vndf_question question, vn
         answer_g1(d, b);
     else if (question == VNDF_ASK_NDF)
         answer_ndf(d, b);
-    else if (question == VNDF_ASK_PDF && d->kind == VNDF_KIND_TABLE)
+    else if (question == VNDF_ASK_PDF && !vndf_law_is_exact(d))
         answer_pdf(d, b);
     else
-        answer_visible(d, b); /* of closed forms it is the density */
+        answer_visible(d, b); /* of an exact law it is the density */
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* Batches in lanes: one source, lanes_sample.c, compiled for each instruction set. A block of a batch is drawn
+/* Batches in lanes: one source, lanes_draw.c, compiled for each instruction set. A block of a batch is drawn
  * where that is plain (draw.h), sorted into samples in front of wi and in the wedge (sort.h); the rest is
  * left to the calls of one. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_SAMPLE_H
@@ -8,7 +8,7 @@
 
 #include "vndf.h"
 
-/* 1 where the build compiles lanes_sample.c for AVX2 and AVX-512. */
+/* 1 where the build compiles lanes_draw.c for AVX2 and AVX-512. */
 #ifndef VNDF_HAS_LANES
 #  define VNDF_HAS_LANES 0
 #endif

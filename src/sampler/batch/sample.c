@@ -197,16 +197,9 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
     }
 }
 
-/* Whether lanes draw most samples of a batch. */
-static int has_lanes(const vndf_batch *b)
-{
-    return b->count > 1 && b->distribution && vndf_unit_scale_float(b->distribution) > 0.0f &&
-           vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
-}
-
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    if (has_lanes(b))
+    if (vndf_batch_has_lanes(b) && vndf_unit_scale_float(b->distribution) > 0.0f) /* lanes have no double */
         sample_in_lanes(b, u1, u2, wm, pdf);
     else
         sample_one_by_one(b, u1, u2, wm, pdf);

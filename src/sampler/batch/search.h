@@ -106,7 +106,7 @@ VNDF_INLINE void vndf_mix_row(const vndf_azimuth_row *row, vndf_mixed_row *to)
     }
 }
 
-VNDF_INLINE vndf_azimuth_cell vndf_mixed_cell(const vndf_mixed_row *m, lanes_u j)
+VNDF_INLINE vndf_azimuth_cell vndf_mixed_cell_of(const vndf_mixed_row *m, lanes_u j)
 {
     uint32_t n = m->count;
     vndf_azimuth_cell cell = {{lanes_few(m->e0, n, j), lanes_few(m->e1, n, j), lanes_few(m->mass, n, j)},
@@ -160,7 +160,7 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, c
 {
     lanes_u cell = lanes_load_u(s->cell + i);
     if (vndf_has_one_row(d, from))
-        return vndf_mixed_cell(&s->mixed, cell);
+        return vndf_mixed_cell_of(&s->mixed, cell);
     lanes_lines lines = lanes_lines_from(&d->above.row_line->before, 4, s->at + i);
     return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, &lines);
 }

@@ -124,8 +124,8 @@ VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_s
                                   uint32_t *low, uint32_t *high)
 {
     lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
-    lanes_f front = lanes_set(b->view->front);
-    vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->wedge), half);
+    lanes_f front = lanes_set(b->view->of.table.front);
+    vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->of.table.wedge), half);
     from->usable = lanes_all();
     from->plain = vndf_sector_is_plain(&sector, front, half, u2);
     from->split = lanes_split_by(sector.in_front, low, high);

@@ -16,24 +16,25 @@
 #include "math/vector.h"
 #include "sampler/analytic/beckmann.h"
 #include "sampler/analytic/beckmann_draw.h"
-#include "sampler/bounded/bounded.h"
-#include "sampler/tabulated/theory.h"
+#include "sampler/bounded/beckmann.h"
 #include "sampler/given_normal.h"
 #include "sampler/stretch.h"
+#include "sampler/surface.h"
 
-/* What of a direction is in `bounds`: the extent, the part of F before it and on it, the azimuth of wi, in double
- * - of a float the last bits would put normals beside the extent -, and the law of x. */
-enum { X0, X1, BEGIN, SPAN, COS_PHI, SIN_PHI, WHOLE, LINE };
+/* In the bounds stand the extent, the part of F before it and on it, the azimuth of wi, in double - of a float the
+ * last bits would put normals beside the extent -, and the law of x; beside them the stretched direction and its
+ * area times the roughness. */
+typedef struct vndf_beckmann_bounds extent;
 
 /* The ellipse in the frame turned to the stretched wi. */
 typedef struct ellipse {
     double qxx, qxy, qyy, det;
 } ellipse;
 
-static ellipse ellipse_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
+static ellipse ellipse_of(const vndf_view *view, const extent *bounds)
 {
     double a2 = view->alpha_x * view->alpha_x, b2 = view->alpha_y * view->alpha_y;
-    double c = bounds[COS_PHI], s = bounds[SIN_PHI];
+    double c = bounds->cos_phi, s = bounds->sin_phi;
     ellipse e = {a2 * c * c + b2 * s * s, (b2 - a2) * s * c, a2 * s * s + b2 * c * c, a2 * b2};
     return e;
 }
@@ -41,7 +42,8 @@ static ellipse ellipse_of(const vndf_view *view, const double bounds[VNDF_BOUNDS
 /* The part of the law before x, of a plain view, in float: to 3e-7. Beyond 4 there is less than that. */
 static double part_in_float(const vndf_view *view, double x)
 {
-    float bound = view->closed[2], line = view->closed[3], whole = 1.0f + (line + view->closed[4]);
+    const struct vndf_beckmann_view *w = &view->of.beckmann;
+    float bound = w->bound, line = w->line, whole = 1.0f + (line + w->tail);
     float z = lanes_least(fabsf((float)x), 4.0f), side = x < 0.0 ? 1.0f : -1.0f, fall = vndf_exp_lanes(-(z * z));
     vndf_erfc_ratio e = vndf_erfc_lanes(z);
     float tail = fall * (1.0f + side * (bound * (e.above / e.below)));
@@ -49,46 +51,48 @@ static double part_in_float(const vndf_view *view, double x)
 }
 
 /* Of a plain view it is in the view; else in `bounds`. */
-VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS])
+VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const extent *bounds)
 {
-    double bound = vndf_beckmann_bound(view->s, view->c), line = view->closed[3], tail = view->closed[4];
+    double bound = vndf_beckmann_bound(bounds->s, bounds->c), line = view->of.beckmann.line,
+           tail = view->of.beckmann.tail;
     double scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
     vndf_beckmann_law plain = {bound, scale * (1.0 + (line + tail)), scale * line};
-    vndf_beckmann_law law = {bound, bounds[WHOLE], bounds[LINE]};
+    vndf_beckmann_law law = {bound, bounds->whole, bounds->line};
     return view->plain ? plain : law;
 }
 
 /* Beyond 7 there is nothing. */
-static void set_law(vndf_view *view, double bounds[VNDF_BOUNDS])
+static void set_law(const vndf_view *view, extent *bounds)
 {
-    vndf_beckmann_law law = vndf_beckmann_law_at(view->s, view->c);
-    double x0 = bounds[X0], x1 = bounds[X1];
-    bounds[WHOLE] = law.whole;
-    bounds[LINE] = law.line;
-    bounds[BEGIN] = x0 < -7.0 ? 0.0 : vndf_beckmann_part(&law, x0, law.bound - x0);
-    bounds[SPAN] = (x1 > 7.0 ? 1.0 : vndf_beckmann_part(&law, x1, law.bound - x1)) - bounds[BEGIN];
-    view->spread = (float)(vndf_unit_area(view->distribution, view->s, view->c) * (view->alpha_x * view->alpha_y));
+    vndf_beckmann_law law = vndf_beckmann_law_at(bounds->s, bounds->c);
+    double x0 = bounds->x0, x1 = bounds->x1;
+    bounds->whole = law.whole;
+    bounds->line = law.line;
+    bounds->begin = x0 < -7.0 ? 0.0 : vndf_beckmann_part(&law, x0, law.bound - x0);
+    bounds->span = (x1 > 7.0 ? 1.0 : vndf_beckmann_part(&law, x1, law.bound - x1)) - bounds->begin;
+    bounds->spread =
+        (float)(vndf_unit_area(view->distribution, bounds->s, bounds->c) * (view->alpha_x * view->alpha_y));
 }
 
-static void set_law_in_float(vndf_view *view, double bounds[VNDF_BOUNDS])
+static void set_law_in_float(const vndf_view *view, extent *bounds)
 {
-    bounds[BEGIN] = part_in_float(view, bounds[X0]);
-    bounds[SPAN] = part_in_float(view, bounds[X1]) - bounds[BEGIN];
-    view->spread = view->closed[5] * view->s * 0.318309886f;
+    bounds->begin = part_in_float(view, bounds->x0);
+    bounds->span = part_in_float(view, bounds->x1) - bounds->begin;
+    bounds->spread = view->of.beckmann.spread * bounds->s * 0.318309886f;
 }
 
-void vndf_bounds_beckmann(vndf_view *view, double bounds[VNDF_BOUNDS])
+void vndf_bound_beckmann(const vndf_view *view, extent *bounds)
 {
-    vndf_stretched w = vndf_stretched_of(view);
-    double level = sqrt(w.x * w.x + w.y * w.y), per = level > 0.0 ? 1.0 / level : 0.0;
-    view->s = (float)w.s;
-    view->c = (float)w.c;
-    bounds[COS_PHI] = level > 0.0 ? w.x * per : 1.0;
-    bounds[SIN_PHI] = w.y * per;
+    vndf_stretched w = vndf_stretched_closed(view);
+    vndf_heading to = vndf_heading_of(&w);
+    bounds->s = (float)w.s;
+    bounds->c = (float)w.c;
+    bounds->cos_phi = to.cosine;
+    bounds->sin_phi = to.sine;
     ellipse e = ellipse_of(view, bounds);
     double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
-    bounds[X0] = -sum / e.det;
-    bounds[X1] = e.qyy / sum;
+    bounds->x0 = -sum / e.det;
+    bounds->x1 = e.qyy / sum;
     if (view->plain)
         set_law_in_float(view, bounds);
     else
@@ -114,9 +118,9 @@ static double short_part(double low, double high)
 }
 
 /* But for its part. */
-static chord chord_on(const ellipse *e, const double bounds[VNDF_BOUNDS], double x)
+static chord chord_on(const ellipse *e, const extent *bounds, double x)
 {
-    double square = e->det * (bounds[X1] - x) * (x - bounds[X0]);
+    double square = e->det * (bounds->x1 - x) * (x - bounds->x0);
     double half = square > 0.0 ? sqrt(square) / e->qyy : 0.0;
     double middle = -e->qxy * x / e->qyy;
     chord h = {-fabs(middle) - half, -fabs(middle) + half, 0.0, 0.0, middle > 0.0, 0};
@@ -176,35 +180,35 @@ static double draw_across(const chord *h, double u)
 
 /* ---- both ---- */
 
-vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const double bounds[VNDF_BOUNDS],
-                                              vndf_normal wm, double facing)
+vndf_bounded_factors vndf_bounded_beckmann_at(const vndf_view *view, const extent *bounds, vndf_normal wm,
+                                              double facing)
 {
     ellipse e = ellipse_of(view, bounds);
-    double along = bounds[COS_PHI] * wm.x / view->alpha_x + bounds[SIN_PHI] * wm.y / view->alpha_y;
+    double along = bounds->cos_phi * wm.x / view->alpha_x + bounds->sin_phi * wm.y / view->alpha_y;
     chord h = chord_on(&e, bounds, -along / wm.z);
     weigh_chord(&h);
-    vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing), bounds[SPAN] * h.part};
+    vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing), bounds->span * h.part};
     return at;
 }
 
 /* Whether the density is that of the normal as it is rounded: slopes move by 1.2e-7 of themselves, the ends of
  * the chord with them, and the part on it by no more than (1 - part) (2 |y| + 1.2) times that. */
-static int is_settled(const vndf_view *view, const double bounds[VNDF_BOUNDS], const ellipse *e, const chord *h,
-                      double x, double y)
+static int is_settled(const vndf_view *view, const extent *bounds, const ellipse *e, const chord *h, double x,
+                      double y)
 {
     double farther = -h->low, root = 0.5 * (h->high - h->low) * e->qyy;
-    double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds[X1] - bounds[X0]);
+    double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds->x1 - bounds->x0);
     double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
-    double turned = view->s * (fabs(x) + fabs(y)) + view->c, facing = view->c - view->s * x;
+    double turned = bounds->s * (fabs(x) + fabs(y)) + bounds->c, facing = bounds->c - bounds->s * x;
     int plain =
         view->plain && x * x + y * y < VNDF_TRUST_BOUNDED_SLOPE && VNDF_TRUST_BOUNDED_FACING * turned < facing;
     return plain && change < VNDF_TRUST_BOUNDED_STEEP * h->part * e->qyy * root;
 }
 
 /* The slope along wi. */
-static double draw_along(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1)
+static double draw_along(const vndf_view *view, const extent *bounds, float u1)
 {
-    double u = bounds[BEGIN] + u1 * bounds[SPAN], x;
+    double u = bounds->begin + u1 * bounds->span, x;
     if (view->plain && vndf_beckmann_product((float)u) > VNDF_TRUST_BECKMANN_MIDDLE) {
         vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
         x = vndf_beckmann_step(&w, vndf_beckmann_first(&w, (float)u), (float)u).x;
@@ -212,10 +216,17 @@ static double draw_along(const vndf_view *view, const double bounds[VNDF_BOUNDS]
         vndf_beckmann_law law = law_of(view, bounds);
         x = vndf_beckmann_slope(&law, u);
     }
-    return x > bounds[X0] ? (x < bounds[X1] ? x : bounds[X1]) : bounds[X0];
+    return x > bounds->x0 ? (x < bounds->x1 ? x : bounds->x1) : bounds->x0;
 }
 
-vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
+static vndf_bounded settled(const vndf_view *view, const extent *bounds, vndf_normal drawn)
+{
+    vndf_vec3 wm = vndf_disc_normal(view, drawn);
+    return vndf_bounded_from(
+        wm, vndf_bounded_beckmann_at(view, bounds, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
+}
+
+vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const extent *bounds, float u1, float u2)
 {
     ellipse e = ellipse_of(view, bounds);
     double x = draw_along(view, bounds, u1);
@@ -224,14 +235,14 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const double bounds[VN
         weigh_chord_in_float(&h);
     else
         weigh_chord(&h);
-    double y = draw_across(&h, u2), c = bounds[COS_PHI], s = bounds[SIN_PHI];
+    double y = draw_across(&h, u2), c = bounds->cos_phi, s = bounds->sin_phi;
     vndf_normal m = {-view->alpha_x * (c * x - s * y), -view->alpha_y * (s * x + c * y), 1.0};
-    double length2 = m.x * m.x + m.y * m.y + 1.0, up = view->c - view->s * x;
-    if (!(VNDF_TRUST_INSIDE * view->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
-        return vndf_bounded_settled(view, bounds, m);
-    double length = sqrt(length2), per = 1.0 / length, kept = bounds[SPAN] * h.part;
+    double length2 = m.x * m.x + m.y * m.y + 1.0, up = bounds->c - bounds->s * x;
+    if (!(VNDF_TRUST_INSIDE * bounds->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
+        return settled(view, bounds, m);
+    double length = sqrt(length2), per = 1.0 / length, kept = bounds->span * h.part;
     float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));
-    double density = p22 * (up * length2 * length) / (view->spread * kept);
+    double density = p22 * (up * length2 * length) / (bounds->spread * kept);
     vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
     vndf_bounded b = {wm, (float)density, (float)kept};
     return b;

@@ -51,10 +51,9 @@ static double dot(vndf_normal a, vndf_normal b)
 
 static frame frame_of(const vndf_view *view)
 {
-    vndf_stretched w = vndf_stretched_of(view);
-    double across = sqrt(w.x * w.x + w.y * w.y), per = across > 0.0 ? 1.0 / across : 0.0;
-    frame f = {view->alpha_x, view->alpha_y,   w.s, w.c, across > 0.0 ? w.x * per : 1.0,
-               w.y * per,     {0.0, 0.0, 0.0}, 0.0};
+    vndf_stretched w = vndf_stretched_closed(view);
+    vndf_heading to = vndf_heading_of(&w);
+    frame f = {view->alpha_x, view->alpha_y, w.s, w.c, to.cosine, to.sine, {0.0, 0.0, 0.0}, 0.0};
     f.m0 = stretched(&f, w.s, 0.0, w.c);
     f.c0 = w.c * (dot(f.m0, f.m0) - 2.0);
     return f;
@@ -97,6 +96,12 @@ static chord chord_at(const frame *f, double cosine, double sine)
 
 /* ---- the law of the azimuth ---- */
 
+/* The part of psi in front; kept over those of the roots, in front and in the wedge; where u1 begins and the part of
+ * it that tangents leave, 1 for all. */
+typedef struct azimuth_law {
+    double front, in_front, in_wedge, begin, span;
+} azimuth_law;
+
 /* The part of it up to psi in (-pi, pi]. */
 static double part_before(const frame *f, double front, double cosine, double sine)
 {
@@ -108,7 +113,7 @@ static double part_before(const frame *f, double front, double cosine, double si
 
 /* The two azimuths where the chord ends, each by a vector: roots of d11 x^2 + 2 d12 x y + d22 y^2, what is under
  * the root of chord_at. */
-static void find_tangents(const frame *f, double bounds[VNDF_BOUNDS])
+static void find_tangents(const frame *f, azimuth_law *law)
 {
     vndf_normal m1 = stretched(f, -f->c, 0.0, f->s), m2 = stretched(f, 0.0, 1.0, 0.0);
     double b1 = f->c * dot(f->m0, m1) - f->s, b2 = f->c * dot(f->m0, m2), ac = f->c0 * f->c;
@@ -121,71 +126,73 @@ static void find_tangents(const frame *f, double bounds[VNDF_BOUNDS])
         y[i] *= side;
     }
     int first = x[0] * y[1] - y[0] * x[1] < 0.0;
-    double begin = part_before(f, bounds[VNDF_GGX_FRONT], x[first], y[first]);
-    double end = part_before(f, bounds[VNDF_GGX_FRONT], x[1 - first], y[1 - first]);
-    bounds[VNDF_GGX_BEGIN] = begin;
-    bounds[VNDF_GGX_SPAN] = end - begin + (end < begin ? 1.0 : 0.0);
-    bounds[VNDF_GGX_IN_FRONT] = bounds[VNDF_GGX_IN_WEDGE] = bounds[VNDF_GGX_SPAN];
+    double begin = part_before(f, law->front, x[first], y[first]);
+    double end = part_before(f, law->front, x[1 - first], y[1 - first]);
+    law->begin = begin;
+    law->span = end - begin + (end < begin ? 1.0 : 0.0);
+    law->in_front = law->in_wedge = law->span;
 }
 
 /* Of the two sides the one that keeps more is where M0.M1 < 0. */
-void vndf_bounds_ggx_carefully(const vndf_view *view, double bounds[VNDF_BOUNDS])
+static azimuth_law law_from(const frame *f)
+{
+    azimuth_law law = {1.0 / (1.0 + f->c), 1.0, 1.0, 0.0, 1.0};
+    if (f->c0 > 0.0) {
+        find_tangents(f, &law);
+        return law;
+    }
+    vndf_normal side = stretched(f, 0.0, 1.0, 0.0);
+    double away = chord_at(f, -1.0, 0.0).part;
+    double beside = chord_at(f, 0.0, dot(f->m0, side) < 0.0 ? 1.0 : -1.0).part;
+    double wedge = away > beside ? away : beside, all = 1.0 + f->c * wedge;
+    law.front = 1.0 / all;
+    law.in_front = all / (1.0 + f->c);
+    law.in_wedge = all / ((1.0 + f->c) * wedge);
+    return law;
+}
+
+void vndf_bound_ggx_carefully(const vndf_view *view, struct vndf_ggx_bounds *bounds)
 {
     frame f = frame_of(view);
-    bounds[VNDF_GGX_BEGIN] = 0.0;
-    bounds[VNDF_GGX_FRONT] = 1.0 / (1.0 + f.c);
-    bounds[VNDF_GGX_IN_FRONT] = bounds[VNDF_GGX_IN_WEDGE] = bounds[VNDF_GGX_SPAN] = 1.0;
-    if (f.c0 > 0.0) {
-        find_tangents(&f, bounds);
-        return;
-    }
-    vndf_normal side = stretched(&f, 0.0, 1.0, 0.0);
-    double away = chord_at(&f, -1.0, 0.0).part;
-    double beside = chord_at(&f, 0.0, dot(f.m0, side) < 0.0 ? 1.0 : -1.0).part;
-    double wedge = away > beside ? away : beside, all = 1.0 + f.c * wedge;
-    bounds[VNDF_GGX_FRONT] = 1.0 / all;
-    bounds[VNDF_GGX_IN_FRONT] = all / (1.0 + f.c);
-    bounds[VNDF_GGX_IN_WEDGE] = all / ((1.0 + f.c) * wedge);
+    azimuth_law law = law_from(&f);
+    bounds->exact.front = law.front;
+    bounds->exact.in_front = law.in_front;
+    bounds->exact.in_wedge = law.in_wedge;
+    bounds->exact.begin = law.begin;
+    bounds->exact.span = law.span;
 }
 
 /* ---- in double ---- */
 
-/* Where the direction is plain its law is in the view. */
-static const double *law_of(const vndf_view *view, const double bounds[VNDF_BOUNDS], double law[VNDF_BOUNDS])
+/* Where the direction is plain its law is there in float. */
+static azimuth_law law_of(const vndf_view *view, const struct vndf_ggx_bounds *b)
 {
-    vndf_outlook o = vndf_outlook_of(view);
-    vndf_ggx_law plain = vndf_ggx_law_of(view);
-    if (!vndf_outlook_is_plain(view, &o))
-        return bounds;
-    law[VNDF_GGX_FRONT] = 0.5 / plain.slow;
-    law[VNDF_GGX_IN_FRONT] = plain.in_front;
-    law[VNDF_GGX_IN_WEDGE] = plain.in_wedge;
-    law[VNDF_GGX_BEGIN] = 0.0;
-    law[VNDF_GGX_SPAN] = 1.0;
-    return law;
+    vndf_outlook o = vndf_outlook_of(view, b);
+    if (vndf_outlook_is_plain(view, &o))
+        return (azimuth_law){0.5 / b->slow, b->in_front, b->in_wedge, 0.0, 1.0};
+    return (azimuth_law){b->exact.front, b->exact.in_front, b->exact.in_wedge, b->exact.begin, b->exact.span};
 }
 
-vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const double bounds[VNDF_BOUNDS], vndf_normal wm,
-                                         double facing)
+vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const struct vndf_ggx_bounds *bounds,
+                                         vndf_normal wm, double facing)
 {
-    double law[VNDF_BOUNDS];
     frame f = frame_of(view);
+    azimuth_law law = law_of(view, bounds);
     double x = wm.x / f.ax, y = wm.y / f.ay, along = f.cos_phi * x + f.sin_phi * y;
     double cosine = f.s * wm.z - f.c * along, sine = f.cos_phi * y - f.sin_phi * x;
     double length = sqrt(cosine * cosine + sine * sine), per = length > 0.0 ? 1.0 / length : 0.0;
     cosine = length > 0.0 ? cosine * per : 1.0;
     chord h = chord_at(&f, cosine, sine * per);
-    vndf_bounded_factors at = {
-        vndf_normal_visible(view, wm, facing),
-        h.part * law_of(view, bounds, law)[cosine >= 0.0 ? VNDF_GGX_IN_FRONT : VNDF_GGX_IN_WEDGE]};
+    vndf_bounded_factors at = {vndf_normal_visible(view, wm, facing),
+                               h.part * (cosine >= 0.0 ? law.in_front : law.in_wedge)};
     return at;
 }
 
 /* psi, cosine and sine but for a factor; u1 in [0, 1]. */
-static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], double u1, double azimuth[2])
+static void draw_azimuth(const frame *f, const azimuth_law *law, double u1, double azimuth[2])
 {
-    double u = bounds[VNDF_GGX_BEGIN] + bounds[VNDF_GGX_SPAN] * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0;
-    double front = bounds[VNDF_GGX_FRONT], part = fabs(half);
+    double u = law->begin + law->span * u1, half = 2.0 * (u < 1.0 ? u : u - 1.0) - 1.0;
+    double front = law->front, part = fabs(half);
     if (part < front || !(front < 1.0)) {
         vndf_turn turn = vndf_half_turn(vndf_clamp_unit((float)(0.5 * part / front)));
         azimuth[0] = turn.cosine;
@@ -197,12 +204,13 @@ static void draw_azimuth(const frame *f, const double bounds[VNDF_BOUNDS], doubl
     }
 }
 
-vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1,
+vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1,
                                         float u2)
 {
     frame f = frame_of(view);
-    double azimuth[2], law[VNDF_BOUNDS];
-    draw_azimuth(&f, law_of(view, bounds, law), u1, azimuth);
+    azimuth_law law = law_of(view, bounds);
+    double azimuth[2];
+    draw_azimuth(&f, &law, u1, azimuth);
     double per = 1.0 / sqrt(azimuth[0] * azimuth[0] + azimuth[1] * azimuth[1]);
     chord h = chord_at(&f, azimuth[0] * per, azimuth[1] * per);
     double rest = 1.0 - u2;
@@ -210,5 +218,7 @@ vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const double boun
     double cosine = sqrt(rest * h.cosine2[0] + u2 * h.cosine2[1]);
     vndf_normal m = {cosine * f.m0.x + sine * h.m1.x, cosine * f.m0.y + sine * h.m1.y,
                      cosine * f.m0.z + sine * h.m1.z};
-    return vndf_bounded_settled(view, bounds, m);
+    vndf_vec3 wm = vndf_disc_normal(view, m);
+    return vndf_bounded_from(wm,
+                             vndf_bounded_ggx_at(view, bounds, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
 }

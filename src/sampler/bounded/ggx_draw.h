@@ -26,29 +26,26 @@ typedef struct vndf_outlook {
     float c0;         /* the constant term, below 0 where w is in the disc */
 } vndf_outlook;
 
-/* It is kept where a view of GGX has room. */
-enum { VNDF_GGX_S2 = 5, VNDF_GGX_Q, VNDF_GGX_E12, VNDF_GGX_E2, VNDF_GGX_C0 };
-
-VNDF_INLINE vndf_outlook vndf_outlook_of(const vndf_view *v)
+/* As far as the view is plain. */
+VNDF_INLINE vndf_outlook vndf_outlook_of(const vndf_view *v, const struct vndf_ggx_bounds *b)
 {
-    const float *of = v->closed;
-    vndf_outlook o = {of[0],           of[1],          of[2], of[VNDF_GGX_S2], of[VNDF_GGX_Q], of[VNDF_GGX_E12],
-                      of[VNDF_GGX_E2], of[VNDF_GGX_C0]};
+    const struct vndf_ggx_view *w = &v->of.ggx;
+    vndf_outlook o = {w->x, w->y, w->c, b->s2, b->q, b->e12, b->e2, b->c0};
     return o;
 }
 
 /* Of a plain view, which has its direction, of length 1, but not turned. */
-VNDF_INLINE vndf_outlook vndf_outlook_set(vndf_view *v)
+VNDF_INLINE vndf_outlook vndf_outlook_set(const vndf_view *v, struct vndf_ggx_bounds *b)
 {
-    float x = v->closed[0], y = v->closed[1], c = v->closed[2], a2 = v->ax * v->ax, b2 = v->ay * v->ay;
+    float x = v->of.ggx.x, y = v->of.ggx.y, c = v->of.ggx.c, a2 = v->ax * v->ax, b2 = v->ay * v->ay;
     float x2 = x * x, y2 = y * y, s2 = x2 + y2, e1 = a2 * x2 + b2 * y2, c2 = c * c;
     vndf_outlook o = {
         x, y, c, s2, c2 * e1 + s2 * s2, (b2 - a2) * (x * y), a2 * y2 + b2 * x2, c * (e1 + (c2 - 2.0f))};
-    v->closed[VNDF_GGX_S2] = o.s2;
-    v->closed[VNDF_GGX_Q] = o.q;
-    v->closed[VNDF_GGX_E12] = o.e12;
-    v->closed[VNDF_GGX_E2] = o.e2;
-    v->closed[VNDF_GGX_C0] = o.c0;
+    b->s2 = o.s2;
+    b->q = o.q;
+    b->e12 = o.e12;
+    b->e2 = o.e2;
+    b->c0 = o.c0;
     return o;
 }
 
@@ -66,31 +63,20 @@ VNDF_INLINE float vndf_is_positive(float x)
 
 /* ---- the law of psi ---- */
 
-/* Half of one over the part in front, and over that in the wedge; kept over those of the roots there. It stands in
- * members that views of tables have and closed forms do not read (bounded.h: the view is given it). */
-typedef struct vndf_ggx_law {
-    float slow, fast, in_front, in_wedge;
-} vndf_ggx_law;
-
-VNDF_INLINE vndf_ggx_law vndf_ggx_law_of(const vndf_view *v)
-{
-    vndf_ggx_law law = {v->front, v->wedge, v->area, v->spread};
-    return law;
-}
-
-/* The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and
+/* `slow` and `fast` are half of one over the part in front, and over that in the wedge; `in_front` and `in_wedge`
+ * are kept over those of the roots there. The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and
  * of the sides. */
-VNDF_INLINE void vndf_ggx_law_set(vndf_view *v, const vndf_outlook *o)
+VNDF_INLINE void vndf_ggx_law_set(struct vndf_ggx_bounds *law, const vndf_outlook *o)
 {
     float c = o->c, c2 = c * c, b = c * o->q, away = b + sqrtf(b * b - c * c2 * o->q * o->c0);
     float middle = o->s2 * (o->c0 * o->c0), below = away * away + c2 * middle, b2 = c * o->e12;
     float beside = fabsf(b2) + sqrtf(b2 * b2 - c * o->e2 * o->c0), side = o->s2 * (beside * beside);
     float below_side = c2 * (o->e2 * o->e2) + side;
     float cr = c * lanes_most(middle / below, side / below_side), inverse = 1.0f / cr, per = 1.0f / (1.0f + c);
-    v->front = 0.5f + 0.5f * cr;
-    v->wedge = 0.5f + 0.5f * inverse;
-    v->area = per + per * cr;
-    v->spread = c * (per + per * inverse);
+    law->slow = 0.5f + 0.5f * cr;
+    law->fast = 0.5f + 0.5f * inverse;
+    law->in_front = per + per * cr;
+    law->in_wedge = c * (per + per * inverse);
 }
 
 /* ---- drawing ---- */
@@ -102,7 +88,8 @@ typedef struct vndf_ggx_azimuth {
     float x, y, n2, factor;
 } vndf_ggx_azimuth;
 
-VNDF_INLINE vndf_ggx_azimuth vndf_ggx_draw_azimuth(const vndf_outlook *o, const vndf_ggx_law *law, float half)
+VNDF_INLINE vndf_ggx_azimuth vndf_ggx_draw_azimuth(const vndf_outlook *o, const struct vndf_ggx_bounds *law,
+                                                   float half)
 {
     float part = fabsf(half), turned = lanes_most(part * law->slow, 1.0f - (1.0f - part) * law->fast);
     vndf_half_azimuth turn = vndf_half_azimuth_at(turned);
@@ -137,10 +124,10 @@ typedef struct vndf_ggx_bounded {
     float x, y, z, length2, sine, cosine, kept; /* sine: over s N */
 } vndf_ggx_bounded;
 
-VNDF_INLINE vndf_ggx_bounded vndf_ggx_draw_bounded(const vndf_view *v, const vndf_outlook *o, float u1, float u2)
+VNDF_INLINE vndf_ggx_bounded vndf_ggx_draw_bounded(const vndf_view *v, const struct vndf_ggx_bounds *law,
+                                                   const vndf_outlook *o, float u1, float u2)
 {
-    vndf_ggx_law law = vndf_ggx_law_of(v);
-    vndf_ggx_azimuth at = vndf_ggx_draw_azimuth(o, &law, 2.0f * u1 - 1.0f);
+    vndf_ggx_azimuth at = vndf_ggx_draw_azimuth(o, law, 2.0f * u1 - 1.0f);
     vndf_ggx_chord h = vndf_ggx_draw_chord(o, &at, u2);
     float sine = sqrtf(h.sine2), cosine = sqrtf(h.cosine2), cx = o->c * at.x;
     float gx = v->ax * (o->x * cx + o->y * at.y), gy = v->ay * (o->y * cx - o->x * at.y), gz = o->s2 * at.x;

@@ -1,28 +1,28 @@
 /* Bounded visible normals of GGX: in float where that does (ggx_draw.h), else in double (ggx.c). */
 #include "sampler/bounded/ggx_draw.h"
 
-void vndf_bounds_ggx(vndf_view *view, double bounds[VNDF_BOUNDS])
+void vndf_bound_ggx(const vndf_view *view, struct vndf_ggx_bounds *bounds)
 {
     if (view->plain) {
-        vndf_outlook o = vndf_outlook_set(view);
+        vndf_outlook o = vndf_outlook_set(view, bounds);
         if (vndf_outlook_is_plain(view, &o)) {
-            vndf_ggx_law_set(view, &o);
+            vndf_ggx_law_set(bounds, &o);
             return;
         }
     }
-    vndf_bounds_ggx_carefully(view, bounds);
+    vndf_bound_ggx_carefully(view, bounds);
 }
 
-vndf_bounded vndf_bounded_ggx(const vndf_view *view, const double bounds[VNDF_BOUNDS], float u1, float u2)
+vndf_bounded vndf_bounded_ggx(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1, float u2)
 {
-    vndf_outlook o = vndf_outlook_of(view);
+    vndf_outlook o = vndf_outlook_of(view, bounds);
     if (!vndf_outlook_is_plain(view, &o))
         return vndf_bounded_ggx_carefully(view, bounds, u1, u2);
-    vndf_ggx_bounded n = vndf_ggx_draw_bounded(view, &o, u1, u2);
+    vndf_ggx_bounded n = vndf_ggx_draw_bounded(view, bounds, &o, u1, u2);
     if (!vndf_ggx_is_inside(&o, &n) || !vndf_ggx_is_settled(view, &o, &n, 1.0f))
         return vndf_bounded_ggx_carefully(view, bounds, u1, u2);
-    float length = sqrtf(n.length2), per = 1.0f / length; /* closed[4]: 2 pi times the area */
-    float density = 2.0f * n.length2 * length * n.cosine / (view->closed[4] * n.kept);
+    float length = sqrtf(n.length2), per = 1.0f / length; /* spread: 2 pi times the area */
+    float density = 2.0f * n.length2 * length * n.cosine / (view->of.ggx.spread * n.kept);
     vndf_bounded b = {vndf_vec3_of(n.x * per, n.y * per, n.z * per), density, n.kept};
     return b;
 }

@@ -8,7 +8,7 @@
  * multiplied by it: the sample is that of vndf_sample for (u1, kept u2), and sums from the pole keep the digits
  * of a small part. In float where that is good enough; elsewhere by just that, with kept from exact.c. */
 #include "math/vector.h"
-#include "sampler/bounded/bounded.h"
+#include "sampler/bounded/table.h"
 #include "sampler/tabulated/draw.h"
 #include "sampler/tabulated/theory.h"
 #include "sampler/tabulated/radial_cut.h"
@@ -45,12 +45,12 @@ vndf_bounded_factors vndf_bounded_table_at(const vndf_view *view, vndf_normal wm
 /* The azimuth that u1 stands for is that of a sample half-way out. */
 VNDF_RARE vndf_bounded bounded_carefully(const vndf_view *view, float u1, float u2)
 {
-    const double none[VNDF_BOUNDS] = {0.0};
     vndf_normal middle = vndf_normal_of(vndf_engine_sample_carefully(view, u1, 0.5f, NULL));
     vndf_engine_ray ray = vndf_engine_ray_of(view, middle);
     float kept = (float)kept_on(&ray, stretch_at(view, middle));
-    vndf_vec3 wm = vndf_engine_sample_carefully(view, u1, kept * u2, NULL);
-    return vndf_bounded_settled(view, none, vndf_normal_of(wm));
+    vndf_vec3 drawn = vndf_engine_sample_carefully(view, u1, kept * u2, NULL);
+    vndf_vec3 wm = vndf_disc_normal(view, vndf_normal_of(drawn));
+    return vndf_bounded_from(wm, vndf_bounded_table_at(view, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
 }
 
 /* ---- in float ---- */
@@ -157,8 +157,8 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    vndf_sector sector = vndf_sector_at(view->front, view->wedge, half);
-    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
+    vndf_sector sector = vndf_sector_at(view->of.table.front, view->of.table.wedge, half);
+    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->of.table.front, half, u2);
     border edge;
     if (!plain)
         return bounded_carefully(view, u1, u2);

@@ -104,9 +104,14 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
 /* Of a view, the same in all lanes. */
 VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 {
-    vndf_incidence w = {
-        lanes_set(v->ax),      lanes_set(v->ay),      lanes_set(v->s),      lanes_set(v->c),
-        lanes_set(v->cos_phi), lanes_set(v->sin_phi), lanes_set(v->spread), v->plain ? lanes_all() : lanes_none()};
+    vndf_incidence w = {lanes_set(v->ax),
+                        lanes_set(v->ay),
+                        lanes_set(v->of.table.s),
+                        lanes_set(v->of.table.c),
+                        lanes_set(v->of.table.cos_phi),
+                        lanes_set(v->of.table.sin_phi),
+                        lanes_set(v->of.table.spread),
+                        v->plain ? lanes_all() : lanes_none()};
     return w;
 }
 

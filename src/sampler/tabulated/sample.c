@@ -7,17 +7,11 @@
 #include "sampler/tabulated/radial_draw.h"
 #include "sampler/stretch.h"
 
-double vndf_unit_area(const vndf_distribution *d, double s, double c)
-{
-    vndf_direction w = {1.0, 1.0, s, 0.0, c};
-    return vndf_area_below(d, &w, 1) + doubles_positive(c); /* A(w) = cos + A(-w) */
-}
-
 /* ---- sampling ---- */
 
 VNDF_INLINE vndf_front front_of(const vndf_view *view)
 {
-    return vndf_front_of(view->distribution, view->s, view->c);
+    return vndf_front_of(view->distribution, view->of.table.s, view->of.table.c);
 }
 
 /* The side of the horizon that the direction is on. */
@@ -30,10 +24,11 @@ VNDF_INLINE const vndf_wedge *wedge_of(const vndf_view *view)
 static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 {
     int below = vndf_is_below(view);
-    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->s : view->c);
-    float apart = half * (view->front + view->wedge) - view->front;
+    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), below ? view->of.table.s : view->of.table.c);
+    float apart = half * (view->of.table.front + view->of.table.wedge) - view->of.table.front;
     lanes_m plain = 0;
-    vndf_azimuth at = vndf_azimuth_draw_one(&row, below ? half : vndf_wedge_part(apart, view->wedge), &plain);
+    vndf_azimuth at =
+        vndf_azimuth_draw_one(&row, below ? half : vndf_wedge_part(apart, view->of.table.wedge), &plain);
     if (!below)
         at.c = -at.c;
     else
@@ -43,15 +38,17 @@ static vndf_azimuth draw_wedge(const vndf_view *view, float half)
 
 static int is_drawn_in_front(const vndf_view *view, float half)
 {
-    return !vndf_is_below(view) && (half * (view->front + view->wedge) < view->front || !(view->wedge > 0.0f));
+    return !vndf_is_below(view) && (half * (view->of.table.front + view->of.table.wedge) < view->of.table.front ||
+                                    !(view->of.table.wedge > 0.0f));
 }
 
 static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 {
-    float target = half * (view->front + view->wedge);
+    float target = half * (view->of.table.front + view->of.table.wedge);
     float near;
     if (is_drawn_in_front(view, half))
-        return vndf_front_draw(front_of(view), lanes_positive(view->front - target), view->front, &near);
+        return vndf_front_draw(front_of(view), lanes_positive(view->of.table.front - target), view->of.table.front,
+                               &near);
     return draw_wedge(view, half);
 }
 
@@ -59,7 +56,7 @@ static vndf_azimuth draw_azimuth(const vndf_view *view, float half)
 static vndf_radial_drawn draw_radius(const vndf_view *view, const vndf_azimuth *a, float u)
 {
     const vndf_distribution *d = view->distribution;
-    float c = view->c * a->n + 0.0f, k = view->s * a->c; /* what rounds to -0 is the horizon */
+    float c = view->of.table.c * a->n + 0.0f, k = view->of.table.s * a->c; /* what rounds to -0 is the horizon */
     if (c < 1e-20f) {
         if (c < 0.0f)
             return vndf_radial_draw_below(d, c, k, u);
@@ -86,14 +83,16 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
     float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
     float per_n = 1.0f / a.n;
-    vndf_level level =
-        vndf_level_at(view->ax, view->ay, view->cos_phi, view->sin_phi, a.c * per_n, a.s * per_n, half);
+    vndf_level level = vndf_level_at(view->ax, view->ay, view->of.table.cos_phi, view->of.table.sin_phi,
+                                     a.c * per_n, a.s * per_n, half);
     vndf_radial_drawn r = draw_radius(view, &a, u2);
     vndf_radial_lanes cell = vndf_radial_load(view->distribution, r.at.cell);
     float x = r.at.eta * cell.x0 + r.at.xi * cell.x1, z = r.at.eta * cell.z0 + r.at.xi * cell.z1;
     vndf_vec3 wm = normal_from(&level, x, z);
-    if (!(vndf_exact_dot(view->wi, wm) > 0.0))
-        wm = vndf_turn_to_face(view, wm);
+    if (!(vndf_exact_dot(view->wi, wm) > 0.0)) {
+        vndf_frame frame = vndf_table_frame(view);
+        wm = vndf_turn_to_face(&frame, wm);
+    }
     if (pdf)
         *pdf = vndf_pdf(view, wm);
     return wm;
@@ -131,8 +130,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    vndf_sector sector = vndf_sector_at(view->front, view->wedge, half);
-    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
+    vndf_sector sector = vndf_sector_at(view->of.table.front, view->of.table.wedge, half);
+    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->of.table.front, half, u2);
     if (!plain)
         return vndf_engine_sample_carefully(view, u1, u2, pdf);
     vndf_drawn n =
@@ -181,7 +180,7 @@ static int is_front(const vndf_view *view, float cos_phi)
 /* Whether normals are drawn at an azimuth that is not in front. */
 static int is_wedge(const vndf_view *view, float cos_phi)
 {
-    return !vndf_is_below(view) != (cos_phi >= 0.0f) && view->wedge > 0.0f;
+    return !vndf_is_below(view) != (cos_phi >= 0.0f) && view->of.table.wedge > 0.0f;
 }
 
 /* Place of an azimuth in the row: its cell of q, and xi within. */
@@ -205,7 +204,8 @@ typedef struct portion {
 /* Of the wedge's mass before an azimuth. */
 static portion before_in_wedge(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    vndf_azimuth_row row = vndf_wedge_row(wedge_of(view), !vndf_is_below(view) ? view->c : view->s);
+    vndf_azimuth_row row =
+        vndf_wedge_row(wedge_of(view), !vndf_is_below(view) ? view->of.table.c : view->of.table.s);
     uint32_t j;
     float xi = place_in_row(&row, cos_phi, sin_phi, &j);
     vndf_azimuth_cell cell = vndf_azimuth_cell_at(&row, j);
@@ -217,7 +217,7 @@ static portion before_in_wedge(const vndf_view *view, float cos_phi, float sin_p
 /* Of a half turn's mass between the side of wi and |a|. */
 static portion half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 {
-    float front = view->front, wedge = view->wedge, total = front + wedge;
+    float front = view->of.table.front, wedge = view->of.table.wedge, total = front + wedge;
     if (is_front(view, cos_phi)) {
         float rest = vndf_front_rest(front_of(view), cos_phi, sin_phi);
         float rate = rest > 0x1p-20f * total ? vndf_front_density(front_of(view), cos_phi) / total : 0.0f;
@@ -235,7 +235,7 @@ static portion half_turn(const vndf_view *view, float cos_phi, float sin_phi)
 int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     place p = place_of(view, normal);
-    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->c, view->s * p.cos_phi);
+    vndf_radial_law law = vndf_radial_law_for(view->distribution, view->of.table.c, view->of.table.s * p.cos_phi);
     portion half = half_turn(view, p.cos_phi, p.sin_phi);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * half.part;
     *u2 = law.scale > 0.0f ? vndf_radial_cdf(&law, p.at) : 0.5f;

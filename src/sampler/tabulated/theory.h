@@ -52,10 +52,7 @@
 #include "sampler/closed.h"
 #include "vndf.h"
 
-/* Projected area of the unit problem for the direction (s, 0, c), any kind of distribution. */
-double vndf_unit_area(const vndf_distribution *d, double s, double c);
-
-/* What follows is for tables, whose views have s + |c| = 1: drawing in sample.c, densities and D in exact.c. */
+/* All of it is for tables, whose views have s + |c| = 1: drawing in sample.c, densities and D in exact.c. */
 
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);

@@ -25,7 +25,8 @@ static double reflected_z(vndf_vec3 wi, vndf_vec3 wm)
 typedef struct subject {
     const char *name;
     vndf_view view;
-    double bounds[VNDF_BOUNDS], kept, kept2;
+    vndf_bounds bounds;
+    double kept, kept2;
     long plain;
 } subject;
 
@@ -39,7 +40,7 @@ static int is_normal(const subject *s, vndf_bounded b)
 /* Densities that float can hold, of chords that are more than rounding. */
 static int has_its_density(const subject *s, vndf_bounded b)
 {
-    double pdf = vndf_pdf_bounded(&s->view, s->bounds, vndf_normal_of(b.wm));
+    double pdf = vndf_pdf_bounded(&s->view, &s->bounds, vndf_normal_of(b.wm));
     int in_range = pdf > 2e-38 && pdf < 3e38 && b.kept > 1e-30f, held = b.density > 0 && b.density <= FLT_MAX;
     if (!in_range)
         return held && b.kept > 0 && b.kept < 1.000001f;
@@ -50,7 +51,7 @@ static int has_its_density(const subject *s, vndf_bounded b)
 
 static int draw(subject *s, float u1, float u2)
 {
-    vndf_bounded b = vndf_sample_bounded(&s->view, s->bounds, u1, u2);
+    vndf_bounded b = vndf_sample_bounded(&s->view, &s->bounds, u1, u2);
     s->kept += b.kept;
     s->kept2 += (double)b.kept * b.kept;
     s->plain += reflected_z(s->view.wi, vndf_sample(&s->view, u1, u2, NULL)) > 0;
@@ -68,8 +69,8 @@ static subject subject_of(const char *name, const vndf_distribution *d, const fl
     vndf_surface surface = {d, alpha[0], alpha[1]};
     double sine = sqrt((1 - cosine) * (1 + cosine));
     vndf_vec3 wi = {(float)(0.76 * sine), (float)(0.65 * sine), (float)cosine};
-    subject s = {name, vndf_view_from(&surface, wi), {0}, 0, 0, 0};
-    vndf_bounds_of(&s.view, s.bounds);
+    subject s = {.name = name, .view = vndf_view_from(&surface, wi)};
+    vndf_bounds_of(&s.view, &s.bounds);
     return s;
 }
 
@@ -108,7 +109,7 @@ static void test_variance(const char *name, const vndf_distribution *d, float al
     for (int i = 0; i < 2 * count; i++) {
         float u1 = test_uniform(&seed), u2 = test_uniform(&seed);
         vndf_bounded b = {vndf_sample(&s.view, u1, u2, NULL), 0, 1};
-        b = i % 2 ? vndf_sample_bounded(&s.view, s.bounds, u1, u2) : b;
+        b = i % 2 ? vndf_sample_bounded(&s.view, &s.bounds, u1, u2) : b;
         vndf_vec3 wi = s.view.wi, wm = b.wm;
         float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
         vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
@@ -147,8 +148,8 @@ static double moved_by_second(const subject *s, vndf_vec3 wm)
 /* How far the samples of the two ends of an interval of u are apart, of u1 or of u2. */
 static double gap(const subject *s, int second, float fixed, float from, float to)
 {
-    vndf_vec3 a = vndf_sample_bounded(&s->view, s->bounds, second ? fixed : from, second ? from : fixed).wm;
-    vndf_vec3 b = vndf_sample_bounded(&s->view, s->bounds, second ? fixed : to, second ? to : fixed).wm;
+    vndf_vec3 a = vndf_sample_bounded(&s->view, &s->bounds, second ? fixed : from, second ? from : fixed).wm;
+    vndf_vec3 b = vndf_sample_bounded(&s->view, &s->bounds, second ? fixed : to, second ? to : fixed).wm;
     return apart(a, b);
 }
 
@@ -183,7 +184,7 @@ static void test_steady(const char *name, const vndf_distribution *d, const floa
             fprintf(stderr, "  %s, alpha %g %g, cos %g: jumps %g %g with the other at %g\n", name, alpha[0],
                     alpha[1], cosine, first, second, fixed);
         for (int i = 0; i <= STEPS; i++) {
-            vndf_bounded b = vndf_sample_bounded(&s.view, s.bounds, fixed, (float)i / STEPS);
+            vndf_bounded b = vndf_sample_bounded(&s.view, &s.bounds, fixed, (float)i / STEPS);
             double moved = moved_by_second(&s, b.wm);
             if (!TEST(moved > least - 2e-6 * (fabs(moved) + 1)))
                 fprintf(stderr, "  %s, alpha %g %g, cos %g, u1 %g, step %d: %.9g after %.9g\n", name, alpha[0],
@@ -200,18 +201,18 @@ static void test_nothing(const vndf_distribution *d)
     const float alpha[2] = {0.5f, 0.5f}, wrong[2] = {-1, 1};
     subject below = subject_of("below", d, alpha, -0.1), invalid = subject_of("invalid", d, wrong, 0.5);
     subject good = subject_of("good", d, alpha, 0.5);
-    vndf_bounded b = vndf_sample_bounded(&below.view, below.bounds, 0.5f, 0.5f);
-    vndf_bounded i = vndf_sample_bounded(&invalid.view, invalid.bounds, 0.5f, 0.5f);
-    vndf_bounded nan = vndf_sample_bounded(&good.view, good.bounds, NAN, 2);
-    vndf_bounded corner = vndf_sample_bounded(&good.view, good.bounds, 0, 1);
+    vndf_bounded b = vndf_sample_bounded(&below.view, &below.bounds, 0.5f, 0.5f);
+    vndf_bounded i = vndf_sample_bounded(&invalid.view, &invalid.bounds, 0.5f, 0.5f);
+    vndf_bounded nan = vndf_sample_bounded(&good.view, &good.bounds, NAN, 2);
+    vndf_bounded corner = vndf_sample_bounded(&good.view, &good.bounds, 0, 1);
     vndf_normal up = {0, 0, 1}, away = {0.8, 0, 0.6};
     TEST(b.wm.z == 1 && b.density == 0 && b.kept == 0);
     TEST(i.wm.z == 1 && i.density == 0 && i.kept == 0);
-    TEST(vndf_pdf_bounded(&below.view, below.bounds, up) == 0);
-    TEST(vndf_pdf_bounded(&invalid.view, invalid.bounds, up) == 0);
-    TEST(vndf_pdf_bounded(&good.view, good.bounds, up) > 0);
+    TEST(vndf_pdf_bounded(&below.view, &below.bounds, up) == 0);
+    TEST(vndf_pdf_bounded(&invalid.view, &invalid.bounds, up) == 0);
+    TEST(vndf_pdf_bounded(&good.view, &good.bounds, up) > 0);
     away.x = -away.x; /* seen, but wo is below the horizon */
-    TEST(vndf_pdf_bounded(&good.view, good.bounds, away) == 0);
+    TEST(vndf_pdf_bounded(&good.view, &good.bounds, away) == 0);
     TEST(memcmp(&nan, &corner, sizeof nan) == 0);
 }
 

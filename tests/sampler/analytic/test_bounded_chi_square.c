@@ -14,7 +14,7 @@ enum { RINGS = 24, SECTORS = 32 };
 
 typedef struct subject {
     vndf_view view;
-    double bounds[VNDF_BOUNDS];
+    vndf_bounds bounds;
     int reflected; /* directions, not normals */
 } subject;
 
@@ -53,13 +53,13 @@ static double density_at(double part, double azimuth, const void *of)
     if (!g->reflected) {
         double border = border_at(g, c, s), r = part * border, per = 1 / sqrt(1 + r * r);
         vndf_normal wm = {r * c * per, r * s * per, per};
-        return vndf_pdf_bounded(&g->view, g->bounds, wm) * r * border * (per * per * per);
+        return vndf_pdf_bounded(&g->view, &g->bounds, wm) * r * border * (per * per * per);
     }
     double level = sqrt(1 - part * part);
     vndf_normal h = {g->view.wi.x + level * c, g->view.wi.y + level * s, g->view.wi.z + part};
     double length = sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
     vndf_normal wm = {h.x / length, h.y / length, h.z / length};
-    return vndf_pdf_bounded(&g->view, g->bounds, wm) / (4 * dot(g->view.wi, wm));
+    return vndf_pdf_bounded(&g->view, &g->bounds, wm) / (4 * dot(g->view.wi, wm));
 }
 
 typedef struct setting {
@@ -79,15 +79,15 @@ static void test_setting(const char *name, const vndf_distribution *d, setting i
     double sine = sqrt(1 - is.cosine * is.cosine), mass[2];
     double level = statistics_sidak(0.01, 2 * SETTING_COUNT * SUBJECT_COUNT);
     vndf_vec3 wi = {(float)(0.6 * sine), (float)(0.8 * sine), (float)is.cosine};
-    subject g = {vndf_view_from(&surface, wi), {0}, 0};
-    vndf_bounds_of(&g.view, g.bounds);
+    subject g = {.view = vndf_view_from(&surface, wi)};
+    vndf_bounds_of(&g.view, &g.bounds);
     for (g.reflected = 0; g.reflected < 2; g.reflected++) {
         grid_even(&bins[g.reflected], RINGS, 0, 1, SECTORS, -PI, PI);
         mass[g.reflected] = grid_expect(&bins[g.reflected], density_at, &g, (double)samples, 1e-7);
     }
     for (size_t i = 0; i < samples; i++) {
         float u1 = test_uniform(&seed), u2 = test_uniform(&seed);
-        vndf_vec3 wm = vndf_sample_bounded(&g.view, g.bounds, u1, u2).wm;
+        vndf_vec3 wm = vndf_sample_bounded(&g.view, &g.bounds, u1, u2).wm;
         for (g.reflected = 0; g.reflected < 2; g.reflected++)
             bins[g.reflected].observed[place_of(&g, &bins[g.reflected], wm)] += 1;
     }

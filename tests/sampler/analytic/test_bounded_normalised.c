@@ -13,7 +13,8 @@
 /* Real slopes are A R (x, y): the stretched frame turned to the stretched wi. */
 typedef struct subject {
     vndf_view view;
-    double bounds[VNDF_BOUNDS], ax, ay, s, c, cos_phi, sin_phi;
+    vndf_bounds bounds;
+    double ax, ay, s, c, cos_phi, sin_phi;
     double line; /* the first coordinate */
 } subject;
 
@@ -22,8 +23,8 @@ static subject subject_of(const vndf_distribution *d, const float alpha[2], doub
     vndf_surface surface = {d, alpha[0], alpha[1]};
     double sine = sqrt((1 - cosine) * (1 + cosine));
     vndf_vec3 wi = {(float)(0.8 * sine), (float)(-0.6 * sine), (float)cosine};
-    subject g = {vndf_view_from(&surface, wi), {0}, 0, 0, 0, 0, 1, 0, 0};
-    vndf_bounds_of(&g.view, g.bounds);
+    subject g = {.view = vndf_view_from(&surface, wi)};
+    vndf_bounds_of(&g.view, &g.bounds);
     g.ax = g.view.alpha_x;
     g.ay = g.view.alpha_y;
     double x = g.ax * wi.x, y = g.ay * wi.y, across = hypot(x, y), length = hypot(across, wi.z);
@@ -54,7 +55,7 @@ static double density(const subject *g, vndf_normal m)
 {
     double length = sqrt(m.x * m.x + m.y * m.y + m.z * m.z);
     vndf_normal wm = {m.x / length, m.y / length, m.z / length};
-    return vndf_pdf_bounded(&g->view, g->bounds, wm) * (g->ax * g->ay) / (length * length * length);
+    return vndf_pdf_bounded(&g->view, &g->bounds, wm) * (g->ax * g->ay) / (length * length * length);
 }
 
 /* Where the normals at(t) on a line cross the border, from a place inside to one outside. */

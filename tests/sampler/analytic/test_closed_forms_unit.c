@@ -6,7 +6,7 @@
 #include "math/erf_quantile.h"
 #include "math/half_turn.h"
 #include "sampler/analytic/beckmann.h"
-#include "sampler/tabulated/theory.h"
+#include "sampler/surface.h"
 #include "sampler/analytic/ggx.h"
 #include "harness/constants.h"
 #include "harness/test.h"

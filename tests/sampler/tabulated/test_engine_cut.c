@@ -26,7 +26,8 @@ static double part_before(const vndf_view *view, double slope, double shift, uin
     double across = x * view->alpha_x, l = hypot(across, z);
     vndf_vec3 wm = {(float)(across * cosine / l), (float)(across * sine / l), (float)(z / l)};
     float u1, u2;
-    vndf_engine_invert(view, vndf_to_unit(view, wm), &u1, &u2); /* the law, not the number nearest in floats */
+    vndf_frame frame = vndf_table_frame(view);
+    vndf_engine_invert(view, vndf_to_unit(&frame, wm), &u1, &u2); /* the law, not the number nearest in floats */
     return u2;
 }
 
@@ -46,8 +47,8 @@ static double largest_jump(const vndf_view *view, uint32_t j)
 {
     const vndf_distribution *d = view->distribution;
     double worst = 0;
-    uint32_t first = view->c < 0 ? j : j > 4 ? j - 4 : 0, end = view->c < 0 ? j + 4 : j;
-    if (!(fabs((double)view->c) < 0.99 * view->s * vndf_knot_slope(d, j)))
+    uint32_t first = view->of.table.c < 0 ? j : j > 4 ? j - 4 : 0, end = view->of.table.c < 0 ? j + 4 : j;
+    if (!(fabs((double)view->of.table.c) < 0.99 * view->of.table.s * vndf_knot_slope(d, j)))
         return 0;
     for (uint32_t cell = first; cell < end && cell + 1 < d->radial_count; cell++)
         for (int i = 1; i < 8; i++)
@@ -64,7 +65,7 @@ static void test_knots(const vndf_distribution *d, const char *name)
         double c = cuts[i / 2] * vndf_distribution_info(d).scale * (i % 2 ? -1 : 1), l = hypot(1, c);
         vndf_vec3 wi = {(float)(1 / l), 0, (float)(c / l)};
         vndf_view view = vndf_view_from(&surface, wi);
-        for (uint32_t j = 1; view.area > 1e-10f && j + 1 < d->radial_count; j++)
+        for (uint32_t j = 1; view.of.table.area > 1e-10f && j + 1 < d->radial_count; j++)
             worst = fmax(worst, largest_jump(&view, j));
     }
     if (!TEST(worst > 0 && worst <= 1e-4))

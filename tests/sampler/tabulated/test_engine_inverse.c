@@ -226,7 +226,7 @@ static void test_distribution(const vndf_distribution *d, const char *name)
     for (size_t a = 0; a < sizeof ALPHAS / sizeof *ALPHAS; a += test_quick() ? 3 : 1)
         for (size_t i = 0; i < sizeof THETAS / sizeof *THETAS; i++) {
             frame f = frame_of(d, a, THETAS[i], 33);
-            if (f.view.area > 1e-10f && !test_frame(&f, &state))
+            if (f.view.of.table.area > 1e-10f && !test_frame(&f, &state))
                 fprintf(stderr, "  %s (%lu bytes), alpha %g %g, theta %g\n", name,
                         (unsigned long)vndf_distribution_info(d).bytes, f.surface.alpha_x, f.surface.alpha_y,
                         THETAS[i]);

@@ -111,7 +111,7 @@ static double mass_of(const vndf_surface *surface, vndf_vec3 wi)
     integral g = {surface->distribution, *surface, vndf_view_from(surface, wi), 0, 0, 1, 0, 0, 1, 0};
     double x = surface->alpha_x * wi.x, y = surface->alpha_y * wi.y;
     const vndf_wedge *side = vndf_wedge_of(g.table, (double)wi.z);
-    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(g.view.s, g.view.c));
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(g.view.of.table.s, g.view.of.table.c));
     g.parts = g.table->radial_count < 16    ? 24
               : g.table->radial_count < 64  ? 6
               : g.table->radial_count < 128 ? 2

@@ -1,10 +1,9 @@
-/* See lanes_sample.h. Lanes past the end of a block are drawn like the others and not written. */
-#include "sampler/batch/lanes_sample.h"
+/* Blocks of tables in lanes (lanes_sample.h). Lanes past the end of a block are drawn like the others and not
+ * written. */
+#ifndef VNDF_SAMPLER_BATCH_TABULATED_H
+#define VNDF_SAMPLER_BATCH_TABULATED_H
 
-#if VNDF_HAS_LANES && VNDF_LANES > 1
-
-#  include "sampler/batch/analytic.h"
-#  include "sampler/batch/search.h"
+#include "sampler/batch/search.h"
 
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
@@ -117,7 +116,7 @@ VNDF_INLINE uint32_t whole_groups(uint32_t count)
 
 /* The last group in front may end among the wedges, and the first of those begin among the fronts: each kind has
  * results of its own. */
-static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
+static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     vndf_sorted sorted;
     vndf_origin from[VNDF_BLOCK_GROUPS];
@@ -129,21 +128,6 @@ static void draw_table(const vndf_distribution *d, vndf_sample_block *b)
     draw_fronts(d, &sorted, whole_groups(border), &in_front, &front);
     draw_wedges(d, &sorted, end - count, count, &in_wedge, &wedge);
     vndf_unsort_block(b, from, &front, &wedge);
-}
-
-#  if VNDF_LANES == 16
-void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *b)
-#  else
-void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *b)
-#  endif
-{
-    b->left_count = 0;
-    if (d->kind == VNDF_KIND_GGX)
-        vndf_draw_ggx(b);
-    else if (d->kind == VNDF_KIND_BECKMANN)
-        vndf_draw_beckmann(b);
-    else
-        draw_table(d, b);
 }
 
 #endif

@@ -1,4 +1,6 @@
-/* The two closed forms as distributions, and what any distribution says of itself. */
+/* The closed forms as distributions, and what any distribution says of itself. */
+#include "sampler/law.h"
+
 #include "table/layout.h"
 
 static const vndf_distribution ggx = {.kind = VNDF_KIND_GGX,

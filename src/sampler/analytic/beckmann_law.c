@@ -1,0 +1,52 @@
+/* Beckmann: views and their samples. */
+#include "sampler/analytic/beckmann_law.h"
+
+#include "math/vector.h"
+#include "sampler/analytic/beckmann.h"
+#include "sampler/frame.h"
+
+vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    if (!w.plain)
+        return vndf_closed_view_carefully(surface, wi);
+    vndf_view view = {.distribution = surface->distribution,
+                      .wi = wi,
+                      .alpha_x = w.ax,
+                      .alpha_y = w.ay,
+                      .ax = w.ax,
+                      .ay = w.ay,
+                      .plain = 1,
+                      .of.beckmann = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1,
+                                      w.p2, w.p3, w.p4}};
+    return view;
+}
+
+vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
+    lanes_m plain;
+    vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
+    vndf_drawn n = vndf_beckmann_normal(&w, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &plain);
+    if (!plain)
+        return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
+    if (pdf)
+        *pdf = n.density;
+    return vndf_vec3_of(n.x, n.y, n.z);
+}
+
+vndf_vec3 vndf_beckmann_view_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    vndf_frame f = vndf_closed_frame(view);
+    vndf_vec3 wm = vndf_closed_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));
+    if (pdf)
+        *pdf = vndf_is_facing(view, wm) ? vndf_beckmann_pdf(view, wm) : 0.0f;
+    return wm;
+}
+
+void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    vndf_frame f = vndf_closed_frame(view);
+    vndf_beckmann_invert(f.s, f.c, vndf_normal_to_unit(&f, wm), u1, u2);
+    *u2 = vndf_clamp_unit(*u2);
+}

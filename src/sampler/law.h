@@ -1,0 +1,341 @@
+/* The law of normals behind a distribution: what is asked of it, answered for each kind. This is where the kinds are
+ * told apart, and the only place: sources ask a law, and do not look which one it is.
+ *
+ * A kind answers in files of its own: tabulated/law.h, analytic/ggx_law.h, analytic/beckmann_law.h, and beside them its
+ * bounded normals (bounded/) and its blocks of a batch (batch/). A new one adds such files, its view and bounds to
+ * vndf.h, its name to vndf_kind (table/table.h) and its distribution to law.c; the compiler then names each switch
+ * below that does not know it, since none has a default.
+ *
+ * Switches are inline: a call would be a tenth of what GGX costs, and lanes are compiled once for each instruction
+ * set. */
+#ifndef VNDF_SAMPLER_LAW_H
+#define VNDF_SAMPLER_LAW_H
+
+#include "sampler/analytic/beckmann_law.h"
+#include "sampler/analytic/ggx_law.h"
+#include "sampler/bounded/beckmann.h"
+#include "sampler/bounded/ggx.h"
+#include "sampler/bounded/table.h"
+#include "sampler/stretch.h"
+#include "sampler/surface.h"
+#include "sampler/tabulated/law.h"
+#if VNDF_LANES > 1
+#  include "sampler/batch/analytic.h"
+#  include "sampler/batch/tabulated.h"
+#endif
+#if !defined(__GNUC__)
+#  include <stdlib.h>
+#endif
+
+/* After a switch that returns for each kind. */
+#if defined(__GNUC__)
+#  define VNDF_NO_OTHER_KIND() __builtin_unreachable()
+#else
+#  define VNDF_NO_OTHER_KIND() abort()
+#endif
+
+/* ---- for one or for lanes ---- */
+
+/* Whether vndf_sample draws with Dv itself: D need not be asked again for a weight. */
+VNDF_INLINE int vndf_law_is_exact(const vndf_distribution *d)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return 0;
+    case VNDF_KIND_GGX: return 1;
+    case VNDF_KIND_BECKMANN: return 1;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* A(-|w|), times the length of w. */
+VNDF_INLINE doubles vndf_law_area_below(const vndf_distribution *d, const vndf_direction *w, doubles_m valid)
+{
+    doubles across = vndf_direction_across(w), up = doubles_abs(w->z);
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_area_below_table(d, across, up, valid);
+    case VNDF_KIND_GGX: return vndf_ggx_area_below(across, up);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_below(across, up);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* Roughness in range, and a normal above the surface whose square is a float that is not 0. */
+VNDF_INLINE doubles_m vndf_normal_is_valid(const vndf_given *g)
+{
+    const doubles least = doubles_set(1e-18), most = doubles_set(1e18);
+    doubles square = g->x * g->x + g->y * g->y + g->z * g->z;
+    doubles_m low = doubles_both(doubles_at_most(least, g->wi.ax), doubles_at_most(least, g->wi.ay));
+    doubles_m high = doubles_both(doubles_at_most(g->wi.ax, most), doubles_at_most(g->wi.ay, most));
+    doubles_m usable = doubles_both(doubles_at_most(doubles_set(FLT_TRUE_MIN), square),
+                                    doubles_less(square, doubles_set(FLT_MAX)));
+    return doubles_both(doubles_both(low, high), doubles_both(usable, doubles_at_most(doubles_set(0.0), g->z)));
+}
+
+/* D, of a valid normal. */
+VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_given *g)
+{
+    vndf_normal wm = {g->x, g->y, g->z};
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_ndf(d, g);
+    case VNDF_KIND_GGX: return vndf_ggx_ndf(g->wi.ax, g->wi.ay, wm);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_ndf(g->wi.ax, g->wi.ay, wm);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* Dv where wi . wm = facing > 0 and all is valid. */
+VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_given *g, doubles facing)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_visible(d, g, facing);
+    case VNDF_KIND_GGX: return vndf_ggx_visible(g, facing);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_visible(g, facing);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+#if VNDF_LANES == 1
+
+/* ---- views and their samples ---- */
+
+/* vndf_view_from, of a surface with a distribution. */
+VNDF_INLINE vndf_view vndf_law_view(const vndf_surface *surface, vndf_vec3 wi)
+{
+    switch (surface->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_view_from(surface, wi);
+    case VNDF_KIND_GGX: return vndf_ggx_view_from(surface, wi);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(surface, wi);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The same in place: of GGX a copy would show. */
+VNDF_INLINE void vndf_law_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    switch (surface->distribution->kind) {
+    case VNDF_KIND_TABLE: *view = vndf_view_from(surface, wi); return;
+    case VNDF_KIND_GGX: vndf_ggx_view_set(view, surface, wi); return;
+    case VNDF_KIND_BECKMANN: *view = vndf_beckmann_view_from(surface, wi); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The view of a usable direction for roughness times the distribution's scale. */
+VNDF_INLINE vndf_view vndf_law_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+{
+    vndf_surface surface = {d, (float)ax, (float)ay};
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_view_scaled(d, ax, ay, wi);
+    case VNDF_KIND_GGX: return vndf_ggx_view_from(&surface, wi);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(&surface, wi);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* vndf_sample of a valid view; uniform numbers are in [0, 1]. */
+VNDF_INLINE vndf_vec3 vndf_law_sample(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_engine_sample(view, u1, u2, pdf);
+    case VNDF_KIND_GGX: return vndf_ggx_view_sample(view, u1, u2, pdf);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample(view, u1, u2, pdf);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The same where densities in float are known not to do. */
+VNDF_INLINE vndf_vec3 vndf_law_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_engine_sample_carefully(view, u1, u2, pdf);
+    case VNDF_KIND_GGX: return vndf_ggx_view_sample_carefully(view, u1, u2, pdf);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* vndf_pdf of a valid view, where wi sees wm. */
+VNDF_INLINE float vndf_law_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_engine_pdf(view, vndf_vec3_of(wm.x, wm.y, wm.z));
+    case VNDF_KIND_GGX: return vndf_ggx_pdf(view, wm);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_pdf(view, wm);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The same of a normal in double, before the density is a float. */
+VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_engine_density(view, g);
+    case VNDF_KIND_GGX: return vndf_ggx_visible(g, vndf_given_facing(g));
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_visible(g, vndf_given_facing(g));
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* vndf_invert of a valid view, wm.z >= 0. */
+VNDF_INLINE void vndf_law_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: vndf_table_invert(view, wm, u1, u2); return;
+    case VNDF_KIND_GGX: vndf_ggx_view_invert(view, wm, u1, u2); return;
+    case VNDF_KIND_BECKMANN: vndf_beckmann_view_invert(view, wm, u1, u2); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* ---- normals that are not for a direction ---- */
+
+/* P22 at the squared slope length r2, roughness 1. */
+VNDF_INLINE double vndf_law_p22(const vndf_distribution *d, double r2)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_p22(d, r2);
+    case VNDF_KIND_GGX: return vndf_ggx_p22(r2);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_p22(r2);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The slope length that u stands for (all_normals/). */
+VNDF_INLINE vndf_slope vndf_law_slope(const vndf_distribution *d, float u)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_slope(d, u);
+    case VNDF_KIND_GGX: return vndf_ggx_slope(u);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_slope_of(u);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* D cos(theta_m) as all normals are drawn with it, wm.z >= 0. */
+VNDF_INLINE double vndf_law_pdf_all(const vndf_distribution *d, double ax, double ay, vndf_normal wm)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_pdf_all(d, ax, ay, wm);
+    case VNDF_KIND_GGX: return wm.z * vndf_ggx_ndf(ax, ay, wm);
+    case VNDF_KIND_BECKMANN: return wm.z * vndf_beckmann_ndf(ax, ay, wm);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* ---- areas of one direction ---- */
+
+/* A(w) for a unit w, w.z > 0, and ax, ay the roughness times the distribution's scale; relative error below 2e-6.
+ * Where *ready is 0 it has to be computed otherwise. */
+VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, ready);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, ready);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, ready);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The same of a view's own direction; a table's view holds it. */
+VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *ready)
+{
+    *ready = 1;
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_view_area(view);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, ready);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, ready);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The stretched direction, as long as the law has it. */
+VNDF_INLINE vndf_stretched vndf_law_stretch(const vndf_distribution *d, vndf_vec3 w, double ax, double ay)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_stretch(w, ax, ay, VNDF_LENGTH_SUM);
+    case VNDF_KIND_GGX: return vndf_stretch(w, ax, ay, VNDF_LENGTH_ROOT);
+    case VNDF_KIND_BECKMANN: return vndf_stretch(w, ax, ay, VNDF_LENGTH_ROOT);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* A(w)/|w.z|: 1 + Lambda(w) above the horizon, Lambda(-w) below; w.z is not 0. */
+VNDF_INLINE double vndf_law_slant(const vndf_view *view, vndf_vec3 w)
+{
+    vndf_stretched s = vndf_law_stretch(view->distribution, w, view->alpha_x, view->alpha_y);
+    return vndf_unit_area(view->distribution, s.s, s.c) / fabs(s.c);
+}
+
+/* The same of a view's own direction. Of a table infinite where c is no more a float. */
+VNDF_INLINE double vndf_law_view_slant(const vndf_view *view)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return (double)view->of.table.area / fabsf(view->of.table.c);
+    case VNDF_KIND_GGX: break;
+    case VNDF_KIND_BECKMANN: break;
+    }
+    return vndf_law_slant(view, view->wi);
+}
+
+/* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
+ * plain: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
+VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return 0;
+    case VNDF_KIND_GGX: return 1;
+    case VNDF_KIND_BECKMANN: return 0;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* ---- bounded normals (bounded/bounded.h), wi.z > 0 ---- */
+
+VNDF_INLINE void vndf_law_bounds(const vndf_view *view, vndf_bounds *bounds)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return;
+    case VNDF_KIND_GGX: vndf_bound_ggx(view, &bounds->ggx); return;
+    case VNDF_KIND_BECKMANN: vndf_bound_beckmann(view, &bounds->beckmann); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+VNDF_INLINE vndf_bounded vndf_law_sample_bounded(const vndf_view *view, const vndf_bounds *bounds, float u1,
+                                                 float u2)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_bounded_table(view, u1, u2);
+    case VNDF_KIND_GGX: return vndf_bounded_ggx(view, &bounds->ggx, u1, u2);
+    case VNDF_KIND_BECKMANN: return vndf_bounded_beckmann(view, &bounds->beckmann, u1, u2);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+VNDF_INLINE vndf_bounded_factors vndf_law_bounded_at(const vndf_view *view, const vndf_bounds *bounds,
+                                                     vndf_normal wm, double facing)
+{
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_bounded_table_at(view, wm, facing);
+    case VNDF_KIND_GGX: return vndf_bounded_ggx_at(view, &bounds->ggx, wm, facing);
+    case VNDF_KIND_BECKMANN: return vndf_bounded_beckmann_at(view, &bounds->beckmann, wm, facing);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+#else
+
+/* ---- blocks of a batch ---- */
+
+VNDF_INLINE void vndf_law_draw_block(const vndf_distribution *d, vndf_sample_block *b)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: vndf_draw_table(d, b); return;
+    case VNDF_KIND_GGX: vndf_draw_ggx(b); return;
+    case VNDF_KIND_BECKMANN: vndf_draw_beckmann(b); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+#endif
+#endif

@@ -1,0 +1,61 @@
+/* What a table answers to sampler/law.h, beside its area (area.h) and what theory.h declares. */
+#ifndef VNDF_SAMPLER_TABULATED_LAW_H
+#define VNDF_SAMPLER_TABULATED_LAW_H
+
+#include "sampler/tabulated/density.h"
+#include "sampler/tabulated/theory.h"
+#include "sampler/tabulated/view.h"
+
+/* ---- for one or for lanes ---- */
+
+/* D, of a valid normal. */
+VNDF_INLINE doubles vndf_table_ndf(const vndf_distribution *d, const vndf_given *g)
+{
+    vndf_bare n = vndf_bare_of(g);
+    return vndf_given_ndf(d, &n);
+}
+
+/* Dv where wi . wm = facing > 0 and all is valid. */
+VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_given *g, doubles facing)
+{
+    const doubles nothing = doubles_set(0.0);
+    doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z);
+    doubles below = vndf_area_below_table(d, across, up, vndf_direction_is_valid(&g->wi));
+    doubles area = below + doubles_positive(g->wi.z);
+    return doubles_pick(doubles_less(nothing, area), vndf_table_ndf(d, g) / area * facing, nothing);
+}
+
+#if VNDF_LANES == 1
+
+/* At the squared slope length r2. */
+VNDF_INLINE double vndf_table_p22(const vndf_distribution *d, double r2)
+{
+    double r = sqrt(r2), z = 1.0 / (1.0 + r);
+    return vndf_engine_p22_over_z4(d, r * z, z) * (z * z) * (z * z);
+}
+
+/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *ready is 0 it has to be computed otherwise. */
+VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+{
+    float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
+    *ready = vndf_trusts_direction(across2, w.z, sum);
+    if (!*ready)
+        return 0.0f;
+    float per = 1.0f / sum, s = across * per, c = w.z * per, per_width;
+    float area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
+    *ready = vndf_trusts_area_piece(per_width);
+    return area * sum;
+}
+
+/* The same of a view's own direction, from what the view holds, for any roughness. */
+VNDF_INLINE float vndf_table_view_area(const vndf_view *view)
+{
+    float x = view->ax * view->wi.x, y = view->ay * view->wi.y;
+    return view->of.table.area * (sqrtf(x * x + y * y) + view->wi.z);
+}
+
+/* vndf_invert of a valid view, wm.z >= 0; view.c. */
+void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
+
+#endif
+#endif

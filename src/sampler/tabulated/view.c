@@ -1,0 +1,60 @@
+#include "sampler/tabulated/view.h"
+
+#include "sampler/frame.h"
+#include "sampler/nearest.h"
+#include "sampler/tabulated/law.h"
+
+/* From doubles, where it cannot be had in float: below the horizon, along z, at extremes. */
+VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+{
+    vndf_stretched w = vndf_stretch(wi, ax, ay, VNDF_LENGTH_SUM);
+    vndf_heading to = vndf_heading_of(&w);
+    vndf_aim aim = {(float)w.s, (float)w.c, (float)to.cosine, (float)to.sine, 0, 0, 0};
+    double mass = vndf_wedge_mass(vndf_wedge_of(d, w.c), vndf_wedge_y(w.s, w.c));
+    double front = w.c >= 0.0 ? w.c * (d->f0_total * VNDF_QUARTER_TURN) + w.s * d->f1_total : 0.0;
+    aim.front = (float)front;
+    aim.area = (float)(2.0 * (front + mass));
+    aim.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f; /* its part below: the mass may underflow */
+    return aim;
+}
+
+/* For roughness times the table's scale, as it is and as it is drawn with. */
+static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
+{
+    lanes_m ready = 1;
+    vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
+    vndf_view view;
+    if (!ready)
+        aim = aim_exactly(d, ax, ay, wi);
+    vndf_table_view_put(&view, d, ax, ay, x, y, wi, &aim);
+    return view;
+}
+
+vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+{
+    return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
+}
+
+vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+{
+    double ax, ay;
+    if (!vndf_surface_scaled(surface, &ax, &ay) || !vndf_is_usable_direction(wi))
+        return vndf_invalid_view();
+    float scale = vndf_unit_scale_float(surface->distribution); /* lanes have no double */
+    float x = scale > 0.0f ? surface->alpha_x * scale : (float)ax;
+    float y = scale > 0.0f ? surface->alpha_y * scale : (float)ay;
+    return view_scaled(surface->distribution, ax, ay, x, y, wi);
+}
+
+/* ---- inverse ---- */
+
+/* Where some steps of 2^-24 matter and wi sees wm, u is what gives it, not what should. */
+void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    vndf_frame frame = vndf_table_frame(view);
+    int sure = vndf_engine_invert(view, vndf_to_unit(&frame, wm), u1, u2);
+    *u1 = vndf_clamp_unit(*u1);
+    *u2 = vndf_clamp_unit(*u2);
+    if (!sure && vndf_exact_dot(view->wi, wm) > 0.0)
+        vndf_nearest(view, wm, u1, u2);
+}
