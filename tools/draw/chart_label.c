@@ -90,7 +90,7 @@ static int by_height(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Down from the top, each at least a line below the one before; then up from the bottom, each a line above. */
+/* Down from the top, each at least a line below the one before; then up from the bottom, likewise. */
 static void spread(chart_end *ends, size_t count, double top, double bottom)
 {
     double at = top;
