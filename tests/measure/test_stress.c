@@ -91,8 +91,9 @@ static void test_pathological(void)
     for (size_t i = 0; i < sizeof pathological / sizeof *pathological; i++) {
         vndf_error error = {VNDF_OK, ""};
         vndf_source *source = vndf_source_slope_expression(pathological[i], NULL, 0, &error);
-        test_source(source, 2048, 5);
-        test_source(source, 0, 5);
+        for (size_t size = 0; size < 2; size++) /* a short run takes each at one of the two sizes */
+            if (test_long() || size == i % 2)
+                test_source(source, size ? 2048 : 0, 5);
         vndf_source_free(source);
     }
 }
