@@ -34,7 +34,7 @@ VNDF_INLINE double vndf_walk_other_depth(double depth)
 /* The view of another direction. */
 VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
 {
-    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, w);
+    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, vndf_packed(w));
 }
 
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
