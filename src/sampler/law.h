@@ -132,6 +132,19 @@ VNDF_INLINE vndf_view vndf_law_view_scaled(const vndf_distribution *d, double ax
     VNDF_NO_OTHER_KIND();
 }
 
+/* A view turned to another usable direction, in place. */
+VNDF_INLINE void vndf_law_view_turn(vndf_view *view, vndf_vec3 wi)
+{
+    const vndf_distribution *d = view->distribution;
+    vndf_surface surface = {d, view->ax, view->ay};
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: *view = vndf_table_view_scaled(d, view->alpha_x, view->alpha_y, vndf_packed(wi)); return;
+    case VNDF_KIND_GGX: vndf_ggx_view_set(view, &surface, wi); return;
+    case VNDF_KIND_BECKMANN: vndf_beckmann_view_set(view, &surface, vndf_packed(wi)); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
 /* vndf_sample of a valid view; uniform numbers are in [0, 1]. */
 VNDF_INLINE vndf_vec3 vndf_law_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {

@@ -51,7 +51,7 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
     double distance = vndf_walk_exponential(&path->random);
     if (back.z < 0.0f && vndf_walk_leaves(path, back, distance))
         return 0;
-    path->view = vndf_walk_look(&path->view, back);
+    vndf_view_turn(&path->view, vndf_packed(back));
     if (back.z > 0.0f)
         path->depth += distance / vndf_law_view_slant(&path->view);
     return 1;

@@ -36,7 +36,7 @@ void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_v
     if (w.plain)
         put(view, surface, wi, &w);
     else
-        *view = vndf_closed_view_carefully(surface, vndf_packed(wi));
+        vndf_closed_view_set_carefully(view, surface, vndf_packed(wi));
 }
 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)

@@ -2,19 +2,29 @@
 
 #include "sampler/surface.h"
 
-vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax = 0.0, ay = 0.0;
     int valid = vndf_surface_scaled(surface, &ax, &ay) && vndf_is_usable_direction(wi);
-    vndf_view view; /* written member by member, or it would be copied */
-    view.distribution = valid ? surface->distribution : NULL;
-    view.wi = wi;
-    view.alpha_x = ax;
-    view.alpha_y = ay;
-    view.ax = surface->alpha_x;
-    view.ay = surface->alpha_y;
-    view.plain = 0;
+    view->distribution = valid ? surface->distribution : NULL;
+    view->wi = wi;
+    view->alpha_x = ax;
+    view->alpha_y = ay;
+    view->ax = surface->alpha_x;
+    view->ay = surface->alpha_y;
+    view->plain = 0;
+}
+
+vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_view view;
+    put(&view, surface, wi);
     return view;
+}
+
+void vndf_closed_view_set_carefully(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    put(view, surface, wi);
 }
 
 /* Below the horizon: wm.z is above `highest`, where wi sees nothing, by a few roundings of its own. It is lowered,
