@@ -2,9 +2,9 @@
  * told apart, and the only place: sources ask a law, and do not look which one it is.
  *
  * A kind answers in files of its own: tabulated/law.h, analytic/ggx_law.h, analytic/beckmann_law.h, and beside them its
- * bounded normals (bounded/) and its blocks of a batch (batch/). A new one adds such files, its view and bounds to
+ * bounded normals (bounded/) and its blocks of a batch (batch/). A new kind adds such files, its view and bounds to
  * vndf.h, its name to vndf_kind (table/table.h) and its distribution to law.c; the compiler then names each switch
- * below that does not know it, since none has a default.
+ * below that does not know it, as no switch has a default.
  *
  * Switches are inline: a call would be a tenth of what GGX costs, and lanes are compiled once for each instruction
  * set. */
