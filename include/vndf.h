@@ -168,7 +168,7 @@ struct vndf_table_view {
     float area, spread;           /* projected area of the unit problem; times ax ay */
 };
 
-struct vndf_ggx_view {        /* zeros where the view is not plain, as in the next one */
+struct vndf_ggx_view {        /* filled where the view is plain, as the next one is */
     float x, y, c, q, spread; /* sampler/analytic/ggx_draw.h */
 };
 

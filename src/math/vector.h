@@ -24,6 +24,12 @@ VNDF_INLINE vndf_vec3 vndf_vec3_of(float x, float y, float z)
     return v;
 }
 
+/* The same of one that an inline function hands on to one that is not. */
+VNDF_INLINE vndf_vec3 vndf_packed(vndf_vec3 v)
+{
+    return vndf_vec3_of(v.x, v.y, v.z);
+}
+
 VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

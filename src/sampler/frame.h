@@ -8,6 +8,8 @@
 #include "sampler/closed.h"
 #include "sampler/stretch.h"
 
+#if VNDF_LANES == 1
+
 /* A view's direction and roughness, the direction stretched, and its azimuth. */
 typedef struct vndf_frame {
     vndf_vec3 wi;
@@ -65,4 +67,5 @@ VNDF_INLINE int vndf_is_facing(const vndf_view *view, vndf_vec3 wm)
     return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
 }
 
+#endif
 #endif

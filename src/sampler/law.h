@@ -2,9 +2,9 @@
  * told apart, and the only place: sources ask a law, and do not look which one it is.
  *
  * A kind answers in files of its own: tabulated/law.h, analytic/ggx_law.h, analytic/beckmann_law.h, and beside them its
- * bounded normals (bounded/) and its blocks of a batch (batch/). A new one adds such files, its view and bounds to
+ * bounded normals (bounded/) and its blocks of a batch (batch/). A new kind adds such files, its view and bounds to
  * vndf.h, its name to vndf_kind (table/table.h) and its distribution to law.c; the compiler then names each switch
- * below that does not know it, since none has a default.
+ * below that does not know it, as no switch has a default.
  *
  * Switches are inline: a call would be a tenth of what GGX costs, and lanes are compiled once for each instruction
  * set. */
@@ -104,18 +104,18 @@ VNDF_INLINE vndf_view vndf_law_view(const vndf_surface *surface, vndf_vec3 wi)
     switch (surface->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_table_view_from(surface, wi);
     case VNDF_KIND_GGX: return vndf_ggx_view_from(surface, wi);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(surface, wi);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(surface, vndf_packed(wi));
     }
     VNDF_NO_OTHER_KIND();
 }
 
-/* The same in place: of GGX a copy would show. */
+/* The same in place: a copy would be waited for. */
 VNDF_INLINE void vndf_law_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     switch (surface->distribution->kind) {
-    case VNDF_KIND_TABLE: *view = vndf_view_from(surface, wi); return;
+    case VNDF_KIND_TABLE: vndf_table_view_set(view, surface, vndf_packed(wi)); return;
     case VNDF_KIND_GGX: vndf_ggx_view_set(view, surface, wi); return;
-    case VNDF_KIND_BECKMANN: *view = vndf_beckmann_view_from(surface, wi); return;
+    case VNDF_KIND_BECKMANN: vndf_beckmann_view_set(view, surface, vndf_packed(wi)); return;
     }
     VNDF_NO_OTHER_KIND();
 }
@@ -125,9 +125,22 @@ VNDF_INLINE vndf_view vndf_law_view_scaled(const vndf_distribution *d, double ax
 {
     vndf_surface surface = {d, (float)ax, (float)ay};
     switch (d->kind) {
-    case VNDF_KIND_TABLE: return vndf_table_view_scaled(d, ax, ay, wi);
+    case VNDF_KIND_TABLE: return vndf_table_view_scaled(d, ax, ay, vndf_packed(wi));
     case VNDF_KIND_GGX: return vndf_ggx_view_from(&surface, wi);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(&surface, wi);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_from(&surface, vndf_packed(wi));
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* A view turned to another usable direction, in place. */
+VNDF_INLINE void vndf_law_view_turn(vndf_view *view, vndf_vec3 wi)
+{
+    const vndf_distribution *d = view->distribution;
+    vndf_surface surface = {d, view->ax, view->ay};
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: *view = vndf_table_view_scaled(d, view->alpha_x, view->alpha_y, vndf_packed(wi)); return;
+    case VNDF_KIND_GGX: vndf_ggx_view_set(view, &surface, wi); return;
+    case VNDF_KIND_BECKMANN: vndf_beckmann_view_set(view, &surface, vndf_packed(wi)); return;
     }
     VNDF_NO_OTHER_KIND();
 }
@@ -158,7 +171,7 @@ VNDF_INLINE vndf_vec3 vndf_law_sample_carefully(const vndf_view *view, float u1,
 VNDF_INLINE float vndf_law_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     switch (view->distribution->kind) {
-    case VNDF_KIND_TABLE: return vndf_engine_pdf(view, vndf_vec3_of(wm.x, wm.y, wm.z));
+    case VNDF_KIND_TABLE: return vndf_engine_pdf(view, vndf_packed(wm));
     case VNDF_KIND_GGX: return vndf_ggx_pdf(view, wm);
     case VNDF_KIND_BECKMANN: return vndf_beckmann_pdf(view, wm);
     }
@@ -180,9 +193,9 @@ VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
 VNDF_INLINE void vndf_law_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     switch (view->distribution->kind) {
-    case VNDF_KIND_TABLE: vndf_table_invert(view, wm, u1, u2); return;
-    case VNDF_KIND_GGX: vndf_ggx_view_invert(view, wm, u1, u2); return;
-    case VNDF_KIND_BECKMANN: vndf_beckmann_view_invert(view, wm, u1, u2); return;
+    case VNDF_KIND_TABLE: vndf_table_invert(view, vndf_packed(wm), u1, u2); return;
+    case VNDF_KIND_GGX: vndf_ggx_view_invert(view, vndf_packed(wm), u1, u2); return;
+    case VNDF_KIND_BECKMANN: vndf_beckmann_view_invert(view, vndf_packed(wm), u1, u2); return;
     }
     VNDF_NO_OTHER_KIND();
 }

@@ -55,6 +55,9 @@ VNDF_INLINE vndf_view vndf_invalid_view(void)
     return view;
 }
 
+/* A valid view turned to another usable direction, in place. */
+void vndf_view_turn(vndf_view *view, vndf_vec3 wi);
+
 /* The view of a usable direction for roughness times the distribution's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 

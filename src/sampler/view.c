@@ -9,6 +9,11 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
     return vndf_law_view_scaled(d, ax, ay, wi);
 }
 
+void vndf_view_turn(vndf_view *view, vndf_vec3 wi)
+{
+    vndf_law_view_turn(view, wi);
+}
+
 vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_view view = {.wi = wi};

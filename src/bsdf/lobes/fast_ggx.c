@@ -10,6 +10,10 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
+    if (!b->view.plain) {
+        vndf_routines_bare[VNDF_NORMALS_VISIBLE].sample(b, u, s);
+        return;
+    }
     vndf_ggx_incidence w = vndf_ggx_incidence_of(&b->view);
     lanes_m plain;
     vndf_drawn drawn = vndf_ggx_draw(&w, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]), &plain);

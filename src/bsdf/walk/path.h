@@ -34,7 +34,7 @@ VNDF_INLINE double vndf_walk_other_depth(double depth)
 /* The view of another direction. */
 VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
 {
-    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, w);
+    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, vndf_packed(w));
 }
 
 /* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
@@ -51,7 +51,7 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
     double distance = vndf_walk_exponential(&path->random);
     if (back.z < 0.0f && vndf_walk_leaves(path, back, distance))
         return 0;
-    path->view = vndf_walk_look(&path->view, back);
+    vndf_view_turn(&path->view, vndf_packed(back));
     if (back.z > 0.0f)
         path->depth += distance / vndf_law_view_slant(&path->view);
     return 1;

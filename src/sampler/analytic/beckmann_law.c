@@ -3,27 +3,46 @@
 
 #include "math/vector.h"
 #include "sampler/analytic/beckmann.h"
-#include "sampler/frame.h"
+
+/* A plain one. */
+VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi, const vndf_beckmann_incidence *w)
+{
+    view->distribution = surface->distribution;
+    view->wi.x = wi.x;
+    view->wi.y = wi.y;
+    view->wi.z = wi.z;
+    view->alpha_x = w->ax;
+    view->alpha_y = w->ay;
+    view->ax = w->ax;
+    view->ay = w->ay;
+    view->plain = 1;
+    view->of.beckmann = (struct vndf_beckmann_view){w->cos_phi, w->sin_phi, w->bound, w->line, w->tail, w->spread,
+                                                    w->near,    w->p0,      w->p1,    w->p2,   w->p3,   w->p4};
+}
 
 vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    vndf_view view;
     if (!w.plain)
-        return vndf_closed_view_carefully(surface, wi);
-    vndf_view view = {.distribution = surface->distribution,
-                      .wi = wi,
-                      .alpha_x = w.ax,
-                      .alpha_y = w.ay,
-                      .ax = w.ax,
-                      .ay = w.ay,
-                      .plain = 1,
-                      .of.beckmann = {w.cos_phi, w.sin_phi, w.bound, w.line, w.tail, w.spread, w.near, w.p0, w.p1,
-                                      w.p2, w.p3, w.p4}};
+        return vndf_closed_view_carefully(surface, vndf_packed(wi));
+    put(&view, surface, wi, &w);
     return view;
+}
+
+void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    if (w.plain)
+        put(view, surface, wi, &w);
+    else
+        vndf_closed_view_set_carefully(view, surface, vndf_packed(wi));
 }
 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    if (!view->plain)
+        return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m plain;
     vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
@@ -41,7 +60,7 @@ vndf_vec3 vndf_beckmann_view_sample_carefully(const vndf_view *view, float u1, f
     vndf_vec3 wm = vndf_closed_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));
     if (pdf)
         *pdf = vndf_is_facing(view, wm) ? vndf_beckmann_pdf(view, wm) : 0.0f;
-    return wm;
+    return vndf_packed(wm);
 }
 
 void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)

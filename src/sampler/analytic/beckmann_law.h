@@ -76,8 +76,9 @@ VNDF_INLINE doubles vndf_beckmann_visible(const vndf_given *g, doubles facing)
 
 /* ---- views ---- */
 
-/* vndf_view_from. */
+/* vndf_view_from, and the same in place. */
 vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi);
+void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);

@@ -4,10 +4,11 @@
 #include "math/vector.h"
 #include "sampler/all_normals/all_normals.h"
 #include "sampler/analytic/ggx.h"
-#include "sampler/frame.h"
 
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    if (!view->plain)
+        return vndf_ggx_view_sample_carefully(view, u1, u2, pdf);
     vndf_ggx_incidence w = vndf_ggx_incidence_of(view);
     lanes_m plain;
     vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &plain);
@@ -26,7 +27,7 @@ vndf_vec3 vndf_ggx_view_sample_carefully(const vndf_view *view, float u1, float 
     vndf_vec3 wm = vndf_closed_normal(&f, vndf_ggx_sample(f.s, f.c, u1, u2));
     if (pdf)
         *pdf = vndf_is_facing(view, wm) ? vndf_ggx_pdf(view, wm) : 0.0f;
-    return wm;
+    return vndf_packed(wm);
 }
 
 void vndf_ggx_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)

@@ -59,7 +59,7 @@ VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 
 {
     vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
-        return vndf_closed_view_carefully(surface, wi);
+        return vndf_closed_view_carefully(surface, vndf_packed(wi));
     vndf_view view;
     vndf_ggx_view_put(&view, surface, wi, &w);
     return view;
@@ -72,7 +72,7 @@ VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface,
     if (w.plain)
         vndf_ggx_view_put(view, surface, wi, &w);
     else
-        *view = vndf_closed_view_carefully(surface, wi);
+        vndf_closed_view_set_carefully(view, surface, vndf_packed(wi));
 }
 
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */

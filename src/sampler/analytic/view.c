@@ -1,16 +1,30 @@
 #include "sampler/analytic/view.h"
 
-#include "sampler/frame.h"
 #include "sampler/surface.h"
+
+VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    double ax = 0.0, ay = 0.0;
+    int valid = vndf_surface_scaled(surface, &ax, &ay) && vndf_is_usable_direction(wi);
+    view->distribution = valid ? surface->distribution : NULL;
+    view->wi = wi;
+    view->alpha_x = ax;
+    view->alpha_y = ay;
+    view->ax = surface->alpha_x;
+    view->ay = surface->alpha_y;
+    view->plain = 0;
+}
 
 vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_view view = vndf_view_bare(surface, wi);
-    if (view.distribution) {
-        view.ax = surface->alpha_x;
-        view.ay = surface->alpha_y;
-    }
+    vndf_view view;
+    put(&view, surface, wi);
     return view;
+}
+
+void vndf_closed_view_set_carefully(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    put(view, surface, wi);
 }
 
 /* Below the horizon: wm.z is above `highest`, where wi sees nothing, by a few roundings of its own. It is lowered,
@@ -26,17 +40,10 @@ static vndf_vec3 turn_below(vndf_vec3 wi, vndf_vec3 wm, double highest)
     return wm;
 }
 
-/* A normal that rounding has turned away, turned back. */
-static vndf_vec3 turned_back(const vndf_frame *f, vndf_vec3 wm)
+vndf_vec3 vndf_closed_turned_back(const vndf_frame *f, vndf_vec3 wm)
 {
     double level = (double)f->wi.x * wm.x + (double)f->wi.y * wm.y, highest = level / -(double)f->wi.z;
     if (f->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))
         wm = turn_below(f->wi, wm, highest);
     return vndf_exact_dot(f->wi, wm) > 0.0 ? wm : vndf_turn_to_face(f, wm);
-}
-
-vndf_vec3 vndf_closed_normal(const vndf_frame *f, vndf_vec3 n)
-{
-    vndf_vec3 wm = vndf_normalize(vndf_from_unit(f, n));
-    return vndf_exact_dot(f->wi, wm) > 0.0 ? wm : turned_back(f, wm);
 }

@@ -4,14 +4,27 @@
 #ifndef VNDF_SAMPLER_ANALYTIC_VIEW_H
 #define VNDF_SAMPLER_ANALYTIC_VIEW_H
 
-#include "vndf.h"
+#include "sampler/frame.h"
 
-/* vndf_view_from where float does not do, or for what is invalid. */
+#if VNDF_LANES == 1
+
+/* vndf_view_from of a surface with a distribution where float does not do, or for what is invalid. */
 vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi);
 
-struct vndf_frame; /* sampler/frame.h */
+/* The same in place. */
+void vndf_closed_view_set_carefully(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
-/* The normal of one that was drawn in the unit problem, turned back to wi where rounding has turned it away. */
-vndf_vec3 vndf_closed_normal(const struct vndf_frame *frame, vndf_vec3 n);
+/* A normal that rounding has turned away from wi, turned back. */
+vndf_vec3 vndf_closed_turned_back(const vndf_frame *frame, vndf_vec3 wm);
 
+/* The normal of one that was drawn in the unit problem. */
+VNDF_INLINE vndf_vec3 vndf_closed_normal(const vndf_frame *f, vndf_vec3 n)
+{
+    vndf_vec3 wm = vndf_normalize(vndf_from_unit(f, n));
+    if (!(vndf_exact_dot(f->wi, wm) > 0.0))
+        wm = vndf_closed_turned_back(f, vndf_packed(wm));
+    return wm;
+}
+
+#endif
 #endif

@@ -53,12 +53,11 @@ static double part_in_float(const vndf_view *view, double x)
 /* Of a plain view it is in the view; else in `bounds`. */
 VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const extent *bounds)
 {
-    double bound = vndf_beckmann_bound(bounds->s, bounds->c), line = view->of.beckmann.line,
-           tail = view->of.beckmann.tail;
-    double scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
-    vndf_beckmann_law plain = {bound, scale * (1.0 + (line + tail)), scale * line};
-    vndf_beckmann_law law = {bound, bounds->whole, bounds->line};
-    return view->plain ? plain : law;
+    double bound = vndf_beckmann_bound(bounds->s, bounds->c), scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
+    if (!view->plain)
+        return (vndf_beckmann_law){bound, bounds->whole, bounds->line};
+    double line = view->of.beckmann.line, tail = view->of.beckmann.tail;
+    return (vndf_beckmann_law){bound, scale * (1.0 + (line + tail)), scale * line};
 }
 
 /* Beyond 7 there is nothing. */

@@ -46,6 +46,12 @@ vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
     return view_scaled(surface->distribution, ax, ay, x, y, wi);
 }
 
+void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    if (!vndf_table_view_try(view, surface, wi))
+        *view = vndf_table_view_carefully(surface, vndf_packed(wi));
+}
+
 /* ---- inverse ---- */
 
 /* Where some steps of 2^-24 matter and wi sees wm, u is what gives it, not what should. */

@@ -2,6 +2,7 @@
 #ifndef VNDF_SAMPLER_TABULATED_VIEW_H
 #define VNDF_SAMPLER_TABULATED_VIEW_H
 
+#include "math/vector.h"
 #include "sampler/surface.h"
 #include "sampler/tabulated/aim.h"
 
@@ -36,20 +37,30 @@ vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double a
 /* vndf_view_from where float does not do, or for what is invalid. */
 vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi);
 
-/* vndf_view_from. What is plain and ready is valid: nothing else has to be looked at. */
-VNDF_INLINE vndf_view vndf_table_view_from(const vndf_surface *surface, vndf_vec3 wi)
+/* vndf_view_from as far as float does: what is plain and ready is valid, and nothing else has to be looked at. */
+VNDF_INLINE int vndf_table_view_try(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     const vndf_distribution *d = surface->distribution;
     float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
     lanes_m ready = 1;
     vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
     if (!(ready & vndf_trusts_scale(x, y, aim.c)))
-        return vndf_table_view_carefully(surface, wi);
+        return 0;
     double exact = vndf_unit_scale(d);
+    vndf_table_view_put(view, d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, &aim);
+    return 1;
+}
+
+VNDF_INLINE vndf_view vndf_table_view_from(const vndf_surface *surface, vndf_vec3 wi)
+{
     vndf_view view;
-    vndf_table_view_put(&view, d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, &aim);
+    if (!vndf_table_view_try(&view, surface, wi))
+        return vndf_table_view_carefully(surface, vndf_packed(wi));
     return view;
 }
+
+/* The same in place. */
+void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 #endif
 #endif
