@@ -193,8 +193,8 @@ static void derive_cells(vndf_distribution *table)
         cell->width = (float)width_of(&table->knots, j);
         double x0 = table->knots.at[j].x, x1 = table->knots.at[j + 1].x;
         double z0 = table->knots.at[j].z, z1 = table->knots.at[j + 1].z;
-        cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
-                     is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
+        cell->calm =
+            x0 > 0.0 && z1 > 0.0 && is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
     }
 }
 

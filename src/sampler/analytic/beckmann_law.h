@@ -115,7 +115,8 @@ VNDF_INLINE float vndf_beckmann_area_above(float ax, float ay, vndf_vec3 w, int 
 VNDF_INLINE vndf_slope vndf_beckmann_slope_of(float u)
 {
     double rest = u < 1.0f ? 1.0 - u : VNDF_LEAST_REST, square = -vndf_log(rest);
-    vndf_slope r = {(float)sqrt(square > 0.0 ? square : 0.0), 1.0f, 0.318309886f * (float)rest, square < VNDF_TRUST_ALL_BECKMANN};
+    vndf_slope r = {(float)sqrt(square > 0.0 ? square : 0.0), 1.0f, 0.318309886f * (float)rest,
+                    square < VNDF_TRUST_ALL_BECKMANN};
     return r;
 }
 
