@@ -97,10 +97,10 @@ typedef struct vndf_guide {
 } vndf_guide;
 
 /* Where a search above the horizon begins (table/window.h): for 2 VNDF_RATIOS ratios k/c, the second half for
- * k < 0, and VNDF_RANGES ranges of u; in tables of few cells 2^ratio_shift and 2^range_shift of them share a window. */
+ * k < 0, and VNDF_RANGES ranges of u; in tables of few cells 2^range_shift of these share a window. */
 typedef struct vndf_windows {
-    uint32_t ratio_shift, range_shift, ranges; /* ranges: windows to a ratio */
-    uint16_t *code;                            /* and a half word, which lanes read */
+    uint32_t range_shift, ranges; /* ranges: windows to a ratio */
+    uint16_t *code;               /* and a half word, which lanes read */
 } vndf_windows;
 
 /* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */

@@ -78,16 +78,15 @@ static uint32_t code_of(uint32_t low, uint32_t high)
     return low | width << VNDF_WINDOW_SHIFT;
 }
 
-/* The window that all ratios and ranges share with one. */
+/* The window that ranges share with one. */
 static uint32_t shared_code(const reach *all, const vndf_windows *w, uint32_t ratio, uint32_t range)
 {
-    uint32_t row = ratio >> w->ratio_shift << w->ratio_shift, from = range >> w->range_shift << w->range_shift;
-    uint32_t low = all->low[row][from], high = all->high[row][from];
-    for (uint32_t r = row; r < 2 * VNDF_RATIOS && r >> w->ratio_shift == ratio >> w->ratio_shift; r++)
-        for (uint32_t i = from; i < VNDF_RANGES && i >> w->range_shift == range >> w->range_shift; i++) {
-            low = all->low[r][i] < low ? all->low[r][i] : low;
-            high = all->high[r][i] > high ? all->high[r][i] : high;
-        }
+    uint32_t from = range >> w->range_shift << w->range_shift;
+    uint32_t low = all->low[ratio][from], high = all->high[ratio][from];
+    for (uint32_t i = from; i < VNDF_RANGES && i >> w->range_shift == range >> w->range_shift; i++) {
+        low = all->low[ratio][i] < low ? all->low[ratio][i] : low;
+        high = all->high[ratio][i] > high ? all->high[ratio][i] : high;
+    }
     return code_of(low, high);
 }
 
@@ -104,30 +103,19 @@ static double made_wider(const reach *all, const vndf_windows *w, uint32_t first
     return wider / VNDF_RATIOS;
 }
 
-/* The coarsest that costs no time to speak of. */
-static void choose_shifts(const reach *all, vndf_windows *w)
+/* The coarsest that costs no time to speak of. Ratios are never shared, nor eight ranges: that changed bits of some
+ * samples of the 2 KiB table. */
+static void choose_shift(const reach *all, vndf_windows *w)
 {
-    static const struct {
-        uint32_t ratio, range;
-    } shifts[] = {{1, 2}, {0, 2}, {1, 1}, {0, 1}, {1, 0}};
     const double most = 0.005;
-    for (unsigned i = 0; i < sizeof shifts / sizeof *shifts; i++) {
-        w->ratio_shift = shifts[i].ratio;
-        w->range_shift = shifts[i].range;
+    for (w->range_shift = 2; w->range_shift > 0; w->range_shift--)
         if (made_wider(all, w, 0) <= most && made_wider(all, w, VNDF_RATIOS) <= most)
             return;
-    }
-    w->ratio_shift = w->range_shift = 0;
-}
-
-static uint32_t rows_of(const vndf_windows *w)
-{
-    return (uint32_t)(2 * VNDF_RATIOS) >> w->ratio_shift;
 }
 
 size_t vndf_windows_bytes(const vndf_windows *w)
 {
-    return ((size_t)rows_of(w) * w->ranges + 1) * sizeof *w->code;
+    return (2 * (size_t)VNDF_RATIOS * w->ranges + 1) * sizeof *w->code;
 }
 
 int vndf_windows_make(vndf_distribution *d)
@@ -138,12 +126,12 @@ int vndf_windows_make(vndf_distribution *d)
         return 0;
     for (uint32_t r = 0; r < 2 * VNDF_RATIOS; r++)
         reach_of_ratio(d, r >= VNDF_RATIOS, r % (uint32_t)VNDF_RATIOS, all->low[r], all->high[r]);
-    choose_shifts(all, w);
+    choose_shift(all, w);
     w->ranges = ((uint32_t)(VNDF_RANGES - 1) >> w->range_shift) + 1;
     w->code = calloc(vndf_windows_bytes(w), 1);
-    for (uint32_t r = 0; w->code && r < rows_of(w); r++)
+    for (uint32_t r = 0; w->code && r < 2 * VNDF_RATIOS; r++)
         for (uint32_t i = 0; i < w->ranges; i++)
-            w->code[r * w->ranges + i] = (uint16_t)shared_code(all, w, r << w->ratio_shift, i << w->range_shift);
+            w->code[r * w->ranges + i] = (uint16_t)shared_code(all, w, r, i << w->range_shift);
     free(all);
     return w->code != NULL;
 }

@@ -47,7 +47,7 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
 VNDF_INLINE lanes_u vndf_window_of(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f u)
 {
     lanes_u cut = lanes_pick_u(lanes_less(k, lanes_set(0.0f)), lanes_set_u(VNDF_RATIOS), lanes_set_u(0));
-    lanes_u row = (cut + vndf_window_ratio(c, k)) >> d->windows.ratio_shift;
+    lanes_u row = cut + vndf_window_ratio(c, k);
     return lanes_gather_u16(d->windows.code,
                             row * d->windows.ranges + (vndf_window_range(u) >> d->windows.range_shift));
 }
