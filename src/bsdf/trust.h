@@ -32,12 +32,12 @@ static const double VNDF_TRUST_BEYOND = 0.1;
 static const float VNDF_TRUST_REFRACTION_TURN = 0.16f;
 
 /* Rotated lobes round wo three times more. */
-static const float VNDF_TRUST_ROTATED_GAIN = 0.3f;
+static const float VNDF_TRUST_ROTATED_GAIN = 0.2f;
 
 /* ---- terms of a weight ---- */
 
 /* The cosine of refraction, squared: beside total reflection F changes without bound. */
-static const double VNDF_TRUST_REFRACTED = 0.1;
+static const double VNDF_TRUST_REFRACTED = 0.2;
 
 /* A conductor whose F is as steep: eta below 1 and k below this. */
 static const float VNDF_TRUST_CONDUCTOR_K = 0.05f;

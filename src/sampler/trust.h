@@ -8,27 +8,29 @@
 #ifndef VNDF_SAMPLER_TRUST_H
 #define VNDF_SAMPLER_TRUST_H
 
-#include "simd/lanes.h"
+#include "math/rational_cell.h"
 #include "table/steep.h"
 #include "table/table.h"
 
 /* ---- the budget ---- */
 
 /* Parts of the promise in units of 1e-8, those of a cause without the roundings that every sample has. Measured with
- * 100 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
- * apart, roughness 1e-3 to 10. */
+ * 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
+ * apart, roughness 1e-3 to 10. Worst of all: 570; a search that
+ * climbs from there finds 530 for a ring. */
 enum {
     VNDF_PROMISE = 1000,
-    VNDF_SHARE_ROUNDING = 200,  /* of a dozen operations each: direction, masses, cell, normal; measured 180 */
-    VNDF_SHARE_RADIUS = 400,    /* a steep cell of the radius: VNDF_STEEP_RADIUS; measured 400 */
-    VNDF_SHARE_FACING = 220,    /* wi.wm as a difference: VNDF_TRUST_FACING; measured 220 */
-    VNDF_SHARE_AZIMUTH = 60,    /* a steep cell of the azimuth: VNDF_TRUST_AZIMUTH_STEEP; measured 50 */
-    VNDF_SHARE_DIRECTION = 100, /* shares of rows and masses of wedges, by the rounding of wi; measured 60 to 80 */
-    VNDF_SHARE_GGX = 700,       /* all of GGX; measured 660 */
-    VNDF_SHARE_BECKMANN = 800   /* all of Beckmann; measured 770 */
+    VNDF_SHARE_ROUNDING = 180, /* of a dozen operations each: direction, masses, cell, normal */
+    VNDF_SHARE_RADIUS = 400,   /* a steep cell of the radius: VNDF_STEEP_RADIUS */
+    VNDF_SHARE_FACING = 220,   /* wi.wm as a difference: VNDF_TRUST_FACING */
+    VNDF_SHARE_CUT = 100,      /* a law that moves with its cut: VNDF_TRUST_CUT */
+    VNDF_SHARE_AZIMUTH = 40,   /* a steep cell of the azimuth: VNDF_TRUST_AZIMUTH_STEEP */
+    VNDF_SHARE_DIRECTION = 60, /* masses of wedges, by the rounding of wi: VNDF_TRUST_WEDGE_MASS and below */
+    VNDF_SHARE_GGX = 700,      /* all of GGX; measured 660 */
+    VNDF_SHARE_BECKMANN = 800  /* all of Beckmann; measured 770 */
 };
 
-_Static_assert(VNDF_SHARE_ROUNDING + VNDF_SHARE_RADIUS + VNDF_SHARE_FACING + VNDF_SHARE_AZIMUTH +
+_Static_assert(VNDF_SHARE_ROUNDING + VNDF_SHARE_RADIUS + VNDF_SHARE_FACING + VNDF_SHARE_CUT + VNDF_SHARE_AZIMUTH +
                        VNDF_SHARE_DIRECTION <=
                    VNDF_PROMISE,
                "what can meet in one sample of a table");
@@ -60,7 +62,7 @@ VNDF_INLINE lanes_m vndf_trusts_scale(lanes_f ax, lanes_f ay, lanes_f c)
 /* The density, what it is made from, and the squared length of a normal before it is made unit: a hostile table may
  * overflow here. */
 static const float VNDF_TRUST_DENSITY_LEAST = 1e-37f, VNDF_TRUST_DENSITY_MOST = 1e38f;
-static const float VNDF_TRUST_SQUARE = 1e-34f, VNDF_TRUST_PRODUCT = 1e-36f;
+static const float VNDF_TRUST_SQUARE = 1e-30f, VNDF_TRUST_PRODUCT = 1e-36f;
 
 VNDF_INLINE lanes_m vndf_trusts_density(lanes_f density)
 {
@@ -74,24 +76,16 @@ VNDF_INLINE lanes_m vndf_trusts_lengths(lanes_f square, lanes_f product)
                       lanes_less(lanes_set(VNDF_TRUST_PRODUCT), product));
 }
 
-/* A front law of less mass would have to be scaled before its cells are formed. */
-static const float VNDF_TRUST_LAW_MASS = 1e-3f;
+/* The root in the inverse of a rational cell, of the fourth power of a mass: what is drawn at the pole, at u2 = 1e-10,
+ * has lost digits to denormals. */
+static const float VNDF_TRUST_ROOT = 2e-18f;
 
-VNDF_INLINE lanes_m vndf_trusts_law_mass(lanes_f total)
+VNDF_INLINE lanes_m vndf_trusts_root(lanes_f root)
 {
-    return lanes_at_most(lanes_set(VNDF_TRUST_LAW_MASS), total);
+    return lanes_less(lanes_set(VNDF_TRUST_ROOT), root);
 }
 
-/* ---- tables: uniform numbers and azimuth ---- */
-
-/* The border of the unit square, where the first and last cells end. */
-static const float VNDF_TRUST_U1 = 0.9999f, VNDF_TRUST_U2 = 0.4999f; /* of 2 u1 - 1 and u2 - 1/2 */
-
-VNDF_INLINE lanes_m vndf_trusts_uniform(lanes_f half, lanes_f u2)
-{
-    return lanes_both(lanes_less(lanes_abs(u2 - 0.5f), lanes_set(VNDF_TRUST_U2)),
-                      lanes_less(lanes_abs(half), lanes_set(VNDF_TRUST_U1)));
-}
+/* ---- tables: azimuth ---- */
 
 /* The mass of the half turn where the azimuth is drawn, over that in front: in a wedge of next to no mass the
  * rounding of the direction shows. */
@@ -102,41 +96,37 @@ VNDF_INLINE lanes_m vndf_trusts_wedge_mass(lanes_f front, lanes_f mass)
     return lanes_less(VNDF_TRUST_WEDGE_MASS * front, mass);
 }
 
-/* One over the width, in the wedge's coordinate, of a piece of the areas' spline and of a span of rows: a rounding
- * of the direction moves it by that part of its width. Lobes hundreds of times apart have narrow ones. */
-static const float VNDF_TRUST_AREA_PER_WIDTH = 500.0f, VNDF_TRUST_ROW_PER_WIDTH = 250.0f;
+/* One over the width, in the wedge's coordinate, of a piece of the areas' spline: a rounding of the direction moves it
+ * by that part of its width. Lobes hundreds of times apart have narrow ones, and rows as close. */
+static const float VNDF_TRUST_AREA_PER_WIDTH = 500.0f;
 
 VNDF_INLINE lanes_m vndf_trusts_area_piece(lanes_f per_width)
 {
     return lanes_at_most(per_width, lanes_set(VNDF_TRUST_AREA_PER_WIDTH));
 }
 
-VNDF_INLINE lanes_m vndf_trusts_rows(lanes_f per_width)
-{
-    return lanes_less(per_width, lanes_set(VNDF_TRUST_ROW_PER_WIDTH));
-}
+/* How fast the density of a rational cell changes at a place, F''/F' as above/below (math/rational_cell.h): with the
+ * numerator n and the root q of the denominator of F' it is n'/n - 2 q'/q. */
+typedef struct vndf_change {
+    lanes_f above, below;
+} vndf_change;
 
-/* The derivative of a rational cell (math/rational_cell.h) is largest at an end: |e1 - e0| + 3 |e0 + e1 - 2 mass|,
- * about, where that is a small part of the density. */
-VNDF_INLINE lanes_f vndf_cell_change(lanes_f e0, lanes_f e1, lanes_f mass)
+VNDF_INLINE vndf_change vndf_change_at(const vndf_rational_cell *cell, const vndf_rational_place *in)
 {
-    lanes_f rise = e1 - e0, bend = (e0 + e1) - 2.0f * mass;
-    return lanes_abs(rise) + 3.0f * lanes_abs(bend);
-}
-
-/* The density at a place, about, or the mean if that is less. */
-VNDF_INLINE lanes_f vndf_cell_least(lanes_f e0, lanes_f e1, lanes_f mass, lanes_f xi)
-{
-    return lanes_least(e0 + (e1 - e0) * xi, mass);
+    lanes_f m = cell->mass, xi = in->xi, eta = 1.0f - xi, apart = eta - xi;
+    lanes_f rise = m * (m * (cell->e1 * xi - cell->e0 * eta + m * apart));
+    lanes_f bend = in->root * (((cell->e0 + cell->e1) - 2.0f * m) * apart);
+    vndf_change change = {2.0f * lanes_abs(rise - bend), in->root * in->below};
+    return change;
 }
 
 /* The density of a cell of azimuths may change by a factor e^20 per radian, or per xi: rounding moves both by 1e-7.
  * turn/n2 is radians per xi. */
 static const float VNDF_TRUST_AZIMUTH_STEEP = 20.0f;
 
-VNDF_INLINE lanes_m vndf_is_steep_azimuth(lanes_f change, lanes_f least, lanes_f turn, lanes_f n2)
+VNDF_INLINE lanes_m vndf_trusts_azimuth(vndf_change change, lanes_f turn, lanes_f n2)
 {
-    return lanes_less(VNDF_TRUST_AZIMUTH_STEEP * least * lanes_least(turn, n2), change * n2);
+    return lanes_at_most(change.above * n2, VNDF_TRUST_AZIMUTH_STEEP * change.below * lanes_least(turn, n2));
 }
 
 /* The cosine to wi's azimuth at its side: rounding must not take a normal from the front to the wedge or back, as
@@ -165,12 +155,23 @@ VNDF_INLINE lanes_m vndf_trusts_facing_in_wedge(lanes_f across, lanes_f along, l
 
 /* ---- tables: radius ---- */
 
-/* Rounding moves xi by 5e-7 X Z/width: at VNDF_NARROW (table.h) by a thousandth of the cell. In a cell so narrow that
- * the rounding of its ends shows in its mass, the steepness of the second test tells. */
-VNDF_INLINE lanes_m vndf_is_steep_radius(lanes_f change, lanes_f least, lanes_f width, lanes_f reach)
+/* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves that by some 1e-7. Smooth
+ * lobes have 1 to 4; where nothing but the foot of a ring is seen it may be 500, and float is off by 2e-3. */
+static const float VNDF_TRUST_CUT = 6.0f;
+
+/* `inside` changes in the cells inside the cut; the mass of the cell at the cut is as steep as its visible part of the
+ * cell is narrow. */
+VNDF_INLINE lanes_m vndf_trusts_cut(lanes_f inside, lanes_f part_mass, lanes_f reach, lanes_f total,
+                                    lanes_f visible)
 {
-    return lanes_either(lanes_less((float)VNDF_NARROW * width, reach),
-                        lanes_less(VNDF_STEEP_RADIUS * least * width, change * reach));
+    return lanes_at_most(inside * visible + part_mass * reach, VNDF_TRUST_CUT * total * visible);
+}
+
+/* The density of a cell may change by a factor e^10 per e-fold of the slope: rounding a normal moves that by 5e-7,
+ * and xi by reach/width times as much. */
+VNDF_INLINE lanes_m vndf_trusts_radius(vndf_change change, lanes_f width, lanes_f reach)
+{
+    return lanes_at_most(change.above * reach, VNDF_STEEP_RADIUS * change.below * width);
 }
 
 /* The distance in xi from a knot, which may be a jump of D; counted from the middle of the cell. */

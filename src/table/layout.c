@@ -140,8 +140,8 @@ static void derive_cells(vndf_distribution *table)
         cell->width = (float)width_of(&table->knots, j);
         double x0 = table->knots.x[j], x1 = table->knots.x[j + 1];
         double z0 = table->knots.z[j], z1 = table->knots.z[j + 1];
-        cell->calm = x0 > 0.0 && z1 > 0.0 && x1 * z0 <= VNDF_NARROW * (double)cell->width &&
-                     is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
+        cell->calm =
+            x0 > 0.0 && z1 > 0.0 && is_calm_at(cell, x1 * z0, z1 / z0) && is_calm_at(cell, x1 * z0, x1 / x0);
     }
 }
 

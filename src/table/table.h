@@ -32,7 +32,6 @@ enum {
     VNDF_RANGES_END = 16,   /* the first and last so many are half octaves of u and of 1 - u */
     VNDF_RATIOS = 18,       /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13, /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
-    VNDF_NARROW = 2000,     /* X Z/width from which a radial cell is too narrow for the rounding of a normal */
     VNDF_PADDING = 8,       /* arrays that are counted through are padded to a multiple of this */
     VNDF_FEW = 16,          /* so many numbers are looked up in registers */
     VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */

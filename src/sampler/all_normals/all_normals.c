@@ -72,7 +72,7 @@ VNDF_INLINE radius table_radius(const vndf_distribution *d, float u)
     vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
     vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
     vndf_place at = vndf_place_in(&cell, &in);
-    if (!vndf_plain_place_whole(&cell, &mass, in.xi))
+    if (!vndf_plain_place_whole(&cell, &mass, &in))
         return table_radius_carefully(d, u);
     float x = at.x * at.per;
     radius r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};

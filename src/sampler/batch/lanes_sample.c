@@ -61,7 +61,7 @@ VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *fr
     const vndf_row_search *s = &w->azimuths;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_azimuth_cell cell = vndf_azimuth_cell_of(d, from, i, s);
-        w->plain[g] = vndf_trusts_rows(s->rows[g].per_width);
+        w->plain[g] = lanes_all();
         vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->plain[g]);
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_sector sector = vndf_sorted_sector(from, first + i);

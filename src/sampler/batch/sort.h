@@ -112,7 +112,7 @@ VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float s
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     vndf_incidence w = vndf_incidence_from(ax, ay, aim);
     vndf_sector sector = vndf_sector_at(aim->front, aim->wedge, half);
-    from->plain = lanes_both(from->usable, vndf_sector_is_plain(&sector, aim->front, half, u2));
+    from->plain = lanes_both(from->usable, vndf_trusts_wedge_mass(aim->front, sector.mass));
     lanes_m unusable = lanes_without(lanes_all(), from->usable);
     from->split = lanes_split_by(lanes_either(sector.in_front, unusable), low, high);
     vndf_sort_incidence(to, &from->split, &w);
@@ -127,7 +127,7 @@ VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_s
     lanes_f front = lanes_set(b->view->front);
     vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->wedge), half);
     from->usable = lanes_all();
-    from->plain = vndf_sector_is_plain(&sector, front, half, u2);
+    from->plain = vndf_trusts_wedge_mass(front, sector.mass);
     from->split = lanes_split_by(sector.in_front, low, high);
     vndf_sort_sector(to, &from->split, &sector, u2);
 }

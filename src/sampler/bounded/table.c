@@ -139,7 +139,6 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
-    *plain &= vndf_trusts_rows(row.per_width);
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
     vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
@@ -158,7 +157,7 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
     vndf_sector sector = vndf_sector_at(view->front, view->wedge, half);
-    lanes_m plain = w.plain & vndf_sector_is_plain(&sector, view->front, half, u2);
+    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->front, sector.mass);
     border edge;
     if (!plain)
         return bounded_carefully(view, u1, u2);

@@ -20,7 +20,6 @@ typedef struct vndf_azimuth_row {
     const vndf_wedge *wedge;
     lanes_u row;                       /* the first */
     lanes_f first, middle, last, p, r; /* weights; aspect */
-    lanes_f per_width;                 /* one over the distance in y, from this knot of rows to the next */
 } vndf_azimuth_row;
 
 /* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
@@ -62,13 +61,6 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_from(const vndf_azimuth_row *row
     return cell;
 }
 
-/* Whether the density of a cell is too steep for float at a place; turn/n2 is radians per xi. */
-VNDF_INLINE lanes_m vndf_azimuth_is_steep(const vndf_rational_cell *cell, lanes_f xi, lanes_f turn, lanes_f n2)
-{
-    return vndf_is_steep_azimuth(vndf_cell_change(cell->e0, cell->e1, cell->mass),
-                                 vndf_cell_least(cell->e0, cell->e1, cell->mass, xi), turn, n2);
-}
-
 /* Radians per xi at a place of a cell. */
 VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell, lanes_f xi)
 {
@@ -84,7 +76,8 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf
     lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
     lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
     vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
-    *plain = lanes_without(*plain, vndf_azimuth_is_steep(&cell->cell, in->xi, turn, n2));
+    *plain = lanes_both(*plain, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
+    *plain = lanes_both(*plain, vndf_trusts_root(in->root));
     return at;
 }
 

@@ -24,11 +24,10 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
 
 /* ---- where the density of the place is that of the normal, as it was rounded ---- */
 
-VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f total, lanes_f x, lanes_f z)
+VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
-    return lanes_both(lanes_both(vndf_trusts_law_mass(total), vndf_trusts_side(cosine)),
-                      vndf_trusts_facing_in_front(across, along, up));
+    return lanes_both(vndf_trusts_side(cosine), vndf_trusts_facing_in_front(across, along, up));
 }
 
 VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
@@ -39,21 +38,23 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, la
 
 /* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
  * wi most cells are known to be so. */
-VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
+                                     const vndf_rational_place *in)
 {
     lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
-    lanes_m beside = lanes_without(vndf_is_beside_knot(xi), smooth);
-    return lanes_without(lanes_all(), lanes_either(vndf_radial_is_steep(at, cell, xi), beside));
+    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), smooth);
+    return lanes_without(vndf_radial_is_trusted(at, cell, in), beside);
 }
 
-VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
+                                           const vndf_rational_place *in)
 {
     lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
     if (!lanes_any(lanes_without(lanes_all(), smooth)))
         return lanes_all();
-    lanes_m rough = lanes_without(vndf_radial_is_steep(at, cell, xi), lanes_less(lanes_set(0.0f), at->calm));
-    lanes_m beside = lanes_without(vndf_is_beside_knot(xi), smooth);
-    return lanes_without(lanes_all(), lanes_either(rough, beside));
+    lanes_m calm = lanes_less(lanes_set(0.0f), at->calm);
+    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), smooth);
+    return lanes_without(lanes_either(calm, vndf_radial_is_trusted(at, cell, in)), beside);
 }
 
 /* ---- the normal ---- */
@@ -126,12 +127,6 @@ VNDF_INLINE vndf_sector vndf_sector_at(lanes_f front, lanes_f wedge, lanes_f hal
     return sector;
 }
 
-/* Whether a density in float is to be tried at all. */
-VNDF_INLINE lanes_m vndf_sector_is_plain(const vndf_sector *sector, lanes_f front, lanes_f half, lanes_f u2)
-{
-    return lanes_both(vndf_trusts_uniform(half, u2), vndf_trusts_wedge_mass(front, sector->mass));
-}
-
 /* A sample whose azimuth is drawn: what its radius and its normal take. */
 typedef struct vndf_bearing {
     vndf_level level;
@@ -178,9 +173,10 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
     lanes_f before = vndf_radial_before_whole(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
     vndf_place at = vndf_place_in(cell, &in);
-    *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, b->total, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, at.x, at.z));
+    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, &in));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
+    *plain = lanes_both(*plain, vndf_trusts_root(in.root));
     at.above = in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
@@ -213,8 +209,10 @@ VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bear
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
     vndf_place at = vndf_place_in(cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, in.xi));
+    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, &in));
     *plain = lanes_both(*plain, vndf_radial_is_away(&law, j));
+    *plain = lanes_both(*plain, unscaled->trusted);
+    *plain = lanes_both(*plain, vndf_trusts_root(in.root));
     at.above = b->density * in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;

@@ -41,6 +41,7 @@ typedef struct vndf_radial_law {
     lanes_f part_mass;        /* its mass, less the gain */
     lanes_f part_f0, part_f1; /* f times that length at its ends, from the pole outwards */
     lanes_f part_w0, part_w1; /* W there */
+    lanes_m trusted;          /* whether rounding the cut changes its mass little */
 } vndf_radial_law;
 
 /* A cell, lane by lane: the members of vndf_radial_cell, in their order. */
@@ -118,7 +119,8 @@ VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lan
 VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    vndf_radial_law law = {d, c, k, one, one, lanes_set_u(d->radial_count), zero, zero, zero, zero, zero, zero};
+    vndf_radial_law law = {d,    c,    k,    one,  one,        lanes_set_u(d->radial_count), zero, zero,
+                           zero, zero, zero, zero, lanes_all()};
     return law;
 }
 
@@ -134,7 +136,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lane
 {
     const vndf_radial_lanes cell = *at;
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero};
+    vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero, lanes_all()};
     lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
     law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
     law.part_mass = w0 * law.part * vndf_radial_part(cell.f0, cell.f1, cell.a, cell.b, law.part);
@@ -142,6 +144,8 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lane
     law.part_f1 = vndf_radial_f(&cell, law.part) * law.part;
     law.part_w0 = w0;
     *total = vndf_radial_before(&law, &cell) + law.part_mass;
+    law.trusted =
+        vndf_trusts_cut(-k * cell.x0 * cell.g, law.part_mass, cell.x1 * cell.z0, *total, cell.width * law.part);
     return law;
 }
 
@@ -214,11 +218,10 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
 
 /* ---- where the density of a place is that of its rounded normal ---- */
 
-/* Whether the density of a cell is too steep for float at a place. */
-VNDF_INLINE lanes_m vndf_radial_is_steep(const vndf_radial_lanes *at, const vndf_rational_cell *cell, lanes_f xi)
+VNDF_INLINE lanes_m vndf_radial_is_trusted(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
+                                           const vndf_rational_place *in)
 {
-    return vndf_is_steep_radius(vndf_cell_change(cell->e0, cell->e1, cell->mass),
-                                vndf_cell_least(cell->e0, cell->e1, cell->mass, xi), at->width, at->x1 * at->z0);
+    return vndf_trusts_radius(vndf_change_at(cell, in), at->width, at->x1 * at->z0);
 }
 
 #endif

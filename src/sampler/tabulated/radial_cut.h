@@ -29,7 +29,7 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_below(const vndf_distribution *d, fl
 {
     float rho = -c / k;
     uint32_t j = vndf_guide_find(&d->slope_guide, rho);
-    vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law law = {d, -rho, 1.0f, 0.0f, 0.0f, j, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1};
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     float w0 = d->knots.x[j] - rho * d->knots.z[j], w1 = vndf_radial_weight(&law, j + 1);
     law.part = w0 < 0.0f ? w1 / (w1 - w0) : 1.0f;
@@ -56,7 +56,8 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_for(const vndf_distribution *d, floa
         return vndf_radial_law_below(d, c, k);
     if (c >= 0.0f && k >= 0.0f)
         return vndf_radial_scaled(vndf_radial_law_whole(d, c, k), vndf_radial_total(d, c, k));
-    vndf_radial_law nothing = {d, 0.0f, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    vndf_radial_law nothing = {d,    0.0f, 0.0f, 0.0f, 0.0f, d->radial_count - 1, 1.0f, 0.0f,
+                               0.0f, 0.0f, 0.0f, 0.0f, 1};
     return nothing;
 }
 

@@ -89,7 +89,7 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_
     lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
     lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
     lanes_f p = u * a.c + v * a.d + t * b.a, r = u * b.b + v * b.c + t * b.d;
-    vndf_azimuth_row made = {wedge, i * 2u, u, v, t, p, r, a.b};
+    vndf_azimuth_row made = {wedge, i * 2u, u, v, t, p, r};
     return made;
 }
 
