@@ -16,7 +16,7 @@
 
 /* Parts of the promise in units of 1e-8, those of a cause without the roundings that every sample has. Measured with
  * 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
- * apart, roughness 1e-3 to 10. Worst of all: 570 for shipped tables, 860 for a ring. */
+ * apart, roughness 1e-3 to 10. Worst of all: 570; a search that climbs from the worst points finds 530 for a ring. */
 enum {
     VNDF_PROMISE = 1000,
     VNDF_SHARE_ROUNDING = 180, /* of a dozen operations each: direction, masses, cell, normal */
@@ -156,7 +156,7 @@ VNDF_INLINE lanes_m vndf_trusts_facing_in_wedge(lanes_f across, lanes_f along, l
 
 /* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves that by some 1e-7. Smooth
  * lobes have 1 to 4; where nothing but the foot of a ring is seen it may be 500, and float is off by 2e-3. */
-static const float VNDF_TRUST_CUT = 16.0f;
+static const float VNDF_TRUST_CUT = 6.0f;
 
 /* `inside` changes in the cells inside the cut; the mass of the cell at the cut is as steep as its visible part of the
  * cell is narrow. */
