@@ -167,18 +167,7 @@ VNDF_INLINE vndf_vec3 vndf_law_sample_carefully(const vndf_view *view, float u1,
     VNDF_NO_OTHER_KIND();
 }
 
-/* vndf_pdf of a valid view, where wi sees wm. */
-VNDF_INLINE float vndf_law_pdf(const vndf_view *view, vndf_vec3 wm)
-{
-    switch (view->distribution->kind) {
-    case VNDF_KIND_TABLE: return vndf_engine_pdf(view, vndf_packed(wm));
-    case VNDF_KIND_GGX: return vndf_ggx_pdf(view, wm);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_pdf(view, wm);
-    }
-    VNDF_NO_OTHER_KIND();
-}
-
-/* The same of a normal in double, before the density is a float. */
+/* The density of a normal that wi sees, in double. */
 VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
 {
     switch (view->distribution->kind) {
@@ -187,6 +176,13 @@ VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
     case VNDF_KIND_BECKMANN: return vndf_beckmann_visible(g, vndf_given_facing(g));
     }
     VNDF_NO_OTHER_KIND();
+}
+
+/* vndf_pdf of a valid view, where wi sees wm. */
+VNDF_INLINE float vndf_law_pdf(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_given g = vndf_given_of(view, wm);
+    return vndf_positive(vndf_density_from(vndf_law_density(view, &g)));
 }
 
 /* vndf_invert of a valid view, wm.z >= 0. */

@@ -61,8 +61,9 @@ void vndf_view_turn(vndf_view *view, vndf_vec3 wi);
 /* The view of a usable direction for roughness times the distribution's scale (ax, ay). */
 vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
-/* No more of a view than densities of given normals read, and as valid. */
-vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi);
+/* Writes the members of a view that densities of given normals read, in place; the view is as valid as that of
+ * vndf_view_from. */
+void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 /* vndf_sample of a valid view, where densities in float are known not to do. */
 vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);

@@ -14,12 +14,14 @@ void vndf_view_turn(vndf_view *view, vndf_vec3 wi)
     vndf_law_view_turn(view, wi);
 }
 
-vndf_view vndf_view_bare(const vndf_surface *surface, vndf_vec3 wi)
+void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_view view = {.wi = wi};
-    if (vndf_surface_scaled(surface, &view.alpha_x, &view.alpha_y) && vndf_is_usable_direction(wi))
-        view.distribution = surface->distribution;
-    return view;
+    view->distribution = NULL;
+    view->wi.x = wi.x;
+    view->wi.y = wi.y;
+    view->wi.z = wi.z;
+    if (vndf_surface_scaled(surface, &view->alpha_x, &view->alpha_y) && vndf_is_usable_direction(wi))
+        view->distribution = surface->distribution;
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)

@@ -34,7 +34,8 @@ static float answer_of(const call *c, size_t i)
     case VNDF_ASK_G1: return vndf_g1(&surface, vndf_batch_wi(c->batch, i));
     default: break;
     }
-    vndf_view view = vndf_view_bare(&surface, vndf_batch_wi(c->batch, i));
+    vndf_view view;
+    vndf_view_bare(&view, &surface, vndf_batch_wi(c->batch, i));
     vndf_vec3 wm = vndf_batch_normal(c->wm, i);
     return c->question == VNDF_ASK_PDF ? vndf_pdf(&view, wm) : vndf_visible(&view, wm);
 }

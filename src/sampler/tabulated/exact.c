@@ -400,12 +400,6 @@ double vndf_engine_density(const vndf_view *view, const vndf_given *g)
     return plain ? density : density_carefully(view, g);
 }
 
-float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm)
-{
-    vndf_given g = vndf_given_of(view, wm);
-    return vndf_positive(vndf_density_from(vndf_engine_density(view, &g)));
-}
-
 /* ---- D ---- */
 
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)

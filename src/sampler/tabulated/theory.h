@@ -62,7 +62,6 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
 
 struct vndf_given; /* sampler/tabulated/density.h */
 double vndf_engine_density(const vndf_view *view, const struct vndf_given *given);
-float vndf_engine_pdf(const vndf_view *view, vndf_vec3 wm);
 
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
 typedef struct vndf_engine_ray {
