@@ -1,5 +1,5 @@
-/* The calls of many. Visible normals are drawn in lanes (sampler/batch/sample.c), a block at a time; the rest is done one
- * after the other, with what the call of one does after it has drawn, so the bits are the same. */
+/* The calls of many. Visible normals are drawn in lanes (sampler/batch/sample.c), a block at a time. The rest is done
+ * for one sample after the other, as the call of one does it once its normal is drawn, so the bits are the same. */
 #include "bsdf/routines.h"
 #include "math/vector.h"
 

@@ -60,7 +60,7 @@ VNDF_INLINE doubles vndf_law_area_below(const vndf_distribution *d, const vndf_d
 }
 
 /* Roughness in range, and a normal above the surface whose square is a float that is not 0. */
-VNDF_INLINE doubles_m vndf_normal_is_valid(const vndf_given *g)
+VNDF_INLINE doubles_m vndf_normal_is_valid(const vndf_query *g)
 {
     const doubles least = doubles_set(1e-18), most = doubles_set(1e18);
     doubles square = g->x * g->x + g->y * g->y + g->z * g->z;
@@ -72,7 +72,7 @@ VNDF_INLINE doubles_m vndf_normal_is_valid(const vndf_given *g)
 }
 
 /* D, of a valid normal. */
-VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_given *g)
+VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_query *g)
 {
     vndf_normal wm = {g->x, g->y, g->z};
     switch (d->kind) {
@@ -84,7 +84,7 @@ VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_given *g
 }
 
 /* Dv where wi . wm = facing > 0 and all is valid. */
-VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_given *g, doubles facing)
+VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_query *g, doubles facing)
 {
     switch (d->kind) {
     case VNDF_KIND_TABLE: return vndf_table_visible(d, g, facing);
@@ -157,23 +157,23 @@ VNDF_INLINE vndf_vec3 vndf_law_sample(const vndf_view *view, float u1, float u2,
 }
 
 /* The same where densities in float are known not to do. */
-VNDF_INLINE vndf_vec3 vndf_law_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+VNDF_INLINE vndf_vec3 vndf_law_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     switch (view->distribution->kind) {
-    case VNDF_KIND_TABLE: return vndf_engine_sample_carefully(view, u1, u2, pdf);
-    case VNDF_KIND_GGX: return vndf_ggx_view_sample_carefully(view, u1, u2, pdf);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
+    case VNDF_KIND_TABLE: return vndf_engine_sample_exactly(view, u1, u2, pdf);
+    case VNDF_KIND_GGX: return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     }
     VNDF_NO_OTHER_KIND();
 }
 
 /* The density of a normal that wi sees, in double. */
-VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
+VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_query *g)
 {
     switch (view->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_engine_density(view, g);
-    case VNDF_KIND_GGX: return vndf_ggx_visible(g, vndf_given_facing(g));
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_visible(g, vndf_given_facing(g));
+    case VNDF_KIND_GGX: return vndf_ggx_visible(g, vndf_query_facing(g));
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_visible(g, vndf_query_facing(g));
     }
     VNDF_NO_OTHER_KIND();
 }
@@ -181,7 +181,7 @@ VNDF_INLINE double vndf_law_density(const vndf_view *view, const vndf_given *g)
 /* vndf_pdf of a valid view, where wi sees wm. */
 VNDF_INLINE float vndf_law_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    vndf_given g = vndf_given_of(view, wm);
+    vndf_query g = vndf_query_of(view, wm);
     return vndf_positive(vndf_density_from(vndf_law_density(view, &g)));
 }
 

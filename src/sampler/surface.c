@@ -9,7 +9,7 @@ float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay))
         return 0.0f;
-    vndf_given g = {{ax, ay, 0.0, 0.0, 0.0}, wm.x, wm.y, wm.z};
+    vndf_query g = {{ax, ay, 0.0, 0.0, 0.0}, wm.x, wm.y, wm.z};
     return vndf_normal_is_valid(&g) ? vndf_density_from(vndf_law_ndf(surface->distribution, &g)) : 0.0f;
 }
 

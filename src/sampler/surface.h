@@ -66,6 +66,6 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
 void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 /* vndf_sample of a valid view, where densities in float are known not to do. */
-vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+vndf_vec3 vndf_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 #endif

@@ -36,9 +36,9 @@ void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
     vndf_law_view_set(view, surface, wi);
 }
 
-vndf_vec3 vndf_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    return vndf_law_sample_carefully(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), pdf);
+    return vndf_law_sample_exactly(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), pdf);
 }
 
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -72,7 +72,7 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     if (!vndf_is_facing(view, wm))
         return 0.0f;
     const vndf_distribution *d = view->distribution;
-    vndf_given g = vndf_given_of(view, wm);
+    vndf_query g = vndf_query_of(view, wm);
     float visible = vndf_density_from(vndf_law_visible(d, &g, vndf_exact_dot(view->wi, wm)));
     return vndf_law_is_exact(d) ? vndf_positive(visible) : visible;
 }

@@ -174,8 +174,8 @@ static double width_of(const vndf_knots *k, uint32_t j)
     return (double)k->at[j + 1].x * k->at[j].z - (double)k->at[j].x * k->at[j + 1].z;
 }
 
-/* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= VNDF_STEEP_CELL min(e0, e1, mass) width for W1/W0 = ratio; convex in it,
- * as W1/W0 is between two. */
+/* Whether (|e1 - e0| + 3 |e0 + e1 - 2 mass|) X1 Z0 <= VNDF_STEEP_CELL min(e0, e1, mass) width for W1/W0 = ratio. This
+ * is convex in the ratio, so it holds between two ratios where it holds at both. */
 static int is_calm_at(const vndf_radial_cell *cell, double reach, double ratio)
 {
     double e0 = cell->f0, e1 = cell->f1 * ratio, mass = cell->mu0 + cell->mu1 * ratio;

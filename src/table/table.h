@@ -131,8 +131,8 @@ typedef struct vndf_row_line {
 } vndf_row_line;
 
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
- * the wedge has no mass. Rows of azimuth density in q (sampler/tabulated/azimuth.h) with aspect (p, r): a row at each of the
- * knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
+ * the wedge has no mass. Rows of azimuth density in q (sampler/tabulated/azimuth.h) with aspect (p, r): a row at each
+ * of the knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
  * one to the other (it may differ from what is true there, its mixes do not). The wedge's mass divided by (s+|c|)
  * is a quintic spline on knots of its own (table/area_piece.h).
  *

@@ -177,7 +177,7 @@ endforeach()
 # ---- long lines ---------------------------------------------------------------------------------
 
 string(REPEAT "." 121 too_long)
-foreach(tower include tools tests)
+foreach(tower include src tools tests)
     file(GLOB_RECURSE files ${SOURCE}/${tower}/*.[ch] ${SOURCE}/${tower}/*.cmake ${SOURCE}/${tower}/CMakeLists.txt)
     foreach(file IN LISTS files)
         file(STRINGS ${file} lines REGEX "^${too_long}")

@@ -306,12 +306,12 @@ static void test_azimuth(void)
                              1 + 1e-6, 1.0001, 1.01, 1.1, 2,   10,  1e3,  1e6,    1e14,     1e30};
     double worst = 0;
     for (size_t i = 0; i < sizeof ratios / sizeof ratios[0]; i++) {
-        vndf_twin twin = vndf_twin_from(1, (float)ratios[i]);
+        vndf_v_cavity twin = vndf_v_cavity_from(1, (float)ratios[i]);
         float last = 2;
         for (int j = 0; j <= 2 * STEPS; j++) {
             double even = (double)(j % (STEPS + 1)) / STEPS;
             float rest = (float)(j <= STEPS ? even : 2 * even * even * even * fmin(0.5, (double)twin.h));
-            float w = vndf_twin_draw(&twin, rest);
+            float w = vndf_v_cavity_draw(&twin, rest);
             worst = fmax(worst, fabs(mass_beyond(twin.factor, w) - (double)rest));
             TEST(w >= 0 && w <= 1);
             if (j <= STEPS) /* monotone but for roundings */

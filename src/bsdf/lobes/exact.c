@@ -17,14 +17,14 @@ static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, dou
     return 1;
 }
 
-int vndf_reflect_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
+int vndf_reflect_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
 {
     vndf_half half = vndf_half_reflected(b->view.wi, wo);
     return half.event.facing_i > 0.0 &&
            evaluate(b, wo, &half, b->material->masking->reflection(b, &half.event), out);
 }
 
-int vndf_refract_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
+int vndf_refract_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
 {
     vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
     return vndf_is_refraction(&half) &&

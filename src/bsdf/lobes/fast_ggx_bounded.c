@@ -14,11 +14,11 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     if (vndf_outlook_is_plain(&b->view, &o))
         vndf_ggx_law_set(&b->bounds.ggx, &o);
     else
-        vndf_bound_ggx_carefully(&b->view, &b->bounds.ggx);
+        vndf_bound_ggx_exactly(&b->view, &b->bounds.ggx);
     return 1;
 }
 
-static void sample_carefully(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+static void sample_exactly(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_routines_bare[VNDF_NORMALS_BOUNDED].sample(b, u, s);
 }
@@ -35,7 +35,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_outlook o = vndf_outlook_of(&b->view, &b->bounds.ggx);
     if (!vndf_outlook_is_plain(&b->view, &o)) {
-        sample_carefully(b, u, s);
+        sample_exactly(b, u, s);
         return;
     }
     vndf_ggx_bounded n =
@@ -46,7 +46,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     vndf_vec3 wi = b->view.wi, wo = {twice * n.x - wi.x, twice * n.y - wi.y, twice * n.z - wi.z};
     if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_TRUST_GGX_FACING && wo.z > 0.0f &&
           vndf_ggx_is_settled(&b->view, &o, &n, reach_of(b, facing)))) {
-        sample_carefully(b, u, s);
+        sample_exactly(b, u, s);
         return;
     }
     float weight = wo.z * (b->area * n.kept) / vndf_plain_ggx_unmasked(b, wo);

@@ -185,8 +185,8 @@ VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
 }
 
 /* 0 if no microfacet does that. */
-int vndf_reflect_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
-int vndf_refract_carefully(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
+int vndf_reflect_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
+int vndf_refract_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
 
 /* Bounded normals reflect to above the horizon, but for rounding. */
 VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
@@ -207,7 +207,7 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
     int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
     int plain = settled & (choice.bare | (n->facing > VNDF_TRUST_REFLECTION_FACING)) & (as_drawn | of_wo);
-    if (!plain && vndf_reflect_carefully(b, wo, out))
+    if (!plain && vndf_reflect_exactly(b, wo, out))
         return 1;
     if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
         return 0;
@@ -239,7 +239,7 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, doub
     int sound = beyond > VNDF_TRUST_BEYOND && n->facing > VNDF_TRUST_REFRACTION_FACING &&
                 gain * n->wm.z > VNDF_TRUST_REFRACTION_TURN;
     if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
-        return vndf_refract_carefully(b, wo, out);
+        return vndf_refract_exactly(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
     out->wo = wo;
     out->facing = n->facing;

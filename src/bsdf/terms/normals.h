@@ -6,7 +6,7 @@
 #include "math/vector.h"
 #include "sampler/all_normals/all_normals.h"
 #include "sampler/bounded/bounded.h"
-#include "sampler/given_normal.h"
+#include "sampler/query.h"
 #include "sampler/surface.h"
 
 /* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density. */

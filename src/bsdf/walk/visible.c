@@ -1,6 +1,6 @@
 #include "bsdf/walk/visible.h"
 
-#include "sampler/given_normal.h"
+#include "sampler/query.h"
 
 double vndf_walk_visible(const vndf_view *view, vndf_normal wm, double facing)
 {

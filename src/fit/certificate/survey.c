@@ -184,12 +184,12 @@ static int add_stretches(vndf_survey *v)
 /* ---- one azimuth ---- */
 
 /* One azimuth of a direction, with its weight in the sum. */
-typedef struct ray {
-    vndf_engine_ray drawn;
+typedef struct slice {
+    vndf_azimuth_slice drawn;
     double weight;
-} ray;
+} slice;
 
-static void add_node(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, uint32_t j,
+static void add_node(vndf_survey *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
                      const vndf_survey_node *n)
 {
     double mask = at->drawn.c + at->drawn.k * n->r;
@@ -206,7 +206,7 @@ static void add_node(vndf_survey *v, const ray *at, const vndf_engine_piece *pie
 }
 
 /* The visible part of a stretch in the cell of the cut. */
-static void add_cut(vndf_survey *v, const ray *at, const vndf_engine_piece *piece, const vndf_survey_stretch *s)
+static void add_cut(vndf_survey *v, const slice *at, const vndf_engine_piece *piece, const vndf_survey_stretch *s)
 {
     double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
     for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
@@ -216,7 +216,7 @@ static void add_cut(vndf_survey *v, const ray *at, const vndf_engine_piece *piec
 }
 
 /* The stretches of a cell, from s on. */
-static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s, uint32_t count)
+static void add_cell(vndf_survey *v, const slice *at, const vndf_survey_stretch *s, uint32_t count)
 {
     uint32_t j = s->cell;
     vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
@@ -235,9 +235,9 @@ static void add_cell(vndf_survey *v, const ray *at, const vndf_survey_stretch *s
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
 
 /* Every visible radial cell; the cell at the cut up to the cut. */
-static void add_azimuth(vndf_survey *v, const ray *at)
+static void add_azimuth(vndf_survey *v, const slice *at)
 {
-    const vndf_engine_ray *r = &at->drawn;
+    const vndf_azimuth_slice *r = &at->drawn;
     int inside = r->c > 0, beyond = r->c < 0;
     if (!vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->node_count))
         return;
@@ -259,14 +259,14 @@ typedef struct quarter {
 } quarter;
 
 /* Gauss point g of a part of a cell. */
-static ray ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
-                  uint32_t g)
+static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
+                    uint32_t g)
 {
     double width = ((double)turn->node[cell + 1] - turn->node[cell]) / parts;
     double q = turn->node[cell] + width * (part + vndf_gauss_coarse_node[g]), p = turn->p, r = turn->r;
     double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
     double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
-    ray at = {vndf_engine_ray_at(view, (turn->away ? -x : x) / n, y / n), weight};
+    slice at = {vndf_azimuth_slice_at(view, (turn->away ? -x : x) / n, y / n), weight};
     return at;
 }
 
@@ -277,8 +277,8 @@ static double azimuth_lack(const vndf_view *view, const quarter *turn, double ta
     uint32_t parts = parts_for(turn->cells, AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
     double mass = 0.0;
     for (uint32_t i = 0; i < turn->cells * parts; i++) {
-        ray at = ray_in(view, turn, i / parts, i % parts / VNDF_GAUSS_COARSE, parts / VNDF_GAUSS_COARSE,
-                        i % VNDF_GAUSS_COARSE);
+        slice at = ray_in(view, turn, i / parts, i % parts / VNDF_GAUSS_COARSE, parts / VNDF_GAUSS_COARSE,
+                          i % VNDF_GAUSS_COARSE);
         mass += at.weight * at.drawn.azimuth;
     }
     return mass - taken;
@@ -290,7 +290,7 @@ static void add_quarter(vndf_survey *v, const vndf_view *view, const quarter *tu
     double taken = 0.0;
     for (uint32_t i = 0; i < turn->cells * parts * VNDF_GAUSS_COARSE; i++) {
         uint32_t part = i / VNDF_GAUSS_COARSE;
-        ray at = ray_in(view, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
+        slice at = ray_in(view, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
         taken += at.weight * at.drawn.azimuth;
         add_azimuth(v, &at);
     }

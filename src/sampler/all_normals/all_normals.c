@@ -34,8 +34,8 @@ typedef struct drawn_normal {
 } drawn_normal;
 
 /* A normal at the horizon, which only a far tail rounds to, is lifted by what no float sees: it has a density. */
-VNDF_RARE drawn_normal normal_carefully(const vndf_distribution *d, double ax, double ay, const vndf_slope *r,
-                                        float cosine, float sine)
+VNDF_RARE drawn_normal normal_exactly(const vndf_distribution *d, double ax, double ay, const vndf_slope *r,
+                                      float cosine, float sine)
 {
     double x = r->x * (ax * cosine), y = r->x * (ay * sine), z = r->z, per = 1.0 / sqrt(x * x + y * y + z * z);
     drawn_normal drawn = {{(float)(x * per), (float)(y * per), (float)(z * per)}, 0.0};
@@ -51,7 +51,7 @@ VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double
     float length2 = x * x + y * y + r->z * r->z, length = sqrtf(length2), per = 1.0f / length;
     float density = r->p22_over_z3 * (length2 * length) / (along * across);
     if (!(r->plain & vndf_trusts_scale(along, across, 1.0f)) || !vndf_trusts_density(density))
-        return normal_carefully(d, ax, ay, r, cosine, sine);
+        return normal_exactly(d, ax, ay, r, cosine, sine);
     drawn_normal drawn = {{x * per, y * per, r->z * per}, density};
     return drawn;
 }
@@ -89,8 +89,8 @@ VNDF_INLINE vndf_turn v_cavity_azimuth(vndf_vec3 wi, double ax, double ay, const
     float along = (float)ax * wi.x, aside = (float)ay * wi.y, across = vndf_length2(along, aside);
     float half = 2.0f * u1 - 1.0f, rest = 2.0f * (half < 0.0f ? u1 : 1.0f - u1), per = 1.0f / across;
     float cos_phi = across > 0.0f ? along * per : 1.0f, sin_phi = across > 0.0f ? aside * per : 0.0f;
-    vndf_twin twin = vndf_twin_from(wi.z * r->z, across * r->x);
-    vndf_turn from = vndf_half_turn(vndf_twin_draw(&twin, rest));
+    vndf_v_cavity twin = vndf_v_cavity_from(wi.z * r->z, across * r->x);
+    vndf_turn from = vndf_half_turn(vndf_v_cavity_draw(&twin, rest));
     float sine = copysignf(from.sine, half);
     vndf_turn turn = {sin_phi * from.cosine + cos_phi * sine, cos_phi * from.cosine - sin_phi * sine};
     return turn;

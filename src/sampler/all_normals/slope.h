@@ -17,7 +17,7 @@ static const float VNDF_LEAST_REST = 0x1p-26f;
 #if VNDF_LANES == 1
 
 /* Where the last cells or the border of the unit square want it; slope.c. */
-vndf_slope vndf_table_slope_carefully(const vndf_distribution *d, float u);
+vndf_slope vndf_table_slope_exactly(const vndf_distribution *d, float u);
 
 /* Of a table. */
 VNDF_INLINE vndf_slope vndf_table_slope(const vndf_distribution *d, float u)
@@ -25,13 +25,13 @@ VNDF_INLINE vndf_slope vndf_table_slope(const vndf_distribution *d, float u)
     float target = u * d->f0_total;
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, 1.0f, 0.0f, u), 1.0f, 0.0f, target, 1);
     if (j + 3 > d->radial_count)
-        return vndf_table_slope_carefully(d, u);
+        return vndf_table_slope_exactly(d, u);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
     vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
     vndf_place at = vndf_place_in(&cell, &in);
     if (!vndf_plain_place_whole(&cell, &mass, &in))
-        return vndf_table_slope_carefully(d, u);
+        return vndf_table_slope_exactly(d, u);
     float x = at.x * at.per;
     vndf_slope r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};
     return r;

@@ -25,14 +25,14 @@
 #include "math/rational_cell.h"
 
 /* t as a factor of F, and h. */
-typedef struct vndf_twin {
+typedef struct vndf_v_cavity {
     float factor, h;
-} vndf_twin;
+} vndf_v_cavity;
 
 /* p, q >= 0, not both 0. t beyond 1e15 is 1e15: what both see is then beyond the digits of u1. */
-VNDF_INLINE vndf_twin vndf_twin_from(float p, float q)
+VNDF_INLINE vndf_v_cavity vndf_v_cavity_from(float p, float q)
 {
-    vndf_twin twin = {q < 1e15f * p ? q / p : 1e15f, 0.5f};
+    vndf_v_cavity twin = {q < 1e15f * p ? q / p : 1e15f, 0.5f};
     if (twin.factor > 1.0f) {
         double t = twin.factor;
         twin.h = (float)(0.31830988618379067 * vndf_atan_unit(1.0 / (t + sqrt((t - 1.0) * (t + 1.0)))) * 2.0);
@@ -41,22 +41,22 @@ VNDF_INLINE vndf_twin vndf_twin_from(float p, float q)
 }
 
 /* F(g) and its derivatives. */
-typedef struct vndf_twin_mass {
+typedef struct vndf_v_cavity_mass {
     float mass, density, bend;
-} vndf_twin_mass;
+} vndf_v_cavity_mass;
 
-VNDF_INLINE vndf_twin_mass vndf_twin_beyond(const vndf_twin *twin, float g)
+VNDF_INLINE vndf_v_cavity_mass vndf_v_cavity_beyond(const vndf_v_cavity *twin, float g)
 {
     const float pi = 3.14159265f, per_pi = 0.318309886f;
     float v = twin->h - g, near = vndf_sine_quarter(0.5f * g), far = vndf_sine_quarter(twin->h - 0.5f * g);
-    vndf_twin_mass at = {g - (2.0f * per_pi * twin->factor) * (near * far), 1.0f, 0.0f};
+    vndf_v_cavity_mass at = {g - (2.0f * per_pi * twin->factor) * (near * far), 1.0f, 0.0f};
     at.density = 1.0f - twin->factor * copysignf(vndf_sine_quarter(fabsf(v)), v);
     at.bend = pi * twin->factor * vndf_sine_quarter(0.5f - fabsf(v));
     return at;
 }
 
 /* A g with about the mass `rest` beyond, by two rational cells. */
-VNDF_INLINE float vndf_twin_start(const vndf_twin *twin, float rest)
+VNDF_INLINE float vndf_v_cavity_start(const vndf_v_cavity *twin, float rest)
 {
     float h = twin->h, half = vndf_sine_quarter(0.5f * h);
     float mass = h - 0.636619772f * twin->factor * (half * half);
@@ -69,14 +69,14 @@ VNDF_INLINE float vndf_twin_start(const vndf_twin *twin, float rest)
 }
 
 /* a/pi in [0, 1] with the mass `rest` in [0, 1] of half a turn beyond it. */
-VNDF_INLINE float vndf_twin_draw(const vndf_twin *twin, float rest)
+VNDF_INLINE float vndf_v_cavity_draw(const vndf_v_cavity *twin, float rest)
 {
     const float whole = 2.0f * twin->h;
     if (rest >= whole)
         return 0.5f - 0.5f * rest;
-    float g = vndf_twin_start(twin, rest);
+    float g = vndf_v_cavity_start(twin, rest);
     for (int i = 0; i < 8; i++) {
-        vndf_twin_mass at = vndf_twin_beyond(twin, g);
+        vndf_v_cavity_mass at = vndf_v_cavity_beyond(twin, g);
         float miss = at.mass - rest, below = at.density * at.density - 0.5f * miss * at.bend;
         if (fabsf(miss) < 1.2e-7f || !(below > 0.0f))
             break;

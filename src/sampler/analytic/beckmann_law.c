@@ -25,7 +25,7 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     vndf_view view;
     if (!w.plain)
-        return vndf_closed_view_carefully(surface, vndf_packed(wi));
+        return vndf_closed_view_exactly(surface, vndf_packed(wi));
     put(&view, surface, wi, &w);
     return view;
 }
@@ -36,25 +36,25 @@ void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_v
     if (w.plain)
         put(view, surface, wi, &w);
     else
-        vndf_closed_view_set_carefully(view, surface, vndf_packed(wi));
+        vndf_closed_view_set_exactly(view, surface, vndf_packed(wi));
 }
 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     if (!view->plain)
-        return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
+        return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m plain;
     vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
     vndf_drawn n = vndf_beckmann_normal(&w, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &plain);
     if (!plain)
-        return vndf_beckmann_view_sample_carefully(view, u1, u2, pdf);
+        return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
-vndf_vec3 vndf_beckmann_view_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     vndf_frame f = vndf_closed_frame(view);
     vndf_vec3 wm = vndf_closed_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));

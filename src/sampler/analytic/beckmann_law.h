@@ -1,5 +1,5 @@
-/* What Beckmann's distribution answers to sampler/law.h; with K = U/S, S the part of the stretched direction across and U
- * along z, A(-|w|) = S exp(-K^2) N/(N + K)/(2 sqrt(pi)), N(K) of math/erfc_remainder.h.
+/* What Beckmann's distribution answers to sampler/law.h. With K = U/S, where S is the length of the stretched direction
+ * across z and U its part along z, A(-|w|) = S exp(-K^2) N/(N + K)/(2 sqrt(pi)), N(K) of math/erfc_remainder.h.
  *
  * Below the horizon D and the area both hold exp(-K^2), and both underflow. What is left of
  * R^2 is y^2 + d (d - 2 K) (beckmann.c), of one sign; with (p, q) = (alpha_x wi.x, alpha_y wi.y), f = wi . wm, a =
@@ -46,7 +46,7 @@ VNDF_INLINE doubles vndf_beckmann_area_below(doubles across, doubles up)
 }
 
 /* R^2 - K^2 below the horizon. */
-VNDF_INLINE doubles vndf_beckmann_exponent_below(const vndf_given *g, doubles facing, doubles r)
+VNDF_INLINE doubles vndf_beckmann_exponent_below(const vndf_query *g, doubles facing, doubles r)
 {
     doubles ax = g->wi.ax, ay = g->wi.ay, a = ax * ay, p = ax * g->wi.x, q = ay * g->wi.y;
     doubles side = ax * p * g->y - ay * q * g->x, along = a * a * facing * (facing - 2.0 * g->wi.z * g->z);
@@ -54,7 +54,7 @@ VNDF_INLINE doubles vndf_beckmann_exponent_below(const vndf_given *g, doubles fa
 }
 
 /* D over A; below the horizon both are without exp(-K^2), and A without U. */
-VNDF_INLINE doubles vndf_beckmann_visible(const vndf_given *g, doubles facing)
+VNDF_INLINE doubles vndf_beckmann_visible(const vndf_query *g, doubles facing)
 {
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
     doubles a = g->wi.ax * g->wi.ay, x = g->wi.ay * g->x, y = g->wi.ax * g->y, z = a * g->z, r = 1.0 / (z * z);
@@ -82,12 +82,12 @@ void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_v
 
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
-vndf_vec3 vndf_beckmann_view_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* vndf_pdf of a valid view, where wi sees wm. */
 VNDF_INLINE float vndf_beckmann_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    vndf_given g = vndf_given_of(view, wm);
+    vndf_query g = vndf_query_of(view, wm);
     return vndf_positive(vndf_density_from(vndf_beckmann_visible(&g, vndf_exact_dot(view->wi, wm))));
 }
 

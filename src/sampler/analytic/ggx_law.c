@@ -8,18 +8,18 @@
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
     if (!view->plain)
-        return vndf_ggx_view_sample_carefully(view, u1, u2, pdf);
+        return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
     vndf_ggx_incidence w = vndf_ggx_incidence_of(view);
     lanes_m plain;
     vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &plain);
     if (!plain)
-        return vndf_ggx_view_sample_carefully(view, u1, u2, pdf);
+        return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
-vndf_vec3 vndf_ggx_view_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     if (view->wi.x == 0.0f && view->wi.y == 0.0f && view->wi.z > 0.0f)
         return vndf_sample_all(view->distribution, view->alpha_x, view->alpha_y, u1, u2, pdf); /* the same there */

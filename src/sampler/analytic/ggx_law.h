@@ -19,7 +19,7 @@ VNDF_INLINE doubles vndf_ggx_area_below(doubles across, doubles up)
 }
 
 /* a^3/(pi Q^2) over A = (L + U)/2, or S^2/(2 (L + U)) below the horizon. */
-VNDF_INLINE doubles vndf_ggx_visible(const vndf_given *g, doubles facing)
+VNDF_INLINE doubles vndf_ggx_visible(const vndf_query *g, doubles facing)
 {
     doubles a = g->wi.ax * g->wi.ay, x = g->wi.ay * g->x, y = g->wi.ax * g->y, z = a * g->z;
     doubles q = x * x + y * y + z * z, across = vndf_direction_across(&g->wi), s2 = across * across;
@@ -59,7 +59,7 @@ VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 
 {
     vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.plain)
-        return vndf_closed_view_carefully(surface, vndf_packed(wi));
+        return vndf_closed_view_exactly(surface, vndf_packed(wi));
     vndf_view view;
     vndf_ggx_view_put(&view, surface, wi, &w);
     return view;
@@ -72,17 +72,17 @@ VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface,
     if (w.plain)
         vndf_ggx_view_put(view, surface, wi, &w);
     else
-        vndf_closed_view_set_carefully(view, surface, vndf_packed(wi));
+        vndf_closed_view_set_exactly(view, surface, vndf_packed(wi));
 }
 
 /* vndf_sample of a valid view, and the same where densities in float are known not to do. */
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
-vndf_vec3 vndf_ggx_view_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* vndf_pdf of a valid view, where wi sees wm. */
 VNDF_INLINE float vndf_ggx_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    vndf_given g = vndf_given_of(view, wm);
+    vndf_query g = vndf_query_of(view, wm);
     return vndf_positive(vndf_density_from(vndf_ggx_visible(&g, vndf_exact_dot(view->wi, wm))));
 }
 

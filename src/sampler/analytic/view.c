@@ -15,14 +15,14 @@ VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
     view->plain = 0;
 }
 
-vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+vndf_view vndf_closed_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_view view;
     put(&view, surface, wi);
     return view;
 }
 
-void vndf_closed_view_set_carefully(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+void vndf_closed_view_set_exactly(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     put(view, surface, wi);
 }

@@ -9,10 +9,10 @@
 #if VNDF_LANES == 1
 
 /* vndf_view_from of a surface with a distribution where float does not do, or for what is invalid. */
-vndf_view vndf_closed_view_carefully(const vndf_surface *surface, vndf_vec3 wi);
+vndf_view vndf_closed_view_exactly(const vndf_surface *surface, vndf_vec3 wi);
 
 /* The same in place. */
-void vndf_closed_view_set_carefully(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
+void vndf_closed_view_set_exactly(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 /* A normal that rounding has turned away from wi, turned back. */
 vndf_vec3 vndf_closed_turned_back(const vndf_frame *frame, vndf_vec3 wm);

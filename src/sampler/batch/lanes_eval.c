@@ -24,18 +24,18 @@ VNDF_INLINE vndf_direction direction_at(const vndf_eval_inputs *in, uint32_t i, 
     return w;
 }
 
-VNDF_INLINE vndf_given given_at(const vndf_eval_inputs *in, uint32_t i, double scale)
+VNDF_INLINE vndf_query given_at(const vndf_eval_inputs *in, uint32_t i, double scale)
 {
-    vndf_given g = {direction_at(in, i, scale), input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
+    vndf_query g = {direction_at(in, i, scale), input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
                     input(in, VNDF_EVAL_Z, i)};
     return g;
 }
 
 /* What is not in `m` replaced by numbers that can be looked up. */
-VNDF_INLINE vndf_given picked_given(doubles_m m, const vndf_given *g)
+VNDF_INLINE vndf_query picked_given(doubles_m m, const vndf_query *g)
 {
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
-    vndf_given safe = {{doubles_pick(m, g->wi.ax, one), doubles_pick(m, g->wi.ay, one),
+    vndf_query safe = {{doubles_pick(m, g->wi.ax, one), doubles_pick(m, g->wi.ay, one),
                         doubles_pick(m, g->wi.x, nothing), doubles_pick(m, g->wi.y, nothing),
                         doubles_pick(m, g->wi.z, one)},
                        doubles_pick(m, g->x, nothing),
@@ -96,7 +96,7 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         doubles ax = input(in, VNDF_EVAL_ALPHA_X, i) * scale, ay = input(in, VNDF_EVAL_ALPHA_Y, i) * scale;
-        vndf_given g = {{ax, ay, one, one, one},
+        vndf_query g = {{ax, ay, one, one, one},
                         input(in, VNDF_EVAL_X, i),
                         input(in, VNDF_EVAL_Y, i),
                         input(in, VNDF_EVAL_Z, i)};
@@ -107,7 +107,7 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
 }
 
 /* Whether it is a normal that wi sees. */
-VNDF_INLINE doubles_m is_seen(const vndf_given *g, doubles facing)
+VNDF_INLINE doubles_m is_seen(const vndf_query *g, doubles facing)
 {
     const doubles nothing = doubles_set(0.0);
     return doubles_both(vndf_direction_is_valid(&g->wi),
@@ -120,8 +120,8 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
     const doubles nothing = doubles_set(0.0);
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = given_at(&b->in, i, scale);
-        doubles facing = vndf_given_facing(&g);
+        vndf_query g = given_at(&b->in, i, scale);
+        doubles facing = vndf_query_facing(&g);
         doubles_m seen = is_seen(&g, facing);
         g = picked_given(seen, &g);
         doubles visible = vndf_law_visible(d, &g, facing);
@@ -160,9 +160,9 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
     const doubles nothing = doubles_set(0.0);
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_given g = given_at(&b->in, i, scale);
-        doubles_m seen = is_seen(&g, vndf_given_facing(&g)), below = doubles_less(g.wi.z, nothing);
-        doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_given_along(&g));
+        vndf_query g = given_at(&b->in, i, scale);
+        doubles_m seen = is_seen(&g, vndf_query_facing(&g)), below = doubles_less(g.wi.z, nothing);
+        doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_query_along(&g));
         append(s, IN_FRONT, doubles_both(above, front), i, b->count);
         append(s, BEHIND, doubles_without(above, front), i, b->count);
         append(s, BELOW, doubles_both(seen, below), i, b->count);
@@ -208,10 +208,10 @@ VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, cons
     const vndf_eval_inputs in = gather_way(b, s->index[way], s->count[way], &own);
     for (uint32_t i = 0; i < s->count[way]; i += VNDF_DOUBLES) {
         const uint32_t *index = s->index[way] + i;
-        vndf_given g = given_at(&in, i, scale);
+        vndf_query g = given_at(&in, i, scale);
         doubles_m plain = doubles_at_most(g.z, g.z);
-        doubles density = way == IN_FRONT ? vndf_given_in_front(d, &g, &plain)
-                                          : vndf_given_of_wedge(d, &g, way == BELOW, &plain);
+        doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &plain)
+                                          : vndf_query_of_wedge(d, &g, way == BELOW, &plain);
         scatter(b, index, s->count[way] - i, density, plain);
     }
 }

@@ -19,7 +19,7 @@ typedef enum vndf_question {
     VNDF_ASK_G1
 } vndf_question;
 
-/* What a block is given: members of vndf_given, in their order. */
+/* What a block is given: members of vndf_query, in their order. */
 enum {
     VNDF_EVAL_ALPHA_X,
     VNDF_EVAL_ALPHA_Y,

@@ -141,7 +141,7 @@ static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t fi
         uint32_t i = block->left[n] % VNDF_DELICATE;
         vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
         vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
-                           ? vndf_sample_carefully(&own, block->u1[i], block->u2[i], &block->density[i])
+                           ? vndf_sample_exactly(&own, block->u1[i], block->u2[i], &block->density[i])
                            : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
         block->x[i] = wm.x;
         block->y[i] = wm.y;

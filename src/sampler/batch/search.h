@@ -16,7 +16,7 @@ typedef struct vndf_radial_search {
 
 /* Of samples from `i` on. Wide windows, which are few, are narrowed at once. */
 VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t i,
-                                const vndf_bearing *b, lanes_f u2)
+                                const vndf_azimuth_sample *b, lanes_f u2)
 {
     lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
     uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(b->code, narrow)));
@@ -123,8 +123,8 @@ VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sor
     const vndf_azimuth_row row = vndf_wedge_row(&d->above, from->shared.c);
     vndf_mix_row(&row, &s->mixed);
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        vndf_sector sector = vndf_sorted_sector(from, first + i);
-        lanes_f part = vndf_wedge_part(lanes_abs(sector.apart), sector.mass);
+        vndf_azimuth_range range = vndf_sorted_range(from, first + i);
+        lanes_f part = vndf_wedge_part(lanes_abs(range.apart), range.mass);
         lanes_store(s->part + i, part);
         lanes_store_u(s->cell + i, vndf_guide_count(s->mixed.before, s->mixed.count + 1, part));
         s->rows[g] = row;
@@ -139,13 +139,13 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
         lanes_store_u(s->span + i, vndf_wedge_span(&d->above, vndf_sorted_incidence(from, first + i).c));
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         lanes_lines lines = lanes_lines_from(&d->above.row_span->begin, VNDF_ROW_SPAN_FLOATS, s->span + i);
-        vndf_sector sector = vndf_sorted_sector(from, first + i);
+        vndf_azimuth_range range = vndf_sorted_range(from, first + i);
         s->rows[g] = vndf_wedge_row_from(&d->above, vndf_sorted_incidence(from, first + i).c,
                                          lanes_load_u(s->span + i), &lines);
         lanes_store(s->first + i, s->rows[g].first);
         lanes_store(s->middle + i, s->rows[g].middle);
         lanes_store(s->last + i, s->rows[g].last);
-        lanes_store(s->part + i, vndf_wedge_part(lanes_abs(sector.apart), sector.mass));
+        lanes_store(s->part + i, vndf_wedge_part(lanes_abs(range.apart), range.mass));
         lanes_store_u(s->row + i, s->rows[g].row);
     }
     for (uint32_t i = 0; i < count; i++) {

@@ -81,10 +81,11 @@ VNDF_INLINE void vndf_sort_incidence(vndf_sorted *to, const lanes_split *split, 
     lanes_split_store(split, to->spread, w->spread);
 }
 
-VNDF_INLINE void vndf_sort_sector(vndf_sorted *to, const lanes_split *split, const vndf_sector *sector, lanes_f u2)
+VNDF_INLINE void vndf_sort_range(vndf_sorted *to, const lanes_split *split, const vndf_azimuth_range *range,
+                                 lanes_f u2)
 {
-    lanes_split_store(split, to->mass, sector->mass);
-    lanes_split_store(split, to->apart, sector->apart);
+    lanes_split_store(split, to->mass, range->mass);
+    lanes_split_store(split, to->apart, range->apart);
     lanes_split_store(split, to->u2, u2);
 }
 
@@ -111,12 +112,12 @@ VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float s
     lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
     vndf_incidence w = vndf_incidence_from(ax, ay, aim);
-    vndf_sector sector = vndf_sector_at(aim->front, aim->wedge, half);
-    from->plain = lanes_both(from->usable, vndf_trusts_wedge_mass(aim->front, sector.mass));
+    vndf_azimuth_range range = vndf_azimuth_range_at(aim->front, aim->wedge, half);
+    from->plain = lanes_both(from->usable, vndf_trusts_wedge_mass(aim->front, range.mass));
     lanes_m unusable = lanes_without(lanes_all(), from->usable);
-    from->split = lanes_split_by(lanes_either(sector.in_front, unusable), low, high);
+    from->split = lanes_split_by(lanes_either(range.in_front, unusable), low, high);
     vndf_sort_incidence(to, &from->split, &w);
-    vndf_sort_sector(to, &from->split, &sector, u2);
+    vndf_sort_range(to, &from->split, &range, u2);
 }
 
 /* The same where all have one view, which is plain. */
@@ -125,11 +126,11 @@ VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_s
 {
     lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
     lanes_f front = lanes_set(b->view->of.table.front);
-    vndf_sector sector = vndf_sector_at(front, lanes_set(b->view->of.table.wedge), half);
+    vndf_azimuth_range range = vndf_azimuth_range_at(front, lanes_set(b->view->of.table.wedge), half);
     from->usable = lanes_all();
-    from->plain = vndf_trusts_wedge_mass(front, sector.mass);
-    from->split = lanes_split_by(sector.in_front, low, high);
-    vndf_sort_sector(to, &from->split, &sector, u2);
+    from->plain = vndf_trusts_wedge_mass(front, range.mass);
+    from->split = lanes_split_by(range.in_front, low, high);
+    vndf_sort_range(to, &from->split, &range, u2);
 }
 
 /* All of a block; how many are in front, or cannot be drawn. */
@@ -162,10 +163,10 @@ VNDF_INLINE vndf_incidence vndf_sorted_incidence(const vndf_sorted *w, uint32_t 
     return at;
 }
 
-VNDF_INLINE vndf_sector vndf_sorted_sector(const vndf_sorted *w, uint32_t i)
+VNDF_INLINE vndf_azimuth_range vndf_sorted_range(const vndf_sorted *w, uint32_t i)
 {
-    vndf_sector sector = {lanes_all(), lanes_load(w->mass + i), lanes_load(w->apart + i)};
-    return sector;
+    vndf_azimuth_range range = {lanes_all(), lanes_load(w->mass + i), lanes_load(w->apart + i)};
+    return range;
 }
 
 /* Results to where their samples were; what is not good enough is left. */

@@ -8,7 +8,7 @@
 /* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
  * for each other, groups do not. */
 typedef struct fronts {
-    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
     lanes_m plain[VNDF_BLOCK_GROUPS];
     vndf_radial_search radii;
@@ -17,7 +17,7 @@ typedef struct fronts {
 typedef struct wedges {
     vndf_row_search azimuths;
     uint32_t cut[VNDF_BLOCK_SAMPLES];
-    vndf_bearing bearing[VNDF_BLOCK_GROUPS];
+    vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_radial_law law[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
     lanes_m plain[VNDF_BLOCK_GROUPS];
@@ -31,8 +31,8 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from
 {
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_incidence at = vndf_sorted_incidence(from, i);
-        vndf_sector sector = vndf_sorted_sector(from, i);
-        w->bearing[g] = vndf_bear_front(d, &at, &sector, lanes_load(from->u2 + i));
+        vndf_azimuth_range range = vndf_sorted_range(from, i);
+        w->bearing[g] = vndf_azimuth_sample_front(d, &at, &range, lanes_load(from->u2 + i));
         vndf_ask_radii(d, &w->radii, i, &w->bearing[g], lanes_load(from->u2 + i));
     }
     vndf_find_radii(d, &w->radii, end, 1);
@@ -63,8 +63,8 @@ VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *fr
         w->plain[g] = lanes_all();
         vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->plain[g]);
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
-        vndf_sector sector = vndf_sorted_sector(from, first + i);
-        w->bearing[g] = vndf_bear_wedge(d, &at, &sector, &a, lanes_load(from->u2 + first + i));
+        vndf_azimuth_range range = vndf_sorted_range(from, first + i);
+        w->bearing[g] = vndf_azimuth_sample_wedge(d, &at, &range, &a, lanes_load(from->u2 + first + i));
     }
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++)
         lanes_store_u(w->cut + i, vndf_radial_cut(d, w->bearing[g].c, w->bearing[g].k));
@@ -75,7 +75,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
 {
     const float *u2 = from->u2 + first;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        vndf_bearing *b = &w->bearing[g];
+        vndf_azimuth_sample *b = &w->bearing[g];
         vndf_radial_lanes cell = vndf_load_cells(d, w->cut + i);
         w->law[g] = vndf_radial_law_cut(d, b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
         vndf_ask_radii(d, &w->radii, i, b, lanes_load(u2 + i));

@@ -17,7 +17,7 @@
 #include "sampler/analytic/beckmann.h"
 #include "sampler/analytic/beckmann_draw.h"
 #include "sampler/bounded/beckmann.h"
-#include "sampler/given_normal.h"
+#include "sampler/query.h"
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 

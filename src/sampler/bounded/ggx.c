@@ -28,7 +28,7 @@
 #include "math/half_turn.h"
 #include "math/vector.h"
 #include "sampler/bounded/ggx_draw.h"
-#include "sampler/given_normal.h"
+#include "sampler/query.h"
 #include "sampler/stretch.h"
 
 /* The unit problem in double. M0 = (across of M0, its z), as the other members in the stretched, turned frame. */
@@ -151,7 +151,7 @@ static azimuth_law law_from(const frame *f)
     return law;
 }
 
-void vndf_bound_ggx_carefully(const vndf_view *view, struct vndf_ggx_bounds *bounds)
+void vndf_bound_ggx_exactly(const vndf_view *view, struct vndf_ggx_bounds *bounds)
 {
     frame f = frame_of(view);
     azimuth_law law = law_from(&f);
@@ -204,8 +204,8 @@ static void draw_azimuth(const frame *f, const azimuth_law *law, double u1, doub
     }
 }
 
-vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1,
-                                        float u2)
+vndf_bounded vndf_bounded_ggx_exactly(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1,
+                                      float u2)
 {
     frame f = frame_of(view);
     azimuth_law law = law_of(view, bounds);

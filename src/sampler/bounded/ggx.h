@@ -11,8 +11,8 @@ vndf_bounded_factors vndf_bounded_ggx_at(const vndf_view *view, const struct vnd
                                          vndf_normal wm, double facing);
 
 /* The first two where float is not good enough. */
-void vndf_bound_ggx_carefully(const vndf_view *view, struct vndf_ggx_bounds *bounds);
-vndf_bounded vndf_bounded_ggx_carefully(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1,
-                                        float u2);
+void vndf_bound_ggx_exactly(const vndf_view *view, struct vndf_ggx_bounds *bounds);
+vndf_bounded vndf_bounded_ggx_exactly(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1,
+                                      float u2);
 
 #endif

@@ -64,8 +64,8 @@ VNDF_INLINE float vndf_is_positive(float x)
 /* ---- the law of psi ---- */
 
 /* `slow` and `fast` are half of one over the part in front, and over that in the wedge; `in_front` and `in_wedge`
- * are kept over those of the roots there. The front counts as if all were kept there, which is nearly so; of the wedge the larger kept of its middle and
- * of the sides. */
+ * are kept over those of the roots there. The front counts as if all were kept there, which is nearly so. The wedge
+ * counts with the larger part kept, that of its middle or of its sides. */
 VNDF_INLINE void vndf_ggx_law_set(struct vndf_ggx_bounds *law, const vndf_outlook *o)
 {
     float c = o->c, c2 = c * c, b = c * o->q, away = b + sqrtf(b * b - c * c2 * o->q * o->c0);

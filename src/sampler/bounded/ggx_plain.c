@@ -10,17 +10,17 @@ void vndf_bound_ggx(const vndf_view *view, struct vndf_ggx_bounds *bounds)
             return;
         }
     }
-    vndf_bound_ggx_carefully(view, bounds);
+    vndf_bound_ggx_exactly(view, bounds);
 }
 
 vndf_bounded vndf_bounded_ggx(const vndf_view *view, const struct vndf_ggx_bounds *bounds, float u1, float u2)
 {
     vndf_outlook o = vndf_outlook_of(view, bounds);
     if (!vndf_outlook_is_plain(view, &o))
-        return vndf_bounded_ggx_carefully(view, bounds, u1, u2);
+        return vndf_bounded_ggx_exactly(view, bounds, u1, u2);
     vndf_ggx_bounded n = vndf_ggx_draw_bounded(view, bounds, &o, u1, u2);
     if (!vndf_ggx_is_inside(&o, &n) || !vndf_ggx_is_settled(view, &o, &n, 1.0f))
-        return vndf_bounded_ggx_carefully(view, bounds, u1, u2);
+        return vndf_bounded_ggx_exactly(view, bounds, u1, u2);
     float length = sqrtf(n.length2), per = 1.0f / length; /* spread: 2 pi times the area */
     float density = 2.0f * n.length2 * length * n.cosine / (view->of.ggx.spread * n.kept);
     vndf_bounded b = {vndf_vec3_of(n.x * per, n.y * per, n.z * per), density, n.kept};

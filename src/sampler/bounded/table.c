@@ -28,27 +28,27 @@ static double stretch_at(const vndf_view *view, vndf_normal wm)
     return (x * x + y * y) / (mx * mx + my * my);
 }
 
-static double kept_on(const vndf_engine_ray *ray, double q)
+static double kept_on(const vndf_azimuth_slice *slice, double q)
 {
-    double c = ray->c, k = ray->k, root = sqrt(k * k + q * c * c);
-    return k > 0.0 ? vndf_engine_ray_part(ray, k + root, q * c) : vndf_engine_ray_part(ray, c, root - k);
+    double c = slice->c, k = slice->k, root = sqrt(k * k + q * c * c);
+    return k > 0.0 ? vndf_azimuth_slice_part(slice, k + root, q * c) : vndf_azimuth_slice_part(slice, c, root - k);
 }
 
 vndf_bounded_factors vndf_bounded_table_at(const vndf_view *view, vndf_normal wm, double facing)
 {
-    vndf_engine_ray ray = vndf_engine_ray_of(view, wm);
-    vndf_bounded_factors at = {vndf_engine_density_on(view, &ray, wm, facing),
-                               kept_on(&ray, stretch_at(view, wm))};
+    vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, wm);
+    vndf_bounded_factors at = {vndf_engine_density_on(view, &slice, wm, facing),
+                               kept_on(&slice, stretch_at(view, wm))};
     return at;
 }
 
 /* The azimuth that u1 stands for is that of a sample half-way out. */
-VNDF_RARE vndf_bounded bounded_carefully(const vndf_view *view, float u1, float u2)
+VNDF_RARE vndf_bounded bounded_exactly(const vndf_view *view, float u1, float u2)
 {
-    vndf_normal middle = vndf_normal_of(vndf_engine_sample_carefully(view, u1, 0.5f, NULL));
-    vndf_engine_ray ray = vndf_engine_ray_of(view, middle);
-    float kept = (float)kept_on(&ray, stretch_at(view, middle));
-    vndf_vec3 drawn = vndf_engine_sample_carefully(view, u1, kept * u2, NULL);
+    vndf_normal middle = vndf_normal_of(vndf_engine_sample_exactly(view, u1, 0.5f, NULL));
+    vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, middle);
+    float kept = (float)kept_on(&slice, stretch_at(view, middle));
+    vndf_vec3 drawn = vndf_engine_sample_exactly(view, u1, kept * u2, NULL);
     vndf_vec3 wm = vndf_disc_normal(view, vndf_normal_of(drawn));
     return vndf_bounded_from(wm, vndf_bounded_table_at(view, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
 }
@@ -86,8 +86,8 @@ static border border_beside(const vndf_radial_law *law, float total, border at, 
 
 /* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by
  * 1e-7 of s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
-VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, const vndf_radial_law *law, int whole,
-                             lanes_m *plain)
+VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_azimuth_sample *b, const vndf_radial_law *law,
+                             int whole, lanes_m *plain)
 {
     const vndf_distribution *d = law->table;
     float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c);
@@ -113,7 +113,8 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_bearing *b, con
 }
 
 /* The normal, if it is far enough inside for its roundings. */
-VNDF_INLINE vndf_drawn drawn_inside(const vndf_bearing *b, vndf_place at, const border *edge, lanes_m *plain)
+VNDF_INLINE vndf_drawn drawn_inside(const vndf_azimuth_sample *b, vndf_place at, const border *edge,
+                                    lanes_m *plain)
 {
     *plain &= at.x * edge->z * (float)VNDF_TRUST_INSIDE < edge->x * at.z;
     at.below *= edge->kept;
@@ -121,9 +122,9 @@ VNDF_INLINE vndf_drawn drawn_inside(const vndf_bearing *b, vndf_place at, const 
 }
 
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_sector *sector, float u2, border *edge, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *plain)
 {
-    vndf_bearing b = vndf_bear_front(d, w, sector, u2);
+    vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     vndf_radial_law law = vndf_radial_law_whole(d, b.c, b.k);
     *edge = border_at(w, &b, &law, 1, plain);
     float u = edge->kept * u2;
@@ -135,12 +136,12 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_sector *sector, float u2, border *edge, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *plain)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
-    float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
+    float part = vndf_wedge_part(fabsf(range->apart), range->mass);
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
-    vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
+    vndf_azimuth_sample b = vndf_azimuth_sample_wedge(d, w, range, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
     *edge = border_at(w, &b, &law, 0, plain);
     float u = edge->kept * u2;
@@ -156,15 +157,15 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    vndf_sector sector = vndf_sector_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, sector.mass);
+    vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
+    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
     border edge;
     if (!plain)
-        return bounded_carefully(view, u1, u2);
-    vndf_drawn n = sector.in_front ? draw_in_front(d, &w, &sector, u2, &edge, &plain)
-                                   : draw_in_wedge(d, &w, &sector, u2, &edge, &plain);
+        return bounded_exactly(view, u1, u2);
+    vndf_drawn n = range.in_front ? draw_in_front(d, &w, &range, u2, &edge, &plain)
+                                  : draw_in_wedge(d, &w, &range, u2, &edge, &plain);
     if (!plain)
-        return bounded_carefully(view, u1, u2);
+        return bounded_exactly(view, u1, u2);
     vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.kept};
     return b;
 }

@@ -2,7 +2,7 @@
  *
  * The azimuth's density is that of the mixed row (wedge.h) at q = s(n + s)/h and 1 - q = c(n + s + c)/h,
  * h = (c + n)(n + s), for (c, s) ~ (r |cos a|, p |sin a|) of any length n. Shares of the rows are not divided by
- * the distance of their knots either. In the cell of the cut, sampler/tabulated/radial.h, the part h of xi is visible. */
+ * the distance of their knots either. In the cell of the cut (radial.h) the part h of xi is visible. */
 #ifndef VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
 #define VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
 
@@ -143,9 +143,9 @@ VNDF_INLINE doubles vndf_visible_part(doubles w, doubles end)
 /* c > 0 > k. */
 VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles c, doubles k)
 {
-    vndf_spot at = vndf_spot_at(d, c, -k);
+    vndf_radial_location at = vndf_radial_location_at(d, c, -k);
     doubles_lines pole = doubles_lines_at(&d->knots.pole->e, 2, at.cell);
-    doubles_four f = vndf_spot_cell(d, &at), sums = doubles_load_four(&pole, 0);
+    doubles_four f = vndf_radial_location_cell(d, &at), sums = doubles_load_four(&pole, 0);
     doubles w = doubles_positive(c * at.z0 + k * at.x0), h = vndf_visible_part(w, c * at.z1 + k * at.x1);
     doubles part = w * h * vndf_bump_part(f.a, f.b, vndf_bump_of(f), h);
     vndf_cut_law law = {c * sums.a + w * sums.b + part, at.cell};
@@ -155,9 +155,9 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles 
 /* c < 0 < k. */
 VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles c, doubles k)
 {
-    vndf_spot at = vndf_spot_at(d, -c, k);
+    vndf_radial_location at = vndf_radial_location_at(d, -c, k);
     doubles_lines tail = doubles_lines_at(&d->knots.tail[1].s, 2, at.cell);
-    doubles_four f = vndf_spot_cell(d, &at), sums = doubles_load_four(&tail, 0);
+    doubles_four f = vndf_radial_location_cell(d, &at), sums = doubles_load_four(&tail, 0);
     doubles w = doubles_positive(c * at.z1 + k * at.x1), h = vndf_visible_part(w, c * at.z0 + k * at.x0);
     vndf_bump bump = vndf_bump_of(f), turned = {bump.a + bump.b, -bump.b};
     doubles part = w * h * vndf_bump_part(f.b, f.a, turned, h);
@@ -168,28 +168,28 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles 
 /* ---- both ---- */
 
 /* The normal's azimuth and radius. */
-VNDF_INLINE doubles vndf_given_of_wedge(const vndf_distribution *d, const vndf_given *g, int below,
+VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_query *g, int below,
                                         doubles_m *plain)
 {
     const vndf_wedge *w = below ? &d->below : &d->above;
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;
     vndf_bare n = vndf_bare_of(g);
-    doubles k = vndf_given_level(g) * n.product, c = (below ? -up : up) * n.across;
+    doubles k = vndf_query_level(g) * n.product, c = (below ? -up : up) * n.across;
     doubles_m leans = doubles_less(doubles_set(0.0), across);
     doubles cosine = doubles_abs(doubles_pick(leans, k, n.x));
     doubles sine = doubles_abs(doubles_pick(leans, g->wi.ax * g->wi.x * n.y - g->wi.ay * g->wi.y * n.x, n.y));
     vndf_shares shares = vndf_shares_at(w, (below ? across : up) / sum);
     vndf_quotient azimuth = vndf_row_density(w, &shares, cosine, sine);
     vndf_cut_law law = below ? vndf_cut_law_below(d, c, k) : vndf_cut_law_above(d, c, k);
-    vndf_spot at = vndf_spot_at(d, n.across, n.z);
-    vndf_quotient q = below ? vndf_given_in_weighted_cell(d, &at, &n, c, k) : vndf_given_in_cell(d, &at, &n, c, k);
+    vndf_radial_location at = vndf_radial_location_at(d, n.across, n.z);
+    vndf_quotient q = below ? vndf_query_in_weighted_cell(d, &at, &n, c, k) : vndf_query_in_cell(d, &at, &n, c, k);
     *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
                                         : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
     doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);
     if (below) /* the wedge is all there is */
-        return vndf_given_density(0.5 * above, under, plain);
-    doubles wedge = vndf_given_wedge(d, across, up), total = 2.0 * (vndf_given_front(d, across, up) + wedge);
-    return vndf_given_density(above * wedge, under * total, plain);
+        return vndf_query_density(0.5 * above, under, plain);
+    doubles wedge = vndf_query_wedge(d, across, up), total = 2.0 * (vndf_query_front(d, across, up) + wedge);
+    return vndf_query_density(above * wedge, under * total, plain);
 }
 
 #endif

@@ -118,44 +118,44 @@ VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 
 /* Where an azimuth is drawn: in front of wi or in the wedge, the mass of that, and the part of it from the side of
  * wi, where both begin, to the azimuth, with the sign of the azimuth. */
-typedef struct vndf_sector {
+typedef struct vndf_azimuth_range {
     lanes_m in_front;
     lanes_f mass, apart;
-} vndf_sector;
+} vndf_azimuth_range;
 
 /* |half| is the part of a half turn's mass between straight ahead and the azimuth; `half` = 2 u1 - 1. */
-VNDF_INLINE vndf_sector vndf_sector_at(lanes_f front, lanes_f wedge, lanes_f half)
+VNDF_INLINE vndf_azimuth_range vndf_azimuth_range_at(lanes_f front, lanes_f wedge, lanes_f half)
 {
     lanes_f target = lanes_abs(half) * (front + wedge);
     lanes_m in_front = lanes_less(target, front);
-    vndf_sector sector = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(target - front, half)};
-    return sector;
+    vndf_azimuth_range range = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(target - front, half)};
+    return range;
 }
 
 /* A sample whose azimuth is drawn: what its radius and its normal take. */
-typedef struct vndf_bearing {
+typedef struct vndf_azimuth_sample {
     vndf_level level;
     lanes_f cosine, c, k;   /* of the azimuth; weights of the law of the radius */
     lanes_f total, density; /* the law's mass; mass per radian of the azimuth, in the wedge */
     lanes_u code;           /* of the window where the radius is */
-} vndf_bearing;
+} vndf_azimuth_sample;
 
 /* ---- in front of wi ---- */
 
-VNDF_INLINE vndf_bearing vndf_bear_front(const vndf_distribution *d, const vndf_incidence *w,
-                                         const vndf_sector *sector, lanes_f u2)
+VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distribution *d, const vndf_incidence *w,
+                                                          const vndf_azimuth_range *range, lanes_f u2)
 {
     lanes_f near, k;
-    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(sector->apart), sector->mass, &near);
+    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), range->mass, &near);
     lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
     k = w->s * a.c;
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, sector->apart),
-                      a.c,
-                      w->c,
-                      k,
-                      vndf_radial_total(d, w->c, k),
-                      a.c,
-                      code};
+    vndf_azimuth_sample b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, range->apart),
+                             a.c,
+                             w->c,
+                             k,
+                             vndf_radial_total(d, w->c, k),
+                             a.c,
+                             code};
     return b;
 }
 
@@ -170,8 +170,9 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
 
 /* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
  * (radial_cut.h). */
-VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w, const vndf_bearing *b,
-                                        const vndf_radial_lanes *cell, lanes_u j, lanes_f u2, lanes_m *plain)
+VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w,
+                                        const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
+                                        lanes_f u2, lanes_m *plain)
 {
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
     vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
@@ -190,21 +191,22 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
 /* ---- in the wedge above the horizon ---- */
 
 /* The weights (c, k) of the law of the radius, times n, at an azimuth of the wedge counted from the far side. */
-VNDF_INLINE vndf_bearing vndf_bear_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                         const vndf_sector *sector, const vndf_azimuth *a, lanes_f u2)
+VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                                          const vndf_azimuth_range *range, const vndf_azimuth *a,
+                                                          lanes_f u2)
 {
     lanes_f per = 1.0f / a->n, cosine = -a->c * per, c = w->c * a->n, k = w->s * -a->c;
-    vndf_bearing b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, sector->apart),
-                      cosine,
-                      c,
-                      k,
-                      c,
-                      a->density * sector->mass,
-                      vndf_window_of(d, c, k, u2)};
+    vndf_azimuth_sample b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, cosine, a->s * per, range->apart),
+                             cosine,
+                             c,
+                             k,
+                             c,
+                             a->density * range->mass,
+                             vndf_window_of(d, c, k, u2)};
     return b;
 }
 
-VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_bearing *b,
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_azimuth_sample *b,
                                         const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
                                         lanes_f u2, lanes_m *plain)
 {

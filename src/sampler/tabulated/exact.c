@@ -7,10 +7,9 @@
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
  * stretched direction before per_length brings it to s + |c| = 1. Cells are those of math/rational_cell.h,
- * math/weighted_cell.h and sampler/tabulated/radial.h, which draws from them. This is for every normal, and for those who
- * build tables; what most normals take, lanes too, stands in density.h and density_wedge.h. Relative
- * error below 1e-5 of the density that the numbers of the file define wherever that exceeds 1e-30 (test
- * float_accuracy). */
+ * math/weighted_cell.h and radial.h, which draws from them. This serves every normal, and the builder of tables; most
+ * normals, in lanes too, are evaluated by density.h and density_wedge.h. The relative error is below 1e-5 of the
+ * density that the numbers of the file define, wherever that exceeds 1e-30 (test float_accuracy). */
 #include <math.h>
 
 #include "math/vector.h"
@@ -175,18 +174,18 @@ static double part_integral(double f0, double f1, double a, double b, double h)
     return whole > least ? whole : least;
 }
 
-static double knot_weight(const vndf_engine_ray *ray, uint32_t j)
+static double knot_weight(const vndf_azimuth_slice *slice, uint32_t j)
 {
-    double w = ray->c * ray->table->knots.at[j].z + ray->k * ray->table->knots.at[j].x;
+    double w = slice->c * slice->table->knots.at[j].z + slice->k * slice->table->knots.at[j].x;
     return w > 0.0 ? w : 0.0;
 }
 
 /* The cell j of the cut; c > 0 > k, then c < 0 < k. */
-static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
+static vndf_engine_piece piece_above(const vndf_azimuth_slice *slice, uint32_t j)
 {
-    const vndf_radial_cell *cell = &ray->table->cells[j];
-    vndf_knot to = ray->table->knots.at[j + 1];
-    double w = knot_weight(ray, j), end = ray->c * to.z + ray->k * to.x;
+    const vndf_radial_cell *cell = &slice->table->cells[j];
+    vndf_knot to = slice->table->knots.at[j + 1];
+    double w = knot_weight(slice, j), end = slice->c * to.z + slice->k * to.x;
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
     double half = 0.5 * w * h, mass = w * h * part_integral(cell->f0, cell->f1, bend.a, bend.b, h);
@@ -194,11 +193,11 @@ static vndf_engine_piece piece_above(const vndf_engine_ray *ray, uint32_t j)
     return p;
 }
 
-static vndf_engine_piece piece_below(const vndf_engine_ray *ray, uint32_t j)
+static vndf_engine_piece piece_below(const vndf_azimuth_slice *slice, uint32_t j)
 {
-    const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w = knot_weight(ray, j + 1),
-           end = ray->c * ray->table->knots.at[j].z + ray->k * ray->table->knots.at[j].x;
+    const vndf_radial_cell *cell = &slice->table->cells[j];
+    double w = knot_weight(slice, j + 1),
+           end = slice->c * slice->table->knots.at[j].z + slice->k * slice->table->knots.at[j].x;
     double h = end < 0.0 ? w / (w - end) : 1.0;
     vndf_moment_cubic bend = bump_of(cell);
     double half = 0.5 * w * h, mass = w * h * part_integral(cell->f1, cell->f0, bend.a + bend.b, -bend.b, h);
@@ -212,17 +211,17 @@ static double over(double w, double v)
 }
 
 /* Beyond the cut V is W; of the second cell inside it see radial.h. */
-vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t j)
+vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *slice, uint32_t j)
 {
-    if (j == ray->cut)
-        return ray->c > 0.0 ? piece_above(ray, j) : piece_below(ray, j);
-    const vndf_radial_cell *cell = &ray->table->cells[j];
-    double w0 = knot_weight(ray, j), w1 = knot_weight(ray, j + 1), way = 16.0 * ray->part;
+    if (j == slice->cut)
+        return slice->c > 0.0 ? piece_above(slice, j) : piece_below(slice, j);
+    const vndf_radial_cell *cell = &slice->table->cells[j];
+    double w0 = knot_weight(slice, j), w1 = knot_weight(slice, j + 1), way = 16.0 * slice->part;
     vndf_engine_piece p = {cell->f0 * w0, cell->f1 * w1, w0 * cell->mu0 + w1 * cell->mu1, w0, w1, 0.0, 1.0, 0};
-    if (j + 2 < ray->cut)
+    if (j + 2 < slice->cut)
         return p;
     p.weighted = 1;
-    if (j + 2 == ray->cut)
+    if (j + 2 == slice->cut)
         p.v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
     double half = 0.5 * (p.v0 + p.v1);
     p.e0 = cell->f0 * over(w0, p.v0) * half;
@@ -258,9 +257,9 @@ static inner inner_of(const vndf_engine_piece *p, place at, double w)
 
 /* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
  * X does. */
-static double density_over_x(const vndf_engine_ray *ray, const vndf_engine_piece *p, place at, double w)
+static double density_over_x(const vndf_azimuth_slice *slice, const vndf_engine_piece *p, place at, double w)
 {
-    const vndf_knot *k = ray->table->knots.at;
+    const vndf_knot *k = slice->table->knots.at;
     inner in = inner_of(p, at, w);
     double per = in.per / p->length;
     if (at.cell == 0 && p->e0 == 0.0)
@@ -270,96 +269,97 @@ static double density_over_x(const vndf_engine_ray *ray, const vndf_engine_piece
 }
 
 /* The law of the radius for one azimuth: its cut, and all of its mass. */
-static void find_law(vndf_engine_ray *ray)
+static void find_law(vndf_azimuth_slice *slice)
 {
-    const vndf_distribution *d = ray->table;
-    double c = ray->c, k = ray->k;
-    ray->cut = d->radial_count;
-    ray->part = ray->mass = 0.0;
+    const vndf_distribution *d = slice->table;
+    double c = slice->c, k = slice->k;
+    slice->cut = d->radial_count;
+    slice->part = slice->mass = 0.0;
     if (c >= 0.0 && k >= 0.0) {
-        ray->mass = c * d->f0_total + k * d->f1_total;
+        slice->mass = c * d->f0_total + k * d->f1_total;
         return;
     }
     if (!(c > 0.0) && !(k > 0.0))
         return;
-    uint32_t j = ray->cut = place_of(d, fabs(c), fabs(k)).cell;
-    vndf_engine_piece p = vndf_engine_piece_of(ray, j);
-    ray->part = p.length;
+    uint32_t j = slice->cut = place_of(d, fabs(c), fabs(k)).cell;
+    vndf_engine_piece p = vndf_engine_piece_of(slice, j);
+    slice->part = p.length;
     if (c > 0.0)
-        ray->mass = c * d->knots.pole[j].e + p.v0 * d->knots.pole[j].g + p.mass;
+        slice->mass = c * d->knots.pole[j].e + p.v0 * d->knots.pole[j].g + p.mass;
     else
-        ray->mass = k * d->knots.tail[j + 1].s + p.v1 * d->knots.tail[j + 1].t + p.mass;
+        slice->mass = k * d->knots.tail[j + 1].s + p.v1 * d->knots.tail[j + 1].t + p.mass;
 }
 
 /* ---- both ---- */
 
-static vndf_engine_ray ray_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
-                                double k)
+static vndf_azimuth_slice ray_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
+                                   double k)
 {
     const vndf_distribution *d = view->distribution;
-    vndf_engine_ray ray = {d, w->c, k, azimuth_density(d, w, cosine, sine), 0.0, 0.0, 0};
-    find_law(&ray);
-    return ray;
+    vndf_azimuth_slice slice = {d, w->c, k, azimuth_density(d, w, cosine, sine), 0.0, 0.0, 0};
+    find_law(&slice);
+    return slice;
 }
 
-vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine)
+vndf_azimuth_slice vndf_azimuth_slice_at(const vndf_view *view, double cosine, double sine)
 {
     vndf_stretched w = vndf_stretched_of(view);
     return ray_from(view, &w, cosine, sine, w.s * cosine);
 }
 
-double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w)
+double vndf_azimuth_slice_density(const vndf_azimuth_slice *slice, double x, double z, double w)
 {
-    place at = place_of(ray->table, x, z);
-    int hidden = ray->cut < ray->table->radial_count && (ray->c > 0.0 ? at.cell > ray->cut : at.cell < ray->cut);
-    if (!(ray->mass > 0.0) || !(ray->azimuth > 0.0))
+    place at = place_of(slice->table, x, z);
+    int hidden =
+        slice->cut < slice->table->radial_count && (slice->c > 0.0 ? at.cell > slice->cut : at.cell < slice->cut);
+    if (!(slice->mass > 0.0) || !(slice->azimuth > 0.0))
         return 0.0;
-    vndf_engine_piece p = vndf_engine_piece_of(ray, hidden ? ray->cut : at.cell);
+    vndf_engine_piece p = vndf_engine_piece_of(slice, hidden ? slice->cut : at.cell);
     if (!(p.length > 0.0))
         return 0.0;
     if (hidden) { /* by rounding alone, since w > 0: the place is the cut */
-        place end = {ray->cut, ray->c > 0.0 ? p.length : p.begin, ray->c > 0.0 ? 1.0 - p.length : p.length};
+        place end = {slice->cut, slice->c > 0.0 ? p.length : p.begin, slice->c > 0.0 ? 1.0 - p.length : p.length};
         at = end;
     }
-    double sum = sum_at(ray->table, at), density = density_over_x(ray, &p, at, w * sum) * (sum * sum * sum);
-    return ray->azimuth * density / (ray->mass * ray->table->cells[at.cell].width);
+    double sum = sum_at(slice->table, at), density = density_over_x(slice, &p, at, w * sum) * (sum * sum * sum);
+    return slice->azimuth * density / (slice->mass * slice->table->cells[at.cell].width);
 }
 
-double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *p, uint32_t j, double xi,
-                                 double eta)
+double vndf_engine_piece_density(const vndf_azimuth_slice *slice, const vndf_engine_piece *p, uint32_t j,
+                                 double xi, double eta)
 {
-    const vndf_knot *k = ray->table->knots.at + j;
+    const vndf_knot *k = slice->table->knots.at + j;
     place at = {j, xi, eta};
-    double x = eta * k[0].x + xi * k[1].x, w = ray->k * x + ray->c * (eta * k[0].z + xi * k[1].z);
-    return w > 0.0 && p->length > 0.0 && ray->mass > 0.0
-               ? ray->azimuth * x * density_over_x(ray, p, at, w) / ray->mass
+    double x = eta * k[0].x + xi * k[1].x, w = slice->k * x + slice->c * (eta * k[0].z + xi * k[1].z);
+    return w > 0.0 && p->length > 0.0 && slice->mass > 0.0
+               ? slice->azimuth * x * density_over_x(slice, p, at, w) / slice->mass
                : 0.0;
 }
 
 /* Mass of the law before knot j, c >= 0. */
-static double mass_before(const vndf_engine_ray *ray, uint32_t j)
+static double mass_before(const vndf_azimuth_slice *slice, uint32_t j)
 {
-    const vndf_knots *knots = &ray->table->knots;
-    return ray->k < 0.0 ? ray->c * knots->pole[j].e + knot_weight(ray, j) * knots->pole[j].g
-                        : ray->c * knots->f0[j] + ray->k * knots->f1[j];
+    const vndf_knots *knots = &slice->table->knots;
+    return slice->k < 0.0 ? slice->c * knots->pole[j].e + knot_weight(slice, j) * knots->pole[j].g
+                          : slice->c * knots->f0[j] + slice->k * knots->f1[j];
 }
 
-double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z)
+double vndf_azimuth_slice_part(const vndf_azimuth_slice *slice, double x, double z)
 {
-    place at = place_of(ray->table, x, z);
-    if (!(ray->mass > 0.0) || at.cell > ray->cut)
+    place at = place_of(slice->table, x, z);
+    if (!(slice->mass > 0.0) || at.cell > slice->cut)
         return 1.0;
-    vndf_engine_piece p = vndf_engine_piece_of(ray, at.cell);
+    vndf_engine_piece p = vndf_engine_piece_of(slice, at.cell);
     if (!(p.length > 0.0) || !(p.mass > 0.0))
-        return mass_before(ray, at.cell) / ray->mass;
+        return mass_before(slice, at.cell) / slice->mass;
     inner in = inner_of(&p, at, 0.0);
     double w = in.zeta * in.rest;
     double inside = (p.mass * in.zeta * in.zeta + p.e0 * w) / (1.0 + ((p.e0 + p.e1) / p.mass - 2.0) * w);
-    double part = (mass_before(ray, at.cell) + inside) / ray->mass;
+    double part = (mass_before(slice, at.cell) + inside) / slice->mass;
     return part < 1.0 ? part : 1.0;
 }
 
-vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm)
+vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm)
 {
     double mx = wm.x / view->alpha_x, my = wm.y / view->alpha_y, x = sqrt(mx * mx + my * my);
     double level = view->wi.x * wm.x + view->wi.y * wm.y, cosine = 1.0, sine = 0.0;
@@ -372,39 +372,40 @@ vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm)
     return ray_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
 }
 
-double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing)
+double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *slice, vndf_normal wm,
+                              double facing)
 {
     double ax = view->alpha_x, ay = view->alpha_y, mx = wm.x / ax, my = wm.y / ay, x = sqrt(mx * mx + my * my);
     double scale = 1.0 / (x + wm.z), per_length = vndf_stretched_of(view).per_length;
-    double density = vndf_engine_ray_density(ray, x * scale, wm.z * scale, facing * per_length * scale);
+    double density = vndf_azimuth_slice_density(slice, x * scale, wm.z * scale, facing * per_length * scale);
     return density * scale * scale * scale / (ax * ay);
 }
 
 /* Any normal that faces wi. */
-VNDF_RARE double density_carefully(const vndf_view *view, const vndf_given *g)
+VNDF_RARE double density_exactly(const vndf_view *view, const vndf_query *g)
 {
     vndf_normal wm = {g->x, g->y, g->z};
-    vndf_engine_ray ray = vndf_engine_ray_of(view, wm);
-    return vndf_engine_density_on(view, &ray, wm, vndf_given_facing(g));
+    vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, wm);
+    return vndf_engine_density_on(view, &slice, wm, vndf_query_facing(g));
 }
 
 /* The cases of density.h and density_wedge.h first. */
-double vndf_engine_density(const vndf_view *view, const vndf_given *g)
+double vndf_engine_density(const vndf_view *view, const vndf_query *g)
 {
     const vndf_distribution *d = view->distribution;
-    int toward = vndf_given_along(g) >= 0.0;
+    int toward = vndf_query_along(g) >= 0.0;
     doubles_m plain = 1;
-    double density = vndf_is_below(view) ? vndf_given_of_wedge(d, g, 1, &plain)
-                     : toward            ? vndf_given_in_front(d, g, &plain)
-                                         : vndf_given_of_wedge(d, g, 0, &plain);
-    return plain ? density : density_carefully(view, g);
+    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, &plain)
+                     : toward            ? vndf_query_in_front(d, g, &plain)
+                                         : vndf_query_of_wedge(d, g, 0, &plain);
+    return plain ? density : density_exactly(view, g);
 }
 
 /* ---- D ---- */
 
 double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 {
-    vndf_spot at = vndf_spot_at(d, x, z);
-    vndf_quotient p22 = vndf_spot_p22(d, &at);
+    vndf_radial_location at = vndf_radial_location_at(d, x, z);
+    vndf_quotient p22 = vndf_radial_location_p22(d, &at);
     return p22.above > 0.0 ? p22.above / p22.below : 0.0;
 }

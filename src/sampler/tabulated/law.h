@@ -9,14 +9,14 @@
 /* ---- for one or for lanes ---- */
 
 /* D, of a valid normal. */
-VNDF_INLINE doubles vndf_table_ndf(const vndf_distribution *d, const vndf_given *g)
+VNDF_INLINE doubles vndf_table_ndf(const vndf_distribution *d, const vndf_query *g)
 {
     vndf_bare n = vndf_bare_of(g);
-    return vndf_given_ndf(d, &n);
+    return vndf_query_ndf(d, &n);
 }
 
 /* Dv where wi . wm = facing > 0 and all is valid. */
-VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_given *g, doubles facing)
+VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_query *g, doubles facing)
 {
     const doubles nothing = doubles_set(0.0);
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z);

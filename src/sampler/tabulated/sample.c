@@ -78,7 +78,7 @@ VNDF_INLINE vndf_vec3 normal_from(const vndf_level *level, float x, float z)
 }
 
 /* Any direction and any place: the density is that of the normal as it was rounded, in double. */
-vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf)
+vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     float half = 2.0f * u1 - 1.0f;
     vndf_azimuth a = draw_azimuth(view, fabsf(half));
@@ -99,9 +99,9 @@ vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2
 }
 
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_sector *sector, float u2, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, lanes_m *plain)
 {
-    vndf_bearing b = vndf_bear_front(d, w, sector, u2);
+    vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -110,12 +110,12 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_sector *sector, float u2, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, lanes_m *plain)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
-    float part = vndf_wedge_part(fabsf(sector->apart), sector->mass);
+    float part = vndf_wedge_part(fabsf(range->apart), range->mass);
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
-    vndf_bearing b = vndf_bear_wedge(d, w, sector, &a, u2);
+    vndf_azimuth_sample b = vndf_azimuth_sample_wedge(d, w, range, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
     j = j < law.cut ? j : law.cut;
@@ -129,14 +129,14 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
-    vndf_sector sector = vndf_sector_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, sector.mass);
+    vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
+    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
     if (!plain)
-        return vndf_engine_sample_carefully(view, u1, u2, pdf);
+        return vndf_engine_sample_exactly(view, u1, u2, pdf);
     vndf_drawn n =
-        sector.in_front ? draw_in_front(d, &w, &sector, u2, &plain) : draw_in_wedge(d, &w, &sector, u2, &plain);
+        range.in_front ? draw_in_front(d, &w, &range, u2, &plain) : draw_in_wedge(d, &w, &range, u2, &plain);
     if (!plain)
-        return vndf_engine_sample_carefully(view, u1, u2, pdf);
+        return vndf_engine_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
     return vndf_vec3_of(n.x, n.y, n.z);

@@ -58,32 +58,33 @@
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* The same where densities in float are known not to do. */
-vndf_vec3 vndf_engine_sample_carefully(const vndf_view *view, float u1, float u2, float *pdf);
+vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
-struct vndf_given; /* sampler/tabulated/density.h */
-double vndf_engine_density(const vndf_view *view, const struct vndf_given *given);
+struct vndf_query; /* sampler/tabulated/density.h */
+double vndf_engine_density(const vndf_view *view, const struct vndf_query *given);
 
 /* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
-typedef struct vndf_engine_ray {
+typedef struct vndf_azimuth_slice {
     const vndf_distribution *table;
     double c, k;       /* k = s cos a */
     double azimuth;    /* density of the azimuth, per radian */
     double mass, part; /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
     uint32_t cut;      /* that cell; radial_count if there is none */
-} vndf_engine_ray;
-vndf_engine_ray vndf_engine_ray_at(const vndf_view *view, double cosine, double sine);
+} vndf_azimuth_slice;
+vndf_azimuth_slice vndf_azimuth_slice_at(const vndf_view *view, double cosine, double sine);
 
 /* That of a normal, of any length. */
-vndf_engine_ray vndf_engine_ray_of(const vndf_view *view, vndf_normal wm);
+vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm);
 
 /* The density of that normal per steradian, its length 1 but for rounding and facing = wi.wm > 0. */
-double vndf_engine_density_on(const vndf_view *view, const vndf_engine_ray *ray, vndf_normal wm, double facing);
+double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *slice, vndf_normal wm,
+                              double facing);
 
 /* The part of the law with slopes up to X/Z; c >= 0. */
-double vndf_engine_ray_part(const vndf_engine_ray *ray, double x, double z);
+double vndf_azimuth_slice_part(const vndf_azimuth_slice *slice, double x, double z);
 
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
-double vndf_engine_ray_density(const vndf_engine_ray *ray, double x, double z, double w);
+double vndf_azimuth_slice_density(const vndf_azimuth_slice *slice, double x, double z, double w);
 
 /* A cell of the law as far as it is visible, from `begin` on, `length` long in xi: its mass and the densities at
  * its ends per xi of the part or, if weighted, per zeta of V (math/weighted_cell.h), and V there. */
@@ -91,10 +92,10 @@ typedef struct vndf_engine_piece {
     double e0, e1, mass, v0, v1, begin, length;
     int weighted;
 } vndf_engine_piece;
-vndf_engine_piece vndf_engine_piece_of(const vndf_engine_ray *ray, uint32_t cell);
+vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *slice, uint32_t cell);
 
 /* Per dxi da at a visible place of that cell, xi and eta from its knots. */
-double vndf_engine_piece_density(const vndf_engine_ray *ray, const vndf_engine_piece *piece, uint32_t cell,
+double vndf_engine_piece_density(const vndf_azimuth_slice *slice, const vndf_engine_piece *piece, uint32_t cell,
                                  double xi, double eta);
 
 /* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some

@@ -35,7 +35,7 @@ vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double a
     return view_scaled(d, ax, ay, (float)ax, (float)ay, wi);
 }
 
-vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
+vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
 {
     double ax, ay;
     if (!vndf_surface_scaled(surface, &ax, &ay) || !vndf_is_usable_direction(wi))
@@ -49,7 +49,7 @@ vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi)
 void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     if (!vndf_table_view_try(view, surface, wi))
-        *view = vndf_table_view_carefully(surface, vndf_packed(wi));
+        *view = vndf_table_view_exactly(surface, vndf_packed(wi));
 }
 
 /* ---- inverse ---- */

@@ -35,7 +35,7 @@ VNDF_INLINE void vndf_table_view_put(vndf_view *view, const vndf_distribution *d
 vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
 /* vndf_view_from where float does not do, or for what is invalid. */
-vndf_view vndf_table_view_carefully(const vndf_surface *surface, vndf_vec3 wi);
+vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi);
 
 /* vndf_view_from as far as float does: what is plain and ready is valid, and nothing else has to be looked at. */
 VNDF_INLINE int vndf_table_view_try(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
@@ -55,7 +55,7 @@ VNDF_INLINE vndf_view vndf_table_view_from(const vndf_surface *surface, vndf_vec
 {
     vndf_view view;
     if (!vndf_table_view_try(&view, surface, wi))
-        return vndf_table_view_carefully(surface, vndf_packed(wi));
+        return vndf_table_view_exactly(surface, vndf_packed(wi));
     return view;
 }
 

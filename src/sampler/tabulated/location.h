@@ -5,21 +5,21 @@
  *
  * xi = inner/(inner + outer) and eta = outer/(inner + outer) are each exact where they are small. Knots have
  * x + z = 1 but for their rounding; x + z at the place tells what is for the normal from what is for the table. */
-#ifndef VNDF_SAMPLER_TABULATED_SPOT_H
-#define VNDF_SAMPLER_TABULATED_SPOT_H
+#ifndef VNDF_SAMPLER_TABULATED_LOCATION_H
+#define VNDF_SAMPLER_TABULATED_LOCATION_H
 
 #include "simd/doubles.h"
 #include "table/guide.h"
 #include "table/table.h"
 
-typedef struct vndf_spot {
+typedef struct vndf_radial_location {
     doubles_u cell;
     doubles inner, outer;
     doubles x0, x1, z0, z1; /* the knots */
-} vndf_spot;
+} vndf_radial_location;
 
 /* Those of a distance from the inner knot below 0, and from the outer one. Neither is both. */
-VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles outer, uint32_t count)
+VNDF_INLINE doubles_u vndf_radial_location_step(doubles_u cell, doubles inner, doubles outer, uint32_t count)
 {
     const doubles nothing = doubles_set(0.0);
     const doubles_u one = doubles_set_u(1), zero = doubles_set_u(0);
@@ -31,16 +31,16 @@ VNDF_INLINE doubles_u vndf_spot_step(doubles_u cell, doubles inner, doubles oute
 
 /* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
  * way. */
-VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, doubles z)
+VNDF_INLINE vndf_radial_location vndf_radial_location_at(const vndf_distribution *d, doubles x, doubles z)
 {
     const doubles_u none = doubles_set_u(0);
-    vndf_spot at;
+    vndf_radial_location at;
     at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z));
     for (;;) {
         doubles_lines line = doubles_lines_at(&d->knots.at->x, 2, at.cell);
         doubles_four knots = doubles_load_four(&line, 0); /* x0, z0, x1, z1 */
         doubles inner = x * knots.b - z * knots.a, outer = z * knots.c - x * knots.d;
-        doubles_u step = vndf_spot_step(at.cell, inner, outer, d->radial_count);
+        doubles_u step = vndf_radial_location_step(at.cell, inner, outer, d->radial_count);
         if (doubles_differ_u(step, none)) {
             at.cell += step;
             continue;
@@ -56,26 +56,26 @@ VNDF_INLINE vndf_spot vndf_spot_at(const vndf_distribution *d, doubles x, double
 }
 
 /* f0, f1, mu0, mu1 of its cell. */
-VNDF_INLINE doubles_four vndf_spot_cell(const vndf_distribution *d, const vndf_spot *at)
+VNDF_INLINE doubles_four vndf_radial_location_cell(const vndf_distribution *d, const vndf_radial_location *at)
 {
     doubles_lines line = doubles_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), at->cell);
     return doubles_load_four(&line, 0);
 }
 
 /* Of numbers at the inner and at the outer knot, that at the place, times inner + outer. */
-VNDF_INLINE doubles vndf_spot_between(const vndf_spot *at, doubles in, doubles out)
+VNDF_INLINE doubles vndf_radial_location_between(const vndf_radial_location *at, doubles in, doubles out)
 {
     return at->outer * in + at->inner * out;
 }
 
 /* The length of the cell: R = X/Z grows by width/Z^2 as xi grows. */
-VNDF_INLINE doubles vndf_spot_width(const vndf_spot *at)
+VNDF_INLINE doubles vndf_radial_location_width(const vndf_radial_location *at)
 {
     return at->x1 * at->z0 - at->x0 * at->z1;
 }
 
 /* Whether it is the cell where X begins. */
-VNDF_INLINE doubles_m vndf_spot_is_first(const vndf_spot *at)
+VNDF_INLINE doubles_m vndf_radial_location_is_first(const vndf_radial_location *at)
 {
     return doubles_at_most_u(at->cell, doubles_set_u(0));
 }
@@ -97,17 +97,17 @@ typedef struct vndf_quotient {
     doubles above, below;
 } vndf_quotient;
 
-VNDF_INLINE vndf_quotient vndf_spot_p22(const vndf_distribution *d, const vndf_spot *at)
+VNDF_INLINE vndf_quotient vndf_radial_location_p22(const vndf_distribution *d, const vndf_radial_location *at)
 {
-    doubles_four f = vndf_spot_cell(d, at);
+    doubles_four f = vndf_radial_location_cell(d, at);
     vndf_bump bump = vndf_bump_of(f);
     doubles per = 1.0 / (at->inner + at->outer), xi = at->inner * per, eta = at->outer * per;
     doubles rise = f.b + eta * (bump.a + bump.b * xi);
     doubles sum = eta * (at->x0 + at->z0) + xi * (at->x1 + at->z1), square = sum * sum;
-    doubles_m first = vndf_spot_is_first(at);
+    doubles_m first = vndf_radial_location_is_first(at);
     doubles above = doubles_pick(first, rise, f.a * eta + xi * rise);
     doubles x = doubles_pick(first, at->x1, at->x0 * eta + at->x1 * xi);
-    vndf_quotient p22 = {above * (square * square), x * vndf_spot_width(at)};
+    vndf_quotient p22 = {above * (square * square), x * vndf_radial_location_width(at)};
     return p22;
 }
 

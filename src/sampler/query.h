@@ -1,7 +1,7 @@
 /* Densities of a normal that is given in double, as a half vector is: rounded to float it would lie elsewhere in a
  * narrow lobe. Unit within rounding, wm.z >= 0; results are not yet held to the range of float. */
-#ifndef VNDF_SAMPLER_GIVEN_NORMAL_H
-#define VNDF_SAMPLER_GIVEN_NORMAL_H
+#ifndef VNDF_SAMPLER_QUERY_H
+#define VNDF_SAMPLER_QUERY_H
 
 #include "sampler/closed.h"
 
