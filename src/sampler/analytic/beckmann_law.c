@@ -1,6 +1,8 @@
 /* Beckmann: views and their samples. */
 #include "sampler/analytic/beckmann_law.h"
 
+#include "sampler/law.h"
+
 #include "math/vector.h"
 #include "sampler/analytic/beckmann.h"
 
@@ -59,7 +61,7 @@ vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, flo
     vndf_frame f = vndf_closed_frame(view);
     vndf_vec3 wm = vndf_closed_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));
     if (pdf)
-        *pdf = vndf_is_facing(view, wm) ? vndf_beckmann_pdf(view, wm) : 0.0f;
+        *pdf = vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
     return vndf_packed(wm);
 }
 

@@ -84,13 +84,6 @@ void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_v
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* vndf_pdf of a valid view, where wi sees wm. */
-VNDF_INLINE float vndf_beckmann_pdf(const vndf_view *view, vndf_vec3 wm)
-{
-    vndf_query g = vndf_query_of(view, wm);
-    return vndf_positive(vndf_density_from(vndf_beckmann_visible(&g, vndf_exact_dot(view->wi, wm))));
-}
-
 /* vndf_invert of a valid view, wm.z >= 0. */
 void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 

@@ -1,6 +1,8 @@
 /* GGX: views and their samples. */
 #include "sampler/analytic/ggx_law.h"
 
+#include "sampler/law.h"
+
 #include "math/vector.h"
 #include "sampler/all_normals/all_normals.h"
 #include "sampler/analytic/ggx.h"
@@ -26,7 +28,7 @@ vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2
     vndf_frame f = vndf_closed_frame(view);
     vndf_vec3 wm = vndf_closed_normal(&f, vndf_ggx_sample(f.s, f.c, u1, u2));
     if (pdf)
-        *pdf = vndf_is_facing(view, wm) ? vndf_ggx_pdf(view, wm) : 0.0f;
+        *pdf = vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
     return vndf_packed(wm);
 }
 

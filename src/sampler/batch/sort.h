@@ -50,7 +50,7 @@ VNDF_INLINE uint32_t vndf_block_append(uint32_t *list, uint32_t count, lanes_m m
     return count;
 }
 
-/* Those that cannot be drawn here, and those that the call of one would draw and then do carefully. */
+/* Those that cannot be drawn here, and those that the call of one would draw again exactly. */
 VNDF_INLINE void vndf_block_leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
 {
     b->left_count = vndf_block_append(b->left, b->left_count, unready, first, b->count);

@@ -4,6 +4,7 @@
 #include "sampler/tabulated/area.h"
 #include "sampler/tabulated/draw.h"
 #include "sampler/frame.h"
+#include "sampler/law.h"
 #include "sampler/tabulated/radial_draw.h"
 #include "sampler/stretch.h"
 
@@ -94,7 +95,7 @@ vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, 
         wm = vndf_turn_to_face(&frame, wm);
     }
     if (pdf)
-        *pdf = vndf_pdf(view, wm);
+        *pdf = vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
     return wm;
 }
 
