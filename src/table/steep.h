@@ -7,7 +7,7 @@
 #define VNDF_STEEP_RADIUS 10.0f
 
 /* The same with room for float, for a cell that is nowhere steep. */
-#define VNDF_STEEP_CELL 9.0
+#define VNDF_STEEP_CELL 6.0
 
 /* D on both sides of a knot beside which no rounding matters, relative. */
 #define VNDF_STEEP_KNOT 1e-6

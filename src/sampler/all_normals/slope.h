@@ -30,7 +30,7 @@ VNDF_INLINE vndf_slope vndf_table_slope(const vndf_distribution *d, float u)
     vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
     vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
     vndf_place at = vndf_place_in(&cell, &in);
-    if (!vndf_plain_place_whole(&cell, &mass, &in))
+    if (!vndf_plain_place(&cell, &mass, &in))
         return vndf_table_slope_exactly(d, u);
     float x = at.x * at.per;
     vndf_slope r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};

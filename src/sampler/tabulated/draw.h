@@ -42,14 +42,6 @@ VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rat
                                      const vndf_rational_place *in)
 {
     lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
-    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), smooth);
-    return lanes_without(vndf_radial_is_trusted(at, cell, in), beside);
-}
-
-VNDF_INLINE lanes_m vndf_plain_place_whole(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
-                                           const vndf_rational_place *in)
-{
-    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
     if (!lanes_any(lanes_without(lanes_all(), smooth)))
         return lanes_all();
     lanes_m calm = lanes_less(lanes_set(0.0f), at->calm);
@@ -180,7 +172,7 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
     vndf_place at = vndf_place_in(cell, &in);
     *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place_whole(cell, &in_cell, &in));
+    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, &in));
     *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     *plain = lanes_both(*plain, vndf_trusts_root(in.root));
     at.above = in.root;

@@ -48,7 +48,12 @@ vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
 
 void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    if (!vndf_table_view_try(view, surface, wi))
+    const vndf_distribution *d = surface->distribution;
+    vndf_aim aim;
+    float x, y;
+    if (vndf_table_aims(surface, wi, &x, &y, &aim))
+        vndf_table_view_put(view, d, surface->alpha_x * d->scale, surface->alpha_y * d->scale, x, y, wi, &aim);
+    else
         *view = vndf_table_view_exactly(surface, vndf_packed(wi));
 }
 

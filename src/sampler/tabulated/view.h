@@ -37,25 +37,29 @@ vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double a
 /* vndf_view_from where float does not do, or for what is invalid. */
 vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi);
 
-/* vndf_view_from as far as float does: what is plain and ready is valid, and nothing else has to be looked at. */
-VNDF_INLINE int vndf_table_view_try(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+/* Roughness as it is drawn with, and the aim; whether float does. Then the view is valid, and nothing else has to be
+ * looked at. */
+VNDF_INLINE int vndf_table_aims(const vndf_surface *surface, vndf_vec3 wi, float *x, float *y, vndf_aim *aim)
 {
     const vndf_distribution *d = surface->distribution;
-    float scale = vndf_unit_scale_float(d), x = surface->alpha_x * scale, y = surface->alpha_y * scale;
+    float scale = vndf_unit_scale_float(d);
     lanes_m ready = 1;
-    vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
-    if (!(ready & vndf_trusts_scale(x, y, aim.c)))
-        return 0;
-    double exact = vndf_unit_scale(d);
-    vndf_table_view_put(view, d, surface->alpha_x * exact, surface->alpha_y * exact, x, y, wi, &aim);
-    return 1;
+    *x = surface->alpha_x * scale;
+    *y = surface->alpha_y * scale;
+    *aim = vndf_aim_at(d, *x * wi.x, *y * wi.y, wi.z, &ready);
+    return ready & vndf_trusts_scale(*x, *y, aim->c);
 }
 
 VNDF_INLINE vndf_view vndf_table_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
+    vndf_aim aim;
     vndf_view view;
-    if (!vndf_table_view_try(&view, surface, wi))
-        return vndf_table_view_exactly(surface, vndf_packed(wi));
+    float x, y;
+    if (!vndf_table_aims(surface, wi, &x, &y, &aim))
+        return vndf_table_view_exactly(surface, wi);
+    double scale = vndf_unit_scale(surface->distribution);
+    vndf_table_view_put(&view, surface->distribution, surface->alpha_x * scale, surface->alpha_y * scale, x, y, wi,
+                        &aim);
     return view;
 }
 
