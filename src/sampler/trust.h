@@ -4,10 +4,7 @@
  *
  * The promise is 1e-5, relative, of a density. The budget below says which part of it each cause may use up; those
  * that can meet in one sample add up to no more, which the compiler checks. A share is the worst error measured
- * on the trusted side of the threshold, within a factor of two of it, and rounded up by hand.
- *
- * Known to break the promise: a ring of relative width 0.001 in a table of 16 KiB, by up to 2.8e-5 in one of 1e5
- * samples, by a cause that is not found. */
+ * on the trusted side of the threshold, within a factor of two of it, and rounded up by hand. */
 #ifndef VNDF_SAMPLER_TRUST_H
 #define VNDF_SAMPLER_TRUST_H
 
@@ -19,7 +16,8 @@
 
 /* Parts of the promise in units of 1e-8, those of a cause without the roundings that every sample has. Measured with
  * 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
- * apart, roughness 1e-3 to 10. Worst of all: 570; a search that climbs from the worst points finds 530 for a ring. */
+ * apart, roughness 1e-3 to 10. Worst of all: 570; a search that climbs from the worst points finds 730 for a ring of
+ * relative width 1e-6 (test float_accuracy). */
 enum {
     VNDF_PROMISE = 1000,
     VNDF_SHARE_ROUNDING = 180, /* of a dozen operations each: direction, masses, cell, normal */
@@ -27,7 +25,7 @@ enum {
     VNDF_SHARE_FACING = 220,   /* wi.wm as a difference: VNDF_TRUST_FACING */
     VNDF_SHARE_CUT = 100,      /* a law that moves with its cut: VNDF_TRUST_CUT */
     VNDF_SHARE_AZIMUTH = 40,   /* a steep cell of the azimuth: VNDF_TRUST_AZIMUTH_STEEP */
-    VNDF_SHARE_DIRECTION = 60, /* masses of wedges, by the rounding of wi: VNDF_TRUST_WEDGE_MASS and below */
+    VNDF_SHARE_DIRECTION = 60, /* wedges and rows by the rounding of wi: VNDF_TRUST_WEDGE_MASS and below */
     VNDF_SHARE_GGX = 700,      /* all of GGX: within 7e-6 (sampler/analytic/ggx_draw.h) */
     VNDF_SHARE_BECKMANN = 800  /* all of Beckmann (sampler/analytic/beckmann_draw.h) */
 };
@@ -131,6 +129,15 @@ VNDF_INLINE lanes_m vndf_trusts_azimuth(vndf_change change, lanes_f turn, lanes_
     return lanes_at_most(change.above * n2, VNDF_TRUST_AZIMUTH_STEEP * change.below * lanes_least(turn, n2));
 }
 
+/* The density of an azimuth over its mean, about: where one of the three rows has next to all of it, and the least
+ * weight, the rounding of the direction shows in that weight. */
+static const float VNDF_TRUST_AZIMUTH_DENSITY = 0.05f;
+
+VNDF_INLINE lanes_m vndf_trusts_azimuth_density(lanes_f density)
+{
+    return lanes_less(lanes_set(VNDF_TRUST_AZIMUTH_DENSITY), density);
+}
+
 /* The cosine to wi's azimuth at its side: rounding must not take a normal from the front to the wedge or back, as
  * the wedge's density is the table's. */
 static const float VNDF_TRUST_SIDE = 1e-6f;
@@ -170,10 +177,11 @@ VNDF_INLINE lanes_m vndf_trusts_cut(lanes_f inside, lanes_f part_mass, lanes_f r
 }
 
 /* The density of a cell may change by a factor e^10 per e-fold of the slope: rounding a normal moves that by 5e-7,
- * and xi by reach/width times as much. */
+ * and xi by reach/width times as much, which may be VNDF_TRUST_KNOT's distance from a knot. */
 VNDF_INLINE lanes_m vndf_trusts_radius(vndf_change change, lanes_f width, lanes_f reach)
 {
-    return lanes_at_most(change.above * reach, VNDF_STEEP_RADIUS * change.below * width);
+    return lanes_both(lanes_at_most(reach, VNDF_NARROW * width),
+                      lanes_at_most(change.above * reach, VNDF_STEEP_RADIUS * change.below * width));
 }
 
 /* The distance in xi from a knot, which may be a jump of D; counted from the middle of the cell. */

@@ -180,7 +180,8 @@ static int is_calm_at(const vndf_radial_cell *cell, double reach, double ratio)
 {
     double e0 = cell->f0, e1 = cell->f1 * ratio, mass = cell->mu0 + cell->mu1 * ratio;
     double change = fabs(e1 - e0) + 3.0 * fabs(e0 + e1 - 2.0 * mass);
-    return change * reach <= VNDF_STEEP_CELL * fmin(fmin(e0, e1), mass) * cell->width;
+    return reach <= VNDF_NARROW * cell->width &&
+           change * reach <= VNDF_STEEP_CELL * fmin(fmin(e0, e1), mass) * cell->width;
 }
 
 static void derive_cells(vndf_distribution *table)

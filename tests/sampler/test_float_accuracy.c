@@ -20,7 +20,7 @@ static const char *const subjects[] = {
     "tail.vndf", "2048 family ggx", "2048 family beckmann", "2048 family student-t:1.6", "2048 step(1-r)",
     "2048 exp(-r)*step(r-2)", "2048 exp(-((r-1)/0.02)^2)", "2048 r^-1.5*exp(-r)", "2048 r^-1.75*exp(-r)",
     "2048 (1+r*r)^-1.55",
-    "2048 exp(-r*r)+1e4*exp(-(100*r)^2)", "2048 exp(-1e9*r)"};
+    "2048 exp(-r*r)+1e4*exp(-(100*r)^2)", "2048 exp(-1e9*r)", "2048 exp(-((r-1)/1e-6)^2)"};
 /* clang-format on */
 
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };

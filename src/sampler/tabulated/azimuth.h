@@ -79,7 +79,7 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf
     lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
     vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
     *plain = lanes_both(*plain, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
-    *plain = lanes_both(*plain, vndf_trusts_root(in->root));
+    *plain = lanes_both(*plain, vndf_trusts_azimuth_density(at.density));
     return at;
 }
 
