@@ -4,13 +4,26 @@
 
 enum { GUIDE_ENTRIES_MAX = 4096 };
 
-/* Largest resolution, in powers of two, at which the guide has no more than four entries a knot. */
+/* The least width of a bucket, a power of two, at which the guide has no more than four entries a knot. */
 static uint32_t shift_for(uint32_t span, uint32_t count)
 {
     uint32_t shift = 0, wanted = count < GUIDE_ENTRIES_MAX / 4 ? 4 * count : GUIDE_ENTRIES_MAX;
     while (span >> shift > wanted)
         shift++;
     return shift;
+}
+
+/* Whether one step is enough in buckets of that width: no bucket has two knots, unless its entry counts the first,
+ * which stands where the bucket begins. The entry of the first bucket never does. */
+static int is_single(const vndf_guide *guide, uint32_t shift, const float *knots, uint32_t count)
+{
+    for (uint32_t j = 2; j + 1 < count; j++) {
+        uint32_t from = vndf_float_bits(knots[j - 1]) - guide->low, to = vndf_float_bits(knots[j]) - guide->low;
+        int is_counted = from >> shift > 0 && (from >> shift) << shift == from;
+        if (from >> shift == to >> shift && !is_counted)
+            return 0;
+    }
+    return 1;
 }
 
 /* Where in bucket b the knot after its first stands, in steps of 2^drop, rounded down: so no value is taken for
@@ -43,8 +56,11 @@ int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count)
     guide->low = vndf_float_bits(least);
     if (high < guide->low)
         high = guide->low;
-    guide->shift = shift_for(high - guide->low, count);
-    guide->last = (high - guide->low) >> guide->shift;
+    uint32_t span = high - guide->low;
+    guide->shift = shift_for(span, count);
+    while (span >> guide->shift > 0 && is_single(guide, guide->shift + 1, knots, count))
+        guide->shift++; /* as long as one step is enough, fewer entries cost no time */
+    guide->last = span >> guide->shift;
     guide->next = malloc(vndf_guide_bytes(guide, count));
     if (!guide->next)
         return 0;

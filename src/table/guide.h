@@ -21,7 +21,7 @@ VNDF_INLINE uint32_t vndf_float_bits(float x)
 int vndf_guide_make(vndf_guide *guide, const float *knots, uint32_t count);
 void vndf_guide_free(vndf_guide *guide);
 
-/* Bytes that it takes, of so many knots. */
+/* The bytes that the guide of so many knots takes. */
 static inline size_t vndf_guide_bytes(const vndf_guide *guide, uint32_t count)
 {
     return ((size_t)count + guide->last + 1) * sizeof *guide->next;

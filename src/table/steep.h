@@ -1,5 +1,5 @@
 /* How steep the density may be in a radial cell whose density is formed in float: the part of sampler/trust.h that
- * a table already knows of its cells (layout.c). */
+ * a table already knows of its cells (derive_radial.c). */
 #ifndef VNDF_TABLE_STEEP_H
 #define VNDF_TABLE_STEEP_H
 

@@ -72,17 +72,18 @@ typedef struct vndf_knots {
     float *f0, *f1;
 } vndf_knots;
 
-/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. What every
- * sample in front of wi reads of its cell, beside the knots: 32 bytes, half a line of the cache, all floats.
- * before0 and before1 are knots.f0 and knots.f1 once more: 8 bytes, and a load less. */
+/* f(xi) = f0 (1-xi) + f1 xi + xi (1-xi) (a + b xi); width = X1 Z0 - X0 Z1, so that dR = width/Z^2 dxi. Every sample in
+ * front of wi reads these 32 bytes of its cell, half a line of the cache, beside the knots. before0 and before1 repeat
+ * knots.f0 and knots.f1: they cost 8 bytes and save a load. */
 typedef struct vndf_radial_cell {
     float f0, f1, mu0, mu1;
     float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
-    float width, calm; /* calm: 1 if no law with c, k >= 0 changes much in it (sampler/tabulated/radial.h), 2 if
-                                  * those beside it are calm too and D does not jump at its ends */
+    /* smooth: 1 if no law with c, k >= 0 changes much in the cell, 2 if that is so of its neighbours too and D does not
+     * jump at its ends */
+    float width, smooth;
 } vndf_radial_cell;
 
-/* a and b of a cell, for samples behind wi. */
+/* a and b of a cell: samples behind wi read them. */
 typedef struct vndf_radial_bend {
     float a, b;
 } vndf_radial_bend;
@@ -103,7 +104,7 @@ typedef struct vndf_windows {
     uint16_t *code;               /* and a half word, which lanes read */
 } vndf_windows;
 
-/* A piece of the spline of a wedge's mass (table/area_piece.h), as views want it: 64 bytes side by side. */
+/* A piece of the spline of a wedge's mass (table/area_piece.h): 64 bytes side by side, which a view reads. */
 typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
@@ -119,8 +120,8 @@ typedef struct vndf_row_span {
     float begin, per_width, p[3], r[3];
 } vndf_row_span;
 
-/* A cell of a row: its mass, and the density where it begins. The density where it ends is that of the next: four
- * successive floats hold all that is wanted of a cell. After the last stands one that only begins. */
+/* A cell of a row: its mass, and the density where it begins. The density where it ends stands in the next cell: four
+ * successive floats hold all that a reader needs of a cell. After the last stands one that only begins. */
 typedef struct vndf_row_cell {
     float mass, density;
 } vndf_row_cell;
@@ -137,24 +138,25 @@ typedef struct vndf_row_line {
  * is a quintic spline on knots of its own (table/area_piece.h).
  *
  * Lanes read in registers what is few: then the same numbers stand in another order too, the pointers `few_...`
- * are not NULL (table/layout.c). What is read beyond them is not used. */
+ * are not NULL (table/derive_lanes.c). Lanes do not use what they read beyond them. */
 typedef struct vndf_wedge {
     uint32_t cell_count, row_count, knot_count; /* row_count is odd */
     uint32_t stride;                            /* floats from row to row in cdf: a multiple of VNDF_PADDING */
     float *q;                                   /* cell_count + 1, from 0 to 1 */
     float *row_y;            /* where rows 0, 2, 4, ... stand, then 2 where few are looked up: row_span's begin */
     vndf_row_span *row_span; /* (row_count + 1)/2 */
-    float *cdf;              /* mass before a cell, each row's mass being 1: what a search counts through */
-    vndf_row_cell *row_cell; /* cell_count + 1 to a row */
-    vndf_row_line *row_line; /* cell_count to a row, for lanes: NULL below the horizon, where none draw */
-    float *knot_y;           /* knot_count, and so have the next three, which the file holds */
+    float *cdf;              /* mass before a cell, each row's mass being 1: searches count through it */
+    vndf_row_cell *row_cell; /* cell_count + 1 to a row: single draws, densities and the file read them */
+    vndf_row_line *row_line; /* cell_count to a row: lanes draw with it; NULL below the horizon, where none draw */
+    float *knot_y; /* knot_count, as many as the next three: the file, its checks and the survey read them */
     float *mass, *slope, *curve; /* curve is the second derivative */
-    vndf_area_span *piece;       /* made of them, knot_count - 1: for areas and densities, in double */
-    vndf_area_quick *quick;      /* in float, for drawing: NULL below the horizon, where nothing reads it */
+    vndf_area_span *piece;       /* made of them, knot_count - 1: areas and densities read it, in double */
+    vndf_area_quick *quick;      /* in float: single draws read it; NULL below the horizon, where nothing does */
     uint32_t few_pitch;          /* numbers from member to member of the next two: VNDF_FEW, or half of it */
-    float *few;                  /* members of quick, for lanes, if there are no more than VNDF_FEW pieces */
-    double *few_exact;           /* members of piece likewise */
-    float *few_aspects; /* if knots of rows are so few, p of rows 0, 2, 4, ..., then of those between, then r */
+    float *few;                  /* members of quick: lanes read them if there are no more than VNDF_FEW pieces */
+    double *few_exact;           /* members of piece: lanes of doubles read them if pieces are so few */
+    float *few_aspects; /* if knots of rows are so few, p of rows 0, 2, 4, ..., then of the rows between, then r:
+                         * lanes of doubles read them */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 
@@ -182,14 +184,14 @@ struct vndf_distribution {
     vndf_kind kind;
     uint32_t radial_count;    /* cells */
     float f0_total, f1_total; /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
-    vndf_knots knots;         /* radial_count + 1 and padding */
-    vndf_knots blocks;        /* the first knot of each block, padded likewise */
-    vndf_radial_cell *cells;  /* radial_count */
-    vndf_radial_bend *bends;  /* radial_count */
+    vndf_knots knots;         /* radial_count + 1 and padding: all searches of cells read them */
+    vndf_knots blocks;        /* the first knot of each block, padded too: draws below the horizon read them */
+    vndf_radial_cell *cells;  /* radial_count: draws and densities of all kinds read them (tabulated/radial.h) */
+    vndf_radial_bend *bends;  /* radial_count: the cell at the cut is drawn with them (radial_law_cut) */
     void *block;              /* of block_bytes: all arrays but those of guides */
     size_t block_bytes;
     vndf_windows windows;
-    vndf_guide slope_guide; /* of X/Z */
+    vndf_guide slope_guide; /* of X/Z: finds the cell of the cut, and that of a given normal */
     vndf_wedge above, below;
     double normalization; /* the source was multiplied by it */
     double scale;         /* canonical slope 1 is this slope of the source */

@@ -88,8 +88,8 @@ typedef struct bound {
     double most;
 } bound;
 
-static const bound bounds[] = {{"student-t-1.8.vndf", 4.2}, {"student-t-2.5-small.vndf", 6.3}};
-static const double MOST = 3.8;
+static const bound bounds[] = {{"student-t-1.8.vndf", 4.0}, {"student-t-2.5-small.vndf", 5.5}};
+static const double MOST = 3.65;
 
 static double most_of(const char *name)
 {

@@ -41,12 +41,12 @@ VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, la
 VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
                                      const vndf_rational_place *in)
 {
-    lanes_m smooth = lanes_less(lanes_set(1.0f), at->calm);
-    if (!lanes_any(lanes_without(lanes_all(), smooth)))
+    lanes_m at_knots = lanes_less(lanes_set(1.0f), at->smooth);
+    if (!lanes_any(lanes_without(lanes_all(), at_knots)))
         return lanes_all();
-    lanes_m calm = lanes_less(lanes_set(0.0f), at->calm);
-    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), smooth);
-    return lanes_without(lanes_either(calm, vndf_radial_is_trusted(at, cell, in)), beside);
+    lanes_m inside = lanes_less(lanes_set(0.0f), at->smooth);
+    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), at_knots);
+    return lanes_without(lanes_either(inside, vndf_radial_is_trusted(at, cell, in)), beside);
 }
 
 /* ---- the normal ---- */

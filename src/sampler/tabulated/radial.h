@@ -46,7 +46,7 @@ typedef struct vndf_radial_law {
 
 /* A cell, lane by lane: the members of vndf_radial_cell, both knots, the bend, and the sums up to the first. */
 typedef struct vndf_radial_lanes {
-    lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, calm, a, b, e, g;
+    lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, smooth, a, b, e, g;
 } vndf_radial_lanes;
 
 /* From lines of d's cells, knots, bends and sums. What is not used of it is not loaded. */
