@@ -30,7 +30,8 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
     /* near places where the density of bounded normals jumps nothing is settled: they are not looked for */
     return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
            vndf_keeps_reflectance(b, half.event.facing_i) &&
-           vndf_is_settled(b, VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
+           vndf_is_settled(b, (float)half.wm.x, (float)half.wm.y,
+                           VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
 }
 
 /* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of

@@ -48,14 +48,38 @@ VNDF_INLINE vndf_vec3 vndf_reflected(vndf_vec3 wi, vndf_vec3 wm, float facing)
     return vndf_vec3_of(twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z);
 }
 
-/* wi refracted at wm by the index ratio eta: `facing` and `beyond` are the cosines to wm, of a unit length. */
-VNDF_INLINE vndf_vec3 vndf_refracted(vndf_vec3 wi, vndf_vec3 wm, double facing, double beyond, double eta)
+VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
-    double along = facing / eta - beyond, per = 1.0 / eta;
-    vndf_normal wo = {along * wm.x - per * wi.x, along * wm.y - per * wi.y, along * wm.z - per * wi.z};
-    double length2 = wo.x * wo.x + wo.y * wo.y + wo.z * wo.z, unit = 1.0 / sqrt(length2);
-    vndf_normal scaled = {wo.x * unit, wo.y * unit, wo.z * unit};
-    return vndf_vec3_from(scaled);
+    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
+    vndf_normal n = {w.x * per, w.y * per, w.z * per};
+    return n;
+}
+
+/* Where wi meets a microfacet, in double: wm stays the normal of wi and wo only if the cosine is exact. */
+typedef struct vndf_meeting {
+    vndf_normal wi, wm; /* of unit length */
+    double facing;
+} vndf_meeting;
+
+VNDF_INLINE vndf_meeting vndf_meeting_of(vndf_vec3 wi, vndf_vec3 wm)
+{
+    vndf_normal i = vndf_unit(wi), m = vndf_unit(wm);
+    vndf_meeting at = {i, m, i.x * m.x + i.y * m.y + i.z * m.z};
+    return at;
+}
+
+/* wi refracted by the index ratio eta, times eta: wo is this much of wm less wi. */
+VNDF_INLINE double vndf_bend_along(const vndf_meeting *at, double beyond, double eta)
+{
+    return at->facing - eta * beyond;
+}
+
+VNDF_INLINE vndf_vec3 vndf_refracted(const vndf_meeting *at, double along, double eta)
+{
+    double per = 1.0 / eta;
+    vndf_normal wi = at->wi, wm = at->wm;
+    vndf_normal wo = {(along * wm.x - wi.x) * per, (along * wm.y - wi.y) * per, (along * wm.z - wi.z) * per};
+    return vndf_vec3_from(wo);
 }
 
 /* ---- two directions give the normal ---- */
@@ -66,13 +90,6 @@ typedef struct vndf_half {
     vndf_event event;
     double jacobian; /* dwm/dwo */
 } vndf_half;
-
-VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
-{
-    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
-    vndf_normal n = {w.x * per, w.y * per, w.z * per};
-    return n;
-}
 
 VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
 {
@@ -152,9 +169,9 @@ VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 }
 
 /* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
-VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
+VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float x, float y, float gain)
 {
-    return vndf_trusts_turn(b->view.ax, b->view.ay, gain);
+    return vndf_trusts_turn(b->view.ax, b->view.ay, gain, b->material->turn) && vndf_trusts_pole(x, y, gain);
 }
 
 /* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
@@ -205,8 +222,9 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
-    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
-    int plain = settled & (choice.bare | (n->facing > VNDF_TRUST_REFLECTION_FACING)) & (as_drawn | of_wo);
+    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->wm.x, n->wm.y, n->facing);
+    int plain =
+        settled & (as_drawn | of_wo) & ((choice.bare & of_wo) | (n->facing > VNDF_TRUST_REFLECTION_FACING));
     if (!plain && vndf_reflect_exactly(b, wo, out))
         return 1;
     if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
@@ -228,21 +246,22 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     return 1;
 }
 
-/* The same for what goes through, `beyond` the cosine to wm there. */
-VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
+/* The same for a refraction; `beyond` is the cosine to wm on the other side. wo turns with wm by along/eta. */
+VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_meeting *at, double beyond,
+                             vndf_outcome *out)
 {
-    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
-    double eta = b->eta, rise = eta * eta - 1.0, sum = n->facing + eta * beyond;
+    double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
+    double sum = at->facing + eta * beyond;
+    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(at, along, eta);
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)(fabs(rise) * beyond);
-    int sound = beyond > VNDF_TRUST_BEYOND && n->facing > VNDF_TRUST_REFRACTION_FACING &&
-                gain * n->wm.z > VNDF_TRUST_REFRACTION_TURN;
-    if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
+    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)fabs(along / eta) * n->wm.z;
+    if (rise != 0.0 && !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING &&
+                         vndf_is_settled(b, n->wm.x, n->wm.y, gain)))
         return vndf_refract_exactly(b, wo, out);
-    vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
+    vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->wo = wo;
-    out->facing = n->facing;
+    out->facing = at->facing;
     out->density = vndf_density_from(n->density * (eta * eta * beyond) * (sum * sum) / (rise * rise));
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
     out->settled = 1;
