@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "oracle/oracle.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "sampler/bounded/bounded.h"
 #include "harness/test.h"
 
