@@ -15,11 +15,11 @@
 /* ---- the budget ---- */
 
 /* Parts of 1e-5 in units of 1e-8, without the error of the normal's own density: the worst error measured on the
- * trusted side of a threshold, within a factor of two of it, rounded up by hand. Measured with 23 million samples of
+ * trusted side of a threshold, within a factor of two of it, rounded up by hand. Measured with 19 million samples of
  * GGX, Beckmann and ten shipped tables, all effects, roughness 1e-3 to 3. */
 enum {
     VNDF_BSDF_PROMISE = 1000,
-    VNDF_SHARE_SLOPE = 950,       /* the slope of wo: TURN, POLE, both GAIN, BEYOND; GGX 370, tables 520 */
+    VNDF_SHARE_SLOPE = 950,       /* the slope of wo: TURN, POLE, both GAIN, BEYOND; GGX 550, tables 520 */
     VNDF_SHARE_WO = 50,           /* a few roundings of every sample */
     VNDF_SHARE_REFLECTANCE = 650, /* F where its cosine is rounded: both FACING, REFRACTED, CONDUCTOR_K */
     VNDF_SHARE_MASKING = 200,     /* areas in float: BETA */

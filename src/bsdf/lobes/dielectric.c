@@ -44,8 +44,7 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
     set_refracted(b, &out, f, 1.0, s);
 }
 
-/* The lobe is chosen by the normal that was drawn; what the choice has to do with the weight is settled afterwards.
- * Beside total reflection F changes without bound. */
+/* The drawn normal chooses the lobe. Density and weight then take F at the same cosine as the outcome. */
 VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s,
                               vndf_normals_drawn normals)
 {
