@@ -8,7 +8,7 @@
 #define VNDF_BSDF_ROUTINES_H
 
 #include "core/inline.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "vndf_bsdf.h"
 
 /* `prepare` finds material, eta, side and carried, and adds what the others take of the direction; 0 if nothing can

@@ -1,6 +1,5 @@
-/* One scattering event, put together from a choice of lobes, of normals and of what the microfacets do to light.
- * The choices are constants wherever these functions are called (reflection.c, dielectric.c), and what
- * is not chosen is not compiled.
+/* One scattering event, made of a choice of lobes, of normals, of a Fresnel term and of masking. The callers
+ * (reflection.c, dielectric.c) pass their choices as constants, so the compiler drops the rest.
  *
  * With q = D(wm) (wi.wm)/p, p the density of wm, and V = G2/(cos_i cos_o), the weight of a reflection is F V
  * cos_o q and that of a transmission (1 - F) V cos_o q, over r^2 for radiance: the Jacobians cancel (Walter et
@@ -98,9 +97,9 @@ VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
     return wm;
 }
 
-/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both
- * graze it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. exact.c has all
- * samples that are there. */
+/* wi and wo keep their lengths: for a sampled wo the half vector is then wm, rounding included. Where both graze, wi.wm
+ * is as small as the errors of these lengths and might be 0 or less, so they are made 1. There exact.c evaluates all
+ * samples. */
 VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
@@ -115,7 +114,7 @@ VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
     return half;
 }
 
-/* Lengths that are 1 but for rounding count where wi + r wo is small, so they are made 1. */
+/* Where wi + r wo is small an error of a length matters, so both lengths are made 1. */
 VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
 {
     vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
@@ -154,7 +153,7 @@ VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VN
     b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
 }
 
-/* A sample but for Fresnel's part in it. */
+/* A sample without its Fresnel term. */
 typedef struct vndf_outcome {
     vndf_vec3 wo;
     double facing;
@@ -162,7 +161,7 @@ typedef struct vndf_outcome {
     int settled;
 } vndf_outcome;
 
-/* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
+/* Whether F keeps its digits when facing is rounded: beside total reflection F changes without bound. */
 VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 {
     return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > VNDF_TRUST_REFRACTED;
@@ -174,12 +173,12 @@ VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float x, float y, float gain
     return vndf_trusts_turn(b->view.ax, b->view.ay, gain, b->material->turn) && vndf_trusts_pole(x, y, gain);
 }
 
-/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
- * is a sum of two floats and so good to a rounding, a = ax ay,
+/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum
+ * of two floats and so exact but for one rounding, and a = ax ay,
  *
  *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
  *
- * So it is that of wo as it was rounded, however smooth the surface is; relative error below 2e-6. */
+ * So it is the density of the rounded wo, however smooth the surface is; relative error below 2e-6. */
 VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
 {
     float ax = b->view.ax, ay = b->view.ay, a = ax * ay;
@@ -188,14 +187,14 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0795774715f * a / b->area * (t * t);
 }
 
-/* Whether that formula may stand: nothing underflows where the view is plain. */
+/* Whether that formula may stand: nothing underflows in a trusted view. */
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
     return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.plain &&
            facing > VNDF_TRUST_GGX_FACING;
 }
 
-/* Whether the density that was drawn with is taken rather than that. */
+/* Whether the sample takes the density of its normal instead. */
 VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
 {
     return vndf_trusts_drawn_ggx(b->view.ax, b->view.ay, facing);
@@ -223,14 +222,14 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
     int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->wm.x, n->wm.y, n->facing);
-    int plain =
+    int trusted =
         settled & (as_drawn | of_wo) & ((choice.bare & of_wo) | (n->facing > VNDF_TRUST_REFLECTION_FACING));
-    if (!plain && vndf_reflect_exactly(b, wo, out))
+    if (!trusted && vndf_reflect_exactly(b, wo, out))
         return 1;
-    if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
+    if (!trusted && choice.normals != VNDF_NORMALS_BOUNDED)
         return 0;
-    /* Bounded normals are kept, even where the density of the direction as it was rounded underflows. */
-    float density = !plain ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
+    /* A bounded normal is never lost, not even where the density of the rounded direction underflows. */
+    float density = !trusted ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;

@@ -3,7 +3,7 @@
 #ifndef VNDF_BSDF_WALK_VISIBLE_H
 #define VNDF_BSDF_WALK_VISIBLE_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 
 /* Dv(wm); wm is unit, facing = wi.wm > 0. 0 where wm.z < 0. */
 double vndf_walk_visible(const vndf_view *view, vndf_normal wm, double facing);

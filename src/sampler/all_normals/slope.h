@@ -2,7 +2,7 @@
 #ifndef VNDF_SAMPLER_ALL_NORMALS_SLOPE_H
 #define VNDF_SAMPLER_ALL_NORMALS_SLOPE_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/tabulated/draw.h"
 
 /* X and Z at any scale, P22/Z^3 at that scale, and whether that is good for the rounded normal. */
