@@ -7,7 +7,7 @@
 #include "measure/bins.h"
 #include "cli/sort.h"
 #include "measure/pearson.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "oracle/oracle.h"
 #include "cli/random.h"
 #include "measure/statistics.h"

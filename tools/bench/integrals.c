@@ -22,7 +22,7 @@
 #include <string.h>
 
 #include "bench/parts.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 
 enum { BINS_ACROSS = 24, BINS_AROUND = 16, BINS = BINS_ACROSS * BINS_AROUND, HOLE_LEAST = 20, RATIO_LEAST = 200 };
 

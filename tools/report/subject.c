@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "cli/clock.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "report/report.h"
 
 enum { LATTICE = 6765, LATTICE_STEP = 4181 };

@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "draw/chart.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/random.h"
 #include "report/report.h"
 
