@@ -1,4 +1,4 @@
-/* A description becomes a material: the one place where effects are looked at. */
+/* A description becomes a material. Nothing else looks at the effects. */
 #include "bsdf/material.h"
 
 #include "bsdf/lobes/dielectric.h"

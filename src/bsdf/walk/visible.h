@@ -1,5 +1,5 @@
-/* The visible normals of a view at a normal in double, as a half vector is: rounded to float it would lie
- * elsewhere in a narrow lobe. */
+/* The density of visible normals at a normal in double. A half vector rounded to float would lie elsewhere in a narrow
+ * lobe. */
 #ifndef VNDF_BSDF_WALK_VISIBLE_H
 #define VNDF_BSDF_WALK_VISIBLE_H
 

@@ -16,7 +16,7 @@ static const float VNDF_LEAST_REST = 0x1p-26f;
 
 #if VNDF_LANES == 1
 
-/* Where the last cells or the border of the unit square want it; slope.c. */
+/* For the last cells and the border of the unit square; slope.c. */
 vndf_slope vndf_table_slope_exactly(const vndf_distribution *d, float u);
 
 /* Of a table. */

@@ -1,4 +1,4 @@
-/* Beckmann where all is of plain size: beckmann.h in float, for one or for lanes. Above the horizon, with K = c/s,
+/* Beckmann where float is trusted: beckmann.h in float, for one or for lanes. Above the horizon, with K = c/s,
  * d = K - x and E of simd/gauss_lanes.h,
  *
  *     (2 sqrt(pi)/s) F(x) = exp(-x^2) (1 + K E(-x))                             x < 0

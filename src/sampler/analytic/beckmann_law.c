@@ -6,7 +6,7 @@
 #include "math/vector.h"
 #include "sampler/analytic/beckmann.h"
 
-/* A plain one. */
+/* A trusted one. */
 VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi, const vndf_beckmann_incidence *w)
 {
     view->distribution = surface->distribution;

@@ -1,4 +1,4 @@
-/* GGX where all is of plain size: ggx.h in float, for one or for lanes. With h = (w + cap), of which the normal is
+/* GGX where float is trusted: ggx.h in float, for one or for lanes. With h = (w + cap), of which the normal is
  * the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
  *
  *     density of n = (w . n) 4/(2 pi (1 + c)) = |h|/(pi (1 + c)),
@@ -23,8 +23,8 @@ typedef struct vndf_ggx_incidence {
     lanes_m trusted;
 } vndf_ggx_incidence;
 
-/* Near the normal, from q = 1e10 on, products of what is drawn could overflow; so they could where roughness is
- * not plain. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
+/* Near the normal, from q = 1e10 on, products of drawn numbers could overflow; so they could at extreme
+ * roughness. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
  * are flushed: below 1e-38 per = 1e-12 that is nothing beside s > 2e-5. Where products overflow, c is 0 or NaN. */
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
 {
