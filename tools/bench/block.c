@@ -1,4 +1,4 @@
-/* Inputs of the benchmark and where results go: 1024 samples, 40 KB as a structure of arrays, so
+/* Inputs of the benchmark and room for its results: 1024 samples, 40 KB as a structure of arrays, so
  * that they stay in the first cache. */
 #include <math.h>
 

@@ -5,13 +5,12 @@
  *     F(wi.wm) D(wm) G2(wi, wo) (wi.wm) / (wi.z pdf)      is an estimate of the albedo              (1)
  *
  * of gold at 550 nm, n = 0.43, k = 2.455 (P. Johnson, R. Christy, Phys. Rev. B 6, 1972). The same where wo falls
- * into a cone of 5 degrees and 0 elsewhere is that of a small light's radiance. D and Lambda are the reference's. What
- * (1) takes beside its normal and density costs all methods the same, and is no part of the time that efficiencies
- * count.
+ * into a cone of 5 degrees and 0 elsewhere is the radiance of a small light. D and Lambda are those of the reference.
+ * The other terms of (1) cost all methods the same, and efficiencies do not count their time.
  *
  * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of
- * max(0, 1 - Dv/p) over the samples. Where the density told is not the one drawn, histograms of the samples and of
- * the reference's are compared instead, half the sum of differences: with 384 bins and 64 replicates that floors at
+ * max(0, 1 - Dv/p) over the samples. Where a method draws with another density than it tells, its histogram is
+ * compared with that of the reference's samples, half the sum of differences: with 384 bins and 64 replicates that floors at
  * some 0.007, and the largest weight, over bins that hold samples enough, at 1.1. A hole is a bin that no sample
  * meets: infinite weight.
  *

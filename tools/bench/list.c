@@ -1,4 +1,4 @@
-/* Which methods the benchmark has, each of them made ready if the plan wants it. */
+/* The methods of the benchmark. Each is made ready if the plan wants it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
-/* The inside of the benchmark, for its own files and its tests:
+/* The parts of the benchmark, for its own files and its tests:
  *
  *     list.c       which methods, made ready; the tables are built here
  *     block.c      inputs and outputs of BENCH_BLOCK samples
- *     verify.c     whether what a method returns is worth timing
+ *     verify.c     whether the results of a method are right, before it is timed
  *     time.c       time, in turns
  *     integrals.c  error, variance and bias of one method for one direction
  *     run.c        all of these in order, into rows */
@@ -22,7 +22,7 @@ typedef struct bench_clock {
     double start; /* seconds */
 } bench_clock;
 
-/* Tells the progress; 0 if that wants to stop. */
+/* Reports progress; 0 if the caller wants to stop. */
 int bench_go_on(const bench_clock *at, const char *what);
 
 /* ---- methods ----------------------------------------------------------------------------------- */
