@@ -10,7 +10,7 @@
  *
  * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of
  * max(0, 1 - Dv/p) over the samples. Where a method draws with another density than it tells, its histogram is
- * compared with that of the reference's samples, half the sum of differences: with 384 bins and 64 replicates that floors at
+ * compared with that of the reference, half the sum of differences: with 384 bins and 64 replicates that floors at
  * some 0.007, and the largest weight, over bins that hold samples enough, at 1.1. A hole is a bin that no sample
  * meets: infinite weight.
  *
