@@ -155,7 +155,8 @@ typedef struct vndf_material {
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
     int two_sided;
-    int steep; /* F changes faster than directions are rounded */
+    int steep;  /* F changes faster than directions are rounded */
+    float turn; /* what the roughness must exceed for the rounding of directions not to show */
 } vndf_material;
 
 /* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material is

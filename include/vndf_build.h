@@ -138,14 +138,14 @@ VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_bui
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
-/* The truth by adaptive quadrature of the source, in double: normalised P22, and the projected area of the unit
+/* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the unit
  * problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
  * features that a build with zeroed options finds. A slow oracle. */
-typedef struct vndf_truth vndf_truth;
-VNDF_API vndf_truth *vndf_truth_from(const vndf_source *source, vndf_error *error);
-VNDF_API double vndf_truth_p22(const vndf_truth *truth, double r);
-VNDF_API double vndf_truth_area(const vndf_truth *truth, double theta);
-VNDF_API void vndf_truth_free(vndf_truth *truth);
+typedef struct vndf_reference vndf_reference;
+VNDF_API vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error);
+VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);
+VNDF_API double vndf_reference_area(const vndf_reference *reference, double theta);
+VNDF_API void vndf_reference_free(vndf_reference *reference);
 
 /* Writes the table to a file: first to a temporary file beside it, which is flushed to the disk, then renamed over
  * path. The temporary is called NAME.PROCESS.tmp; a long name is cut, and another number taken if a file has that

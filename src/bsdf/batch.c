@@ -1,5 +1,5 @@
 /* The calls of many. Visible normals are drawn in lanes (sampler/batch/sample.c), a block at a time. The rest is done
- * for one sample after the other, as the call of one does it once its normal is drawn, so the bits are the same. */
+ * for one sample after the other by the code of the call of one, so the bits are the same. */
 #include "bsdf/routines.h"
 #include "math/vector.h"
 
@@ -82,12 +82,12 @@ static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3],
     }
 }
 
-/* Normals of a block, drawn from where the element stands. */
+/* Normals of a block, and the heights of its directions. */
 typedef struct block {
     float x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], up[BLOCK];
 } block;
 
-/* The elements from `first` on, as the sampler wants them: turned up. */
+/* The elements from `first` on, turned up for the sampler. */
 static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, float *up)
 {
     const vndf_material *m = b->material;

@@ -1,4 +1,4 @@
-/* The public calls on a hit: what they do is the material's routines. */
+/* The public calls on a hit: each calls a routine of the material. */
 #include "bsdf/material.h"
 #include "math/vector.h"
 

@@ -1,4 +1,4 @@
-/* A description becomes a material: the one place where effects are looked at. */
+/* A description becomes a material. Nothing else looks at the effects. */
 #include "bsdf/material.h"
 
 #include "bsdf/lobes/dielectric.h"
@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "math/elementary.h"
 #include "math/half_turn.h"
+#include "sampler/law.h"
 
 /* ---- nothing ---- */
 
@@ -132,6 +133,7 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->unrotated = routines_of(is);
     m->routines = e->axes == VNDF_AXES_ROTATED ? &vndf_routines_rotated : m->unrotated;
     m->steep = is_steep(is);
+    m->turn = vndf_turn_for(vndf_law_steepness(is->distribution));
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_rotation(m, e->axes == VNDF_AXES_ROTATED ? is->rotation : 0.0);
     return VNDF_OK;

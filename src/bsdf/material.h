@@ -1,10 +1,10 @@
-/* What resolution chooses from. */
+/* The choices of vndf_material_resolve. */
 #ifndef VNDF_BSDF_MATERIAL_H
 #define VNDF_BSDF_MATERIAL_H
 
 #include "bsdf/routines.h"
 
-/* Scatters nothing: what is wrong resolves to it, and a hit that sees nothing is one of it. */
+/* Scatters nothing: a wrong description resolves to it, and a hit that sees no surface has it. */
 extern const vndf_material vndf_material_of_nothing;
 
 /* Whether the numbers and the combination of effects make sense; else an error that names what does not. */

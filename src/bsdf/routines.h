@@ -1,5 +1,5 @@
-/* What a material is resolved to: functions made for its set of effects, called through pointers that the set
- * chose. Nothing below asks at a hit whether an effect was wanted.
+/* A material is resolved to functions made for its set of effects, called through pointers. At a hit no code asks
+ * whether an effect is wanted.
  *
  * All of it works in the frame of the hit: turned by the rotation of the axes, and mirrored at the surface if wi
  * came from below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is
@@ -8,11 +8,11 @@
 #define VNDF_BSDF_ROUTINES_H
 
 #include "core/inline.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "vndf_bsdf.h"
 
-/* `prepare` finds material, eta, side and carried, and adds what the others take of the direction; 0 if nothing can
- * be seen from there. */
+/* `prepare` finds material, eta, side and carried set, and sets the members that the other routines read; 0 if nothing
+ * can be seen from there. */
 typedef struct vndf_routines {
     int (*prepare)(vndf_bsdf *bsdf, const vndf_roughness *roughness, vndf_vec3 wi);
     void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
@@ -22,14 +22,14 @@ typedef struct vndf_routines {
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
 } vndf_routines;
 
-/* Lengths are not divided out, and overflow in what they enter: what is far from 1 is invalid, as NaN is. */
+/* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
 VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
 {
     float square = w.x * w.x + w.y * w.y + w.z * w.z;
     return square > 0.25f && square < 4.0f;
 }
 
-/* What the first three calls of vndf_bsdf.h do; 0 if nothing is scattered from there. */
+/* The first three calls of vndf_bsdf.h call it; 0 if nothing is scattered from there. */
 int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
 
 /* Reflectances at a microfacet, `cosine` = wi.wm; in double, so that 1 - f keeps its digits. */

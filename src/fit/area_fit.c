@@ -64,9 +64,9 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     vndf_area_fit_piece(side, a, b, &from, &to);
     vndf_area_piece(h, from, to, piece);
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
-        double y = a + at[i] * h, truth = vndf_side_area(side, y).mass;
-        double error = fabs(vndf_area_piece_at(piece, at[i]) - truth);
-        double whole = side->below ? truth + negligible : truth / vndf_side_share(side, y);
+        double y = a + at[i] * h, reference = vndf_side_area(side, y).mass;
+        double error = fabs(vndf_area_piece_at(piece, at[i]) - reference);
+        double whole = side->below ? reference + negligible : reference / vndf_side_share(side, y);
         worst = fmax(worst, error / whole);
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};

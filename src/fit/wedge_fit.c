@@ -234,21 +234,21 @@ static double control(double a, double halfway, double b, double least)
 
 void vndf_wedge_fit_middle(const vndf_wedge_fit *fit, const vndf_row *a, const vndf_row *b, vndf_row *middle)
 {
-    vndf_row truth;
+    vndf_row reference;
     double total = 0.0;
-    middle->y = truth.y = a->y + (b->y - a->y) / 2;
-    set_aspect(fit, &truth);
-    middle->p = (float)control(a->p, truth.p, b->p, truth.p / 8);
-    middle->r = (float)control(a->r, truth.r, b->r, truth.r / 8);
-    truth.p = (a->p + 2 * middle->p + b->p) / 4;
-    truth.r = (a->r + 2 * middle->r + b->r) / 4;
-    fill_row(fit, &truth);
+    middle->y = reference.y = a->y + (b->y - a->y) / 2;
+    set_aspect(fit, &reference);
+    middle->p = (float)control(a->p, reference.p, b->p, reference.p / 8);
+    middle->r = (float)control(a->r, reference.r, b->r, reference.r / 8);
+    reference.p = (a->p + 2 * middle->p + b->p) / 4;
+    reference.r = (a->r + 2 * middle->r + b->r) / 4;
+    fill_row(fit, &reference);
     for (uint32_t j = 0; j < fit->cells; j++) {
-        middle->mass[j] = (float)control(a->mass[j], truth.mass[j], b->mass[j], UNIFORM / fit->cells);
+        middle->mass[j] = (float)control(a->mass[j], reference.mass[j], b->mass[j], UNIFORM / fit->cells);
         total += middle->mass[j];
     }
     for (uint32_t j = 0; j <= fit->cells; j++) {
-        middle->density[j] = (float)(control(a->density[j], truth.density[j], b->density[j], UNIFORM) / total);
+        middle->density[j] = (float)(control(a->density[j], reference.density[j], b->density[j], UNIFORM) / total);
         if (j < fit->cells)
             middle->mass[j] = (float)(middle->mass[j] / total);
     }
@@ -271,16 +271,17 @@ static double blend(double a, double b, double c, double mix)
 static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
 {
     const vndf_row *a = r.first, *b = r.middle, *c = r.last;
-    vndf_row truth;
+    vndf_row reference;
     double by_mass = 0.0, by_density = 0.0;
-    truth.y = a->y + mix * (c->y - a->y);
-    truth.p = blend(a->p, b->p, c->p, mix);
-    truth.r = blend(a->r, b->r, c->r, mix);
-    fill_row(fit, &truth);
+    reference.y = a->y + mix * (c->y - a->y);
+    reference.p = blend(a->p, b->p, c->p, mix);
+    reference.r = blend(a->r, b->r, c->r, mix);
+    fill_row(fit, &reference);
     for (uint32_t j = 0; j <= fit->cells; j++) {
         double width = (double)fit->node[j < fit->cells ? j + 1 : j] - fit->node[j ? j - 1 : 0];
-        by_mass += j < fit->cells ? fabs(blend(a->mass[j], b->mass[j], c->mass[j], mix) - truth.mass[j]) : 0.0;
-        by_density += width / 2 * fabs(blend(a->density[j], b->density[j], c->density[j], mix) - truth.density[j]);
+        by_mass += j < fit->cells ? fabs(blend(a->mass[j], b->mass[j], c->mass[j], mix) - reference.mass[j]) : 0.0;
+        by_density +=
+            width / 2 * fabs(blend(a->density[j], b->density[j], c->density[j], mix) - reference.density[j]);
     }
     return fmax(by_mass, by_density) / 2;
 }

@@ -5,7 +5,7 @@
 #define VNDF_SAMPLER_FRAME_H
 
 #include "math/vector.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/stretch.h"
 
 #if VNDF_LANES == 1
@@ -24,9 +24,9 @@ VNDF_INLINE vndf_frame vndf_table_frame(const vndf_view *view)
     return f;
 }
 
-VNDF_INLINE vndf_frame vndf_closed_frame(const vndf_view *view)
+VNDF_INLINE vndf_frame vndf_analytic_frame(const vndf_view *view)
 {
-    vndf_stretched w = vndf_stretched_closed(view);
+    vndf_stretched w = vndf_stretched_analytic(view);
     vndf_heading to = vndf_heading_of(&w);
     vndf_frame f = {view->wi,   view->alpha_x,    view->alpha_y, (float)w.s,
                     (float)w.c, (float)to.cosine, (float)to.sine};

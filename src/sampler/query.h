@@ -3,7 +3,7 @@
 #ifndef VNDF_SAMPLER_QUERY_H
 #define VNDF_SAMPLER_QUERY_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 
 /* With which vndf_sample draws wm, wi.wm > 0, the view is valid. */
 double vndf_normal_pdf(const vndf_view *view, vndf_normal wm);

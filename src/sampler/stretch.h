@@ -39,7 +39,7 @@ VNDF_INLINE vndf_stretched vndf_stretched_of(const vndf_view *view)
 }
 
 /* The same of a closed form. */
-VNDF_INLINE vndf_stretched vndf_stretched_closed(const vndf_view *view)
+VNDF_INLINE vndf_stretched vndf_stretched_analytic(const vndf_view *view)
 {
     return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, VNDF_LENGTH_ROOT);
 }

@@ -7,7 +7,7 @@
 #include "measure/bins.h"
 #include "cli/sort.h"
 #include "measure/pearson.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "oracle/oracle.h"
 #include "cli/random.h"
 #include "measure/statistics.h"
@@ -145,10 +145,11 @@ static void test_all_normals(method m, const vndf_surface *surface, double law(d
 
 /* ---- any D ------------------------------------------------------------------------------------- */
 
-static bench_findings findings_of(const method *m, const method_truth *truth, double theta, size_t replicates)
+static bench_findings findings_of(const method *m, const method_reference *reference, double theta,
+                                  size_t replicates)
 {
     bench_findings f = {0};
-    TEST(bench_integrate(m, truth, theta, replicates, &f));
+    TEST(bench_integrate(m, reference, theta, replicates, &f));
     return f;
 }
 
@@ -164,12 +165,12 @@ static void release(method *m)
         m->release((void *)m->state);
 }
 
-/* Unbiased: the albedo is the truth's within the noise at 60 and 85 degrees, and the noise is small. */
-static void test_unbiased(method m, const method_truth *truth)
+/* Unbiased: the albedo is the reference's within the noise at 60 and 85 degrees, and the noise is small. */
+static void test_unbiased(method m, const method_reference *reference)
 {
-    method ours = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
+    method ours = method_ours(reference->canonical.distribution, "reference", VNDF_INSTRUCTIONS_BEST);
     for (double theta = 60; TEST(m.each != NULL) && theta < 90; theta += 25) {
-        bench_findings f = findings_of(&m, truth, theta, 64), t = findings_of(&ours, truth, theta, 64);
+        bench_findings f = findings_of(&m, reference, theta, 64), t = findings_of(&ours, reference, theta, 64);
         if (!(TEST(albedo_agrees(&f, &t)) & TEST(f.albedo_noise < 0.02 * f.albedo) & TEST(t.albedo_noise < 1e-3)))
             fprintf(stderr, "  %s at %g: %g +- %g, not %g\n", m.name, theta, f.albedo, f.albedo_noise, t.albedo);
     }
@@ -177,16 +178,16 @@ static void test_unbiased(method m, const method_truth *truth)
 }
 
 /* The inverse CDFs are seen to be biased at 85 degrees, the smaller tables farther off. */
-static void test_biased(const method_truth *truth)
+static void test_biased(const method_reference *reference)
 {
-    method ours = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
-    bench_findings t = findings_of(&ours, truth, 85, 64);
+    method ours = method_ours(reference->canonical.distribution, "reference", VNDF_INSTRUCTIONS_BEST);
+    bench_findings t = findings_of(&ours, reference, 85, 64);
     double tv[2];
     for (size_t i = 0; i < 2; i++) {
-        method m = method_inverse_tables(truth, i ? 256 : 64);
+        method m = method_inverse_tables(reference, i ? 256 : 64);
         if (!TEST(m.each != NULL))
             return;
-        bench_findings f = findings_of(&m, truth, 85, 64);
+        bench_findings f = findings_of(&m, reference, 85, 64);
         tv[i] = f.tv;
         TEST(!albedo_agrees(&f, &t));
         TEST(f.max_weight > 1.1);
@@ -200,24 +201,24 @@ static void test_biased(const method_truth *truth)
 /* Histograms of an exact method floor at 0.01; densities at float precision. */
 static void test_floor(void)
 {
-    method_truth truth = {{vndf_ggx(), 1, 1}, 1};
+    method_reference reference = {{vndf_ggx(), 1, 1}, 1};
     method m = method_ggx_caps();
     for (double theta = 0; theta < 90; theta += 40) {
         m.biased = 1;
-        TEST(findings_of(&m, &truth, theta, 64).tv < 0.01);
+        TEST(findings_of(&m, &reference, theta, 64).tv < 0.01);
         m.biased = 0;
-        TEST(findings_of(&m, &truth, theta, 16).tv < 1e-6);
+        TEST(findings_of(&m, &reference, theta, 16).tv < 1e-6);
     }
 }
 
 /* The samples of a small table show the error that its certificate states, and no more. */
-static void test_small_table(const method_truth *truth, const vndf_distribution *small)
+static void test_small_table(const method_reference *reference, const vndf_distribution *small)
 {
     float claimed = vndf_distribution_info(small).certificate.tv;
     method m = method_ours(small, "small", VNDF_INSTRUCTIONS_BEST);
     double worst = 0;
     for (double theta = 0; theta < 90; theta += 15)
-        worst = fmax(worst, findings_of(&m, truth, theta, 16).tv);
+        worst = fmax(worst, findings_of(&m, reference, theta, 16).tv);
     TEST(worst <= 1.02 * (double)claimed && worst > 0.02 * (double)claimed);
 }
 
@@ -255,19 +256,19 @@ static void each_away(const method *m, const method_inputs *in, const method_out
 /* What is wrong is noticed: a length, a bit of a batch, normals that face away. */
 static void test_verify(void)
 {
-    method_truth truth = {{vndf_ggx(), 1, 1}, 1};
+    method_reference reference = {{vndf_ggx(), 1, 1}, 1};
     method scalar = method_ours(vndf_ggx(), "", VNDF_INSTRUCTIONS_BEST), m = scalar;
     method batch = method_ours(vndf_ggx(), "", VNDF_INSTRUCTIONS_PORTABLE);
     bench_block *b = malloc(sizeof *b);
-    TEST(b && bench_verify(&m, &truth, b, 1) && bench_verify(&batch, &truth, b, 1));
+    TEST(b && bench_verify(&m, &reference, b, 1) && bench_verify(&batch, &reference, b, 1));
     m.each = each_long;
-    TEST(b && !bench_verify(&m, &truth, b, 1));
+    TEST(b && !bench_verify(&m, &reference, b, 1));
     m.each = each_away;
-    TEST(b && !bench_verify(&m, &truth, b, 1));
+    TEST(b && !bench_verify(&m, &reference, b, 1));
     m.each = each_other_bits;
-    TEST(b && bench_verify(&m, &truth, b, 1)); /* nobody to compare with */
+    TEST(b && bench_verify(&m, &reference, b, 1)); /* nobody to compare with */
     m.same_bits = scalar.each;
-    TEST(b && !bench_verify(&m, &truth, b, 1));
+    TEST(b && !bench_verify(&m, &reference, b, 1));
     free(b);
 }
 
@@ -277,10 +278,10 @@ static vndf_distribution *table_of(const vndf_source *source, size_t bytes)
     return vndf_build(source, &options, NULL, NULL);
 }
 
-static method_truth truth_of(const vndf_distribution *d)
+static method_reference reference_of(const vndf_distribution *d)
 {
     float scale = (float)vndf_distribution_info(d).scale;
-    return (method_truth){{d, 1 / scale, 1 / scale}, scale};
+    return (method_reference){{d, 1 / scale, 1 / scale}, scale};
 }
 
 static void test_any(void)
@@ -289,14 +290,14 @@ static void test_any(void)
     vndf_distribution *fine = table_of(source, 16384), *small = table_of(source, 2048);
     vndf_distribution *same = table_of(ggx, 16384);
     if (TEST(fine && small && same)) {
-        method_truth truth = truth_of(fine), truth_ggx = truth_of(same);
-        method normals = method_any_all_normals(&truth_ggx);
+        method_reference reference = reference_of(fine), reference_ggx = reference_of(same);
+        method normals = method_any_all_normals(&reference_ggx);
         test_all_normals(normals, &(vndf_surface){same, 0.5f, 0.5f}, law_of_ggx, 0.5);
         release(&normals);
-        test_unbiased(method_any_all_normals(&truth), &truth);
-        test_unbiased(method_warp(&truth, 32), &truth);
-        test_biased(&truth);
-        test_small_table(&truth, small);
+        test_unbiased(method_any_all_normals(&reference), &reference);
+        test_unbiased(method_warp(&reference, 32), &reference);
+        test_biased(&reference);
+        test_small_table(&reference, small);
     }
     vndf_free(fine);
     vndf_free(small);

@@ -5,7 +5,7 @@
 
 /* Arguments of lgamma are so large that its result has a relative error of 1e-16; of Beta this is as much times
  * the logarithm, hence long double. */
-static double truth(double a, double b)
+static double reference(double a, double b)
 {
     long double x = a, y = b;
     return (double)expl(lgammal(x) + lgammal(y) - lgammal(x + y));
@@ -16,7 +16,8 @@ static void test_grid(void)
     double worst = 0;
     for (double x = 0; x <= 8; x += 0.0625)
         for (double y = 0; y <= 8; y += 0.0625) {
-            double a = x == 0 ? 1 : 1 + pow(10, x - 4), b = y == 0 ? 1 : 1 + pow(10, y - 4), want = truth(a, b);
+            double a = x == 0 ? 1 : 1 + pow(10, x - 4), b = y == 0 ? 1 : 1 + pow(10, y - 4),
+                   want = reference(a, b);
             if (want < 1e-290)
                 continue;
             worst = fmax(worst, fabs(vndf_beta(a, b) / want - 1));

@@ -116,9 +116,9 @@ static void test_ndf(const char *name, unsigned long long seed)
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"ggx",  "beckmann", "student-t-2.5",
-                                        "hazy", "epd-0.6",  "sgd-blue-metallic-paint-b"};
-    for (size_t i = 0; i < 6; i++)
+    static const char *const names[] = {
+        "ggx", "beckmann", "student-t-2.5", "hazy", "epd-0.6", "sgd-blue-metallic-paint-b", "abc-two-layer-gold"};
+    for (size_t i = 0; i < 7; i++)
         if (oracle_wanted(arguments, argument, i, names[i]))
             test_ndf(names[i], 1000 * i + 23);
     return test_done();

@@ -196,11 +196,11 @@ static int remake_and_certify(const subject *of, vndf_error *error)
     return good;
 }
 
-static int truth(const subject *of, vndf_error *error)
+static int reference(const subject *of, vndf_error *error)
 {
     vndf_source *source = of->make(error);
-    vndf_truth *made = source ? vndf_truth_from(source, error) : NULL;
-    vndf_truth_free(made);
+    vndf_reference *made = source ? vndf_reference_from(source, error) : NULL;
+    vndf_reference_free(made);
     vndf_source_free(source);
     return made != NULL;
 }
@@ -240,8 +240,8 @@ static void try_all(const char *what, operation *run, const subject *of, long ev
             of->make ? of->name : "shipped table", n, tries);
 }
 
-/* In long_allocation every allocation of every build fails, else all of those that make a source or a truth and some
- * of a build's. */
+/* In long_allocation every allocation of every build fails, else all of those that make a source or a reference
+ * and some of a build's. */
 int main(void)
 {
     const subject table = {shipped, NULL, 0};
@@ -249,7 +249,7 @@ int main(void)
     long step = (long)test_amount(97, 97, 1);
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
         try_all("source", make_alone, &sources[i], 1000, 1);
-        try_all("truth", truth, &sources[i], 1000, 1);
+        try_all("reference", reference, &sources[i], 1000, 1);
         try_all("build", build, &sources[i], all ? 1000 : 25, step);
     }
     try_all("build", build, &to_target, all ? 1000 : 25, step);

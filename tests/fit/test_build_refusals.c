@@ -73,10 +73,10 @@ static void test_resolved(const char *slope)
 {
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_expression(slope, NULL, 0, &error);
-    vndf_truth *truth = vndf_truth_from(source, &error);
-    if (!TEST(truth != NULL))
+    vndf_reference *reference = vndf_reference_from(source, &error);
+    if (!TEST(reference != NULL))
         fprintf(stderr, "  %s: %s\n", slope, error.message);
-    vndf_truth_free(truth);
+    vndf_reference_free(reference);
     vndf_source_free(source);
 }
 

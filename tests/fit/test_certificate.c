@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/certificate/survey.h"
+#include "fit/certificate/validate.h"
 #include "oracle/oracle.h"
 #include "harness/constants.h"
 #include "harness/test.h"
@@ -94,13 +94,13 @@ typedef struct worst {
     double tv, tv_theta, above, max_weight, area_error;
 } worst;
 
-static void look(vndf_survey *v, double theta, worst *w)
+static void look(vndf_validation *v, double theta, worst *w)
 {
     double t = theta * PI / 180, s = sin(t), c = cos(t), across = s * v->profile->scale, length = hypot(across, c);
     if (!(vndf_profile_area(v->profile, across, c) > 1e-10 * vndf_profile_area(v->profile, v->profile->scale, 0)))
         return;
     v->profile->guard->spent = 0;
-    vndf_finding f = vndf_survey_direction(v, across / length, c / length);
+    vndf_finding f = vndf_validation_direction(v, across / length, c / length);
     TEST(f.measured);
     if (f.tv > w->tv) {
         w->tv = f.tv;
@@ -112,7 +112,7 @@ static void look(vndf_survey *v, double theta, worst *w)
 }
 
 /* Even in the angle, and even in the logarithm of the slope at which the horizon of wi cuts, to either side. */
-static worst look_all(vndf_survey *v, int count)
+static worst look_all(vndf_validation *v, int count)
 {
     worst w = {0, 0, 0, 0, 0};
     for (int i = 0; i < count; i++) {
@@ -129,10 +129,10 @@ static void test_dense(const struct subject *s, const vndf_source *source, const
 {
     vndf_guard guard = vndf_guard_from(NULL, NULL);
     vndf_profile *profile = vndf_profile_from(source, NULL, &guard, NULL);
-    vndf_survey v;
+    vndf_validation v;
     if (!TEST(profile != NULL))
         return;
-    if (TEST(vndf_survey_from(&v, table, profile))) {
+    if (TEST(vndf_validation_from(&v, table, profile))) {
         worst w = look_all(&v, count);
         int good = TEST(w.tv <= 1.1 * (double)claim->tv + 1e-7) &
                    TEST(w.above <= 1.1 * (double)claim->tv_above + 1e-7) &
@@ -147,7 +147,7 @@ static void test_dense(const struct subject *s, const vndf_source *source, const
                     (double)claim->tv_above, (double)claim->max_weight, (double)claim->area_error, w.tv,
                     w.tv_theta, w.above, w.max_weight, w.area_error);
     }
-    vndf_survey_free(&v);
+    vndf_validation_free(&v);
     vndf_profile_free(profile);
 }
 

@@ -1,7 +1,7 @@
 /* The bins of the chi-square test hold the whole density: their sum is 1 within 2e-6 where a lobe has parts of
  * very different width, an unbounded peak, a tail that barely has an area, a ring, or a jump, up to grazing. */
 #include "measure/bins.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "harness/test.h"
 
 typedef struct view_case {

@@ -1,4 +1,4 @@
-/* Slow truths for the tests, in double and sharing no code with src/: the distributions they use, written
+/* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written
  * out once more, with quadrature of their own (tanh-sinh panels; Takahasi & Mori, "Double exponential
  * formulas for numerical integration", Publ. RIMS Kyoto 9, 1974).
  *

@@ -42,7 +42,7 @@ static int open_path(float_subject *subject, const char *path)
     subject->table = vndf_load(path, &error);
     if (!subject->table)
         fprintf(stderr, "%s\n", error.message);
-    return subject->table && oracle_table_read(&subject->truth, path);
+    return subject->table && oracle_table_read(&subject->reference, path);
 }
 
 int float_subject_open(float_subject *subject, const char *name, const char *scratch)
@@ -71,7 +71,7 @@ int float_subject_open(float_subject *subject, const char *name, const char *scr
 void float_subject_close(float_subject *subject)
 {
     vndf_free(subject->table);
-    oracle_table_free(&subject->truth);
+    oracle_table_free(&subject->reference);
 }
 
 /* ---- errors ---- */
@@ -110,7 +110,7 @@ static double unless_blurred(const float_subject *subject, const oracle_query *q
     double range[2];
     if (error <= FLOAT_LIMIT)
         return error;
-    oracle_table_blur(&subject->truth, q, ndf, range);
+    oracle_table_blur(&subject->reference, q, ndf, range);
     if (!(range[0] <= got && got <= range[1]))
         return error;
     *aside = 1;
@@ -130,8 +130,8 @@ static double density_error(const float_subject *subject, float_quantity quantit
     else
         density = quantity == FLOAT_NDF ? vndf_ndf(&surface, wm) : vndf_pdf(&view, wm);
     oracle_query q = query_of(at, wm);
-    size_t n = quantity == FLOAT_NDF ? oracle_table_ndfs(&subject->truth, &q, value)
-                                     : oracle_table_densities(&subject->truth, &q, value);
+    size_t n = quantity == FLOAT_NDF ? oracle_table_ndfs(&subject->reference, &q, value)
+                                     : oracle_table_densities(&subject->reference, &q, value);
     if (!(value[0] > least_true))
         return -1;
     double error = nearest((double)density, value, n, aside);
@@ -145,20 +145,20 @@ static double direction_error(const float_subject *subject, float_quantity quant
     double got, want;
     if (quantity == FLOAT_AREA) {
         got = (double)vndf_projected_area(&surface, at->wi);
-        want = oracle_table_area(&subject->truth, &q);
+        want = oracle_table_area(&subject->reference, &q);
     } else if (quantity == FLOAT_LAMBDA) {
         got = (double)vndf_lambda(&surface, at->wi);
-        want = oracle_table_lambda(&subject->truth, &q);
+        want = oracle_table_lambda(&subject->reference, &q);
     } else {
         got = (double)vndf_g1(&surface, at->wi);
-        want = oracle_table_g1(&subject->truth, &q);
+        want = oracle_table_g1(&subject->reference, &q);
     }
     return fabs(want) > least_true ? error_of(got, want) : -1;
 }
 
 static int is_valid(const float_subject *subject, const float_point *at)
 {
-    double x = (double)at->alpha_x * subject->truth.scale, y = (double)at->alpha_y * subject->truth.scale;
+    double x = (double)at->alpha_x * subject->reference.scale, y = (double)at->alpha_y * subject->reference.scale;
     int zero = at->wi.x == 0 && at->wi.y == 0 && at->wi.z == 0;
     return x > 1.001e-18 && x < 0.999e18 && y > 1.001e-18 && y < 0.999e18 && !zero;
 }

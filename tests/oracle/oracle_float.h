@@ -25,7 +25,7 @@ const char *float_quantity_name(float_quantity quantity);
 typedef struct float_subject {
     char name[64];
     vndf_distribution *table;
-    oracle_table truth;
+    oracle_table reference;
 } float_subject;
 
 /* `name` is a file of tables/ or tests/corpus/table/, or "BYTES SLOPE" or "BYTES family NAME": the table of P22 =

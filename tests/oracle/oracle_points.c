@@ -33,13 +33,13 @@ static vndf_vec3 unit(double x, double y, double z)
 
 static vndf_vec3 direction_to(const float_subject *subject, const float_point *at, double s, double phi, double c)
 {
-    double scale = subject->truth.scale;
+    double scale = subject->reference.scale;
     return unit(s * cos(phi) / ((double)at->alpha_x * scale), s * sin(phi) / ((double)at->alpha_y * scale), c);
 }
 
 static vndf_vec3 normal_at(const float_subject *subject, const float_point *at, double x, double phi, double z)
 {
-    double scale = subject->truth.scale;
+    double scale = subject->reference.scale;
     return unit(x * cos(phi) * (double)at->alpha_x * scale, x * sin(phi) * (double)at->alpha_y * scale, z);
 }
 
@@ -135,7 +135,7 @@ static double about_one(unsigned long long *state)
 static vndf_vec3 at_knot(const float_subject *subject, const float_point *at, double phi,
                          unsigned long long *state)
 {
-    const oracle_table *t = &subject->truth;
+    const oracle_table *t = &subject->reference;
     size_t j = 1 + (size_t)one_of(state, (int)t->count - 1);
     return normal_at(subject, at, t->x[j] * about_one(state), phi, t->z[j]);
 }
@@ -144,7 +144,7 @@ static vndf_vec3 at_knot(const float_subject *subject, const float_point *at, do
 static void cut_at_knot(const float_subject *subject, float_point *at, double phi, double a,
                         unsigned long long *state)
 {
-    const oracle_table *t = &subject->truth;
+    const oracle_table *t = &subject->reference;
     size_t j = 1 + (size_t)one_of(state, (int)t->count - 1);
     at->wi = direction_to(subject, at, t->z[j], phi - a, -cos(a) * t->x[j] * about_one(state));
 }
@@ -153,7 +153,7 @@ static void cut_at_knot(const float_subject *subject, float_point *at, double ph
 static void at_row(const float_subject *subject, float_point *at, double phi, unsigned long long *state)
 {
     int below = one_of(state, 2);
-    const oracle_wedge *w = below ? &subject->truth.below : &subject->truth.above;
+    const oracle_wedge *w = below ? &subject->reference.below : &subject->reference.above;
     double y = one_of(state, 2) ? w->row_y[one_of(state, (int)(w->rows + 1) / 2)]
                                 : w->knot_y[one_of(state, (int)w->knots)];
     y = fmin(y * about_one(state), 1);

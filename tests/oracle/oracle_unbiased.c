@@ -21,7 +21,7 @@ static void add_point(const oracle_point *point, void *user)
     double f[ORACLE_FUNCTIONS];
     evaluate(e, point->wm, f);
     for (int i = 0; i < ORACLE_FUNCTIONS; i++)
-        e->truth[i] += f[i] * point->truth * point->weight;
+        e->reference[i] += f[i] * point->reference * point->weight;
 }
 
 oracle_expected oracle_expect(const oracle *o, const vndf_surface *surface, vndf_vec3 wi)
@@ -44,15 +44,15 @@ void oracle_averages(const oracle *o, const vndf_distribution *table, const orac
         vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
         double f[ORACLE_FUNCTIONS], weight = oracle_visible(o, &surface, expected->wi, wm, area) / (double)pdf;
         evaluate(expected, wm, f);
-        for (int i = 0; i < ORACLE_FUNCTIONS; i++) { /* about the truth, so that squares keep their digits */
-            double term = f[i] * weight - expected->truth[i];
+        for (int i = 0; i < ORACLE_FUNCTIONS; i++) { /* about the reference, so that squares keep their digits */
+            double term = f[i] * weight - expected->reference[i];
             sum[i] += term;
             squares[i] += term * term;
         }
     }
     for (int i = 0; i < ORACLE_FUNCTIONS; i++) {
         double mean = sum[i] / (double)samples, variance = squares[i] / (double)samples - mean * mean;
-        oracle_average one = {expected->truth[i] + mean, sqrt(variance / (double)samples)};
+        oracle_average one = {expected->reference[i] + mean, sqrt(variance / (double)samples)};
         average[i] = one;
     }
 }

@@ -3,7 +3,7 @@
 #ifndef TESTS_ORACLE_ORACLE_UNBIASED_H
 #define TESTS_ORACLE_ORACLE_UNBIASED_H
 
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 
 enum { ORACLE_FUNCTIONS = 6 };
 
@@ -12,7 +12,7 @@ enum { ORACLE_FUNCTIONS = 6 };
 typedef struct oracle_expected {
     float alpha_x, alpha_y;
     vndf_vec3 wi;
-    double middle, truth[ORACLE_FUNCTIONS];
+    double middle, reference[ORACLE_FUNCTIONS];
 } oracle_expected;
 oracle_expected oracle_expect(const oracle *o, const vndf_surface *surface, vndf_vec3 wi);
 

@@ -52,7 +52,7 @@ static void test_noise(const report_subject *s)
     report_integral integral[2];
     report_variance_measure(s, integral);
     for (int i = 0; i < 2; i++) {
-        TEST(integral[i].truth > 0.5 && integral[i].truth < 1 && integral[i].count >= 4);
+        TEST(integral[i].reference > 0.5 && integral[i].reference < 1 && integral[i].count >= 4);
         for (size_t m = 0; m < integral[i].count; m++) {
             double fall = integral[i].noise[m].error[REPORT_COUNTS - 1] / integral[i].noise[m].error[0];
             TEST(fall > 0.5 / 64 && fall < 1.5 / 64); /* 32 groups: four times a spread of 0.125 */

@@ -123,7 +123,7 @@ static double wedge_of(line *l, const oracle_wedge *w, double y, int away)
 
 static void test_view(const float_subject *subject, double degrees)
 {
-    const oracle_table *t = &subject->truth;
+    const oracle_table *t = &subject->reference;
     double s = sin(degrees * PI / 180), c = cos(degrees * PI / 180), q[21];
     line l = {t, {{s, 0, c}, {1 / t->scale, 1 / t->scale}, {0, 0, 1}}, 1, 0, 0};
     for (int i = 0; i <= 20; i++)

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "measure/chi_square.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "measure/statistics.h"
 #include "harness/test.h"
 

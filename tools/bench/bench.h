@@ -1,8 +1,8 @@
-/* What a visible normal costs, method by method: rows that `vndf bench` prints and `vndf report` draws.
+/* The cost of a visible normal, method by method: rows that `vndf bench` prints and `vndf report` draws.
  *
  * Three distributions are sampled: GGX and Beckmann by their closed forms, and one that the caller brings by
- * tables and by the other ways there are for any D. All methods run in one process and take turns; each is
- * verified before its time counts. What is measured, and how, stands with bench_row. */
+ * tables and by the other published ways for any D. All methods run in one process and take turns; each is
+ * verified before its time counts. bench_row says what is measured, and how. */
 #ifndef TOOLS_BENCH_BENCH_H
 #define TOOLS_BENCH_BENCH_H
 
@@ -19,7 +19,7 @@ typedef enum bench_kind {
     BENCH_MOVE       /* moving the bytes of a batch: times alone */
 } bench_kind;
 
-/* NaN is what does not apply or was not measured. */
+/* NaN: does not apply, or was not measured. */
 typedef struct bench_row {
     char method[64];       /* "GGX spherical caps (2023)", "table 16 KiB" ... */
     char distribution[64]; /* what it samples: "ggx", "beckmann", the caller's name for the source */
@@ -46,7 +46,7 @@ typedef struct bench_rows {
 } bench_rows;
 
 typedef struct bench_plan {
-    const vndf_source *source; /* what the tables are of */
+    const vndf_source *source; /* of the tables */
     const char *name;          /* what to call it */
     double seconds;            /* to spend in all, roughly; building the tables may take longer */
     const char *only;          /* NULL, or a part of the method, distribution or instructions of the rows wanted */

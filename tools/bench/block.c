@@ -1,4 +1,4 @@
-/* Inputs of the benchmark and where results go: 1024 samples, 40 KB as a structure of arrays, so
+/* Inputs of the benchmark and room for its results: 1024 samples, 40 KB as a structure of arrays, so
  * that they stay in the first cache. */
 #include <math.h>
 
@@ -20,9 +20,9 @@ method_outputs bench_block_outputs(bench_block *block)
     return (method_outputs){block->x, block->y, block->z, block->pdf};
 }
 
-static void fill_normals(bench_block *block, const method_truth *truth)
+static void fill_normals(bench_block *block, const method_reference *reference)
 {
-    vndf_batch batch = {truth->canonical.distribution,
+    vndf_batch batch = {reference->canonical.distribution,
                         BENCH_BLOCK,
                         0,
                         VNDF_INSTRUCTIONS_BEST,
@@ -35,7 +35,7 @@ static void fill_normals(bench_block *block, const method_truth *truth)
 }
 
 /* A cosine of at least 2^-25: exactly along the surface several published methods divide by zero. */
-void bench_block_fill(bench_block *block, const method_truth *truth, uint64_t seed)
+void bench_block_fill(bench_block *block, const method_reference *reference, uint64_t seed)
 {
     random_stream stream = random_from(seed);
     for (size_t i = 0; i < BENCH_BLOCK; i++) {
@@ -44,11 +44,11 @@ void bench_block_fill(bench_block *block, const method_truth *truth, uint64_t se
         block->wi_x[i] = s * cosf(phi);
         block->wi_y[i] = s * sinf(phi);
         block->wi_z[i] = z;
-        block->alpha[i] = (0.05f + 0.9f * random_float(&stream)) / truth->scale;
+        block->alpha[i] = (0.05f + 0.9f * random_float(&stream)) / reference->scale;
         block->u1[i] = random_float(&stream);
         block->u2[i] = random_float(&stream);
     }
-    fill_normals(block, truth);
+    fill_normals(block, reference);
 }
 
 void bench_block_aim(bench_block *block, vndf_vec3 wi, float alpha)

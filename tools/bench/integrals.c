@@ -5,13 +5,12 @@
  *     F(wi.wm) D(wm) G2(wi, wo) (wi.wm) / (wi.z pdf)      is an estimate of the albedo              (1)
  *
  * of gold at 550 nm, n = 0.43, k = 2.455 (P. Johnson, R. Christy, Phys. Rev. B 6, 1972). The same where wo falls
- * into a cone of 5 degrees and 0 elsewhere is that of a small light's radiance. D and Lambda are the truth's. What
- * (1) takes beside its normal and density costs all methods the same, and is no part of the time that efficiencies
- * count.
+ * into a cone of 5 degrees and 0 elsewhere is the radiance of a small light. D and Lambda are those of the reference.
+ * The other terms of (1) cost all methods the same, and efficiencies do not count their time.
  *
  * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of
- * max(0, 1 - Dv/p) over the samples. Where the density told is not the one drawn, histograms of the samples and of
- * the truth's are compared instead, half the sum of differences: with 384 bins and 64 replicates that floors at
+ * max(0, 1 - Dv/p) over the samples. Where a method draws with another density than it tells, its histogram is
+ * compared with that of the reference, half the sum of differences: with 384 bins and 64 replicates that floors at
  * some 0.007, and the largest weight, over bins that hold samples enough, at 1.1. A hole is a bin that no sample
  * meets: infinite weight.
  *
@@ -22,7 +21,7 @@
 #include <string.h>
 
 #include "bench/parts.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 
 enum { BINS_ACROSS = 24, BINS_AROUND = 16, BINS = BINS_ACROSS * BINS_AROUND, HOLE_LEAST = 20, RATIO_LEAST = 200 };
 
@@ -30,7 +29,7 @@ static const double gold_n = 0.43, gold_k = 2.455, alpha_measured = 0.5;
 
 typedef struct integral {
     const method *m;
-    method_truth truth;
+    method_reference reference;
     vndf_vec3 wi, light;
     float alpha, area, lambda, cone;
     float *d, *wo_lambda;        /* of a block */
@@ -76,7 +75,7 @@ static void mirror(const integral *x)
 static void evaluate(const integral *x)
 {
     bench_block *b = x->block, *t = x->turned;
-    vndf_batch batch = {x->truth.canonical.distribution,
+    vndf_batch batch = {x->reference.canonical.distribution,
                         BENCH_BLOCK,
                         VNDF_SHARED_ALPHA,
                         VNDF_INSTRUCTIONS_BEST,
@@ -112,7 +111,7 @@ static size_t bin_of(const integral *x, size_t i)
 {
     const bench_block *b = x->block;
     double across = sqrt((double)b->x[i] * (double)b->x[i] + (double)b->y[i] * (double)b->y[i]);
-    double slope = across / ((double)b->z[i] * (double)x->alpha * (double)x->truth.scale);
+    double slope = across / ((double)b->z[i] * (double)x->alpha * (double)x->reference.scale);
     double turn = atan2(fabs((double)b->y[i]), (double)b->x[i]) / acos(-1.0);
     size_t radius = (size_t)((b->z[i] > 0 ? slope / (1 + slope) : 1) * BINS_ACROSS);
     size_t around = (size_t)(turn * BINS_AROUND);
@@ -195,22 +194,22 @@ static void measure(integral *x, size_t replicates, sums *s, bench_findings *fin
     run_blocks(x, s, replicates);
     conclude(s, replicates, findings);
     if (x->m->biased) {
-        method truth = method_ours(x->truth.canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
-        x->m = &truth;
+        method reference = method_ours(x->reference.canonical.distribution, "reference", VNDF_INSTRUCTIONS_BEST);
+        x->m = &reference;
         run_blocks(x, s + 1, replicates);
         compare_bins(s, s + 1, (double)replicates * BENCH_BLOCK, findings);
     }
 }
 
-int bench_integrate(const method *m, const method_truth *truth, double theta, size_t replicates,
+int bench_integrate(const method *m, const method_reference *reference, double theta, size_t replicates,
                     bench_findings *findings)
 {
     const double degree = acos(-1.0) / 180;
-    integral x = {.m = m, .truth = *truth, .wi = direction_from(theta, 0)};
+    integral x = {.m = m, .reference = *reference, .wi = direction_from(theta, 0)};
     x.light = direction_from(fabs(theta - 15), 160);
-    x.alpha = (float)alpha_measured / truth->scale;
+    x.alpha = (float)alpha_measured / reference->scale;
     x.cone = (float)cos(5 * degree);
-    vndf_surface surface = {truth->canonical.distribution, x.alpha, x.alpha};
+    vndf_surface surface = {reference->canonical.distribution, x.alpha, x.alpha};
     x.area = vndf_projected_area(&surface, x.wi);
     x.lambda = vndf_lambda(&surface, x.wi);
     sums *s = malloc(2 * sizeof *s);

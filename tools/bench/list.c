@@ -1,4 +1,4 @@
-/* Which methods the benchmark has, each of them made ready if the plan wants it. */
+/* The methods of the benchmark. Each is made ready if the plan wants it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,14 +69,14 @@ static void add_ours(bench_list *list, const bench_plan *plan, bench_subject sub
 }
 
 /* The published ways for any D. All three makers are asked alike: the CDF has no side. */
-static method any_all_normals(const method_truth *truth, size_t side)
+static method any_all_normals(const method_reference *reference, size_t side)
 {
     (void)side;
-    return method_any_all_normals(truth);
+    return method_any_all_normals(reference);
 }
 
 static const struct {
-    method (*make)(const method_truth *truth, size_t side);
+    method (*make)(const method_reference *reference, size_t side);
     size_t side;
     int yardstick;
 } any_methods[] = {
@@ -107,9 +107,9 @@ static void add_beckmann(bench_list *list, const bench_plan *plan)
 
 static void add_any(bench_list *list, const bench_plan *plan)
 {
-    const method_truth *truth = &list->truth[BENCH_USER];
+    const method_reference *reference = &list->reference[BENCH_USER];
     for (size_t i = 0; i < ANY_METHODS; i++)
-        add(list, plan, BENCH_USER, any_methods[i].make(truth, any_methods[i].side), any_methods[i].yardstick);
+        add(list, plan, BENCH_USER, any_methods[i].make(reference, any_methods[i].side), any_methods[i].yardstick);
 }
 
 static void add_calls(bench_list *list, const bench_plan *plan, const vndf_distribution *d)
@@ -180,7 +180,7 @@ static void keep(bench_list *list, const bench_plan *plan, const vndf_distributi
         add_calls(list, plan, table);
 }
 
-/* The tables that are wanted, and the one that becomes the truth. */
+/* The tables that are wanted, and the one that becomes the reference. */
 static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
@@ -201,13 +201,13 @@ static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fi
 
 /* ---- all of it --------------------------------------------------------------------------------- */
 
-static method_truth truth_of(const vndf_distribution *d, double scale)
+static method_reference reference_of(const vndf_distribution *d, double scale)
 {
     float alpha = (float)(1 / scale);
-    return (method_truth){{d, alpha, alpha}, (float)scale};
+    return (method_reference){{d, alpha, alpha}, (float)scale};
 }
 
-/* The largest table is the truth; in a hurry, or where few rows are asked for, one of 16 KiB has to do. */
+/* The largest table is the reference; in a hurry, or where few rows are asked for, one of 16 KiB has to do. */
 static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error *error)
 {
     size_t fine = at->plan->seconds < 10 ? DEFAULT_TABLE : FINE_TABLE;
@@ -215,7 +215,7 @@ static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error 
     if (status != VNDF_OK)
         return status;
     const vndf_distribution *finest = list->table[list->table_count - 1];
-    list->truth[BENCH_USER] = truth_of(finest, vndf_distribution_info(finest).scale);
+    list->reference[BENCH_USER] = reference_of(finest, vndf_distribution_info(finest).scale);
     add_any(list, at->plan);
     return VNDF_OK;
 }
@@ -252,8 +252,8 @@ static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
 vndf_status bench_list_make(bench_list *list, const bench_clock *at, vndf_error *error)
 {
     *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}, .borrowed = at->plan->ready_count > 0};
-    list->truth[BENCH_GGX] = truth_of(vndf_ggx(), 1);
-    list->truth[BENCH_BECKMANN] = truth_of(vndf_beckmann(), 1);
+    list->reference[BENCH_GGX] = reference_of(vndf_ggx(), 1);
+    list->reference[BENCH_BECKMANN] = reference_of(vndf_beckmann(), 1);
     add_ggx(list, at->plan);
     add_beckmann(list, at->plan);
     if (user_wanted(list, at->plan)) {

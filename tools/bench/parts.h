@@ -1,8 +1,8 @@
-/* The inside of the benchmark, for its own files and its tests:
+/* The parts of the benchmark, for its own files and its tests:
  *
  *     list.c       which methods, made ready; the tables are built here
  *     block.c      inputs and outputs of BENCH_BLOCK samples
- *     verify.c     whether what a method returns is worth timing
+ *     verify.c     whether the results of a method are right, before it is timed
  *     time.c       time, in turns
  *     integrals.c  error, variance and bias of one method for one direction
  *     run.c        all of these in order, into rows */
@@ -22,7 +22,7 @@ typedef struct bench_clock {
     double start; /* seconds */
 } bench_clock;
 
-/* Tells the progress; 0 if that wants to stop. */
+/* Reports progress; 0 if the caller wants to stop. */
 int bench_go_on(const bench_clock *at, const char *what);
 
 /* ---- methods ----------------------------------------------------------------------------------- */
@@ -43,7 +43,7 @@ typedef struct bench_list {
     const vndf_distribution *table[BENCH_TABLES];
     int borrowed; /* the tables are the caller's */
     const char *name[BENCH_SUBJECTS];
-    method_truth truth[BENCH_SUBJECTS]; /* distribution NULL where nothing of it is wanted */
+    method_reference reference[BENCH_SUBJECTS]; /* distribution NULL where nothing of it is wanted */
     bench_entry entry[BENCH_ENTRIES_MAX];
 } bench_list;
 
@@ -71,9 +71,9 @@ typedef struct bench_block {
 method_inputs bench_block_inputs(bench_block *block);
 method_outputs bench_block_outputs(bench_block *block);
 
-/* Directions uniform over the hemisphere, roughness uniform in [0.05, 0.95] of slopes at the scale of the truth,
- * uniform numbers, and normals drawn for them from the truth. */
-void bench_block_fill(bench_block *block, const method_truth *truth, uint64_t seed);
+/* Directions uniform over the hemisphere, roughness uniform in [0.05, 0.95] of slopes at the scale of the reference,
+ * uniform numbers, and normals drawn for them from the reference. */
+void bench_block_fill(bench_block *block, const method_reference *reference, uint64_t seed);
 
 /* One direction and roughness for all. */
 void bench_block_aim(bench_block *block, vndf_vec3 wi, float alpha);
@@ -85,13 +85,13 @@ void bench_block_spread(bench_block *block, uint64_t seed);
 
 /* Whether the method's results are right: unit normals above the surface that face wi (where the method says so),
  * densities positive and finite, the same bits as the scalar call where that is promised. */
-int bench_verify(const method *m, const method_truth *truth, bench_block *block, uint64_t seed);
+int bench_verify(const method *m, const method_reference *reference, bench_block *block, uint64_t seed);
 
 /* Fills the times of all entries that are not wrong: turns until the plan's seconds are spent, some at least.
  * VNDF_ERROR_ARGUMENT: stopped by the progress. */
 vndf_status bench_time(bench_list *list, const bench_clock *at);
 
-/* One method, one direction, roughness 1/2 at the scale of the truth. */
+/* One method, one direction, roughness 1/2 at the scale of the reference. */
 typedef struct bench_findings {
     double albedo, albedo_noise; /* mean, and its standard error */
     double variance;             /* of one sample */
@@ -100,7 +100,7 @@ typedef struct bench_findings {
 } bench_findings;
 
 /* `replicates` blocks of BENCH_BLOCK samples. 0: no memory. */
-int bench_integrate(const method *m, const method_truth *truth, double theta, size_t replicates,
+int bench_integrate(const method *m, const method_reference *reference, double theta, size_t replicates,
                     bench_findings *findings);
 
 /* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */

@@ -24,7 +24,7 @@ typedef struct state {
     bench_clock clock;
     bench_block block;
     worth worth[BENCH_ENTRIES_MAX];
-    bench_findings truth[BENCH_SUBJECTS][ALBEDO_ANGLES];
+    bench_findings reference[BENCH_SUBJECTS][ALBEDO_ANGLES];
 } state;
 
 static vndf_status fail(vndf_error *error, vndf_status status, const char *text)
@@ -42,11 +42,11 @@ static size_t replicates_at(const state *s, size_t angle, int biased)
 
 /* ---- worth ------------------------------------------------------------------------------------- */
 
-static double bias_of(const bench_findings *f, const bench_findings *truth)
+static double bias_of(const bench_findings *f, const bench_findings *reference)
 {
-    double difference = f->albedo - truth->albedo;
-    double noise = sqrt(f->albedo_noise * f->albedo_noise + truth->albedo_noise * truth->albedo_noise);
-    return fabs(difference) <= noise_limit * noise + 1e-6 * truth->albedo ? 0 : difference / truth->albedo;
+    double difference = f->albedo - reference->albedo;
+    double noise = sqrt(f->albedo_noise * f->albedo_noise + reference->albedo_noise * reference->albedo_noise);
+    return fabs(difference) <= noise_limit * noise + 1e-6 * reference->albedo ? 0 : difference / reference->albedo;
 }
 
 static void note(state *s, size_t i, size_t angle, const bench_findings *f)
@@ -59,7 +59,7 @@ static void note(state *s, size_t i, size_t angle, const bench_findings *f)
     row->max_weight = fmax(f->max_weight, row->max_weight);
     if (angle < ALBEDO_ANGLES) {
         s->worth[i].variance[angle] = f->variance;
-        row->bias[angle] = bias_of(f, &s->truth[s->list.entry[i].subject][angle]);
+        row->bias[angle] = bias_of(f, &s->reference[s->list.entry[i].subject][angle]);
     }
     if (angle == 0)
         s->worth[i].light = f->light_variance;
@@ -99,7 +99,7 @@ static int measure_worth(state *s, size_t i)
         return 1;
     for (size_t angle = 0; angle < ANGLES; angle++) {
         size_t replicates = replicates_at(s, angle, e->m.biased);
-        if (!bench_integrate(&e->m, &s->list.truth[e->subject], angles[angle], replicates, &f))
+        if (!bench_integrate(&e->m, &s->list.reference[e->subject], angles[angle], replicates, &f))
             return 0;
         note(s, i, angle, &f);
     }
@@ -110,15 +110,16 @@ static int measure_worth(state *s, size_t i)
     return 1;
 }
 
-static int measure_truths(state *s)
+static int measure_references(state *s)
 {
     for (size_t subject = 0; subject < BENCH_SUBJECTS; subject++) {
-        const method_truth *truth = &s->list.truth[subject];
-        if (!truth->canonical.distribution)
+        const method_reference *reference = &s->list.reference[subject];
+        if (!reference->canonical.distribution)
             continue;
-        method m = method_ours(truth->canonical.distribution, "truth", VNDF_INSTRUCTIONS_BEST);
+        method m = method_ours(reference->canonical.distribution, "reference", VNDF_INSTRUCTIONS_BEST);
         for (size_t angle = 0; angle < ALBEDO_ANGLES; angle++)
-            if (!bench_integrate(&m, truth, angles[angle], replicates_at(s, angle, 0), &s->truth[subject][angle]))
+            if (!bench_integrate(&m, reference, angles[angle], replicates_at(s, angle, 0),
+                                 &s->reference[subject][angle]))
                 return 0;
     }
     return 1;
@@ -126,11 +127,11 @@ static int measure_truths(state *s)
 
 static vndf_status measure(state *s, vndf_error *error)
 {
-    if (!measure_truths(s))
+    if (!measure_references(s))
         return fail(error, VNDF_ERROR_MEMORY, "no memory");
     for (size_t i = 0; i < s->list.count; i++) {
         bench_entry *e = &s->list.entry[i];
-        e->row.wrong = !bench_verify(&e->m, &s->list.truth[e->subject], &s->block, 500);
+        e->row.wrong = !bench_verify(&e->m, &s->list.reference[e->subject], &s->block, 500);
         if (!measure_worth(s, i))
             return fail(error, VNDF_ERROR_MEMORY, "no memory");
         if (!bench_go_on(&s->clock, e->m.name))

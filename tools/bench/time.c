@@ -75,9 +75,9 @@ static int take_turn(void *user, size_t turn, double *number)
 {
     const contenders *c = user;
     for (bench_subject subject = 0; subject < BENCH_SUBJECTS; subject++) {
-        if (!c->list->truth[subject].canonical.distribution)
+        if (!c->list->reference[subject].canonical.distribution)
             continue;
-        bench_block_fill(c->block, &c->list->truth[subject], 1000 + turn);
+        bench_block_fill(c->block, &c->list->reference[subject], 1000 + turn);
         pass p = {.in = bench_block_inputs(c->block), .out = bench_block_outputs(c->block)};
         for (size_t i = 0; i < c->list->count; i++) {
             const bench_entry *e = &c->list->entry[i];

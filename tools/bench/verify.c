@@ -79,12 +79,12 @@ static int run_good(const method *m, method_run *run, bench_block *b, bench_bloc
     return rest_good(m, run, b, in, scratch);
 }
 
-int bench_verify(const method *m, const method_truth *truth, bench_block *block, uint64_t seed)
+int bench_verify(const method *m, const method_reference *reference, bench_block *block, uint64_t seed)
 {
     bench_block *scratch = malloc(sizeof *scratch);
     int good = scratch != NULL;
     for (uint64_t round = 0; good && round < ROUNDS; round++) {
-        bench_block_fill(block, truth, seed + round);
+        bench_block_fill(block, reference, seed + round);
         good = run_good(m, m->each, block, scratch);
         bench_block_aim(block, (vndf_vec3){block->wi_x[0], block->wi_y[0], block->wi_z[0]}, block->alpha[0]);
         good = good && (!m->shared || run_good(m, m->shared, block, scratch));

@@ -12,7 +12,7 @@
 #include "measure/chi_square.h"
 #include "command.h"
 #include "measure/consistency.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "commands/hard.h"
 #include "cli/output.h"
 #include "cli/progress.h"

@@ -6,7 +6,7 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/output.h"
 
 static const char name[] = "vndf eval";

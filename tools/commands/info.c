@@ -4,7 +4,7 @@
 #include "cli/arguments.h"
 #include "command.h"
 #include "commands/describe.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 
 static const char help[] =
     "usage: vndf info FILE|ggx|beckmann\n"

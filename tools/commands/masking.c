@@ -5,7 +5,7 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "measure/masking.h"
 #include "cli/output.h"
 #include "cli/source_words.h"

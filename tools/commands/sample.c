@@ -7,7 +7,7 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/output.h"
 #include "cli/random.h"
 

@@ -45,7 +45,7 @@ static void percent(char text[FIGURE_TEXT], const char *before, double part)
     snprintf(text, FIGURE_TEXT, "%s%.*f%%", before, (int)fmin(fmax(digits, 1), 8), 100 * part);
 }
 
-/* Without fireflies in brackets. */
+/* In brackets: without fireflies. */
 static void error_text(char text[FIGURE_TEXT], const film_error *e)
 {
     snprintf(text, FIGURE_TEXT, "%.2f%% (%.2f%%)", 100 * e->relative, 100 * e->trimmed);
@@ -59,7 +59,7 @@ static void measured_text(char text[FIGURE_TEXT], int digits, measured all, meas
 
 /* ---- tables ---- */
 
-/* What came out. In equal time, then with equal samples. */
+/* The results: in equal time, then with equal samples. */
 static void add_figures(text_table *t, const comparison *r, size_t i)
 {
     const contest *c = r->contest;
@@ -91,7 +91,7 @@ static void add_agreement(text_table *t, const comparison *r, size_t i)
     table_number(t, "their mean\nsquare (1)", "%.2f", a->mean_square);
 }
 
-/* What is not above twice what chance leaves cannot be told from nothing. */
+/* An error below twice its noise cannot be told from 0. */
 static void add_common(text_table *t, const comparison *r, size_t i)
 {
     char text[FIGURE_TEXT];

@@ -1,4 +1,4 @@
-/* What a contest says, and how it is told: as a page with pictures, and as a table on the terminal. */
+/* The result of a contest, as a page with pictures and as a table on the terminal. */
 #ifndef COMPARE_COMPARISON_H
 #define COMPARE_COMPARISON_H
 
@@ -11,11 +11,11 @@ typedef struct comparison {
     float exposure;
     const char *by;           /* what the ways differ in: "normals", "tables" */
     const char *reference_is; /* "2048 samples of visible normals" */
-    int reference_read;       /* its noise is not known, and counts as that of the ways */
+    int reference_read;       /* its noise is not known, and counts as noise of the ways */
     char remarks[1024];       /* of ways that the scene cannot have, of samples that were lost; "" if none */
     crop crops[CROPS];
     agreement agrees[WAYS_MAX];
-    int has_common; /* ways saw the same numbers as the first: what they share is no noise */
+    int has_common; /* ways saw the same numbers as the first: an error that they share is no noise */
     double common[WAYS_MAX], common_noise[WAYS_MAX];
 } comparison;
 
@@ -30,8 +30,8 @@ measured efficiency(const contest *c, size_t i, int trimmed);
 /* The samples that way i needs for the error that the first has with all its samples. */
 measured samples_for_error(const contest *c, size_t i, int trimmed);
 
-/* What is told as tables, to be freed: figures of all ways, their agreement with the reference, and the error that
- * more samples do not lessen. */
+/* The tables, to be freed: figures of all ways, their agreement with the reference, and the error that more samples do
+ * not reduce. */
 text_table comparison_figures(const comparison *r);
 text_table comparison_agreement(const comparison *r);
 text_table comparison_common(const comparison *r);

@@ -1,4 +1,4 @@
-/* The page of a comparison: what came out, pictures (comparison_pictures.c), curves, agreement. */
+/* The page of a comparison: results, pictures (comparison_pictures.c), curves, agreement. */
 #include "compare/comparison.h"
 
 #include <math.h>
@@ -120,7 +120,7 @@ static int write_agreement(html_page *page, const comparison *r)
 
 /* ---- all ---- */
 
-/* In full, for whoever wants to compute something else: the reference, and the ways after equal time. */
+/* Full images, for other computations: the reference, and the ways after equal time. */
 static int add_image(html_page *page, const char *name, const film *f)
 {
     image made;

@@ -1,5 +1,5 @@
 /* Pictures of a comparison, files beside the page: after equal time, with equal samples, crops, error maps, and
- * what tables change. */
+ * the changes by tables. */
 #include "compare/comparison.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "draw/chart.h"
 #include "draw/svg.h"
 
-/* Errors from black to white: of an image, and of what tables change in it. */
+/* Errors from black to white: of an image, and of its changes by tables. */
 typedef struct map_range {
     double low, high;
 } map_range;
@@ -40,7 +40,7 @@ static int add_crops(html_page *page, const comparison *r)
     return page_file_end(page) && good;
 }
 
-/* Small films larger, by whole factors: their pixels are what is to be seen. */
+/* Enlarges small films by whole factors, so that their pixels are seen. */
 static void show(FILE *html, const char *name, const char *caption, const film *size)
 {
     int factor = SHOWN_WIDTH / size->width > 1 ? SHOWN_WIDTH / size->width : 1;
@@ -140,7 +140,7 @@ int comparison_pictures(html_page *page, const comparison *r)
     return write_pictures(page, r) && write_equal_samples(page, r) && write_maps(page, r);
 }
 
-/* ---- what tables change ---- */
+/* ---- changes by tables ---- */
 
 int comparison_changes(html_page *page, const comparison *r)
 {

@@ -1,9 +1,9 @@
 /* The ways take turns: in each turn the first goes on by a few samples, then every other one for as long as that
- * took. When the first has all its samples, the others have had its time, and what is missing to its samples they
- * render at the end.
+ * took. When the first has all its samples, the others have had its time; at the end they render the samples that they
+ * lack.
  *
  * These turns are not those of measure/turns.h, which repeats a run and takes medians: here every sample stays in a
- * film, and the time that counts is the sum of what the processors worked. */
+ * film, and the time that counts is that of all processors together. */
 #include "compare/contest.h"
 
 #include <math.h>
@@ -48,8 +48,7 @@ static contest_point point_of(const contest *c, const film *f)
     return p;
 }
 
-/* What is kept at powers of two of samples, and at the count that all have. 0 if there is no memory to tell an
- * error. */
+/* Keeps errors at powers of two of samples, and at the final count. 0 if there is no memory. */
 static int keep_point(const contest *c, way *w)
 {
     const film *f = &w->film;
@@ -86,7 +85,7 @@ static int watch(double done, void *user)
     return c->progress ? c->progress(done_part(c), c->user) : 0;
 }
 
-/* Up to `samples` at once, not beyond a point that is to be kept. */
+/* Renders up to `samples` at once, but not beyond the next point. */
 static int render_some(contest *c, way *w, uint64_t samples)
 {
     uint64_t at = w->film.samples;

@@ -1,15 +1,15 @@
 /* One scene rendered in several ways, side by side: with equal samples, and in equal time.
  *
- *   contest.c       renders the ways in turns, so that all of them meet the machine in the same mood
+ *   contest.c       renders the ways in turns, so that a busy machine slows all of them alike
  *   error.c         how far a film is from another one
  *   pictures.c      films, error maps and crops as PNG
- *   comparison.c    what is told of all that; comparison_page.c, comparison_pictures.c
+ *   comparison.c    tables and page; comparison_page.c, comparison_pictures.c
  *   ways.c          the ways, from a scene file
  *   run.c           all of it in order
  *   ../commands/compare.c  the words of the command
  *
  * The first way is the measure: all others are rendered as long as it takes (equal time), and with as many samples
- * (equal samples). Time is that of processors, which a machine that is shared disturbs least. */
+ * (equal samples). Time is processor time, which a shared machine disturbs least. */
 #ifndef COMPARE_CONTEST_H
 #define COMPARE_CONTEST_H
 
@@ -64,7 +64,7 @@ int contest_repeat(const contest *c, uint64_t seed, film more[WAYS_MAX]);
 
 /* ---- errors ---- */
 
-/* What a pixel's light is compared with where the reference is dark: this part of its mean. */
+/* Where the reference is dark a pixel's error is divided by this part of the mean instead. */
 #define ERROR_FLOOR 0.05
 
 film_error error_between(const film *of, const film *reference);
@@ -82,8 +82,8 @@ typedef struct agreement {
 agreement agreement_between(const film *of, const film *reference);
 
 /* The relative error that two films share beside two others that saw the same numbers: its square is the mean of
- * the product of two independent differences, which noise does not enter; 0 where that is negative. `noise` gets
- * the standard deviation of that mean as an error: what could not be told from nothing. */
+ * the product of two independent differences, to which noise adds nothing; 0 where that is negative. `noise` gets
+ * the standard deviation of that mean as an error: a smaller error cannot be told from 0. */
 double common_error(const film of[2], const film exact[2], double *noise);
 
 /* Errors of every pixel for a map: |I - R| / (R + floor). */

@@ -1,5 +1,4 @@
-/* How far films are from each other, by luminance: its sums of squares are what films keep, and they tell the
- * noise of every pixel. */
+/* The distance between films, by luminance. Films keep its sums of squares, which give the noise of every pixel. */
 #include "compare/contest.h"
 
 #include <math.h>
@@ -133,7 +132,7 @@ agreement agreement_between(const film *of, const film *reference)
     return a;
 }
 
-/* ---- what is wrong and not noise ---- */
+/* ---- errors that are no noise ---- */
 
 double common_error(const film of[2], const film exact[2], double *noise)
 {

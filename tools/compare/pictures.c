@@ -70,7 +70,7 @@ static double shown(const film *f, size_t pixel, double exposure)
     return sqrt(fmin(fmax(exposure * film_light(f, pixel), 0), 1));
 }
 
-/* `sums` has a row and a column of zeros before the film's. What counts is what is seen of an error. */
+/* `sums` has a row and a column of zeros before the film's. Errors count as people see them. */
 static void add_errors(double *sums, const film *of, const film *reference, double exposure, double weight)
 {
     for (int y = 0; y < of->height; y++)

@@ -1,4 +1,4 @@
-/* A comparison: its ways (ways.c), a reference that is rendered or read, the contest, and what is told of it. */
+/* A comparison: its ways (ways.c), a reference that is rendered or read, the contest, and its page. */
 #include "compare/ways.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static double reference_samples(const under_way *run)
     return c->reference_spp ? (double)c->reference_spp : REFERENCE_TIMES * (double)run->contest.samples;
 }
 
-/* What is rendered beside the reference, in samples of one way. */
+/* The work beside the reference, in samples of one way. */
 static double ways_samples(const under_way *run)
 {
     return (double)run->contest.samples * (double)run->contest.count * (run->choice->table_count ? 2 : 1);

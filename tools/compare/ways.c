@@ -36,7 +36,7 @@ static int add_way(under_way *run, const char *way_name, const scene *s, path_sa
     return 1;
 }
 
-/* A way that was not named and that the scene cannot have is told on the page. */
+/* The page mentions a way that the scene cannot have, unless the user named it. */
 static int add_samplers(under_way *run)
 {
     const scene_tables as_it_says = {0, 0};
@@ -115,7 +115,7 @@ static int add_closed_forms(under_way *run)
     return is_closed(s) ? add_material_way(run, "closed forms", s) : STATUS_GOOD;
 }
 
-/* The finest, which is as good as exact and the measure of the others; then those asked for. */
+/* The finest table, as good as exact, by which the others are measured; then the tables that were asked for. */
 static int add_tables(under_way *run)
 {
     const compare_choice *c = run->choice;

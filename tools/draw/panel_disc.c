@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "draw/svg.h"

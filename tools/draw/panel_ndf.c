@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "draw/svg.h"
 
 enum { POINTS = 361, CURVES_MAX = 3 };

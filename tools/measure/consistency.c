@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/random.h"
 
 /* Below it, certificates do not measure either: the whole lobe is the far end of a tail. */

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/random.h"
 
 /* From the pole down: an angle in degrees or, at 90 degrees, the cosine. */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "draw/chart.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "draw/panels.h"
 #include "draw/svg.h"
 #include "cli/random.h"

@@ -1,7 +1,7 @@
 /* What the parts of `vndf report` share. commands/report.c reads the words, measures one thing after the other and has
  * the page written; a section calls no other.
  *
- *   subject.c    a distribution of normals, its tables of several sizes, and how far each is from the truth
+ *   subject.c    a distribution of normals, its tables of several sizes, and how far each is from the reference
  *   time.c       nanoseconds of view, sample and pdf, one by one and in batches
  *   variance.c   the noise of two integrals that are estimated with the samples
  *   advice.c     which table to ship; and the same as a table
@@ -51,7 +51,7 @@ typedef struct report_subject {
     char arguments[512]; /* of `vndf build`, for a shell; cut to fit */
     int brought;         /* by the user */
     vndf_source *source;
-    vndf_truth *truth;
+    vndf_reference *reference;
     report_table table[REPORT_SIZES];
     size_t count;
     size_t left_out; /* sizes for which the time did not suffice */
@@ -66,7 +66,7 @@ typedef struct report_noise {
 
 typedef struct report_integral {
     char title[96];
-    double truth;
+    double reference;
     report_noise noise[REPORT_METHODS];
     size_t count;
 } report_integral;

@@ -3,15 +3,15 @@
  * Error. With w = true/drawn density at a normal and normals drawn from two uniform numbers u, every integral over
  * the drawn density is one over the unit square of u:
  *     total variation = 1/2 integral |w(u) - 1| du,   variance of the weight = integral (w(u) - 1)^2 du.
- * They are taken on a Fibonacci lattice (a rank-1 lattice of 6765 points), for 61 directions. The truth is the
- * source itself by vndf_truth_p22 and vndf_truth_area, in double. Nothing is missed: where the true density is
+ * They are taken on a Fibonacci lattice (a rank-1 lattice of 6765 points), for 61 directions. The reference is the
+ * source itself by vndf_reference_p22 and vndf_reference_area, in double. Nothing is missed: where the true density is
  * positive the drawn one is too. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/clock.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "report/report.h"
 
 enum { LATTICE = 6765, LATTICE_STEP = 4181 };
@@ -28,22 +28,24 @@ double report_theta(size_t angle)
 
 typedef struct direction {
     vndf_vec3 wi;
-    double area; /* the truth */
+    double area; /* the reference */
 } direction;
 
 /* True over drawn density at a normal; 1 at the horizon itself, where both vanish or cannot be told apart. */
-static double weight_at(const vndf_truth *truth, const direction *from, const vndf_view *view, vndf_vec3 wm)
+static double weight_at(const vndf_reference *reference, const direction *from, const vndf_view *view,
+                        vndf_vec3 wm)
 {
     double x = (double)wm.x, y = (double)wm.y, z = (double)wm.z;
     double cosine = (double)from->wi.x * x + (double)from->wi.y * y + (double)from->wi.z * z;
     double drawn = (double)vndf_pdf(view, wm);
     if (!(z > 1e-12) || !(drawn > 0))
         return 1;
-    double ndf = vndf_truth_p22(truth, sqrt(x * x + y * y) / z) / (z * z * z * z);
+    double ndf = vndf_reference_p22(reference, sqrt(x * x + y * y) / z) / (z * z * z * z);
     return fmax(cosine, 0) * ndf / (from->area * drawn);
 }
 
-static report_error measure_error(const vndf_truth *truth, const direction *from, const vndf_distribution *table)
+static report_error measure_error(const vndf_reference *reference, const direction *from,
+                                  const vndf_distribution *table)
 {
     vndf_surface surface = {table, 1, 1};
     vndf_view view = vndf_view_from(&surface, from->wi);
@@ -51,7 +53,7 @@ static report_error measure_error(const vndf_truth *truth, const direction *from
     for (size_t i = 0; i < LATTICE; i++) {
         double u1 = ((double)i + 0.5) / LATTICE, u2 = ((double)(i * LATTICE_STEP % LATTICE) + 0.5) / LATTICE;
         vndf_vec3 wm = vndf_sample(&view, (float)u1, (float)u2, NULL);
-        double weight = weight_at(truth, from, &view, wm);
+        double weight = weight_at(reference, from, &view, wm);
         error.tv += fabs(weight - 1) / (2 * LATTICE);
         error.variance += (weight - 1) * (weight - 1) / LATTICE;
         error.max_weight = fmax(error.max_weight, weight);
@@ -61,14 +63,14 @@ static report_error measure_error(const vndf_truth *truth, const direction *from
 
 static void measure_angles(const report_subject *subject, const double areas[REPORT_ANGLES], report_table *t)
 {
-    double grazing = vndf_truth_area(subject->truth, 90 * radians);
+    double grazing = vndf_reference_area(subject->reference, 90 * radians);
     t->worst = (report_error){0, 0, 0};
     for (size_t a = 0; a < REPORT_ANGLES; a++) {
         direction from = {direction_from(report_theta(a), 0), areas[a]};
         t->error[a] = (report_error){(double)NAN, (double)NAN, (double)NAN};
         if (!(areas[a] > 1e-10 * grazing))
             continue;
-        t->error[a] = measure_error(subject->truth, &from, t->table);
+        t->error[a] = measure_error(subject->reference, &from, t->table);
         t->worst.tv = fmax(t->worst.tv, t->error[a].tv);
         if (report_theta(a) <= 90)
             t->tv_above = fmax(t->tv_above, t->error[a].tv);
@@ -100,8 +102,8 @@ vndf_status report_subject_begin(report_subject *subject, vndf_source *source, c
     *subject = (report_subject){.source = source};
     copy_cut(subject->name, sizeof subject->name, name);
     copy_cut(subject->arguments, sizeof subject->arguments, arguments);
-    subject->truth = vndf_truth_from(source, error);
-    return subject->truth ? VNDF_OK : error->status;
+    subject->reference = vndf_reference_from(source, error);
+    return subject->reference ? VNDF_OK : error->status;
 }
 
 static vndf_status build_one(report_subject *subject, size_t bytes, const report_watch *watch, vndf_error *error)
@@ -155,7 +157,7 @@ vndf_status report_subject_build(report_subject *subject, size_t largest, double
     if (status != VNDF_OK)
         return status;
     for (size_t a = 0; a < REPORT_ANGLES; a++)
-        areas[a] = vndf_truth_area(subject->truth, report_theta(a) * radians);
+        areas[a] = vndf_reference_area(subject->reference, report_theta(a) * radians);
     for (size_t i = 0; i < subject->count; i++) {
         measure_angles(subject, areas, &subject->table[i]);
         subject->table[i].time = report_time_of(subject->table[i].table);
@@ -173,7 +175,7 @@ void report_subject_free(report_subject *subject)
 {
     for (size_t i = 0; i < subject->count; i++)
         vndf_free(subject->table[i].table);
-    vndf_truth_free(subject->truth);
+    vndf_reference_free(subject->reference);
     vndf_source_free(subject->source);
     *subject = (report_subject){.count = 0};
 }

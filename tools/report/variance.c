@@ -9,13 +9,13 @@
  *     all normals (Walter et al. 2007), D cos(theta_m): what is visible from straight above the largest table;
  *     directions by their cosine, which do not know D.
  * The noise at N samples is the root mean square, over all groups of N of the same 2^17 samples, of the mean's
- * distance to the truth, which comes from 2^18 points of a lattice with the weight. */
+ * distance to the reference, which comes from 2^18 points of a lattice with the weight. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "draw/chart.h"
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "cli/random.h"
 #include "report/report.h"
 
@@ -25,27 +25,27 @@ static const double pi = 3.14159265358979323846;
 static const double angles[2] = {60, 85};
 
 typedef struct scene {
-    const vndf_truth *truth;
+    const vndf_reference *reference;
     vndf_surface exact; /* the largest table: masking, and all normals */
     vndf_vec3 wi;
     double alpha, area, g1; /* area and G1 of wi */
 } scene;
 
-static double true_area(const vndf_truth *truth, double alpha, vndf_vec3 w)
+static double true_area(const vndf_reference *reference, double alpha, vndf_vec3 w)
 {
     double across = alpha * hypot((double)w.x, (double)w.y), up = (double)w.z;
-    return hypot(across, up) * vndf_truth_area(truth, atan2(across, up));
+    return hypot(across, up) * vndf_reference_area(reference, atan2(across, up));
 }
 
 static scene scene_at(const report_subject *subject, double degrees, double alpha)
 {
-    scene s = {subject->truth,
+    scene s = {subject->reference,
                {subject->table[subject->count - 1].table, (float)alpha, (float)alpha},
                direction_from(degrees, 0),
                alpha,
                0,
                0};
-    s.area = true_area(s.truth, alpha, s.wi);
+    s.area = true_area(s.reference, alpha, s.wi);
     s.g1 = (double)s.wi.z / s.area;
     return s;
 }
@@ -53,8 +53,9 @@ static scene scene_at(const report_subject *subject, double degrees, double alph
 static double true_ndf(const scene *s, vndf_vec3 wm)
 {
     double z = (double)wm.z, across = hypot((double)wm.x, (double)wm.y);
-    return z > 1e-12 ? vndf_truth_p22(s->truth, across / (z * s->alpha)) / (s->alpha * s->alpha * z * z * z * z)
-                     : 0;
+    return z > 1e-12
+               ? vndf_reference_p22(s->reference, across / (z * s->alpha)) / (s->alpha * s->alpha * z * z * z * z)
+               : 0;
 }
 
 static double dot(vndf_vec3 a, vndf_vec3 b)
@@ -146,13 +147,13 @@ static double integrate(const estimator *e)
 }
 
 /* A group of 4^(k+1) samples is four groups of 4^k. */
-static void measure_noise(const estimator *e, double truth, double error[REPORT_COUNTS])
+static void measure_noise(const estimator *e, double reference, double error[REPORT_COUNTS])
 {
     double group[REPORT_COUNTS] = {0}, squares[REPORT_COUNTS] = {0};
     random_stream stream = random_from(7);
     for (size_t i = 1; i <= SAMPLES; i++) {
         double u1 = (double)random_float(&stream), u2 = (double)random_float(&stream);
-        double value = estimate(e, u1, u2) / truth;
+        double value = estimate(e, u1, u2) / reference;
         size_t size = 1;
         for (int k = 0; k < REPORT_COUNTS; k++, size *= 4) {
             group[k] += value;
@@ -171,7 +172,7 @@ static void add_noise(report_integral *integral, const estimator *e, const char 
 {
     report_noise *noise = &integral->noise[integral->count++];
     snprintf(noise->method, sizeof noise->method, "%s", method);
-    measure_noise(e, integral->truth, noise->error);
+    measure_noise(e, integral->reference, noise->error);
 }
 
 static void measure_integral(const report_subject *subject, const scene *s, report_integral *integral)
@@ -179,7 +180,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     const report_table *first = &subject->table[0], *chosen = &subject->table[subject->chosen];
     char size[16], text[64];
     estimator e = estimator_of(s, WAY_WEIGHTED, s->exact.distribution);
-    integral->truth = integrate(&e);
+    integral->reference = integrate(&e);
     integral->count = 0;
     e = estimator_of(s, WAY_COSINE, NULL);
     add_noise(integral, &e, "cosine of wo");
@@ -247,7 +248,7 @@ static void draw_integral(FILE *file, const report_integral *integral, const dou
                .count = integral->count};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
-    fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->truth);
+    fprintf(file, "<figcaption>The integral is %.5g.</figcaption></figure>\n", integral->reference);
 }
 
 static int write_data(html_page *page, const report *r, const double counts[REPORT_COUNTS])

@@ -33,9 +33,10 @@ VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_outcome *out, cons
 
 VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)
 {
-    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(n->facing, b->eta);
+    vndf_meeting at = vndf_meeting_of(b->view.wi, n->wm);
+    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(at.facing, b->eta);
     vndf_outcome out;
-    if (!(square > 0.0) || !vndf_refract(b, n, sqrt(square), &out)) { /* reflected totally, or masked */
+    if (!(square > 0.0) || !vndf_refract(b, n, &at, sqrt(square), &out)) { /* reflected totally, or masked */
         vndf_scatter_nothing(s);
         return;
     }
@@ -43,20 +44,20 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
     set_refracted(b, &out, f, 1.0, s);
 }
 
-/* The lobe is chosen by the normal that was drawn; what the choice has to do with the weight is settled afterwards.
- * Beside total reflection F changes without bound. */
+/* The drawn normal chooses the lobe. Density and weight then take F at the same cosine as the outcome. */
 VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, float u3, vndf_scattered *s,
                               vndf_normals_drawn normals)
 {
     const vndf_choice choice = {normals, 0};
+    vndf_meeting at = vndf_meeting_of(b->view.wi, n->wm);
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
-    vndf_reflectance(b, n->facing, f);
-    double square = vndf_refracted_square(n->facing, b->eta);
+    vndf_reflectance(b, at.facing, f);
+    double square = vndf_refracted_square(at.facing, b->eta);
     double part = part_of(f); /* numbers outside [0, 1] do not choose what never happens */
     int reflects = (part > 0.0 && u3 < part) || !(part < 1.0 && square > 0.0);
-    int settled = vndf_keeps_reflectance(b, n->facing);
-    if (!(reflects ? vndf_reflect(b, n, choice, settled, &out) : vndf_refract(b, n, sqrt(square), &out))) {
+    int settled = vndf_keeps_reflectance(b, at.facing);
+    if (!(reflects ? vndf_reflect(b, n, choice, settled, &out) : vndf_refract(b, n, &at, sqrt(square), &out))) {
         vndf_scatter_nothing(s);
         return;
     }

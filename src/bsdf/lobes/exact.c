@@ -1,6 +1,5 @@
-/* Samples of smooth surfaces, or of ones that hardly bend light: the rounding of wo moves the slope that it
- * stands for by a part of the roughness that shows in its density. Density and weight are those of wo as it was
- * rounded. */
+/* Samples of surfaces that are smooth or hardly bend light. There the rounding of wo moves its slope by so much of the
+ * roughness that the density changes. Density and weight are those of the rounded wo. */
 #include "bsdf/lobes/scatter.h"
 
 static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, double value, vndf_outcome *out)

@@ -5,7 +5,7 @@
 
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    return vndf_prepare_plain_ggx(b, r, wi) || vndf_prepare_visible(b, r, wi);
+    return vndf_prepare_fast_ggx(b, r, wi) || vndf_prepare_visible(b, r, wi);
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -15,9 +15,9 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     vndf_ggx_incidence w = vndf_ggx_incidence_of(&b->view);
-    lanes_m plain;
-    vndf_drawn drawn = vndf_ggx_draw(&w, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]), &plain);
-    if (!plain) {
+    lanes_m trusted;
+    vndf_drawn drawn = vndf_ggx_draw(&w, vndf_clamp_unit(u[0]), vndf_clamp_unit(u[1]), &trusted);
+    if (!trusted) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].sample(b, u, s);
         return;
     }
@@ -32,13 +32,13 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, u[2], s);
         return;
     }
-    float weight = wo.z * b->area / vndf_plain_ggx_unmasked(b, wo);
+    float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
     vndf_set_bare(s, wo, weight,
                   vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
 }
 
-/* Whether both directions are of plain size and their half vector has its digits. */
-VNDF_INLINE int is_plain(const vndf_bsdf *b, vndf_vec3 wo)
+/* Whether float is trusted for both directions and their half vector. */
+VNDF_INLINE int is_trusted(const vndf_bsdf *b, vndf_vec3 wo)
 {
     vndf_vec3 wi = b->view.wi;
     float x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z, square = x * x + y * y + z * z;
@@ -48,18 +48,18 @@ VNDF_INLINE int is_plain(const vndf_bsdf *b, vndf_vec3 wo)
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
 {
-    if (!is_plain(b, wo)) {
+    if (!is_trusted(b, wo)) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value);
         return;
     }
     value[0] = value[1] = value[2] =
-        vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / vndf_plain_ggx_unmasked(b, wo)));
+        vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / vndf_fast_ggx_unmasked(b, wo)));
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return is_plain(b, wo) ? vndf_positive(vndf_ggx_density_of(b, wo))
-                           : vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
+    return is_trusted(b, wo) ? vndf_positive(vndf_ggx_density_of(b, wo))
+                             : vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
 }
 
 static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float u3, vndf_scattered *s)

@@ -1,34 +1,34 @@
-/* Bare reflection of GGX where direction and roughness are of plain size: what its routines (fast_ggx.c,
- * fast_ggx_bounded.c) share. The same bits as reflection.c gives. */
+/* Bare reflection of GGX where float is trusted: the functions that fast_ggx.c and fast_ggx_bounded.c share. The
+ * same bits as reflection.c gives. */
 #ifndef VNDF_BSDF_LOBES_FAST_GGX_H
 #define VNDF_BSDF_LOBES_FAST_GGX_H
 
 #include "bsdf/lobes/scatter.h"
 #include "sampler/analytic/ggx_law.h"
 
-/* A(w), w.z > 0; of a plain view it is ready. */
-VNDF_INLINE float vndf_plain_ggx_area(const vndf_bsdf *b, vndf_vec3 w)
+/* A(w), w.z > 0; it is always ready for a trusted view. */
+VNDF_INLINE float vndf_fast_ggx_area(const vndf_bsdf *b, vndf_vec3 w)
 {
     int ready;
     return vndf_ggx_area_above(b->view.ax, b->view.ay, w, &ready);
 }
 
-/* View and area; 0 where the direction is not plain, and nothing is set. */
-VNDF_INLINE int vndf_prepare_plain_ggx(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+/* Sets view and area. Returns 0 and sets nothing where float is not trusted. */
+VNDF_INLINE int vndf_prepare_fast_ggx(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
     vndf_ggx_incidence w = vndf_ggx_aim(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
-    if (!w.plain)
+    if (!w.trusted)
         return 0;
     vndf_ggx_view_put(&b->view, &surface, wi, &w);
-    b->area = vndf_plain_ggx_area(b, wi);
+    b->area = vndf_fast_ggx_area(b, wi);
     return 1;
 }
 
 /* cos_i cos_o/G2, height-correlated (masking.h). */
-VNDF_INLINE float vndf_plain_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
+VNDF_INLINE float vndf_fast_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    float below = vndf_plain_ggx_area(b, wo) - wo.z;
+    float below = vndf_fast_ggx_area(b, wo) - wo.z;
     return wo.z * b->area + b->view.wi.z * lanes_positive(below);
 }
 

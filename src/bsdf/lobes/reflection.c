@@ -3,7 +3,7 @@
 
 #include "bsdf/lobes/scatter.h"
 
-/* `settled` is 0 where a rounding of wo shows. */
+/* `settled` is 0 where the rounding of wo matters. */
 VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s, int settled,
                          vndf_choice choice)
 {

@@ -9,7 +9,7 @@ enum { VNDF_NORMALS_COUNT = VNDF_NORMALS_V_CAVITY + 1 };
 /* Bare: no Fresnel term and height-correlated masking, from above alone. The others have any. */
 extern const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT], vndf_routines_reflection[VNDF_NORMALS_COUNT];
 
-/* Bare, normals of GGX: visible, and of those the ones that reflect upwards. */
+/* Bare, normals of GGX: visible ones, and visible ones that reflect upwards. */
 extern const vndf_routines vndf_routines_bare_ggx, vndf_routines_bare_bounded_ggx;
 
 #endif

@@ -22,19 +22,19 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     return b->material->unrotated->prepare(b, r, to_axes(b, wi));
 }
 
-/* Whether the slope that wo stands for is the one that was drawn (vndf_is_settled), though wo was rounded thrice
- * more, on the way back and forth. */
+/* Whether the slope of wo is the drawn one (vndf_is_settled), though two turns have rounded wo three times more. */
 static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
 {
     vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
-    /* near places where the density of bounded normals jumps nothing is settled: they are not looked for */
+    /* the density of bounded normals jumps in places that this test does not look for */
     return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
            vndf_keeps_reflectance(b, half.event.facing_i) &&
-           vndf_is_settled(b, VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
+           vndf_is_settled(b, (float)half.wm.x, (float)half.wm.y,
+                           VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
 }
 
-/* Density and weight at wo as it was rounded, where neither it nor f is beyond what a float holds. The weight of
- * a walk does not depend on wo. */
+/* Density and weight of the rounded wo, where both density and f are in the range of float. The weight of a walk does
+ * not depend on wo. */
 static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 {
     const vndf_material *m = b->material;

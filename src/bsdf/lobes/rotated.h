@@ -1,4 +1,4 @@
-/* The axes of the roughness at an angle: directions are turned to them, what comes out is turned back. */
+/* Roughness with axes at an angle: directions are turned to the axes, and sampled ones back. */
 #ifndef VNDF_BSDF_LOBES_ROTATED_H
 #define VNDF_BSDF_LOBES_ROTATED_H
 

@@ -1,6 +1,5 @@
-/* One scattering event, put together from a choice of lobes, of normals and of what the microfacets do to light.
- * The choices are constants wherever these functions are called (reflection.c, dielectric.c), and what
- * is not chosen is not compiled.
+/* One scattering event, made of a choice of lobes, of normals, of a Fresnel term and of masking. The callers
+ * (reflection.c, dielectric.c) pass their choices as constants, so the compiler drops the rest.
  *
  * With q = D(wm) (wi.wm)/p, p the density of wm, and V = G2/(cos_i cos_o), the weight of a reflection is F V
  * cos_o q and that of a transmission (1 - F) V cos_o q, over r^2 for radiance: the Jacobians cancel (Walter et
@@ -48,14 +47,38 @@ VNDF_INLINE vndf_vec3 vndf_reflected(vndf_vec3 wi, vndf_vec3 wm, float facing)
     return vndf_vec3_of(twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z);
 }
 
-/* wi refracted at wm by the index ratio eta: `facing` and `beyond` are the cosines to wm, of a unit length. */
-VNDF_INLINE vndf_vec3 vndf_refracted(vndf_vec3 wi, vndf_vec3 wm, double facing, double beyond, double eta)
+VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
-    double along = facing / eta - beyond, per = 1.0 / eta;
-    vndf_normal wo = {along * wm.x - per * wi.x, along * wm.y - per * wi.y, along * wm.z - per * wi.z};
-    double length2 = wo.x * wo.x + wo.y * wo.y + wo.z * wo.z, unit = 1.0 / sqrt(length2);
-    vndf_normal scaled = {wo.x * unit, wo.y * unit, wo.z * unit};
-    return vndf_vec3_from(scaled);
+    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
+    vndf_normal n = {w.x * per, w.y * per, w.z * per};
+    return n;
+}
+
+/* Where wi meets a microfacet, in double: wm stays the normal of wi and wo only if the cosine is exact. */
+typedef struct vndf_meeting {
+    vndf_normal wi, wm; /* of unit length */
+    double facing;
+} vndf_meeting;
+
+VNDF_INLINE vndf_meeting vndf_meeting_of(vndf_vec3 wi, vndf_vec3 wm)
+{
+    vndf_normal i = vndf_unit(wi), m = vndf_unit(wm);
+    vndf_meeting at = {i, m, i.x * m.x + i.y * m.y + i.z * m.z};
+    return at;
+}
+
+/* wi refracted by the index ratio eta, times eta: wo is this much of wm less wi. */
+VNDF_INLINE double vndf_bend_along(const vndf_meeting *at, double beyond, double eta)
+{
+    return at->facing - eta * beyond;
+}
+
+VNDF_INLINE vndf_vec3 vndf_refracted(const vndf_meeting *at, double along, double eta)
+{
+    double per = 1.0 / eta;
+    vndf_normal wi = at->wi, wm = at->wm;
+    vndf_normal wo = {(along * wm.x - wi.x) * per, (along * wm.y - wi.y) * per, (along * wm.z - wi.z) * per};
+    return vndf_vec3_from(wo);
 }
 
 /* ---- two directions give the normal ---- */
@@ -67,13 +90,6 @@ typedef struct vndf_half {
     double jacobian; /* dwm/dwo */
 } vndf_half;
 
-VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
-{
-    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
-    vndf_normal n = {w.x * per, w.y * per, w.z * per};
-    return n;
-}
-
 VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
 {
     double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
@@ -81,9 +97,9 @@ VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
     return wm;
 }
 
-/* Of lengths as they are: those of samples take the rounding of wm, which stays the half vector. But where both
- * graze it is lengths that wi.wm hangs on, which would be 0 or less by chance: they are made 1. exact.c has all
- * samples that are there. */
+/* wi and wo keep their lengths: for a sampled wo the half vector is then wm, rounding included. Where both graze, wi.wm
+ * is as small as the errors of these lengths and might be 0 or less, so they are made 1. There exact.c evaluates all
+ * samples. */
 VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
@@ -98,7 +114,7 @@ VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
     return half;
 }
 
-/* Lengths that are 1 but for rounding count where wi + r wo is small, so they are made 1. */
+/* Where wi + r wo is small an error of a length matters, so both lengths are made 1. */
 VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
 {
     vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
@@ -137,7 +153,7 @@ VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VN
     b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
 }
 
-/* A sample but for Fresnel's part in it. */
+/* A sample without its Fresnel term. */
 typedef struct vndf_outcome {
     vndf_vec3 wo;
     double facing;
@@ -145,24 +161,24 @@ typedef struct vndf_outcome {
     int settled;
 } vndf_outcome;
 
-/* Whether F keeps its digits where facing is rounded: beside total reflection it changes without bound. */
+/* Whether F keeps its digits when facing is rounded: beside total reflection F changes without bound. */
 VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 {
     return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > VNDF_TRUST_REFRACTED;
 }
 
 /* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
-VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float gain)
+VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float x, float y, float gain)
 {
-    return vndf_trusts_turn(b->view.ax, b->view.ay, gain);
+    return vndf_trusts_turn(b->view.ax, b->view.ay, gain, b->material->turn) && vndf_trusts_pole(x, y, gain);
 }
 
-/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)), and with H = wi + wo, of which each part
- * is a sum of two floats and so good to a rounding, a = ax ay,
+/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum
+ * of two floats and so exact but for one rounding, and a = ax ay,
  *
  *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
  *
- * So it is that of wo as it was rounded, however smooth the surface is; relative error below 2e-6. */
+ * So it is the density of the rounded wo, however smooth the surface is; relative error below 2e-6. */
 VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
 {
     float ax = b->view.ax, ay = b->view.ay, a = ax * ay;
@@ -171,14 +187,14 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0795774715f * a / b->area * (t * t);
 }
 
-/* Whether that formula may stand: nothing underflows where the view is plain. */
+/* Whether that formula may stand: nothing underflows in a trusted view. */
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
     return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.plain &&
            facing > VNDF_TRUST_GGX_FACING;
 }
 
-/* Whether the density that was drawn with is taken rather than that. */
+/* Whether the sample takes the density of its normal instead. */
 VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
 {
     return vndf_trusts_drawn_ggx(b->view.ax, b->view.ay, facing);
@@ -205,14 +221,15 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
-    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->facing);
-    int plain = settled & (choice.bare | (n->facing > VNDF_TRUST_REFLECTION_FACING)) & (as_drawn | of_wo);
-    if (!plain && vndf_reflect_exactly(b, wo, out))
+    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->wm.x, n->wm.y, n->facing);
+    int trusted =
+        settled & (as_drawn | of_wo) & ((choice.bare & of_wo) | (n->facing > VNDF_TRUST_REFLECTION_FACING));
+    if (!trusted && vndf_reflect_exactly(b, wo, out))
         return 1;
-    if (!plain && choice.normals != VNDF_NORMALS_BOUNDED)
+    if (!trusted && choice.normals != VNDF_NORMALS_BOUNDED)
         return 0;
-    /* Bounded normals are kept, even where the density of the direction as it was rounded underflows. */
-    float density = !plain ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
+    /* A bounded normal is never lost, not even where the density of the rounded direction underflows. */
+    float density = !trusted ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;
@@ -228,21 +245,22 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     return 1;
 }
 
-/* The same for what goes through, `beyond` the cosine to wm there. */
-VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, double beyond, vndf_outcome *out)
+/* The same for a refraction; `beyond` is the cosine to wm on the other side. wo turns with wm by along/eta. */
+VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_meeting *at, double beyond,
+                             vndf_outcome *out)
 {
-    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(wi, n->wm, n->facing, beyond, b->eta);
-    double eta = b->eta, rise = eta * eta - 1.0, sum = n->facing + eta * beyond;
+    double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
+    double sum = at->facing + eta * beyond;
+    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(at, along, eta);
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)(fabs(rise) * beyond);
-    int sound = beyond > VNDF_TRUST_BEYOND && n->facing > VNDF_TRUST_REFRACTION_FACING &&
-                gain * n->wm.z > VNDF_TRUST_REFRACTION_TURN;
-    if (rise != 0.0 && !(sound && vndf_is_settled(b, gain * n->wm.z)))
+    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)fabs(along / eta) * n->wm.z;
+    if (rise != 0.0 && !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING &&
+                         vndf_is_settled(b, n->wm.x, n->wm.y, gain)))
         return vndf_refract_exactly(b, wo, out);
-    vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, n->facing, beyond, n->wm.z};
+    vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->wo = wo;
-    out->facing = n->facing;
+    out->facing = at->facing;
     out->density = vndf_density_from(n->density * (eta * eta * beyond) * (sum * sum) / (rise * rise));
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
     out->settled = 1;

@@ -6,7 +6,7 @@
 #include "bsdf/routines.h"
 
 /* Squared cosine of the refracted direction, eta the index beyond over the one before; <= 0 in total reflection.
- * What is left of 1 - sin^2/eta^2 near grazing incidence keeps its digits where eta is 1 or near it. */
+ * Near grazing incidence 1 - sin^2/eta^2 keeps its digits, also where eta is 1 or near it. */
 VNDF_INLINE double vndf_refracted_square(double cosine, double eta)
 {
     return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);

@@ -1,15 +1,12 @@
 #include "bsdf/terms/masking.h"
 
 #include "bsdf/terms/beta.h"
+#include "bsdf/trust.h"
 
 static double reflect_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
     return vndf_height_correlated(b, e);
 }
-
-/* Beta errs by several times what its arguments err by: where they add up to this by five times, and beyond it the
- * areas in float, good to 1e-6, do not do. */
-static const double ARGUMENTS_PLAIN = 8.0;
 
 static double exact_area(const vndf_bsdf *b, vndf_vec3 w)
 {
@@ -21,7 +18,7 @@ static double exact_area(const vndf_bsdf *b, vndf_vec3 w)
 static double transmit_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
     double area = vndf_bsdf_area(b, e->wo), i = b->area / e->cos_i, o = area / e->cos_o;
-    if (i + o > ARGUMENTS_PLAIN) {
+    if (i + o > VNDF_TRUST_BETA) {
         i = exact_area(b, b->view.wi) / e->cos_i;
         o = exact_area(b, e->wo) / e->cos_o;
     }

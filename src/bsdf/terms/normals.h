@@ -1,4 +1,4 @@
-/* Microfacet normals as the effects want them drawn: with their density, and with what a weight takes of both. */
+/* Microfacet normals, drawn as the effects ask, with their density and their part of a weight. */
 #ifndef VNDF_BSDF_TERMS_NORMALS_H
 #define VNDF_BSDF_TERMS_NORMALS_H
 
@@ -20,7 +20,7 @@ VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
     return vndf_normal_ndf(b->view.distribution, b->view.alpha_x, b->view.alpha_y, wm);
 }
 
-/* ---- what a direction needs ---- */
+/* ---- preparing a direction ---- */
 
 VNDF_INLINE int vndf_prepare_visible(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
@@ -59,7 +59,7 @@ VNDF_INLINE int vndf_prepare_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec
 
 /* ---- drawing ---- */
 
-/* D is not quite what a table draws with. */
+/* A table does not draw exactly with D. */
 VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float facing, float density)
 {
     return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
@@ -83,7 +83,7 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)
 {
     vndf_bounded drawn = vndf_sample_bounded(&b->view, &b->bounds, u1, u2);
-    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.kept};
+    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.inside_mass};
     if (!vndf_law_is_exact(b->view.distribution))
         n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
     return n;

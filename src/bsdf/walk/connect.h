@@ -1,5 +1,5 @@
-/* From an event of a walk straight to where it is wanted: the density of scattering there, per steradian, and the
- * chance to leave.
+/* Connects an event of a walk to a given direction: the density of scattering there, per steradian, and the chance to
+ * leave.
  *
  * With v the direction to where the ray came from, o the wanted one, turned up, and Dv the visible normals of v,
  *
@@ -13,11 +13,11 @@
 #include "bsdf/walk/path.h"
 #include "bsdf/walk/visible.h"
 
-/* Where a walk is to come out. */
+/* The direction in which a walk shall leave. */
 typedef struct vndf_walk_target {
     vndf_vec3 wo;  /* turned up */
     double lambda; /* Lambda(wo) */
-    int beyond;    /* on the other side than where the walk began */
+    int beyond;    /* not on the side where the walk began */
 } vndf_walk_target;
 
 /* The microfacet between two directions. */
@@ -26,7 +26,7 @@ typedef struct vndf_walk_half {
     double cosine, jacobian; /* v.wm; dwm/do */
 } vndf_walk_half;
 
-/* Lengths that are 1 but for rounding count where eta o - v is small, so they are made 1. */
+/* Where eta o - v is small an error of a length matters, so both lengths are made 1. */
 VNDF_INLINE vndf_normal vndf_walk_exact_unit(vndf_vec3 w)
 {
     double per = 1.0 / sqrt(vndf_exact_dot(w, w));
@@ -67,10 +67,10 @@ VNDF_INLINE int vndf_walk_half_refracted(vndf_vec3 v, vndf_vec3 o, double eta, v
 /* The same for one event and one direction. */
 typedef struct vndf_walk_scattered {
     double value[VNDF_WAVELENGTHS]; /* of the wavelengths, per steradian; */
-    double drawn;                   /* and the density with which it is drawn but for what a table does */
+    double drawn;                   /* and the density with which it is drawn, before the weight of a table */
 } vndf_walk_scattered;
 
-/* From a view to o, on its side or `across`; 0 where nothing goes there. */
+/* From a view to o, on its side or `across`; 0 where no light goes there. */
 VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, double eta, vndf_vec3 o,
                                   int across, vndf_walk_scattered *s)
 {

@@ -9,8 +9,8 @@
  *
  *     weight of the walk from wi   E_i/(E_i + E_o),     of that from wo   E_o/(E_i + E_o)
  *
- * leaves of a path's contribution half the harmonic mean of what the two would have given: a narrow lobe at one
- * end is no spike unless it is met at both. */
+ * turns the two contributions of a path into half their harmonic mean: a narrow lobe at one end makes no spike, unless
+ * both walks meet it. */
 #include "bsdf/terms/beta.h"
 #include "bsdf/walk/walk.h"
 #include "bsdf/walk/connect.h"
@@ -84,7 +84,7 @@ static double begin_factor(const end *from, const vndf_walk_path *path, vndf_vec
     return s.drawn * vndf_walk_leaving(depth, 0, &from->target) / from->cosine;
 }
 
-/* An event connected to the other end; `begin` has the square of the index ratio that reciprocity takes. */
+/* Connects an event to the other end; `begin` holds the square of the index ratio, which reciprocity needs. */
 static void connect(const end *from, const end *to, const vndf_walk_path *path, double begin, double scale,
                     double value[VNDF_WAVELENGTHS])
 {

@@ -4,7 +4,7 @@
 
 #include "bsdf/routines.h"
 
-/* With an index ratio of 1 nothing is met: light goes straight on. */
+/* With an index ratio of 1 light meets no surface and goes straight on. */
 extern const vndf_routines vndf_routines_multiple, vndf_routines_unbent;
 
 #endif

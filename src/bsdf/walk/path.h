@@ -23,8 +23,8 @@ VNDF_INLINE vndf_vec3 vndf_walk_unit(vndf_normal w)
     return vndf_vec3_of((float)(w.x * per), (float)(w.y * per), (float)(w.z * per));
 }
 
-/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top there is no end to it; 1e-300
- * keeps it a number that a walk may come back from. */
+/* -log(1 - exp(-depth)): the same height, seen from the other side. At the top it would be infinite; 1e-300
+ * keeps it a number, so that a walk may come back. */
 VNDF_INLINE double vndf_walk_other_depth(double depth)
 {
     double below = depth > 1e-5 ? 1.0 - vndf_exp(-depth) : depth - 0.5 * depth * depth;
@@ -37,8 +37,7 @@ VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
     return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, vndf_packed(w));
 }
 
-/* Whether a ray that goes up, from where `back` points, leaves; else it is less deep. Its area may underflow: it
- * leaves. */
+/* Whether a ray that goes up, away from `back`, leaves; else its depth shrinks. If its area underflows it leaves. */
 VNDF_INLINE int vndf_walk_leaves(vndf_walk_path *path, vndf_vec3 back, double distance)
 {
     path->depth -= distance / vndf_law_slant(&path->view, back);
@@ -57,7 +56,7 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
     return 1;
 }
 
-/* The way in, from far above. */
+/* A ray that enters from far above. */
 VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, uint64_t seed)
 {
     vndf_walk_path path = {
@@ -136,7 +135,7 @@ VNDF_INLINE vndf_vec3 vndf_walk_bounce(const vndf_walk *walk, vndf_walk_path *pa
     return vndf_walk_refracted(path->view.wi, m, eta);
 }
 
-/* A normal, with what a table's density lacks to the true one in the weight. Closed forms lack nothing. */
+/* Draws a normal. The weight corrects a table's density to the true one; closed forms need no correction. */
 VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float u2)
 {
     float density;
@@ -150,15 +149,15 @@ VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float
     return facet;
 }
 
-/* Two uniform numbers for the normal of an event; one for its lobe is returned. */
+/* Draws two uniform numbers for the normal of an event, and returns a third for its lobe. */
 VNDF_INLINE double vndf_walk_numbers(const vndf_walk *walk, vndf_walk_path *path, float u[2])
 {
     vndf_walk_pair(&path->random, u);
     return walk->transmits ? vndf_walk_uniform(&path->random) : 0.0;
 }
 
-/* Radiance is not constant along a ray that changes its medium, power is: over the square of the index ratio, of
- * which only the whole way from side to side is left. */
+/* Along a ray that changes its medium power is constant, and radiance is not: it is divided by the square of the index
+ * ratio. Over a walk only the change from the first side to the last remains. */
 VNDF_INLINE double vndf_walk_transport(const vndf_walk *walk, int turned)
 {
     double eta = walk->eta;

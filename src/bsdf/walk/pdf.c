@@ -1,7 +1,7 @@
-/* The density that goes with a walk: that of the first event, and cosine lobes for what comes after it.
+/* The density that goes with a walk: that of the first event, and cosine lobes for all later events.
  *
  * The first event sends directions everywhere. Those that reflection sends below the horizon are mirrored at it,
- * as if the surface met there were flat; so nothing is lost and the integral stays 1. With transmission the
+ * as if the surface met there were flat; so no mass is lost and the integral stays 1. With transmission the
  * sphere is whole, and directions that are on the wrong side of the surface are left where they are: most facets
  * they meet next let them pass. With s = A(horizontal), the mean slope, and Lambda of wi, the share of cosine
  * lobes is
@@ -11,9 +11,9 @@
  *     transmission, eta < 1    9 s^2/(1 + 9 s^2)
  *
  * fitted by eye to the part of walks of more than one event (GGX, Beckmann and Student-T, alpha 0.05 to 1), and
- * a thousandth more, so that the density is positive where the first event's is not. What is transmitted from
- * the thinner medium mostly stays beyond; from the denser one total reflection keeps it, the more the flatter it
- * comes. */
+ * a thousandth more, so that the density is positive where the first event's is not. Light that enters
+ * the denser medium mostly stays there; light that comes from it is reflected totally, the more the
+ * flatter it comes. */
 #include "bsdf/walk/connect.h"
 
 static const double inverse_pi = 0.31830988618379067;

@@ -19,14 +19,14 @@ VNDF_INLINE uint64_t vndf_walk_hash(uint64_t x)
     return x ^ (x >> 31);
 }
 
-/* The seed is hashed, so that seeds that follow each other do not give numbers that do. */
+/* The seed is hashed, so that successive seeds give unrelated numbers. */
 VNDF_INLINE vndf_walk_random vndf_walk_random_from(uint64_t seed)
 {
     vndf_walk_random random = {vndf_walk_hash(seed + 0x9E3779B97F4A7C15u)};
     return random;
 }
 
-/* The seed that three uniform numbers are: all their bits count. */
+/* A seed from three uniform numbers, by all their bits. */
 VNDF_INLINE uint64_t vndf_walk_seed_of(const float u[3])
 {
     uint64_t seed = 0;

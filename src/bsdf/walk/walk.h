@@ -6,10 +6,10 @@
  *
  *     depth = -log C1,      0 at the top, infinite at the bottom,
  *
- * what a ray passes is exponential in depth: it goes on for E w.z/A(-w) of it towards the top, E of density
+ * the way of a ray is exponential in depth: it goes on for E w.z/A(-w) of it towards the top, E of density
  * exp(-E) and A the projected area, since Lambda(w) = A(-w)/w.z for both signs of w.z (a ray that goes down has
  * Lambda(w) < -1 and A(-w) = |w.z| (1 + Lambda(-w))). It has left where depth is no longer positive. Heights
- * themselves, and what distributes them, do not occur: the result does not depend on it.
+ * and their distribution do not occur: the result does not depend on them.
  *
  * Where it meets the surface it sees the normals that are visible along -w, above the horizon or below: drawn
  * from vndf_sample, mirrored or refracted there, and on. A table draws with a density that is not quite the
@@ -31,14 +31,14 @@
 typedef void vndf_walk_reflectance(const vndf_description *is, double cosine, double eta,
                                    double f[VNDF_WAVELENGTHS]);
 
-/* What a walk is to know of the material. Total reflection is total whatever `reflectance` says. */
+/* The material, as a walk sees it. Total reflection is total whatever `reflectance` says. */
 typedef struct vndf_walk {
     vndf_walk_reflectance *reflectance;
     const vndf_description *is; /* handed to it */
     double eta;                 /* index on the other side over that on the side of wi; not 1 if it transmits */
-    int transmits;              /* else what is not reflected is lost */
+    int transmits;              /* else light that is not reflected is lost */
     vndf_transport transport;
-    unsigned order_limit; /* scattering events at most, >= 1; what has not left then is lost */
+    unsigned order_limit; /* scattering events at most, >= 1; a walk that has not left by then is lost */
 } vndf_walk;
 
 typedef struct vndf_walked {

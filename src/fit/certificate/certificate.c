@@ -3,31 +3,31 @@
 
 #include <math.h>
 
-#include "fit/certificate/survey.h"
+#include "fit/certificate/validate.h"
 #include "sampler/surface.h"
 #include "sampler/tabulated/theory.h"
 
 static const double PI = 3.14159265358979323846;
 
 /* Relative error of D at a slope; 0 in the mass left out at either end. */
-static double ndf_miss(const vndf_survey *v, double r)
+static double ndf_miss(const vndf_validation *v, double r)
 {
     const vndf_profile *p = v->profile;
-    double z = 1 / (1 + r), truth = vndf_profile_p22(p, r), end = VNDF_SURVEY_LEFT_OUT / 2 * p->f0;
-    if (!(truth * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
+    double z = 1 / (1 + r), reference = vndf_profile_p22(p, r), end = VNDF_VALIDATION_LEFT_OUT / 2 * p->f0;
+    if (!(reference * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
           vndf_profile_moments(p, r, HUGE_VAL).m0 > end))
         return 0.0;
-    return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / truth - 1);
+    return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / reference - 1);
 }
 
-/* The largest over the slopes that hold all but VNDF_SURVEY_LEFT_OUT of the mass, at even places of every cell. */
-static double ndf_error(const vndf_survey *v)
+/* The largest over the slopes that hold all but VNDF_VALIDATION_LEFT_OUT of the mass, at even places of every cell. */
+static double ndf_error(const vndf_validation *v)
 {
     enum { PLACES = 24 };
     double worst = 0.0;
     for (uint32_t j = 0; j < v->table->radial_count; j++)
         for (uint32_t i = 1; i < PLACES; i++)
-            worst = fmax(worst, ndf_miss(v, vndf_survey_slope(v->table, j, i, PLACES)));
+            worst = fmax(worst, ndf_miss(v, vndf_validation_slope(v->table, j, i, PLACES)));
     return worst;
 }
 
@@ -70,17 +70,17 @@ typedef struct circle {
     int count;
 } circle;
 
-static void add_direction(circle *all, vndf_survey *v, double s, double c)
+static void add_direction(circle *all, vndf_validation *v, double s, double c)
 {
     double length = hypot(s, c);
     int i = all->count++;
-    direction made = {atan2(s, c), vndf_survey_direction(v, s / length, c / length)};
+    direction made = {atan2(s, c), vndf_validation_direction(v, s / length, c / length)};
     for (; i > 0 && all->at[i - 1].angle > made.angle; i--)
         all->at[i] = all->at[i - 1];
     all->at[i] = made;
 }
 
-static void add_grid(circle *all, vndf_survey *v)
+static void add_grid(circle *all, vndf_validation *v)
 {
     for (int i = 0; i < ANGLE_COUNT; i++) {
         double theta = ANGLES[i] * PI / 180;
@@ -91,7 +91,7 @@ static void add_grid(circle *all, vndf_survey *v)
 }
 
 /* Between the knots of a side's azimuth rows. */
-static void add_rows(circle *all, vndf_survey *v, const vndf_wedge *side)
+static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side)
 {
     uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
     for (uint32_t i = 0; i < spans; i += step)
@@ -102,20 +102,20 @@ static void add_rows(circle *all, vndf_survey *v, const vndf_wedge *side)
 }
 
 /* Cuts in the radial cells, as long as something beyond the cut is claimed. */
-static void add_cuts(circle *all, vndf_survey *v)
+static void add_cuts(circle *all, vndf_validation *v)
 {
     const vndf_distribution *d = v->table;
     uint32_t last = 0;
-    while (last + 1 < d->radial_count && vndf_profile_s(v->profile, vndf_survey_slope(d, last + 1, 0, 1)) >
+    while (last + 1 < d->radial_count && vndf_profile_s(v->profile, vndf_validation_slope(d, last + 1, 0, 1)) >
                                              vndf_profile_claimed(v->profile) * v->profile->f1)
         last++;
     uint32_t step = last / SPANS_MOST + 1;
     for (uint32_t j = 0; j <= last; j += step)
-        add_direction(all, v, 1, -vndf_survey_slope(d, j, 1, 3));
+        add_direction(all, v, 1, -vndf_validation_slope(d, j, 1, 3));
 }
 
 /* The area falls from 90 to 180 degrees. */
-static void add_levels(circle *all, vndf_survey *v)
+static void add_levels(circle *all, vndf_validation *v)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
         double low = PI / 2, high = PI, level = pow(vndf_profile_claimed(v->profile), LEVELS[i]);
@@ -131,7 +131,7 @@ static void add_levels(circle *all, vndf_survey *v)
 }
 
 /* Adds directions between the two neighbours that promise the largest total variation, or weight. */
-static void add_between(circle *all, vndf_survey *v, int by_weight)
+static void add_between(circle *all, vndf_validation *v, int by_weight)
 {
     int best = 0;
     double most = -1.0;
@@ -167,7 +167,7 @@ static void take(vndf_certificate *c, vndf_finding f, double theta)
 
 /* Largest relative error of the area at places in every piece of the spline below the horizon, the source of all
  * areas. */
-static double area_error(const vndf_survey *v)
+static double area_error(const vndf_validation *v)
 {
     static const double places[] = {0.15, 0.35, 0.5, 0.65, 0.85};
     const vndf_wedge *below = &v->table->below;
@@ -204,10 +204,10 @@ static int is_bounded(const vndf_profile *profile)
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
 {
-    vndf_survey v;
+    vndf_validation v;
     vndf_certificate none = {.max_weight = 1};
     circle all = {.count = 0};
-    int good = vndf_survey_from(&v, table, profile);
+    int good = vndf_validation_from(&v, table, profile);
     if (good) {
         add_grid(&all, &v);
         add_rows(&all, &v, &table->above);
@@ -227,6 +227,6 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }
-    vndf_survey_free(&v);
+    vndf_validation_free(&v);
     return good;
 }

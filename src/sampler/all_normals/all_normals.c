@@ -17,7 +17,7 @@
  *
  * Densities are formed in float by (1) where that of the place is the one of the normal as it was rounded, else in
  * double from the normal: far in a Beckmann's tail, beside knots and in steep cells of a table, at extreme
- * roughness. What a normal sees is always taken from the normal: at the terminator it is a small difference. */
+ * roughness. wi.wm is always formed from the rounded normal: at the terminator it is a small difference. */
 #include "sampler/all_normals/all_normals.h"
 
 #include "math/half_turn.h"
@@ -33,7 +33,8 @@ typedef struct drawn_normal {
     double density;
 } drawn_normal;
 
-/* A normal at the horizon, which only a far tail rounds to, is lifted by what no float sees: it has a density. */
+/* Only a far tail rounds to a normal at the horizon. It is lifted by less than a float resolves, and so has a density.
+ */
 VNDF_RARE drawn_normal normal_exactly(const vndf_distribution *d, double ax, double ay, const vndf_slope *r,
                                       float cosine, float sine)
 {

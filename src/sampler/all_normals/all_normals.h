@@ -6,7 +6,7 @@
 #ifndef VNDF_SAMPLER_ALL_NORMALS_ALL_NORMALS_H
 #define VNDF_SAMPLER_ALL_NORMALS_ALL_NORMALS_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "vndf.h"
 
 /* A normal with the density D cos(theta_m) per steradian, as exact as the table: *pdf, if not NULL, is what was

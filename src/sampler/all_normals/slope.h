@@ -2,7 +2,7 @@
 #ifndef VNDF_SAMPLER_ALL_NORMALS_SLOPE_H
 #define VNDF_SAMPLER_ALL_NORMALS_SLOPE_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/tabulated/draw.h"
 
 /* X and Z at any scale, P22/Z^3 at that scale, and whether that is good for the rounded normal. */
@@ -16,7 +16,7 @@ static const float VNDF_LEAST_REST = 0x1p-26f;
 
 #if VNDF_LANES == 1
 
-/* Where the last cells or the border of the unit square want it; slope.c. */
+/* For the last cells and the border of the unit square; slope.c. */
 vndf_slope vndf_table_slope_exactly(const vndf_distribution *d, float u);
 
 /* Of a table. */

@@ -1,10 +1,10 @@
 /* Beckmann in the unit problem: roughness 1, incident direction (s, 0, c), s >= 0; see sampler/analytic/ggx.h for what
  * that is and what s and c must carry. Uniform numbers lie in [0, 1]. In double, for what beckmann_draw.h does not
- * do in float. Densities: closed.h. */
+ * do in float. Densities: analytic_density.h. */
 #ifndef VNDF_SAMPLER_ANALYTIC_BECKMANN_H
 #define VNDF_SAMPLER_ANALYTIC_BECKMANN_H
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 
 /* K = c/s. At s = 0 a slope bound of 1e30 stands for infinity: no float tells the difference. */
 VNDF_INLINE double vndf_beckmann_bound(float s, float c)

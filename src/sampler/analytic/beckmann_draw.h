@@ -1,4 +1,4 @@
-/* Beckmann where all is of plain size: beckmann.h in float, for one or for lanes. Above the horizon, with K = c/s,
+/* Beckmann where float is trusted: beckmann.h in float, for one or for lanes. Above the horizon, with K = c/s,
  * d = K - x and E of simd/gauss_lanes.h,
  *
  *     (2 sqrt(pi)/s) F(x) = exp(-x^2) (1 + K E(-x))                             x < 0
@@ -26,7 +26,7 @@
 typedef struct vndf_beckmann_incidence {
     lanes_f ax, ay, cos_phi, sin_phi, bound, line, tail, spread;
     lanes_f near, p0, p1, p2, p3, p4; /* 1 for K < 2, else 0; coefficients of p */
-    lanes_m plain;
+    lanes_m trusted;
 } vndf_beckmann_incidence;
 
 /* p = sum of z^i (a_i + b_i k + c_i k^2), k the lesser of K and 4/K: numbers for K >= 2, and for K < 2. */
@@ -149,11 +149,11 @@ VNDF_INLINE vndf_beckmann_place vndf_beckmann_step(const vndf_beckmann_incidence
 /* Where float has starting values and quantiles (`middle` is vndf_beckmann_middle), and where the density of the
  * slopes is that of the normal, as it was rounded: no small wi . wm, and not far in the tail; the former sees to
  * that, as squares of slopes are below 15. */
-VNDF_INLINE lanes_m vndf_beckmann_is_plain(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at,
-                                           lanes_f y, lanes_f middle)
+VNDF_INLINE lanes_m vndf_beckmann_is_trusted(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at,
+                                             lanes_f y, lanes_f middle)
 {
     lanes_f terms = lanes_abs(at->x) + lanes_abs(y) + w->bound;
-    lanes_m inside = lanes_both(w->plain, vndf_trusts_beckmann_middle(middle));
+    lanes_m inside = lanes_both(w->trusted, vndf_trusts_beckmann_middle(middle));
     return lanes_both(inside, vndf_trusts_beckmann_facing(terms, at->d));
 }
 
@@ -162,15 +162,15 @@ VNDF_INLINE lanes_f vndf_beckmann_second(lanes_f u)
     return vndf_quantile_lanes(u, -vndf_log_lanes(vndf_beckmann_product(u)));
 }
 
-/* The normal of two slopes. Good where *plain stays. */
+/* The normal of two slopes. Good where *trusted stays. */
 VNDF_INLINE vndf_drawn vndf_beckmann_normal(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at,
-                                            lanes_f y, lanes_f middle, lanes_m *plain)
+                                            lanes_f y, lanes_f middle, lanes_m *trusted)
 {
     lanes_f mx = w->ax * (w->sin_phi * y - w->cos_phi * at->x);
     lanes_f my = -w->ay * (w->sin_phi * at->x + w->cos_phi * y);
     lanes_f m2 = (mx * mx + my * my) + 1.0f, length = lanes_root(m2);
     lanes_f both = 1.0f / (length * w->spread), per = w->spread * both;
-    *plain = vndf_beckmann_is_plain(w, at, y, middle);
+    *trusted = vndf_beckmann_is_trusted(w, at, y, middle);
     vndf_drawn n = {mx * per, my * per, per, vndf_exp_lanes(-(at->x * at->x + y * y)) * at->d * (m2 * m2 * both)};
     return n;
 }

@@ -6,7 +6,7 @@
 #include "math/vector.h"
 #include "sampler/analytic/beckmann.h"
 
-/* A plain one. */
+/* A trusted one. */
 VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi, const vndf_beckmann_incidence *w)
 {
     view->distribution = surface->distribution;
@@ -26,8 +26,8 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     vndf_view view;
-    if (!w.plain)
-        return vndf_closed_view_exactly(surface, vndf_packed(wi));
+    if (!w.trusted)
+        return vndf_analytic_view_exactly(surface, vndf_packed(wi));
     put(&view, surface, wi, &w);
     return view;
 }
@@ -35,10 +35,10 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
-    if (w.plain)
+    if (w.trusted)
         put(view, surface, wi, &w);
     else
-        vndf_closed_view_set_exactly(view, surface, vndf_packed(wi));
+        vndf_analytic_view_set_exactly(view, surface, vndf_packed(wi));
 }
 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -46,10 +46,10 @@ vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, f
     if (!view->plain)
         return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
-    lanes_m plain;
+    lanes_m trusted;
     vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u1), u1);
-    vndf_drawn n = vndf_beckmann_normal(&w, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &plain);
-    if (!plain)
+    vndf_drawn n = vndf_beckmann_normal(&w, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &trusted);
+    if (!trusted)
         return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
@@ -58,8 +58,8 @@ vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, f
 
 vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    vndf_frame f = vndf_closed_frame(view);
-    vndf_vec3 wm = vndf_closed_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));
+    vndf_frame f = vndf_analytic_frame(view);
+    vndf_vec3 wm = vndf_analytic_normal(&f, vndf_beckmann_sample(f.s, f.c, u1, u2));
     if (pdf)
         *pdf = vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
     return vndf_packed(wm);
@@ -67,7 +67,7 @@ vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, flo
 
 void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
-    vndf_frame f = vndf_closed_frame(view);
+    vndf_frame f = vndf_analytic_frame(view);
     vndf_beckmann_invert(f.s, f.c, vndf_normal_to_unit(&f, wm), u1, u2);
     *u2 = vndf_clamp_unit(*u2);
 }

@@ -18,7 +18,7 @@
 #include "sampler/all_normals/slope.h"
 #include "sampler/analytic/beckmann_draw.h"
 #include "sampler/analytic/view.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/tabulated/density.h"
 
 /* ---- for one or for lanes ---- */

@@ -1,5 +1,5 @@
 /* GGX (Trowbridge-Reitz) in the unit problem, by spherical caps (Dupuy & Benyoub, "Sampling Visible GGX Normals
- * with Spherical Caps", HPG 2023) in half angles. Densities: closed.h.
+ * with Spherical Caps", HPG 2023) in half angles. Densities: analytic_density.h.
  *
  * The unit problem is what remains of any roughness and direction after the stretch and the rotation about z
  * (design: w = (alpha_x wi.x, alpha_y wi.y, wi.z) / length): roughness 1, incident direction (s, 0, c), s >= 0.
@@ -25,7 +25,7 @@
 #include <math.h>
 
 #include "math/half_turn.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/analytic/face_repair.h"
 
 /* The uniform numbers that vndf_ggx_sample turns into n, of any length. */

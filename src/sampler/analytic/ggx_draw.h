@@ -1,4 +1,4 @@
-/* GGX where all is of plain size: ggx.h in float, for one or for lanes. With h = (w + cap), of which the normal is
+/* GGX where float is trusted: ggx.h in float, for one or for lanes. With h = (w + cap), of which the normal is
  * the direction, and w . n = |h|/2 (Dupuy & Benyoub 2023)
  *
  *     density of n = (w . n) 4/(2 pi (1 + c)) = |h|/(pi (1 + c)),
@@ -20,11 +20,11 @@
 /* Surface and stretched direction (x, y, c), of length 1. */
 typedef struct vndf_ggx_incidence {
     lanes_f ax, ay, x, y, c, q, spread; /* spread: pi (1 + c) ax ay, the area times 2 pi */
-    lanes_m plain;
+    lanes_m trusted;
 } vndf_ggx_incidence;
 
-/* Near the normal, from q = 1e10 on, products of what is drawn could overflow; so they could where roughness is
- * not plain. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
+/* Near the normal, from q = 1e10 on, products of drawn numbers could overflow; so they could at extreme
+ * roughness. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
  * are flushed: below 1e-38 per = 1e-12 that is nothing beside s > 2e-5. Where products overflow, c is 0 or NaN. */
 VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
 {
@@ -33,8 +33,8 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x
     lanes_f c = wi_z * across2 * per, spread = 3.14159265f * (ax * ay);
     vndf_ggx_incidence w = {
         ax, ay, x * across2 * per, y * across2 * per, c, up * up * length * per, spread + spread * c, lanes_all()};
-    w.plain = lanes_both(vndf_trusts_scale(ax, ay, c),
-                         lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(VNDF_TRUST_GGX_COTANGENT)));
+    w.trusted = lanes_both(vndf_trusts_scale(ax, ay, c),
+                           lanes_less(lanes_most(w.q, 1e-16f * per), lanes_set(VNDF_TRUST_GGX_COTANGENT)));
     return w;
 }
 
@@ -65,9 +65,9 @@ VNDF_INLINE vndf_half_azimuth vndf_half_azimuth_at(lanes_f u)
     return half;
 }
 
-/* Good where *plain stays. The normal is that of vndf_ggx_sample, but for roundings. h is multiplied by (1 + T)
+/* Good where *trusted stays. The normal is that of vndf_ggx_sample, but for roundings. h is multiplied by (1 + T)
  * and by the square of its half azimuth. */
-VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *plain)
+VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *trusted)
 {
     vndf_half_azimuth half = vndf_half_azimuth_at(u1);
     lanes_f v = 1.0f - u2, t2 = u2 + u2 * v * w->q, t = lanes_root(t2), tr = t + t2;
@@ -79,7 +79,7 @@ VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, la
     lanes_f h2 = (x * x + y * y) + z2, m2 = (mx * mx + my * my) + z2;
     lanes_f length = lanes_root(m2), below = w->spread * r * h2;
     lanes_f both = 1.0f / (length * below), per = below * both;
-    *plain = lanes_both(w->plain, vndf_trusts_ggx_halfway(r, h2));
+    *trusted = lanes_both(w->trusted, vndf_trusts_ggx_halfway(r, h2));
     vndf_drawn n = {mx * per, my * per, z * per, m2 * m2 * both};
     return n;
 }

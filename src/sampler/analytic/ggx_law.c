@@ -12,9 +12,9 @@ vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float 
     if (!view->plain)
         return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
     vndf_ggx_incidence w = vndf_ggx_incidence_of(view);
-    lanes_m plain;
-    vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &plain);
-    if (!plain)
+    lanes_m trusted;
+    vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &trusted);
+    if (!trusted)
         return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
@@ -25,8 +25,8 @@ vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2
 {
     if (view->wi.x == 0.0f && view->wi.y == 0.0f && view->wi.z > 0.0f)
         return vndf_sample_all(view->distribution, view->alpha_x, view->alpha_y, u1, u2, pdf); /* the same there */
-    vndf_frame f = vndf_closed_frame(view);
-    vndf_vec3 wm = vndf_closed_normal(&f, vndf_ggx_sample(f.s, f.c, u1, u2));
+    vndf_frame f = vndf_analytic_frame(view);
+    vndf_vec3 wm = vndf_analytic_normal(&f, vndf_ggx_sample(f.s, f.c, u1, u2));
     if (pdf)
         *pdf = vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
     return vndf_packed(wm);
@@ -34,6 +34,6 @@ vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2
 
 void vndf_ggx_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
-    vndf_frame f = vndf_closed_frame(view);
+    vndf_frame f = vndf_analytic_frame(view);
     vndf_ggx_invert(f.s, f.c, vndf_normal_to_unit(&f, wm), u1, u2);
 }

@@ -7,7 +7,7 @@
 #include "sampler/all_normals/slope.h"
 #include "sampler/analytic/ggx_draw.h"
 #include "sampler/analytic/view.h"
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "sampler/tabulated/density.h"
 
 /* ---- for one or for lanes ---- */
@@ -34,7 +34,7 @@ VNDF_INLINE doubles vndf_ggx_visible(const vndf_query *g, doubles facing)
 
 /* ---- views ---- */
 
-/* A plain one. */
+/* A trusted one. */
 VNDF_INLINE void vndf_ggx_view_put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi,
                                    const vndf_ggx_incidence *w)
 {
@@ -54,12 +54,12 @@ VNDF_INLINE void vndf_ggx_view_put(vndf_view *view, const vndf_surface *surface,
     view->of.ggx.spread = w->spread;
 }
 
-/* vndf_view_from; in the caller, as a call costs a tenth of it. */
+/* vndf_view_from; inline, since a call would be a tenth of its cost. */
 VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
-    if (!w.plain)
-        return vndf_closed_view_exactly(surface, vndf_packed(wi));
+    if (!w.trusted)
+        return vndf_analytic_view_exactly(surface, vndf_packed(wi));
     vndf_view view;
     vndf_ggx_view_put(&view, surface, wi, &w);
     return view;
@@ -69,13 +69,13 @@ VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 
 VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
-    if (w.plain)
+    if (w.trusted)
         vndf_ggx_view_put(view, surface, wi, &w);
     else
-        vndf_closed_view_set_exactly(view, surface, vndf_packed(wi));
+        vndf_analytic_view_set_exactly(view, surface, vndf_packed(wi));
 }
 
-/* vndf_sample of a valid view, and the same where densities in float are known not to do. */
+/* vndf_sample of a valid view, and the same where float is known not to be trusted. */
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf);
 vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 

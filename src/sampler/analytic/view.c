@@ -15,14 +15,14 @@ VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
     view->plain = 0;
 }
 
-vndf_view vndf_closed_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
+vndf_view vndf_analytic_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_view view;
     put(&view, surface, wi);
     return view;
 }
 
-void vndf_closed_view_set_exactly(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+void vndf_analytic_view_set_exactly(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     put(view, surface, wi);
 }
@@ -40,7 +40,7 @@ static vndf_vec3 turn_below(vndf_vec3 wi, vndf_vec3 wm, double highest)
     return wm;
 }
 
-vndf_vec3 vndf_closed_turned_back(const vndf_frame *f, vndf_vec3 wm)
+vndf_vec3 vndf_analytic_turned_back(const vndf_frame *f, vndf_vec3 wm)
 {
     double level = (double)f->wi.x * wm.x + (double)f->wi.y * wm.y, highest = level / -(double)f->wi.z;
     if (f->wi.z < 0.0f && highest > wm.z * (1.0 - 0x1p-21))

@@ -21,11 +21,11 @@ VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
         shared = vndf_ggx_incidence_of(b->view);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
         vndf_ggx_incidence w = b->view ? shared : ggx_incidence_at(b, i);
-        lanes_m plain;
-        vndf_drawn n = vndf_ggx_draw(&w, vndf_block_u(b->u1 + i), vndf_block_u(b->u2 + i), &plain);
+        lanes_m trusted;
+        vndf_drawn n = vndf_ggx_draw(&w, vndf_block_u(b->u1 + i), vndf_block_u(b->u2 + i), &trusted);
         vndf_block_store(b, i, &n);
-        if (lanes_any(lanes_without(lanes_all(), plain)))
-            vndf_block_leave(b, lanes_without(lanes_all(), w.plain), lanes_without(w.plain, plain), i);
+        if (lanes_any(lanes_without(lanes_all(), trusted)))
+            vndf_block_leave(b, lanes_without(lanes_all(), w.trusted), lanes_without(w.trusted, trusted), i);
     }
 }
 
@@ -70,12 +70,12 @@ static inline void vndf_draw_beckmann(vndf_sample_block *b)
     draw_slopes(b, &w, one, groups);
     for (uint32_t g = 0; g < groups; g++) {
         const vndf_beckmann_incidence *at = one ? one : &w.at[g];
-        lanes_m plain;
+        lanes_m trusted;
         vndf_drawn n =
-            vndf_beckmann_normal(at, &w.first[g], w.second[g], vndf_beckmann_middle(w.u1[g], w.u2[g]), &plain);
+            vndf_beckmann_normal(at, &w.first[g], w.second[g], vndf_beckmann_middle(w.u1[g], w.u2[g]), &trusted);
         vndf_block_store(b, g * VNDF_LANES, &n);
-        if (lanes_any(lanes_without(lanes_all(), plain)))
-            vndf_block_leave(b, lanes_without(lanes_all(), at->plain), lanes_without(at->plain, plain),
+        if (lanes_any(lanes_without(lanes_all(), trusted)))
+            vndf_block_leave(b, lanes_without(lanes_all(), at->trusted), lanes_without(at->trusted, trusted),
                              g * VNDF_LANES);
     }
 }

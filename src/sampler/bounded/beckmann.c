@@ -8,9 +8,8 @@
  * alpha_y)^2 and x0, x1 are the roots of det x^2 + 2 h qyy x = qyy. x1 < K/2: normals turned away are not in it.
  *
  * u1 moves x through the part of F between x0 and x1, u2 moves y through the part of the normal law on the chord;
- * kept is the product of both parts. Of the two tails of y the one is used where the chord has its middle, so
- * that a chord far out keeps its digits; on a short one the part is had by quadrature and inverted by Newton's
- * steps. */
+ * The inside mass is the product of both parts. y is counted from the tail where the middle of the chord is, so
+ * that a chord far out keeps its digits; on a short chord quadrature gives the part and Newton's steps invert it. */
 #include "math/elementary.h"
 #include "math/erf_quantile.h"
 #include "math/vector.h"
@@ -21,9 +20,9 @@
 #include "sampler/stretch.h"
 #include "sampler/surface.h"
 
-/* In the bounds stand the extent, the part of F before it and on it, the azimuth of wi, in double - of a float the
- * last bits would put normals beside the extent -, and the law of x; beside them the stretched direction and its
- * area times the roughness. */
+/* The bounds hold the extent, the part of F before it and on it, the azimuth of wi and the law of x, in double: rounded
+ * to float they would put normals beside the extent. They also hold the stretched direction and its area times the
+ * roughness. */
 typedef struct vndf_beckmann_bounds extent;
 
 /* The ellipse in the frame turned to the stretched wi. */
@@ -39,7 +38,7 @@ static ellipse ellipse_of(const vndf_view *view, const extent *bounds)
     return e;
 }
 
-/* The part of the law before x, of a plain view, in float: to 3e-7. Beyond 4 there is less than that. */
+/* The part of the law before x, of a trusted view, in float: to 3e-7. Beyond 4 there is less than that. */
 static double part_in_float(const vndf_view *view, double x)
 {
     const struct vndf_beckmann_view *w = &view->of.beckmann;
@@ -50,7 +49,7 @@ static double part_in_float(const vndf_view *view, double x)
     return (x < 0.0 ? tail : tail + line) / whole;
 }
 
-/* Of a plain view it is in the view; else in `bounds`. */
+/* A trusted view holds the law; else `bounds` do. */
 VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const extent *bounds)
 {
     double bound = vndf_beckmann_bound(bounds->s, bounds->c), scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
@@ -82,7 +81,7 @@ static void set_law_in_float(const vndf_view *view, extent *bounds)
 
 void vndf_bound_beckmann(const vndf_view *view, extent *bounds)
 {
-    vndf_stretched w = vndf_stretched_closed(view);
+    vndf_stretched w = vndf_stretched_analytic(view);
     vndf_heading to = vndf_heading_of(&w);
     bounds->s = (float)w.s;
     bounds->c = (float)w.c;
@@ -142,7 +141,7 @@ static float half_erfc_in_float(float x)
     return x < 0.0f ? tail : 1.0f - tail;
 }
 
-/* In float where that leaves kept its digits. */
+/* In float where that leaves the inside mass its digits. */
 static void weigh_chord_in_float(chord *h)
 {
     float before = half_erfc_in_float((float)h->low), part = half_erfc_in_float((float)h->high) - before;
@@ -152,8 +151,7 @@ static void weigh_chord_in_float(chord *h)
         weigh_chord(h);
 }
 
-/* Newton's steps from where the density would be constant; at most 27% more or less of it changes on the chord.
- * */
+/* Newton's steps from where a constant density would put y; on the chord the density changes by at most 27%. */
 static double short_draw(const chord *h, double u)
 {
     double y = h->low + u * (h->high - h->low), target = u * h->part;
@@ -199,9 +197,9 @@ static int is_settled(const vndf_view *view, const extent *bounds, const ellipse
     double gain = fabs(e->qxy) * root + 0.5 * e->det * (bounds->x1 - bounds->x0);
     double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
     double turned = bounds->s * (fabs(x) + fabs(y)) + bounds->c, facing = bounds->c - bounds->s * x;
-    int plain =
+    int trusted =
         view->plain && x * x + y * y < VNDF_TRUST_BOUNDED_SLOPE && VNDF_TRUST_BOUNDED_FACING * turned < facing;
-    return plain && change < VNDF_TRUST_BOUNDED_STEEP * h->part * e->qyy * root;
+    return trusted && change < VNDF_TRUST_BOUNDED_STEEP * h->part * e->qyy * root;
 }
 
 /* The slope along wi. */
@@ -239,10 +237,10 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const extent *bounds, 
     double length2 = m.x * m.x + m.y * m.y + 1.0, up = bounds->c - bounds->s * x;
     if (!(VNDF_TRUST_INSIDE * bounds->c * length2 < 2.0 * up) || !is_settled(view, bounds, &e, &h, x, y))
         return settled(view, bounds, m);
-    double length = sqrt(length2), per = 1.0 / length, kept = bounds->span * h.part;
+    double length = sqrt(length2), per = 1.0 / length, inside_mass = bounds->span * h.part;
     float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));
-    double density = p22 * (up * length2 * length) / (bounds->spread * kept);
+    double density = p22 * (up * length2 * length) / (bounds->spread * inside_mass);
     vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
-    vndf_bounded b = {wm, (float)density, (float)kept};
+    vndf_bounded b = {wm, (float)density, (float)inside_mass};
     return b;
 }

@@ -47,16 +47,16 @@ vndf_vec3 vndf_disc_normal(const vndf_view *view, vndf_normal drawn)
 }
 
 /* Where a chord is nothing but rounding no density is infinite. */
-static const double LEAST_KEPT = 1e-37;
+static const double LEAST_INSIDE = 1e-37;
 
 double vndf_bounded_density(vndf_bounded_factors at)
 {
-    return at.visible / (at.kept > LEAST_KEPT ? at.kept : LEAST_KEPT);
+    return at.visible / (at.inside_mass > LEAST_INSIDE ? at.inside_mass : LEAST_INSIDE);
 }
 
 vndf_bounded vndf_bounded_from(vndf_vec3 wm, vndf_bounded_factors at)
 {
-    double kept = at.kept > LEAST_KEPT ? at.kept : LEAST_KEPT;
-    vndf_bounded b = {wm, vndf_positive(vndf_density_from(at.visible / kept)), (float)kept};
+    double inside_mass = at.inside_mass > LEAST_INSIDE ? at.inside_mass : LEAST_INSIDE;
+    vndf_bounded b = {wm, vndf_positive(vndf_density_from(at.visible / inside_mass)), (float)inside_mass};
     return b;
 }

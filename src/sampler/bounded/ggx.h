@@ -1,5 +1,5 @@
-/* Bounded visible normals of GGX; ggx.c has the mathematics and any direction, ggx_draw.h those of plain size, in
- * float. */
+/* Bounded visible normals of GGX; ggx.c has the mathematics and draws for any direction, ggx_draw.h in float
+ * where that is trusted. */
 #ifndef VNDF_SAMPLER_BOUNDED_GGX_H
 #define VNDF_SAMPLER_BOUNDED_GGX_H
 

@@ -1,5 +1,5 @@
-/* Bounded visible normals of GGX where all is of plain size and nothing cancels: ggx.c in float, to be part
- * of the caller: calls would be a tenth of the cost.
+/* Bounded visible normals of GGX where float is trusted: ggx.c in float. All is inline: a call would be a tenth of the
+ * cost.
  *
  * The level direction is not made unit: with (x, y) = s (cos phi, sin phi), (E1, E12; E12, E2) = s^2 R^T A^2 R the
  * matrix of the level directions, and N u for (X, Y) = N (cos psi, sin psi),
@@ -8,8 +8,8 @@
  *     s (c M0.M1 - s cos psi) N = -(s^4 + c^2 E1) X + c E12 Y,
  *
  * so the root of the chord, t/(s N) = above/below, takes no vectors. N = 1 in front; in the wedge (X, Y) = (-c
- * cos v, sin v) and N^2 is the largest sin(g)^2. Either way kept is (t/N)^2/(1 + t^2), times the factor of the
- * side, and sin(g)^2/N^2 is u2 times that. */
+ * cos v, sin v) and N^2 is the largest sin(g)^2. Either way the inside mass is (t/N)^2/(1 + t^2), times the factor
+ * of the side, and sin(g)^2/N^2 is u2 times that. */
 #ifndef VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 #define VNDF_SAMPLER_BOUNDED_GGX_DRAW_H
 
@@ -19,14 +19,14 @@
 
 /* ---- directions ---- */
 
-/* What a sample takes of the direction, beside its law. */
+/* A direction, as samples use it beside its law. */
 typedef struct vndf_outlook {
     float x, y, c, s2;
     float q, e12, e2; /* c^2 E1 + s^4, half of it is the linear term in front; E12 and E2 */
     float c0;         /* the constant term, below 0 where w is in the disc */
 } vndf_outlook;
 
-/* As far as the view is plain. */
+/* Of a view that is trusted. */
 VNDF_INLINE vndf_outlook vndf_outlook_of(const vndf_view *v, const struct vndf_ggx_bounds *b)
 {
     const struct vndf_ggx_view *w = &v->of.ggx;
@@ -34,7 +34,7 @@ VNDF_INLINE vndf_outlook vndf_outlook_of(const vndf_view *v, const struct vndf_g
     return o;
 }
 
-/* Of a plain view, which has its direction, of length 1, but not turned. */
+/* Of a trusted view: it holds the direction, of length 1, but not turned. */
 VNDF_INLINE vndf_outlook vndf_outlook_set(const vndf_view *v, struct vndf_ggx_bounds *b)
 {
     float x = v->of.ggx.x, y = v->of.ggx.y, c = v->of.ggx.c, a2 = v->ax * v->ax, b2 = v->ay * v->ay;
@@ -50,12 +50,12 @@ VNDF_INLINE vndf_outlook vndf_outlook_set(const vndf_view *v, struct vndf_ggx_bo
 }
 
 /* Away from where w leaves the disc. */
-VNDF_INLINE int vndf_outlook_is_plain(const vndf_view *view, const vndf_outlook *o)
+VNDF_INLINE int vndf_outlook_is_trusted(const vndf_view *view, const vndf_outlook *o)
 {
     return view->plain && o->c0 < VNDF_TRUST_CHORD_INSIDE * o->c;
 }
 
-/* 1 or 0, for sums of which one part is not wanted: which one nothing foresees, and compilers would branch. */
+/* 1 or 0. Sums take one part or the other by it: a compiler would branch, and no processor foresees that branch. */
 VNDF_INLINE float vndf_is_positive(float x)
 {
     return 0.5f + copysignf(0.5f, x);
@@ -63,9 +63,9 @@ VNDF_INLINE float vndf_is_positive(float x)
 
 /* ---- the law of psi ---- */
 
-/* `slow` and `fast` are half of one over the part in front, and over that in the wedge; `in_front` and `in_wedge`
- * are kept over those of the roots there. The front counts as if all were kept there, which is nearly so. The wedge
- * counts with the larger part kept, that of its middle or of its sides. */
+/* `slow` and `fast` are half of one over the part in front, and over that in the wedge; `in_front` and `in_wedge` are
+ * the inside mass over that of the roots there. The front counts as if all of it were inside, which is nearly so. The
+ * wedge counts with its larger inside mass, in its middle or at its sides. */
 VNDF_INLINE void vndf_ggx_law_set(struct vndf_ggx_bounds *law, const vndf_outlook *o)
 {
     float c = o->c, c2 = c * c, b = c * o->q, away = b + sqrtf(b * b - c * c2 * o->q * o->c0);
@@ -100,9 +100,9 @@ VNDF_INLINE vndf_ggx_azimuth vndf_ggx_draw_azimuth(const vndf_outlook *o, const 
     return a;
 }
 
-/* The root of the chord and what sin(g)^2/(s N)^2 and cos(g)^2 are at u2. */
+/* The root of the chord, and sin(g)^2/(s N)^2 and cos(g)^2 at u2. */
 typedef struct vndf_ggx_chord {
-    float square, root, kept, sine2, cosine2, rest; /* |M1|^2 (s N)^2; 1 - sin(g)^2 at the end */
+    float square, root, inside_mass, sine2, cosine2, rest; /* |M1|^2 (s N)^2; 1 - sin(g)^2 at the end */
 } vndf_ggx_chord;
 
 VNDF_INLINE vndf_ggx_chord vndf_ggx_draw_chord(const vndf_outlook *o, const vndf_ggx_azimuth *at, float u2)
@@ -117,11 +117,11 @@ VNDF_INLINE vndf_ggx_chord vndf_ggx_draw_chord(const vndf_outlook *o, const vndf
     return h;
 }
 
-/* A sample: the stretched normal, as it comes, and what it was made of. */
+/* A sample: the stretched normal, of any length, and its azimuth and chord. */
 typedef struct vndf_ggx_bounded {
     vndf_ggx_azimuth at;
     vndf_ggx_chord chord;
-    float x, y, z, length2, sine, cosine, kept; /* sine: over s N */
+    float x, y, z, length2, sine, cosine, inside_mass; /* sine: over s N */
 } vndf_ggx_bounded;
 
 VNDF_INLINE vndf_ggx_bounded vndf_ggx_draw_bounded(const vndf_view *v, const struct vndf_ggx_bounds *law,
@@ -133,7 +133,7 @@ VNDF_INLINE vndf_ggx_bounded vndf_ggx_draw_bounded(const vndf_view *v, const str
     float gx = v->ax * (o->x * cx + o->y * at.y), gy = v->ay * (o->y * cx - o->x * at.y), gz = o->s2 * at.x;
     float x = cosine * (v->ax * o->x) - sine * gx, y = cosine * (v->ay * o->y) - sine * gy;
     float z = cosine * o->c + sine * gz;
-    vndf_ggx_bounded n = {at, h, x, y, z, x * x + y * y + z * z, sine, cosine, h.kept * at.factor};
+    vndf_ggx_bounded n = {at, h, x, y, z, x * x + y * y + z * z, sine, cosine, h.inside_mass * at.factor};
     return n;
 }
 
@@ -145,11 +145,11 @@ VNDF_INLINE int vndf_ggx_is_inside(const vndf_outlook *o, const vndf_ggx_bounded
            VNDF_TRUST_CHORD_HEIGHT * c * cosine < n->z && VNDF_TRUST_CHORD_COSINE < cosine;
 }
 
-/* Whether kept is that of the normal as it is rounded. That turns psi by some 1e-7/(reach sin(g)) - reach is 1
- * for the normal itself -, and d log(t)/d psi is below (2 root E/|M1| + c E |M0| + s)/root, E^2 the sum of both
- * squares of the roughness, which bears on kept by twice cos(g)^2 at the end; the matrix may hide what is small
- * in E. That bound is far above what is measured: at 150 the density is within 4e-6. In front and in the wedge
- * kept differs. */
+/* Whether the inside mass is that of the rounded normal. Rounding turns psi by some 1e-7/(reach sin(g)); reach is 1 for
+ * the normal itself. d log(t)/d psi is below (2 root E/|M1| + c E |M0| + s)/root, with E^2 the sum of both squares of
+ * the roughness; the inside mass changes by twice cos(g)^2 at the end times that. The matrix may hide small terms of E.
+ * The bound is far above the measured change: at 150 the density is within 4e-6. In front and in the wedge the inside
+ * mass differs. */
 VNDF_INLINE int vndf_ggx_is_settled(const vndf_view *v, const vndf_outlook *o, const vndf_ggx_bounded *drawn,
                                     float reach)
 {
@@ -157,9 +157,9 @@ VNDF_INLINE int vndf_ggx_is_settled(const vndf_view *v, const vndf_outlook *o, c
     float n2 = drawn->at.n2, n = sqrtf(n2), e2 = v->ax * v->ax + v->ay * v->ay, sine = reach * drawn->sine;
     float gain = o->c * (0.7f + 0.7f * e2) + (0.5f + 0.5f * o->s2), matrix = n2 * e2;
     float change = h->rest * (2.0f * h->root * (h->square + matrix) + gain * h->square * n);
-    int calm = change < VNDF_TRUST_CHORD_STEEP * (sine * n) * h->root * h->square &&
-               VNDF_TRUST_CHORD_SIDE < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
-    return calm && VNDF_TRUST_CHORD_SINE < sine * n && matrix < VNDF_TRUST_CHORD_MATRIX * h->square;
+    int smooth = change < VNDF_TRUST_CHORD_STEEP * (sine * n) * h->root * h->square &&
+                 VNDF_TRUST_CHORD_SIDE < drawn->at.x * drawn->at.x * (sine * sine) * o->s2;
+    return smooth && VNDF_TRUST_CHORD_SINE < sine * n && matrix < VNDF_TRUST_CHORD_MATRIX * h->square;
 }
 
 #endif

@@ -54,6 +54,9 @@ VNDF_INLINE float vndf_table_view_area(const vndf_view *view)
     return view->of.table.area * (sqrtf(x * x + y * y) + view->wi.z);
 }
 
+/* The largest |d log P22/dR| within cells that hold more than 1e-8 of the mass; steepness.c. */
+double vndf_table_steepness(const vndf_distribution *d);
+
 /* vndf_invert of a valid view, wm.z >= 0; view.c. */
 void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 

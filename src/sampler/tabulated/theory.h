@@ -49,7 +49,7 @@
 
 #include <stdint.h>
 
-#include "sampler/closed.h"
+#include "sampler/analytic_density.h"
 #include "vndf.h"
 
 /* All of it is for tables, whose views have s + |c| = 1: drawing in sample.c, densities and D in exact.c. */

@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "oracle/oracle.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "sampler/bounded/bounded.h"
 #include "harness/test.h"
 
@@ -41,26 +41,28 @@ static int is_normal(const subject *s, vndf_bounded b)
 static int has_its_density(const subject *s, vndf_bounded b)
 {
     double pdf = vndf_pdf_bounded(&s->view, &s->bounds, vndf_normal_of(b.wm));
-    int in_range = pdf > 2e-38 && pdf < 3e38 && b.kept > 1e-30f, held = b.density > 0 && b.density <= FLT_MAX;
+    int in_range = pdf > 2e-38 && pdf < 3e38 && b.inside_mass > 1e-30f,
+        held = b.density > 0 && b.density <= FLT_MAX;
     if (!in_range)
-        return held && b.kept > 0 && b.kept < 1.000001f;
+        return held && b.inside_mass > 0 && b.inside_mass < 1.000001f;
     double visible = vndf_pdf(&s->view, b.wm);
-    return held && b.kept < 1.000001f && fabs(b.density - pdf) <= 1e-5 * pdf &&
-           (visible < 2e-38 || visible > 3e38 || fabs(b.density * (double)b.kept - visible) <= 1e-5 * visible);
+    return held && b.inside_mass < 1.000001f && fabs(b.density - pdf) <= 1e-5 * pdf &&
+           (visible < 2e-38 || visible > 3e38 ||
+            fabs(b.density * (double)b.inside_mass - visible) <= 1e-5 * visible);
 }
 
 static int draw(subject *s, float u1, float u2)
 {
     vndf_bounded b = vndf_sample_bounded(&s->view, &s->bounds, u1, u2);
-    s->kept += b.kept;
-    s->kept2 += (double)b.kept * b.kept;
+    s->kept += b.inside_mass;
+    s->kept2 += (double)b.inside_mass * b.inside_mass;
     s->plain += reflected_z(s->view.wi, vndf_sample(&s->view, u1, u2, NULL)) > 0;
     if (TEST(is_normal(s, b)) & TEST(has_its_density(s, b)))
         return 1;
     fprintf(stderr,
             "  %s, alpha %g %g, wi %.9g %.9g %.9g, u %.9g %.9g: wm %.9g %.9g %.9g density %.9g kept %.9g\n",
             s->name, s->view.alpha_x, s->view.alpha_y, s->view.wi.x, s->view.wi.y, s->view.wi.z, u1, u2, b.wm.x,
-            b.wm.y, b.wm.z, b.density, b.kept);
+            b.wm.y, b.wm.z, b.density, b.inside_mass);
     return 0;
 }
 
@@ -113,7 +115,8 @@ static void test_variance(const char *name, const vndf_distribution *d, float al
         vndf_vec3 wi = s.view.wi, wm = b.wm;
         float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
         vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
-        double weight = b.kept * vndf_g2(&surface, wi, wo, VNDF_G2_HEIGHT_CORRELATED) / vndf_g1(&surface, wi);
+        double weight =
+            b.inside_mass * vndf_g2(&surface, wi, wo, VNDF_G2_HEIGHT_CORRELATED) / vndf_g1(&surface, wi);
         sum[i % 2] += weight / count;
         square[i % 2] += weight * weight / count;
     }
@@ -206,8 +209,8 @@ static void test_nothing(const vndf_distribution *d)
     vndf_bounded nan = vndf_sample_bounded(&good.view, &good.bounds, NAN, 2);
     vndf_bounded corner = vndf_sample_bounded(&good.view, &good.bounds, 0, 1);
     vndf_normal up = {0, 0, 1}, away = {0.8, 0, 0.6};
-    TEST(b.wm.z == 1 && b.density == 0 && b.kept == 0);
-    TEST(i.wm.z == 1 && i.density == 0 && i.kept == 0);
+    TEST(b.wm.z == 1 && b.density == 0 && b.inside_mass == 0);
+    TEST(i.wm.z == 1 && i.density == 0 && i.inside_mass == 0);
     TEST(vndf_pdf_bounded(&below.view, &below.bounds, up) == 0);
     TEST(vndf_pdf_bounded(&invalid.view, &invalid.bounds, up) == 0);
     TEST(vndf_pdf_bounded(&good.view, &good.bounds, up) > 0);

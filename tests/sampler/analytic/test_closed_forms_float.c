@@ -46,7 +46,7 @@ static long double mass_below(long double x, long double k)
 
 static int is_plain(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at, float u)
 {
-    return vndf_beckmann_is_plain(w, at, 0.0f, vndf_beckmann_product(u));
+    return vndf_beckmann_is_trusted(w, at, 0.0f, vndf_beckmann_product(u));
 }
 
 /* Through x where that is the smaller, else through d. */

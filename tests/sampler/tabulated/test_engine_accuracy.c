@@ -1,4 +1,4 @@
-/* A table of 16 KiB is as close to the truth as promised: total variation at most 1e-3 (1e-2 for a ring and a
+/* A table of 16 KiB is as close to the reference as promised: total variation at most 1e-3 (1e-2 for a ring and a
  * jump) and area error at most 2e-6 at every angle, and the certificate says the same within 20%. Its other
  * claims hold as well: areas within 20% (and 1e-7), the largest weight within 25% of what it has above 1 for all
  * but 2e-6 of the mass, and ndf_error within 20%.
@@ -6,7 +6,7 @@
  * Promises hold where the area exceeds 1e-10 of its value at grazing incidence, as the header says. The sums of
  * the grid have an error of about 2% of the total variation, and the float direction is taken as it is, so the
  * area's error includes rounding of the direction by the library. */
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 
@@ -25,9 +25,9 @@ static double ndf_error(const oracle *o, const vndf_distribution *table)
     double scale = vndf_distribution_info(table).scale, least = 1e-3 * oracle_p22(o, scale), worst = 0;
     for (int i = 1; i < 4000; i++) {
         float r = (float)(scale * 3 * i / 4000);
-        double truth = oracle_p22(o, r);
-        if (truth > least && !(o->breaks[0] > 0 && fabs(r / o->breaks[0] - 1) < 1e-5))
-            worst = fmax(worst, fabs((double)vndf_p22(&surface, r, 0) / truth - 1));
+        double reference = oracle_p22(o, r);
+        if (reference > least && !(o->breaks[0] > 0 && fabs(r / o->breaks[0] - 1) < 1e-5))
+            worst = fmax(worst, fabs((double)vndf_p22(&surface, r, 0) / reference - 1));
     }
     return worst;
 }
@@ -43,10 +43,10 @@ static void test_table(const oracle *o, size_t first)
     for (size_t i = test_quick() ? 0 : first; i < sizeof ANGLES / sizeof *ANGLES; i += test_amount(3, 3, 1)) {
         if (!is_promised(o, ANGLES[i]))
             continue;
-        oracle_finding f = oracle_survey(o, &surface, oracle_direction(ANGLES[i], 0), heavy);
+        oracle_finding f = oracle_validate(o, &surface, oracle_direction(ANGLES[i], 0), heavy);
         most = fmax(most, f.tv);
         area = fmax(area, f.area_error);
-        TEST_NEAR(f.truth, 1, 2e-6); /* the grid itself */
+        TEST_NEAR(f.reference, 1, 2e-6); /* the grid itself */
         if (!(TEST(f.tv <= (o->rough ? 1e-2 : 1e-3)) & TEST(f.area_error <= 2e-6) & TEST(f.heavier <= 2e-6)))
             fprintf(stderr,
                     "  %s at %g degrees: TV %.3g, area error %.3g, ratio above %.4g for %.3g of the mass\n",
@@ -54,7 +54,7 @@ static void test_table(const oracle *o, size_t first)
     }
     TEST(area <= 1.2 * claim.area_error + 1e-7);
     TEST(ndf_error(o, table) <= 1.2 * claim.ndf_error + 2e-7);
-    double there = oracle_survey(o, &surface, oracle_direction(claim.tv_theta, 0), 1).tv;
+    double there = oracle_validate(o, &surface, oracle_direction(claim.tv_theta, 0), 1).tv;
     if (!TEST(claim.tv >= 0.8 * most) || !TEST(there >= 0.8 * claim.tv && there <= 1.25 * claim.tv))
         fprintf(stderr, "  %s claims TV %.3g at %g degrees; found %.3g there and %.3g elsewhere\n", oracle_name(o),
                 claim.tv, claim.tv_theta, there, most);

@@ -2,7 +2,7 @@
  * forms and tables, isotropic, anisotropic and turned, at level 0.01 for all together, and the density integrates
  * to 1 within 2e-6 (measured: 3e-7). */
 #include "measure/chi_square.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "measure/statistics.h"
 #include "harness/test.h"
 

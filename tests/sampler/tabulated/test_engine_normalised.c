@@ -4,7 +4,7 @@
  * pdf is piecewise smooth in stretched slopes in polar form. The panels of the quadrature end at the cells of
  * the table, read from its memory, and where normals turn away: any other panels would give the same integral,
  * of many more points. */
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "sampler/tabulated/wedge.h"
 #include "harness/constants.h"
 #include "harness/test.h"

@@ -4,7 +4,7 @@
  * Tables hold areas within 2e-6 and P22 within 2e-4 of it or of 1e-4 of its largest value; closed forms within
  * 1e-6. On top comes what the rounding of the stretched direction to float, 2^-23 of it, does to the area: much,
  * in the tail below the horizon. */
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 
@@ -47,10 +47,10 @@ static void test_area(const subject *t, const vndf_surface *surface)
             continue;
         TEST_NEAR(lambda + (double)vndf_lambda(surface, back), -1, 2e-7 * (1 + fabs(lambda)));
         if (theta < 90) {
-            double truth = reversed_area(t->o, surface, wi) / up;
+            double reference = reversed_area(t->o, surface, wi) / up;
             double least = 2 * t->area + rounding(t->o, surface, back);
             TEST(lambda >= 0);
-            TEST_NEAR(lambda, truth, truth > 1e-10 ? least * truth : 1e-9);
+            TEST_NEAR(lambda, reference, reference > 1e-10 ? least * reference : 1e-9);
             TEST_RELATIVE((double)vndf_g1(surface, wi), up / area, 2 * t->area);
         } else
             TEST(vndf_g1(surface, wi) == 0);
@@ -89,16 +89,16 @@ static void test_ndf(const subject *t, const vndf_surface *surface)
         double r = scale * 3 * test_uniform_double(&state), a = 2 * PI * test_uniform_double(&state);
         float x = (float)(ax * r * cos(a)), y = (float)(ay * r * sin(a));
         double z = 1 / sqrt(1 + (double)x * x + (double)y * y),
-               truth = oracle_p22(t->o, hypot(x / ax, y / ay)) / (ax * ay);
+               reference = oracle_p22(t->o, hypot(x / ax, y / ay)) / (ax * ay);
         double most = oracle_p22(t->o, scale) / (ax * ay);
         vndf_vec3 wm = {(float)(-x * z), (float)(-y * z), (float)z};
         double got = vndf_p22(surface, x, y);
         if (t->o->breaks[0] > 0 && fabs(r - t->o->breaks[0]) < 1e-5)
             continue;
-        if (!TEST_NEAR(got, truth, t->p22 * (truth + 1e-4 * most)))
+        if (!TEST_NEAR(got, reference, t->p22 * (reference + 1e-4 * most)))
             fprintf(stderr, "  %s at slope %g\n", oracle_name(t->o), r);
-        TEST_NEAR((double)vndf_ndf(surface, wm), truth / pow(wm.z, 4),
-                  (t->p22 + 2e-6) * (truth + 1e-4 * most) / pow(z, 4));
+        TEST_NEAR((double)vndf_ndf(surface, wm), reference / pow(wm.z, 4),
+                  (t->p22 + 2e-6) * (reference + 1e-4 * most) / pow(z, 4));
     }
 }
 

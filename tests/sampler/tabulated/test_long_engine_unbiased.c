@@ -17,10 +17,10 @@ static void test_table(const oracle *o, size_t bytes, unsigned long long *state)
     oracle_expected expected = oracle_expect(o, &surface, oracle_direction(75, 33));
     oracle_averages(o, table, &expected, test_quick() ? 1000000 : 100000000, state, average);
     for (int i = 0; i < ORACLE_FUNCTIONS; i++) {
-        int good = TEST_NEAR(average[i].mean, expected.truth[i], 4 * average[i].error + 2e-6);
+        int good = TEST_NEAR(average[i].mean, expected.reference[i], 4 * average[i].error + 2e-6);
         fprintf(stderr, "%s %s, %lu bytes, function %d: %.3g standard errors of %.3g\n", good ? " " : "!",
-                oracle_name(o), (unsigned long)bytes, i, (average[i].mean - expected.truth[i]) / average[i].error,
-                average[i].error);
+                oracle_name(o), (unsigned long)bytes, i,
+                (average[i].mean - expected.reference[i]) / average[i].error, average[i].error);
     }
     vndf_free(table);
 }

@@ -1,7 +1,7 @@
 /* Inputs: the same random numbers for every set of a turn, so that differences of times are those of the sets. */
 #include <math.h>
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "bench/effects/effects.h"
 #include "cli/random.h"
 

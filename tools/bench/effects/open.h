@@ -3,7 +3,7 @@
 #ifndef TOOLS_BENCH_EFFECTS_OPEN_H
 #define TOOLS_BENCH_EFFECTS_OPEN_H
 
-#include "cli/distribution.h"
+#include "cli/subject.h"
 #include "bench/effects/effects.h"
 
 typedef struct effects_opened {

@@ -28,9 +28,9 @@ typedef struct inverse_tables {
 
 /* ---- preparing --------------------------------------------------------------------------------- */
 
-static double p22_at(const method_truth *truth, double x, double y)
+static double p22_at(const method_reference *reference, double x, double y)
 {
-    return (double)vndf_p22(&truth->canonical, (float)x, (float)y);
+    return (double)vndf_p22(&reference->canonical, (float)x, (float)y);
 }
 
 static double slope_at(double part)
@@ -54,23 +54,24 @@ static void fill_quantiles(float *row, size_t side, const double *mass)
     }
 }
 
-static void fill_across(inverse_tables *t, const method_truth *truth, double *mass)
+static void fill_across(inverse_tables *t, const method_reference *reference, double *mass)
 {
     for (size_t i = 0; i < t->side; i++) {
         double x = slope_at((double)i / (double)(t->side - 1));
         for (size_t k = 0; k < FINE; k++)
-            mass[k] = p22_at(truth, x, slope_at(((double)k + 0.5) / FINE));
+            mass[k] = p22_at(reference, x, slope_at(((double)k + 0.5) / FINE));
         fill_quantiles(t->across + i * t->side, t->side, mass);
     }
 }
 
 /* P2 at the middles of the cells. */
-static void fill_marginal(const method_truth *truth, double *marginal)
+static void fill_marginal(const method_reference *reference, double *marginal)
 {
     for (size_t i = 0; i < FINE; i++) {
         marginal[i] = 0;
         for (size_t k = 0; k < FINE / 2; k++)
-            marginal[i] += p22_at(truth, slope_at(((double)i + 0.5) / FINE), slope_at(((double)k + 0.5) / FINE));
+            marginal[i] +=
+                p22_at(reference, slope_at(((double)i + 0.5) / FINE), slope_at(((double)k + 0.5) / FINE));
     }
 }
 
@@ -84,13 +85,13 @@ static void fill_along(inverse_tables *t, const double *marginal, double *mass)
     }
 }
 
-static void fill_densities(inverse_tables *t, const method_truth *truth)
+static void fill_densities(inverse_tables *t, const method_reference *reference)
 {
     for (size_t i = 0; i <= FINE; i++) {
         double c = (double)i / FINE, q = fmin(c, 1 - 0.5 / FINE);
         vndf_vec3 w = {(float)sqrt(1 - c * c), 0, (float)c};
-        t->p22[i] = (float)(p22_at(truth, q / (1 - q), 0) / pow(1 - q, 4));
-        t->area[i] = vndf_projected_area(&truth->canonical, w);
+        t->p22[i] = (float)(p22_at(reference, q / (1 - q), 0) / pow(1 - q, 4));
+        t->area[i] = vndf_projected_area(&reference->canonical, w);
     }
 }
 
@@ -158,7 +159,7 @@ static inverse_tables *tables_of(size_t side, float scale)
     return NULL;
 }
 
-method method_inverse_tables(const method_truth *truth, size_t side)
+method method_inverse_tables(const method_reference *reference, size_t side)
 {
     method m = {.instructions = "scalar",
                 .kind = BENCH_PUBLISHED,
@@ -167,16 +168,16 @@ method method_inverse_tables(const method_truth *truth, size_t side)
                 .biased = 1,
                 .turned = 1};
     snprintf(m.name, sizeof m.name, "inverse CDFs (2014), 2 x %zu^2", side);
-    if (!truth)
+    if (!reference)
         return m;
-    inverse_tables *t = tables_of(side, truth->scale);
+    inverse_tables *t = tables_of(side, reference->scale);
     double *mass = malloc(2 * FINE * sizeof *mass);
     m.memory = 2 * side * side * sizeof(float) + sizeof t->p22 + sizeof t->area;
     if (t && mass) {
-        fill_across(t, truth, mass);
-        fill_marginal(truth, mass + FINE);
+        fill_across(t, reference, mass);
+        fill_marginal(reference, mass + FINE);
         fill_along(t, mass + FINE, mass);
-        fill_densities(t, truth);
+        fill_densities(t, reference);
         m.state = t;
         m.each = each;
     } else if (t) {

@@ -52,12 +52,12 @@ struct method {
     int turned;                   /* some normals face away from wi */
 };
 
-/* What any-D methods are prepared from: a table so fine that it stands for the truth, and the scale that brings
+/* What any-D methods are prepared from: a table so fine that it stands for the reference, and the scale that brings
  * its median slope to 1. */
-typedef struct method_truth {
+typedef struct method_reference {
     vndf_surface canonical; /* its roughness is 1/scale */
     float scale;
-} method_truth;
+} method_reference;
 
 /* Each fills a method whose `each` is NULL where this machine or a lack of memory does not allow it. */
 
@@ -72,10 +72,10 @@ method method_beckmann_all_normals(void);
 method method_ggx_caps_batch(vndf_instructions set);
 method method_move(vndf_instructions set);
 
-/* Any D, from the publications. Without a truth no more than a name. */
-method method_any_all_normals(const method_truth *truth);
-method method_inverse_tables(const method_truth *truth, size_t side);
-method method_warp(const method_truth *truth, size_t side);
+/* Any D, from the publications. Without a reference no more than a name. */
+method method_any_all_normals(const method_reference *reference);
+method method_inverse_tables(const method_reference *reference, size_t side);
+method method_warp(const method_reference *reference, size_t side);
 
 /* Ours: `limit` 0 stands for the scalar calls. */
 method method_ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit);

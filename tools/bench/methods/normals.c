@@ -52,10 +52,10 @@ static inline vndf_vec3 draw_any(const method *m, const method_input *in, float 
     return normal_from(y / z2, z2 * z2 / ((float)CELLS * width), in->alpha * t->scale, in->u1, pdf);
 }
 
-static double ndf_at(const method_truth *truth, double y)
+static double ndf_at(const method_reference *reference, double y)
 {
     vndf_vec3 wm = {(float)sqrt(y), 0, (float)sqrt(1 - y)};
-    return (double)vndf_ndf(&truth->canonical, wm);
+    return (double)vndf_ndf(&reference->canonical, wm);
 }
 
 /* Masses by the midpoint rule in v, y = v^2 (3 - 2 v): finer at both ends, where peaks and tails are. */
@@ -67,13 +67,13 @@ static double edge_of(int i)
 
 /* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the
  * horizon. */
-static int accumulate(const method_truth *truth, double *mass)
+static int accumulate(const method_reference *reference, double *mass)
 {
     int top = FINE;
     mass[0] = 0;
     for (int i = 0; i < FINE; i++) {
         double low = edge_of(i), high = edge_of(i + 1);
-        mass[i + 1] = mass[i] + ndf_at(truth, 0.5 * (low + high)) * (high - low);
+        mass[i + 1] = mass[i] + ndf_at(reference, 0.5 * (low + high)) * (high - low);
     }
     while (mass[top - 1] >= mass[FINE])
         top--;
@@ -130,7 +130,7 @@ method method_beckmann_all_normals(void)
                     .turned = 1};
 }
 
-method method_any_all_normals(const method_truth *truth)
+method method_any_all_normals(const method_reference *reference)
 {
     method m = {.name = "all normals (2007), radial CDF",
                 .instructions = "scalar",
@@ -139,13 +139,13 @@ method method_any_all_normals(const method_truth *truth)
                 .release = free,
                 .one = draw_any,
                 .turned = 1};
-    if (!truth)
+    if (!reference)
         return m;
     radial_cdf *t = malloc(sizeof *t);
     double *mass = malloc((FINE + 1) * sizeof *mass);
     if (t && mass) {
-        t->scale = truth->scale;
-        fill_cdf(t, mass, accumulate(truth, mass));
+        t->scale = reference->scale;
+        fill_cdf(t, mass, accumulate(reference, mass));
         m.state = t;
         m.each = each_any;
     } else {

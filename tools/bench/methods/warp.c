@@ -6,7 +6,7 @@
  * CDFs and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
  *
  * The density told is that of the interpolant, the one with which is drawn. Against true visible normals it is
- * off, by direction and by the horizon, where normals may face away; where it is 0 and the truth is not, nothing
+ * off, by direction and by the horizon, where normals may face away; where it is 0 and the reference is not, nothing
  * can be done.
  *
  * Departures: nodes on the horizon; renderers have a table per material and neither roughness nor stretch; here
@@ -61,14 +61,14 @@ static void scale_by(float *value, size_t count, float factor)
         value[i] *= factor;
 }
 
-static int fill_slice(warp *w, const method_truth *truth, size_t slice)
+static int fill_slice(warp *w, const method_reference *reference, size_t slice)
 {
     size_t n = w->side, last = n - 1;
     double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1), cell = 1 / (double)last;
     float *density = w->density + slice * n * n, *conditional = w->conditional + slice * n * n;
     float *marginal = w->marginal + slice * n, *rows = malloc(n * sizeof *rows);
     vndf_vec3 wi = {(float)sin(theta), 0, slice == SLICES - 1 ? 0 : (float)cos(theta)};
-    vndf_view view = vndf_view_from(&truth->canonical, wi);
+    vndf_view view = vndf_view_from(&reference->canonical, wi);
     if (!rows)
         return 0;
     for (size_t i = 0; i < n; i++) {
@@ -189,29 +189,29 @@ static void release(void *state)
     free(w);
 }
 
-static warp *warp_of(const method_truth *truth, size_t side)
+static warp *warp_of(const method_reference *reference, size_t side)
 {
     warp *w = calloc(1, sizeof *w);
     if (!w)
         return NULL;
     w->side = side;
-    w->scale = truth->scale;
+    w->scale = reference->scale;
     w->density = malloc(SLICES * side * side * sizeof *w->density);
     w->conditional = malloc(SLICES * side * side * sizeof *w->conditional);
     w->marginal = malloc(SLICES * side * sizeof *w->marginal);
     int good = w->density && w->conditional && w->marginal;
     for (size_t slice = 0; good && slice < SLICES; slice++)
-        good = fill_slice(w, truth, slice);
+        good = fill_slice(w, reference, slice);
     if (good)
         return w;
     release(w);
     return NULL;
 }
 
-method method_warp(const method_truth *truth, size_t side)
+method method_warp(const method_reference *reference, size_t side)
 {
     method m = {.instructions = "scalar", .kind = BENCH_PUBLISHED, .release = release, .one = draw, .turned = 1};
-    m.state = truth ? warp_of(truth, side) : NULL;
+    m.state = reference ? warp_of(reference, side) : NULL;
     m.memory = SLICES * (2 * side * side + side) * sizeof(float);
     m.each = m.state ? each : NULL;
     snprintf(m.name, sizeof m.name, "bilinear warps, %d x %zu^2", SLICES, side);

@@ -40,18 +40,18 @@ static void test_form(const form *f, double scale)
     vndf_parameter a = {"a", scale};
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_expression(f->p22, &a, 1, &error);
-    vndf_truth *truth = source ? vndf_truth_from(source, &error) : NULL;
-    if (!TEST(truth != NULL))
+    vndf_reference *reference = source ? vndf_reference_from(source, &error) : NULL;
+    if (!TEST(reference != NULL))
         fprintf(stderr, "  %s\n", error.message);
-    for (int i = -6; truth && i <= 6; i++) {
+    for (int i = -6; reference && i <= 6; i++) {
         double r = scale * exp(0.5 * i);
-        TEST_RELATIVE(vndf_truth_p22(truth, r), f->at(r / scale) / (scale * scale), 1e-9);
+        TEST_RELATIVE(vndf_reference_p22(reference, r), f->at(r / scale) / (scale * scale), 1e-9);
     }
-    for (unsigned i = 0; truth && i < sizeof theta / sizeof *theta && theta[i] <= f->deepest; i++) {
+    for (unsigned i = 0; reference && i < sizeof theta / sizeof *theta && theta[i] <= f->deepest; i++) {
         double angle = theta[i] * PI / 180;
-        TEST_RELATIVE(vndf_truth_area(truth, angle), f->area(scale * sin(angle), cos(angle)), 1e-8);
+        TEST_RELATIVE(vndf_reference_area(reference, angle), f->area(scale * sin(angle), cos(angle)), 1e-8);
     }
-    vndf_truth_free(truth);
+    vndf_reference_free(reference);
     vndf_source_free(source);
 }
 
@@ -62,10 +62,10 @@ static void test_deep_areas(void)
         double theta, area;
     } deep[] = {{150, 0.073703088805636}, {170, 6.89553179981653e-4}, {176.43, 1.17646841603251e-8}};
     vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
-    vndf_truth *truth = source ? vndf_truth_from(source, NULL) : NULL;
-    for (size_t i = 0; TEST(truth != NULL) && i < sizeof deep / sizeof *deep; i++)
-        TEST_RELATIVE(vndf_truth_area(truth, deep[i].theta * PI / 180), deep[i].area, 1e-9);
-    vndf_truth_free(truth);
+    vndf_reference *reference = source ? vndf_reference_from(source, NULL) : NULL;
+    for (size_t i = 0; TEST(reference != NULL) && i < sizeof deep / sizeof *deep; i++)
+        TEST_RELATIVE(vndf_reference_area(reference, deep[i].theta * PI / 180), deep[i].area, 1e-9);
+    vndf_reference_free(reference);
     vndf_source_free(source);
 }
 
@@ -78,8 +78,8 @@ int main(void)
         test_form(&forms[i], 1);
         test_form(&forms[i], 0.3);
     }
-    TEST(vndf_truth_from(NULL, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
-    vndf_truth_free(NULL);
+    TEST(vndf_reference_from(NULL, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
+    vndf_reference_free(NULL);
     test_deep_areas();
     return test_done();
 }

@@ -1,5 +1,5 @@
 #include "harness/constants.h"
-#include "oracle/oracle_survey.h"
+#include "oracle/oracle_validate.h"
 
 #include <math.h>
 
@@ -74,7 +74,7 @@ static void visit_slope(grid *g, double r, double cos_a, double sin_a, double p2
            y = ay * r * (g->sin_phi * cos_a + g->cos_phi * sin_a);
     double z = 1 / sqrt(1 + x * x + y * y), mask = g->c + g->s * r * cos_a;
     oracle_point point = {{(float)(x * z), (float)(y * z), (float)z}, 0, 0};
-    point.truth = mask > 0 ? p22 * mask / g->area / (ax * ay * z * z * z) : 0;
+    point.reference = mask > 0 ? p22 * mask / g->area / (ax * ay * z * z * z) : 0;
     point.weight = weight * r * ax * ay * z * z * z;
     g->visit(&point, g->user);
 }
@@ -167,28 +167,28 @@ double oracle_visible(const oracle *o, const vndf_surface *surface, vndf_vec3 wi
 
 /* ---- findings ---- */
 
-typedef struct survey {
+typedef struct validation {
     vndf_view view;
     double heavy;
     oracle_finding finding;
-} survey;
+} validation;
 
 static void measure(const oracle_point *point, void *user)
 {
-    survey *v = user;
+    validation *v = user;
     double pdf = vndf_pdf(&v->view, point->wm);
     v->finding.mass += pdf * point->weight;
-    v->finding.truth += point->truth * point->weight;
-    v->finding.tv += fabs(pdf - point->truth) * point->weight / 2;
-    v->finding.heavier += point->truth > v->heavy * pdf ? point->truth * point->weight : 0;
+    v->finding.reference += point->reference * point->weight;
+    v->finding.tv += fabs(pdf - point->reference) * point->weight / 2;
+    v->finding.heavier += point->reference > v->heavy * pdf ? point->reference * point->weight : 0;
 }
 
-oracle_finding oracle_survey(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, double heavy)
+oracle_finding oracle_validate(const oracle *o, const vndf_surface *surface, vndf_vec3 wi, double heavy)
 {
-    survey v = {vndf_view_from(surface, wi), heavy, {0, 0, 0, 0, 0}};
+    validation v = {vndf_view_from(surface, wi), heavy, {0, 0, 0, 0, 0}};
     double area = oracle_surface_area(o, surface, wi);
     v.finding.area_error = fabs((double)vndf_projected_area(surface, wi) / area - 1);
-    visit_all(o, surface, wi, measure, &v, 1); /* pdf and truth are even in the azimuth */
+    visit_all(o, surface, wi, measure, &v, 1); /* pdf and reference are even in the azimuth */
     return v.finding;
 }
 

@@ -1,6 +1,6 @@
 /* What the user points at: a distribution (FILE|ggx|beckmann), a roughness, an incident direction. */
-#ifndef TOOLS_CLI_DISTRIBUTION_H
-#define TOOLS_CLI_DISTRIBUTION_H
+#ifndef TOOLS_CLI_SUBJECT_H
+#define TOOLS_CLI_SUBJECT_H
 
 #include "cli/arguments.h"
 #include "vndf.h"

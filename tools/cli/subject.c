@@ -1,4 +1,4 @@
-#include "cli/distribution.h"
+#include "cli/subject.h"
 
 #include <math.h>
 #include <string.h>

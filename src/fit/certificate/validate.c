@@ -4,7 +4,7 @@
  * panels far narrower than a radial cell, the points follow the panels: a feature that the table cannot hold is
  * missed by the table, not by the measurement. The slopes of the points do not depend on the direction, so P22 is
  * evaluated there once. */
-#include "fit/certificate/survey.h"
+#include "fit/certificate/validate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static uint32_t parts_for(uint32_t cells, uint32_t least)
 }
 
 /* In double at the knots too: the visible part beyond a cut may be so narrow that rounding of its end shows. */
-double vndf_survey_slope(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
+double vndf_validation_slope(const vndf_distribution *d, uint32_t cell, uint32_t part, uint32_t parts)
 {
     double xi = (double)part / parts, x0 = d->knots.at[cell].x, z0 = d->knots.at[cell].z;
     double x = part < parts ? x0 + xi * (d->knots.at[cell + 1].x - x0) : d->knots.at[cell + 1].x;
@@ -78,14 +78,14 @@ static int is_steep(const vndf_radial_cell *cell)
     return cell->f0 > steep * cell->f1 || cell->f1 > steep * cell->f0;
 }
 
-static uint32_t points_in(const vndf_survey *v, uint32_t j, double width)
+static uint32_t points_in(const vndf_validation *v, uint32_t j, double width)
 {
     return width < 1.0 || is_steep(&v->table->cells[j]) ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
 }
 
 /* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
-static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, double to, uint32_t count,
-                                uint32_t i)
+static vndf_validation_node node_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
+                                    uint32_t i)
 {
     int fine = count == VNDF_GAUSS;
     knots k = knots_of(v->table, j);
@@ -93,25 +93,25 @@ static vndf_survey_node node_in(const vndf_survey *v, uint32_t j, double from, d
     double weight = (to - from) * (fine ? vndf_gauss_weight[i] : vndf_gauss_coarse_weight[i]);
     double x = (1 - xi) * k.x0 + xi * k.x1, z = (1 - xi) * k.z0 + xi * k.z1, width = k.x1 * k.z0 - k.x0 * k.z1;
     double rounding = FLOAT_ROUNDING * x * z / width;
-    vndf_survey_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z), 0.0};
+    vndf_validation_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z), 0.0};
     node.mass *= vndf_profile_p22(v->profile, node.r);
     node.rounding = rounding > ROUNDING_LEAST * (to - from) ? rounding : 0.0;
     return node;
 }
 
-static int add_stretch(vndf_survey *v, uint32_t j, double from, double to)
+static int add_stretch(vndf_validation *v, uint32_t j, double from, double to)
 {
     uint32_t count = points_in(v, j, to - from);
     if ((v->stretch_count & (v->stretch_count - 1)) == 0) { /* a power of two: full */
         size_t room = v->stretch_count ? 2 * v->stretch_count : 1;
-        vndf_survey_stretch *stretch = realloc(v->stretch, room * sizeof *stretch);
-        vndf_survey_node *node = realloc(v->node, room * VNDF_GAUSS * sizeof *node);
+        vndf_validation_stretch *stretch = realloc(v->stretch, room * sizeof *stretch);
+        vndf_validation_node *node = realloc(v->node, room * VNDF_GAUSS * sizeof *node);
         v->stretch = stretch ? stretch : v->stretch;
         v->node = node ? node : v->node;
         if (!stretch || !node)
             return 0;
     }
-    vndf_survey_stretch made = {from, to, j, (uint32_t)v->node_count, count};
+    vndf_validation_stretch made = {from, to, j, (uint32_t)v->node_count, count};
     v->stretch[v->stretch_count++] = made;
     for (uint32_t i = 0; i < count; i++)
         v->node[v->node_count++] = node_in(v, j, from, to, count, i);
@@ -131,13 +131,13 @@ static panels with_panel(panels p, double begin, double end, double mass, double
 
 /* A part of a cell, divided at the panels in it that are features of their own; *panel is the first panel that
  * ends in it or beyond. */
-static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *panel)
+static int add_part(vndf_validation *v, uint32_t j, double from, double to, size_t *panel)
 {
     const vndf_profile *p = v->profile;
     knots k = knots_of(v->table, j);
-    double heavy =
-        HEAVY *
-        vndf_profile_moments(p, vndf_survey_slope(v->table, j, 0, 1), vndf_survey_slope(v->table, j, 1, 1)).m0;
+    double heavy = HEAVY * vndf_profile_moments(p, vndf_validation_slope(v->table, j, 0, 1),
+                                                vndf_validation_slope(v->table, j, 1, 1))
+                               .m0;
     double at = from, widest = NARROW * (to - from);
     panels few = {-1, -1, 0};
     int good = 1;
@@ -159,7 +159,7 @@ static int add_part(vndf_survey *v, uint32_t j, double from, double to, size_t *
 
 /* The last cell has no end. A light tail ends next to its beginning; a heavy tail holds some mass as far out as
  * doubles reach, where the table draws it with a density that has a limit. */
-static int add_last(vndf_survey *v, size_t *panel)
+static int add_last(vndf_validation *v, size_t *panel)
 {
     static const double ends[] = {0,      1.0 / 256, 1.0 / 64, 1.0 / 16, 0.25,     0.5,       0.75,
                                   0.9375, 1 - 1e-3,  1 - 1e-5, 1 - 1e-7, 1 - 1e-9, 1 - 1e-12, 1};
@@ -169,7 +169,7 @@ static int add_last(vndf_survey *v, size_t *panel)
     return good;
 }
 
-static int add_stretches(vndf_survey *v)
+static int add_stretches(vndf_validation *v)
 {
     uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
     size_t panel = 0;
@@ -189,13 +189,13 @@ typedef struct slice {
     double weight;
 } slice;
 
-static void add_node(vndf_survey *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
-                     const vndf_survey_node *n)
+static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
+                     const vndf_validation_node *n)
 {
     double mask = at->drawn.c + at->drawn.k * n->r;
     if (mask > 0 && v->count < v->capacity) {
         double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
-        vndf_survey_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
+        vndf_validation_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
         v->samples[v->count++] = one;
         if (n->rounding > 0) {
             double xi = fmax(fmin(n->xi + (v->count % 2 ? 1 : -1) * n->rounding, 1), 0);
@@ -206,17 +206,18 @@ static void add_node(vndf_survey *v, const slice *at, const vndf_engine_piece *p
 }
 
 /* The visible part of a stretch in the cell of the cut. */
-static void add_cut(vndf_survey *v, const slice *at, const vndf_engine_piece *piece, const vndf_survey_stretch *s)
+static void add_cut(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                    const vndf_validation_stretch *s)
 {
     double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
     for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
-        vndf_survey_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
+        vndf_validation_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
         add_node(v, at, piece, s->cell, &n);
     }
 }
 
 /* The stretches of a cell, from s on. */
-static void add_cell(vndf_survey *v, const slice *at, const vndf_survey_stretch *s, uint32_t count)
+static void add_cell(vndf_validation *v, const slice *at, const vndf_validation_stretch *s, uint32_t count)
 {
     uint32_t j = s->cell;
     vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
@@ -235,7 +236,7 @@ static void add_cell(vndf_survey *v, const slice *at, const vndf_survey_stretch 
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
 
 /* Every visible radial cell; the cell at the cut up to the cut. */
-static void add_azimuth(vndf_survey *v, const slice *at)
+static void add_azimuth(vndf_validation *v, const slice *at)
 {
     const vndf_azimuth_slice *r = &at->drawn;
     int inside = r->c > 0, beyond = r->c < 0;
@@ -284,7 +285,7 @@ static double azimuth_lack(const vndf_view *view, const quarter *turn, double ta
     return mass - taken;
 }
 
-static void add_quarter(vndf_survey *v, const vndf_view *view, const quarter *turn)
+static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
     uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST);
     double taken = 0.0;
@@ -298,7 +299,7 @@ static void add_quarter(vndf_survey *v, const vndf_view *view, const quarter *tu
 }
 
 /* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
-static void add_front(vndf_survey *v, const vndf_view *view)
+static void add_front(vndf_validation *v, const vndf_view *view)
 {
     float node[FRONT_PANELS + 1];
     quarter turn = {node, FRONT_PANELS, 1, 1, 0};
@@ -309,20 +310,20 @@ static void add_front(vndf_survey *v, const vndf_view *view)
     add_quarter(v, view, &turn);
 }
 
-static double ratio_of(vndf_survey_point a)
+static double ratio_of(vndf_validation_point a)
 {
-    return a.drawn > 0 ? a.truth / a.drawn : a.truth > 0 ? HUGE_VAL : 0.0;
+    return a.drawn > 0 ? a.reference / a.drawn : a.reference > 0 ? HUGE_VAL : 0.0;
 }
 
 /* Moves samples with a ratio of `pivot` or more to the front; their count. */
-static size_t split_at(vndf_survey_point *samples, size_t count, double pivot, double *mass)
+static size_t split_at(vndf_validation_point *samples, size_t count, double pivot, double *mass)
 {
     size_t n = 0;
     *mass = 0.0;
     for (size_t i = 0; i < count; i++)
         if (ratio_of(samples[i]) >= pivot) {
-            vndf_survey_point swap = samples[n];
-            *mass += samples[i].truth;
+            vndf_validation_point swap = samples[n];
+            *mass += samples[i].reference;
             samples[n++] = samples[i];
             samples[i] = swap;
         }
@@ -334,12 +335,12 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-/* The largest truth/drawn, leaving out the points with the largest ratios that together hold VNDF_SURVEY_LEFT_OUT
- * of the mass. Splits the rest until it is one value. */
-static double weight_of(vndf_survey *v)
+/* The largest reference/drawn, leaving out the points with the largest ratios that together hold
+ * VNDF_VALIDATION_LEFT_OUT of the mass. Splits the rest until it is one value. */
+static double weight_of(vndf_validation *v)
 {
-    double left = VNDF_SURVEY_LEFT_OUT, mass;
-    vndf_survey_point *from = v->samples;
+    double left = VNDF_VALIDATION_LEFT_OUT, mass;
+    vndf_validation_point *from = v->samples;
     size_t count = v->count;
     while (count > 0) {
         double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
@@ -364,12 +365,12 @@ static double weight_of(vndf_survey *v)
     return 1.0;
 }
 
-vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
+vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
 {
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
-    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, truth = 0.0, miss = 0.0;
+    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
     vndf_view view = view_of(v->table, s, c);
     if (!(vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile)) ||
         vndf_guard_stopped(v->profile->guard))
@@ -388,19 +389,19 @@ vndf_finding vndf_survey_direction(vndf_survey *v, double s, double c)
         add_quarter(v, &view, &wedge);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
-        truth += v->samples[i].truth;
-        miss += fabs(v->samples[i].drawn - v->samples[i].truth);
+        reference += v->samples[i].reference;
+        miss += fabs(v->samples[i].drawn - v->samples[i].reference);
     }
-    f.tv = fmin((miss + fabs(truth - 1) + v->blur) / 2, 1); /* truth that no point meets is missed, too */
+    f.tv = fmin((miss + fabs(reference - 1) + v->blur) / 2, 1); /* mass that no point meets is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
     f.max_weight = weight_of(v);
     return f;
 }
 
-int vndf_survey_from(vndf_survey *v, const vndf_distribution *table, const vndf_profile *profile)
+int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile)
 {
     size_t parts = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_survey made = {table, profile, NULL, NULL, 0, 0, NULL, 0, 0, 0.0, 0.0, 0.0};
+    vndf_validation made = {table, profile, NULL, NULL, 0, 0, NULL, 0, 0, 0.0, 0.0, 0.0};
     *v = made;
     if (!add_stretches(v))
         return 0;
@@ -409,7 +410,7 @@ int vndf_survey_from(vndf_survey *v, const vndf_distribution *table, const vndf_
     return v->samples != NULL;
 }
 
-void vndf_survey_free(vndf_survey *v)
+void vndf_validation_free(vndf_validation *v)
 {
     free(v->stretch);
     free(v->node);

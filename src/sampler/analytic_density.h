@@ -4,8 +4,8 @@
  * With a = alpha_x alpha_y, Q = (alpha_y wm.x)^2 + (alpha_x wm.y)^2 + (a wm.z)^2 and r = 1/(a wm.z)^2
  *
  *     GGX: D = a^3/(pi Q^2),    Beckmann: D = a^3 r^2 exp(-R^2)/pi,  R^2 = r Q - 1 the squared slope length. */
-#ifndef VNDF_SAMPLER_CLOSED_H
-#define VNDF_SAMPLER_CLOSED_H
+#ifndef VNDF_SAMPLER_ANALYTIC_DENSITY_H
+#define VNDF_SAMPLER_ANALYTIC_DENSITY_H
 
 #include <math.h>
 
