@@ -60,8 +60,7 @@ static const expectation *expect(const vndf_distribution *d, double theta, float
     e.wi = direction_from(theta, 25);
     e.alpha = alpha;
     e.map = bins_for(&surface, e.wi, 3);
-    vndf_view view = vndf_view_from(&surface, e.wi);
-    bins_integrate(&e.map, &view, e.counts);
+    bins_integrate(&e.map, &surface, e.wi, e.counts);
     for (size_t i = 0; i < BINS_COUNT; i++)
         e.counts[i] *= (double)blocks() * BENCH_BLOCK;
     return &e;

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/replace.h"
+#include "core/replace_file.h"
 
 /* ---- the standard descriptors -------------------------------------------------------------------- */
 
@@ -111,7 +111,7 @@ static int same_inode(const char *a, const char *b)
 /* Of two names without links, which are cut: the same last name in the same folder. */
 static int same_place(char *a, char *b)
 {
-    size_t in_a = replace_folder_length(a), in_b = replace_folder_length(b);
+    size_t in_a = vndf_replace_folder_length(a), in_b = vndf_replace_folder_length(b);
     int same = strcmp(a + in_a, b + in_b) == 0;
     a[in_a] = b[in_b] = '\0';
     return same && same_inode(in_a ? a : ".", in_b ? b : ".");
@@ -121,7 +121,7 @@ int files_same(const char *a, const char *b)
 {
     if (strcmp(a, b) == 0 || same_inode(a, b))
         return 1;
-    char *end_of_a = replace_end_of_links(a), *end_of_b = replace_end_of_links(b);
+    char *end_of_a = vndf_replace_end_of_links(a), *end_of_b = vndf_replace_end_of_links(b);
     int same = end_of_a && end_of_b && same_place(end_of_a, end_of_b);
     free(end_of_a);
     free(end_of_b);

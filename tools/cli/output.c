@@ -118,7 +118,7 @@ int output_replaceable(const char *command, const char *path)
 static int open_file(output_file *output)
 {
     output->held = output_hold_signals();
-    if (replace_begin(&output->replaces, output->path)) {
+    if (vndf_replace_begin(&output->replaces, output->path)) {
         output->file = output->replaces.file;
         return 1;
     }
@@ -138,7 +138,7 @@ int output_open(output_file *output, const char *command, const char *path)
 /* The error is cleared once it is told, so that it is told once. */
 int output_finish_stdout(const char *command)
 {
-    if (replace_flush(stdout))
+    if (vndf_replace_flush(stdout))
         return STATUS_GOOD;
     clearerr(stdout);
     if (errno != EPIPE)
@@ -151,7 +151,7 @@ int output_commit(output_file *output)
     int status = STATUS_GOOD;
     if (!output->path)
         return output_finish_stdout(output->command);
-    if (!replace_commit(&output->replaces))
+    if (!vndf_replace_commit(&output->replaces))
         status = complain(output->command, "cannot write '%s': %s", output->path,
                           errno ? strerror(errno) : "write failed");
     output_release_signals(output->held);
@@ -163,7 +163,7 @@ int output_commit(output_file *output)
 int output_give_up(output_file *output, const char *why)
 {
     if (output->path)
-        replace_discard(&output->replaces);
+        vndf_replace_discard(&output->replaces);
     complain(output->command, "%s", why);
     if (output->path)
         output_release_signals(output->held);
@@ -174,7 +174,7 @@ void output_discard(output_file *output)
 {
     if (!output->path)
         return;
-    replace_discard(&output->replaces);
+    vndf_replace_discard(&output->replaces);
     output_release_signals(output->held);
 }
 

@@ -1,4 +1,4 @@
-/* Files that appear whole or not at all (replace.h), none of which is an input as well (files.h). While the
+/* Files that appear whole or not at all (core/replace_file.h), none of which is an input as well (files.h). While the
  * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and
  * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
  * global state.) */
@@ -7,14 +7,14 @@
 
 #include <stdio.h>
 
-#include "cli/replace.h"
+#include "core/replace_file.h"
 
 typedef struct output_file {
-    const char *command;  /* opens every message */
-    const char *path;     /* NULL for stdout */
-    FILE *file;           /* to write to */
-    replacement replaces; /* unless it is stdout */
-    unsigned held;        /* stopping signals that wait; see output_hold_signals */
+    const char *command;       /* opens every message */
+    const char *path;          /* NULL for stdout */
+    FILE *file;                /* to write to */
+    vndf_replacement replaces; /* unless it is stdout */
+    unsigned held;             /* stopping signals that wait; see output_hold_signals */
 } output_file;
 
 /* Notes a file that is read, or stdin. 1, or 0 after a complaint: it is an output of the same command. */

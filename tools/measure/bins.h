@@ -30,10 +30,10 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed);
 /* The bin of a normal, 0 to BINS_COUNT - 1: rows of constant theta', phi' ascending within a row. */
 size_t bins_place(const bin_map *map, vndf_vec3 wm);
 
-/* The integral of vndf_pdf over each bin: nested adaptive Lobatto rules on panels of at most two octaves of slope,
- * error about 2e-6 of a panel or 1e-10, whichever is larger, and 1e-4 where a jump of the density crosses it. The
- * sum over all bins is within 2e-6 of 1 for a density that is: test_bins measures it. */
-void bins_integrate(const bin_map *map, const vndf_view *view, double probability[BINS_COUNT]);
+/* The integral of vndf_pdf over each bin, to 1e-4 of it or 1e-9, whichever is larger, where the density is continuous.
+ * The sum over all bins is within 2e-6 of 1 for a density whose integral is 1, jumps and narrow peaks included.
+ * test_bins measures both. */
+void bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 wi, double probability[BINS_COUNT]);
 
 /* For bins of other kinds: which of `parts` intervals of ascending borders holds x. */
 size_t bins_interval(const double *border, size_t parts, double x);

@@ -1,33 +1,33 @@
 /* A file that is replaced at once: what is written goes to a temporary beside it, which is renamed over it
  * when it is whole and on the disk. At the end of symbolic links it is the file that they lead to, there
- * already or not, that is replaced; it keeps its mode, and its owner as far as the system lets us. (The
- * program's outputs; vndf_save of the library does the same for a host.) */
-#ifndef TOOLS_CLI_REPLACE_H
-#define TOOLS_CLI_REPLACE_H
+ * already or not, that is replaced; it keeps its mode, and its owner as far as the system lets us. For vndf_save, and
+ * for the outputs of the program: the one header of src/ that tools/ include. */
+#ifndef VNDF_CORE_REPLACE_FILE_H
+#define VNDF_CORE_REPLACE_FILE_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-typedef struct replacement {
+typedef struct vndf_replacement {
     char *target;    /* owned: the file behind all links */
     char *temporary; /* owned */
     FILE *file;      /* to write to */
-} replacement;
+} vndf_replacement;
 
 /* 0 and errno, with nothing left behind. */
-int replace_begin(replacement *r, const char *path);
+int vndf_replace_begin(vndf_replacement *r, const char *path);
 
 /* 0 and errno if anything could not be written, now or before; the file is as it was then. Either ends r. */
-int replace_commit(replacement *r);
-void replace_discard(replacement *r);
+int vndf_replace_commit(vndf_replacement *r);
+void vndf_replace_discard(vndf_replacement *r);
 
 /* Flushes; 0 and errno, which may be 0, if that failed or any write before. */
-int replace_flush(FILE *file);
+int vndf_replace_flush(FILE *file);
 
 /* The name at the end of all links, also where nothing is there yet; to be freed. NULL and errno. */
-char *replace_end_of_links(const char *path);
+char *vndf_replace_end_of_links(const char *path);
 
 /* Bytes of path before its last name. */
-size_t replace_folder_length(const char *path);
+size_t vndf_replace_folder_length(const char *path);
 
 #endif

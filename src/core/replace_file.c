@@ -1,12 +1,16 @@
-#define _XOPEN_SOURCE 700
-#include "cli/replace.h"
+#if defined(__unix__) || defined(__APPLE__)
+#  define _XOPEN_SOURCE 700
+#  include <fcntl.h>
+#  include <sys/stat.h>
+#  include <unistd.h>
+#  define VNDF_HAS_POSIX 1
+#endif
+
+#include "core/replace_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum {
     NAMES_MAX = 100,
@@ -18,7 +22,7 @@ enum {
 
 /* ---- names --------------------------------------------------------------------------------------- */
 
-size_t replace_folder_length(const char *path)
+size_t vndf_replace_folder_length(const char *path)
 {
     size_t length = strlen(path);
     while (length && path[length - 1] != '/')
@@ -40,6 +44,21 @@ static char *join(const char *folder, size_t length, const char *name)
     return path;
 }
 
+/* Bytes of a name that its temporary keeps; characters of UTF-8 stay whole. */
+static size_t kept_length(const char *name)
+{
+    size_t length = strlen(name);
+    if (length <= KEPT_MAX)
+        return length;
+    for (length = KEPT_MAX; length && ((unsigned char)name[length] & 0xC0) == 0x80;)
+        length--;
+    return length;
+}
+
+/* ---- what systems differ in ---------------------------------------------------------------------- */
+
+#ifdef VNDF_HAS_POSIX
+
 /* What the link at path holds: 1, 0 if there is none, -1 and errno. */
 static int read_link(const char *path, char held[LINK_BYTES])
 {
@@ -50,13 +69,13 @@ static int read_link(const char *path, char held[LINK_BYTES])
     return 1;
 }
 
-char *replace_end_of_links(const char *path)
+char *vndf_replace_end_of_links(const char *path)
 {
     char held[LINK_BYTES];
     int found = 1, reason = ELOOP;
     char *at = join(path, 0, path);
     for (int i = 0; at && i < LINKS_MAX && (found = read_link(at, held)) > 0; i++) {
-        char *next = join(at, held[0] == '/' ? 0 : replace_folder_length(at), held);
+        char *next = join(at, held[0] == '/' ? 0 : vndf_replace_folder_length(at), held);
         free(at);
         at = next;
     }
@@ -69,19 +88,6 @@ char *replace_end_of_links(const char *path)
     return NULL;
 }
 
-/* Bytes of a name that its temporary keeps; characters of UTF-8 stay whole. */
-static size_t kept_length(const char *name)
-{
-    size_t length = strlen(name);
-    if (length <= KEPT_MAX)
-        return length;
-    for (length = KEPT_MAX; length && ((unsigned char)name[length] & 0xC0) == 0x80;)
-        length--;
-    return length;
-}
-
-/* ---- the temporary ------------------------------------------------------------------------------- */
-
 /* 0 and errno if the mode cannot be kept. That of a temporary is never wider than the file's. */
 static int keep_mode(int made, const struct stat *old)
 {
@@ -93,7 +99,7 @@ static int keep_mode(int made, const struct stat *old)
 }
 
 /* O_EXCL: never write through something that is there already. old: the file to be replaced, if there is one. */
-static FILE *create_new(const char *name, const struct stat *old)
+static FILE *create_with(const char *name, const struct stat *old)
 {
     int made = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? old->st_mode & 0777 : 0666);
     FILE *file = made >= 0 && (!old || keep_mode(made, old)) ? fdopen(made, "wb") : NULL;
@@ -106,46 +112,31 @@ static FILE *create_new(const char *name, const struct stat *old)
     return file;
 }
 
-/* NAME.PROCESS.tmp beside the target, or another number where a crash left one of that name. */
-static FILE *create_temporary(replacement *r)
+/* A new file with the mode of the file that it replaces. */
+static FILE *create_new(const char *name, const char *target)
 {
     struct stat old;
-    FILE *file = NULL;
-    int is_there = stat(r->target, &old) == 0;
-    size_t length = replace_folder_length(r->target);
-    length += kept_length(r->target + length);
-    r->temporary = malloc(length + SUFFIX_MAX);
-    errno = r->temporary ? EEXIST : ENOMEM;
-    for (int i = 0; !file && errno == EEXIST && i < NAMES_MAX; i++) {
-        memcpy(r->temporary, r->target, length);
-        snprintf(r->temporary + length, SUFFIX_MAX, i ? ".%ld.%d.tmp" : ".%ld.tmp", (long)getpid(), i);
-        file = create_new(r->temporary, is_there ? &old : NULL);
-    }
-    return file;
+    if (stat(target, &old) != 0)
+        return create_with(name, NULL);
+    if (S_ISREG(old.st_mode))
+        return create_with(name, &old);
+    errno = S_ISDIR(old.st_mode) ? EISDIR : EINVAL; /* a rename would destroy a device or a pipe */
+    return NULL;
 }
 
-/* ---- the calls ----------------------------------------------------------------------------------- */
-
-static void forget(replacement *r)
+static long process_number(void)
 {
-    free(r->target);
-    free(r->temporary);
-    *r = (replacement){NULL, NULL, NULL};
+    return (long)getpid();
 }
 
-int replace_begin(replacement *r, const char *path)
+/* To the disk; not every file can be synced. */
+static int reaches_disk(FILE *file)
 {
-    *r = (replacement){replace_end_of_links(path), NULL, NULL};
-    if (r->target && (r->file = create_temporary(r)) != NULL)
-        return 1;
-    int reason = errno;
-    forget(r);
-    errno = reason;
-    return 0;
+    return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
 }
 
 /* Of a write before, the reason may be lost: another one, of a byte that nobody will read, shows it. */
-int replace_flush(FILE *file)
+int vndf_replace_flush(FILE *file)
 {
     int failed_before = ferror(file);
     errno = 0;
@@ -156,18 +147,84 @@ int replace_flush(FILE *file)
     return 0;
 }
 
-/* To the disk before the rename, so that a crash leaves the old file or the new one; not every file can be
- * synced. */
+#else
+
+char *vndf_replace_end_of_links(const char *path)
+{
+    return join(path, 0, path);
+}
+
+static FILE *create_new(const char *name, const char *target)
+{
+    (void)target;
+    return fopen(name, "wbx");
+}
+
+static long process_number(void)
+{
+    return 0;
+}
+
+static int reaches_disk(FILE *file)
+{
+    (void)file;
+    return 1;
+}
+
+int vndf_replace_flush(FILE *file)
+{
+    return fflush(file) == 0 && !ferror(file);
+}
+
+#endif
+
+/* ---- the calls ----------------------------------------------------------------------------------- */
+
+/* NAME.PROCESS.tmp beside the target, or another number where a crash left one of that name. */
+static FILE *create_temporary(vndf_replacement *r)
+{
+    FILE *file = NULL;
+    size_t length = vndf_replace_folder_length(r->target);
+    length += kept_length(r->target + length);
+    r->temporary = malloc(length + SUFFIX_MAX);
+    errno = r->temporary ? EEXIST : ENOMEM;
+    for (int i = 0; !file && errno == EEXIST && i < NAMES_MAX; i++) {
+        memcpy(r->temporary, r->target, length);
+        snprintf(r->temporary + length, SUFFIX_MAX, i ? ".%ld.%d.tmp" : ".%ld.tmp", process_number(), i);
+        file = create_new(r->temporary, r->target);
+    }
+    return file;
+}
+
+static void forget(vndf_replacement *r)
+{
+    free(r->target);
+    free(r->temporary);
+    *r = (vndf_replacement){NULL, NULL, NULL};
+}
+
+int vndf_replace_begin(vndf_replacement *r, const char *path)
+{
+    *r = (vndf_replacement){vndf_replace_end_of_links(path), NULL, NULL};
+    if (r->target && (r->file = create_temporary(r)) != NULL)
+        return 1;
+    int reason = errno;
+    forget(r);
+    errno = reason;
+    return 0;
+}
+
+/* Synced before the rename, so that a crash leaves the old file or the new one. */
 static int close_whole(FILE *file)
 {
-    int good = replace_flush(file) && (fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS);
+    int good = vndf_replace_flush(file) && reaches_disk(file);
     int reason = errno, closed = fclose(file) == 0;
     if (!good)
         errno = reason;
     return good && closed;
 }
 
-int replace_commit(replacement *r)
+int vndf_replace_commit(vndf_replacement *r)
 {
     int good = close_whole(r->file) && rename(r->temporary, r->target) == 0, reason = errno;
     if (!good)
@@ -177,7 +234,7 @@ int replace_commit(replacement *r)
     return good;
 }
 
-void replace_discard(replacement *r)
+void vndf_replace_discard(vndf_replacement *r)
 {
     fclose(r->file);
     remove(r->temporary);

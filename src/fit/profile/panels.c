@@ -1,0 +1,278 @@
+/* Panels: P22 cut into pieces on which ten points resolve it, and sums over them. The recursion first halves every
+ * octave four times unconditionally, so that it meets a narrow ring, and merges two halves where the whole is as
+ * good. */
+#include "fit/profile/panels.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "math/ascending.h"
+
+enum { DEPTH_SEEN = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
+
+static const double PANEL_TOLERANCE = 1e-10;
+static const double NEGLIGIBLE = 1e-45; /* of the peak: far below the floor, for views deep below the horizon */
+static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
+static const double SAME_EDGE = 1e-13;  /* in log R: below the width that resolve() calls a jump */
+static const double ROUNDED = 4e-16;    /* of a slope: the error of points */
+
+static double floor_at(const vndf_profile *profile, double r)
+{
+    double q = 1.0 + r * r;
+    return profile->floor / (q * q);
+}
+
+/* P at r, which is finite or stops the build. */
+static double density(const vndf_profile *profile, double r)
+{
+    double p = vndf_profile_p22(profile, r);
+    if (!(p < HUGE_VAL)) /* it overflowed here, not in the source */
+        vndf_guard_note(profile->guard, r * profile->scale, p);
+    return p;
+}
+
+double vndf_profile_p22(const vndf_profile *profile, double r)
+{
+    double scale = profile->scale, given = 0.0;
+    if (vndf_guard_spend(profile->guard, profile->source->operations))
+        given = profile->source->p22(profile->source, r * scale);
+    if (!(given >= 0.0 && given < HUGE_VAL)) {
+        vndf_guard_note(profile->guard, r * scale, given);
+        given = 0.0;
+    }
+    return profile->normalization * scale * scale * given + floor_at(profile, r);
+}
+
+/* The moments of a panel by ten points, and how far rounding of the points and of P may move m0. */
+typedef struct estimate {
+    double m0, m1, noise;
+} estimate;
+
+static estimate rule(vndf_profile *profile, double u0, double u1)
+{
+    double r0 = exp(u0), least = HUGE_VAL, most = 0.0;
+    estimate sum = {0.0, 0.0, 0.0};
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        /* not as a difference: panels get as narrow as 1e-13 r */
+        double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
+        double p = density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
+        sum.m0 += w;
+        sum.m1 += w * beyond;
+        least = fmin(least, f);
+        most = fmax(most, f);
+    }
+    double step = profile->normalization * DBL_TRUE_MIN * profile->scale * profile->scale; /* of small values */
+    sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least) + step * r0 * r0 * (u1 - u0);
+    return sum;
+}
+
+/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
+static int grow(vndf_profile *profile)
+{
+    if (profile->count + 1 < profile->capacity)
+        return 1;
+    size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
+    vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
+    if (!panel) {
+        profile->guard->starved = 1;
+        return 0;
+    }
+    profile->panel = panel;
+    profile->capacity = capacity;
+    return 1;
+}
+
+static void push(vndf_profile *profile, double u0, estimate sum, int jump)
+{
+    if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
+        profile->rough = 1;
+    if (profile->rough || !grow(profile))
+        return;
+    vndf_panel panel = {exp(u0), sum.m0, sum.m1, 0, 0, 0, 0, 0, jump};
+    profile->panel[profile->count++] = panel;
+}
+
+static int agree(double a, double b, double part, double least)
+{
+    return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
+}
+
+int vndf_profile_stopped(const vndf_profile *profile)
+{
+    return profile->rough || vndf_guard_stopped(profile->guard);
+}
+
+/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one
+ * slope. */
+static double roughness(const vndf_profile *profile, double u0, double u1)
+{
+    double r = exp((u0 + u1) / 2) * profile->scale;
+    if (!profile->source->reach ||
+        !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
+        return 0.0;
+    vndf_reach at = profile->source->reach(profile->source, r, r);
+    double width = profile->normalization * (at.high - at.low) * r * r;
+    return width < HUGE_VAL ? 2 * width * (u1 - u0) : 0.0;
+}
+
+static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least)
+{
+    double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
+    estimate l = rule(profile, u0, middle), r = rule(profile, middle, u1);
+    estimate sum = {l.m0 + r.m0, l.m1 + r.m1 + r.m0 * gap, 0.0};
+    if (vndf_profile_stopped(profile))
+        return;
+    double slack = least + whole.noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    if (depth >= DEPTH_ROUGH)
+        slack += roughness(profile, u0, u1);
+    int good = agree(sum.m0, whole.m0, part, slack) && agree(sum.m1, whole.m1, part, slack * gap);
+    if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
+        push(profile, u0, sum, !good);
+        return;
+    }
+    size_t first = profile->count;
+    resolve(profile, u0, middle, l, depth + 1, least);
+    resolve(profile, middle, u1, r, depth + 1, least);
+    if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !vndf_profile_stopped(profile)) {
+        profile->count = first; /* neither half needed more: the whole is enough */
+        push(profile, u0, sum, 0);
+    }
+}
+
+static double integrand(vndf_profile *profile, double r)
+{
+    return density(profile, r) * r * r;
+}
+
+/* The largest integrand per octave and at the edges; far smaller values are negligible. */
+double vndf_panels_peak(vndf_profile *profile)
+{
+    double most = 0.0;
+    for (int i = -16 * VNDF_OCTAVES; i < 16 * VNDF_OCTAVES && !vndf_profile_stopped(profile); i++)
+        most = fmax(most, integrand(profile, exp2(i / 16.0) / profile->scale));
+    for (size_t i = 0; i < profile->edge_count && !vndf_profile_stopped(profile); i++)
+        most = fmax(most, integrand(profile, profile->edge[i] / profile->scale));
+    return most;
+}
+
+/* Drops edges that are too close to the one before. */
+static size_t thin(double *edge, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || edge[i] - edge[kept - 1] > SAME_EDGE)
+            edge[kept++] = edge[i];
+    return kept;
+}
+
+/* Octave edges, the known breaks of the source and other edges, ascending, as logarithms of canonical R. */
+static double *make_edges(const vndf_profile *profile, size_t *count)
+{
+    const vndf_source *source = profile->source;
+    double shift = log(profile->scale), low = -VNDF_OCTAVES * log(2.0), high = -low;
+    double *edge = malloc((2 * VNDF_OCTAVES + 1 + source->break_count + profile->edge_count) * sizeof *edge);
+    size_t n = 0;
+    for (int i = -VNDF_OCTAVES; edge && i <= VNDF_OCTAVES; i++)
+        edge[n++] = i * log(2.0) - shift;
+    for (size_t i = 0; edge && i < source->break_count + profile->edge_count; i++) {
+        double r = i < source->break_count ? source->breaks[i] : profile->edge[i - source->break_count];
+        double u = r > 0.0 ? log(r) : low;
+        if (u > low && u < high)
+            edge[n++] = u - shift;
+    }
+    if (edge)
+        qsort(edge, n, sizeof *edge, vndf_ascending);
+    *count = edge ? thin(edge, n) : 0;
+    return edge;
+}
+
+/* Fills panels from r = 2^-VNDF_OCTAVES to 2^VNDF_OCTAVES of the source's own unit, unless something stops it. */
+void vndf_panels_fill(vndf_profile *profile)
+{
+    size_t edges;
+    double least = fmax(NEGLIGIBLE * vndf_panels_peak(profile), LEAST), *edge = make_edges(profile, &edges);
+    profile->count = 0;
+    if (!edge)
+        profile->guard->starved = 1;
+    for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++)
+        resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
+    if (!vndf_profile_stopped(profile) && grow(profile)) {
+        vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
+        profile->panel[profile->count] = end;
+    }
+    free(edge);
+}
+
+double vndf_panels_exponent(vndf_profile *profile, double r0, double r1)
+{
+    double p0 = density(profile, r0), p1 = density(profile, r1);
+    return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
+}
+
+/* The moments beyond the panels, by the power with which P falls there. */
+static void measure_tail(vndf_profile *profile)
+{
+    double end = profile->panel[profile->count].r, p = density(profile, end),
+           n = vndf_panels_exponent(profile, end / 4, end);
+    profile->tail_m0 = profile->tail_m1 = 0.0;
+    if (p > 0.0 && n > 3.0 + VNDF_POWER_MARGIN && n < HUGE_VAL) {
+        profile->tail_m0 = p * end * end / (n - 2);
+        profile->tail_m1 = p * end * end * end / (n - 3) - end * profile->tail_m0;
+    }
+}
+
+/* Sums from both ends; every term is positive. */
+void vndf_panels_sum(vndf_profile *profile)
+{
+    vndf_panel *p = profile->panel;
+    size_t n = profile->count;
+    measure_tail(profile);
+    p[0].f0 = p[0].f1 = p[0].e = 0.0;
+    p[n].t0 = profile->tail_m0;
+    p[n].s = profile->tail_m1;
+    for (size_t i = 0; i < n; i++) {
+        double a = p[i].r, b = p[i + 1].r;
+        p[i + 1].f0 = p[i].f0 + p[i].m0;
+        p[i + 1].f1 = p[i].f1 + p[i].m1 + a * p[i].m0;
+        p[i + 1].e = p[i].e + p[i].f1 * (1 / a - 1 / b) + ((b - a) * p[i].m0 - p[i].m1) / b;
+    }
+    for (size_t i = n; i-- > 0;) {
+        p[i].t0 = p[i + 1].t0 + p[i].m0;
+        p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
+    }
+    profile->f0 = p[n].f0 + profile->tail_m0;
+    profile->f1 = p[n].f1 + profile->tail_m1 + p[n].r * profile->tail_m0;
+}
+
+int vndf_panels_points(vndf_profile *profile)
+{
+    free(profile->point);
+    profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
+    for (size_t i = 0; profile->point && i < profile->count; i++) {
+        double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r);
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            double r = exp(u0 + (u1 - u0) * vndf_gauss_node[k]);
+            vndf_profile_point point = {r, vndf_gauss_weight[k] * (u1 - u0) * r * r * density(profile, r)};
+            profile->point[i * VNDF_GAUSS + (size_t)k] = point;
+        }
+    }
+    return profile->point != NULL;
+}
+
+double vndf_panels_median(vndf_profile *profile)
+{
+    size_t i = 0;
+    while (i + 1 < profile->count && profile->panel[i + 1].f0 < profile->f0 / 2)
+        i++;
+    const vndf_panel *p = &profile->panel[i];
+    double u0 = log(p->r), low = u0, high = log(p[1].r);
+    for (int step = 0; step < 30; step++) {
+        double middle = (low + high) / 2;
+        if (p->f0 + rule(profile, u0, middle).m0 < profile->f0 / 2)
+            low = middle;
+        else
+            high = middle;
+    }
+    return exp(low);
+}
