@@ -286,8 +286,6 @@ VNDF_INLINE double vndf_law_view_slant(const vndf_view *view)
     return vndf_law_slant(view, view->wi);
 }
 
-/* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
- * plain: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
 /* The largest change of log P22 over the slope length, in units of alpha, but for places with hardly any samples. */
 VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
 {
@@ -299,6 +297,8 @@ VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
     VNDF_NO_OTHER_KIND();
 }
 
+/* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
+ * plain: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
 VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
 {
     switch (d->kind) {
