@@ -30,11 +30,17 @@ static candidate candidate_at(const vndf_view *view, vndf_vec3 wanted, float u1,
     return made;
 }
 
+/* One step of a number: draws round 2 u1 - 1 to 2^-24, so that below 1/2 a step of u1 is half as long. */
+static double step_of(float u, int which)
+{
+    return which == 0 && u < 0.5f ? 0x1p-25 : 0x1p-24;
+}
+
 /* The better one of `best` and `from` with one of its numbers so many steps away. */
 static candidate step(const vndf_view *view, vndf_vec3 wanted, candidate from, int which, int steps,
                       candidate best)
 {
-    from.u[which] = vndf_clamp_unit((float)(from.u[which] + steps * 0x1p-24));
+    from.u[which] = vndf_clamp_unit((float)(from.u[which] + steps * step_of(from.u[which], which)));
     candidate made = candidate_at(view, wanted, from.u[0], from.u[1]);
     return made.far < best.far ? made : best;
 }

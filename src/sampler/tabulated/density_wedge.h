@@ -98,19 +98,34 @@ VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j
     return doubles_gather(w->q + end, j);
 }
 
-/* Mass per radian of the row, times `square`, as above/below; cosine and sine >= 0 and of any length. */
-VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, doubles cosine, doubles sine)
+/* Where an azimuth stands in the rows: q, 1 - q, its cell and how far its ends are. */
+typedef struct vndf_row_place {
+    doubles_u cell;
+    doubles q, rest, inner, outer, width;
+} vndf_row_place;
+
+/* Cosine and sine >= 0 and of any length. */
+VNDF_INLINE vndf_row_place vndf_row_place_at(const vndf_wedge *w, const vndf_shares *s, doubles cosine,
+                                             doubles sine)
 {
     doubles along = s->r * cosine, aside = s->p * sine, n = doubles_root(along * along + aside * aside);
     doubles reach = n + aside, per = 1.0 / ((along + n) * reach);
     doubles q = aside * reach * per, rest = along * (reach + along) * per;
     doubles_u j = vndf_cell_of_q(w, q);
-    vndf_mixed_cell cell = vndf_shares_cell(w, s, j);
-    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j), h = to - from;
-    doubles a = q - from, b = rest - (1.0 - to), ab = a * b;
+    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j);
+    vndf_row_place at = {j, q, rest, q - from, rest - (1.0 - to), to - from};
+    return at;
+}
+
+/* Mass per radian of the row, times `square`, as above/below; cosine and sine as above. */
+VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, doubles cosine, doubles sine)
+{
+    vndf_row_place at = vndf_row_place_at(w, s, cosine, sine);
+    vndf_mixed_cell cell = vndf_shares_cell(w, s, at.cell);
+    doubles q = at.q, a = at.inner, b = at.outer, h = at.width, ab = a * b;
     doubles twice = 2.0 * cell.mass, e0 = cell.begin * h, e1 = cell.end * h;
     doubles over = e1 * (a * a) + twice * ab + e0 * (b * b), under = cell.mass * (h * h) + (e0 + e1 - twice) * ab;
-    doubles x = s->p * rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
+    doubles x = s->p * at.rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
     vndf_quotient density = {over * (mass * mass) * (h * (x * x + y * y)),
                              under * under * (2.0 * s->p * s->r * (1.0 + q * q))};
     return density;

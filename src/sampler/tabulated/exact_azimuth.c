@@ -1,0 +1,144 @@
+/* The azimuth in double (exact.h): the front, and rows of the wedges mixed by their shares (density_wedge.h). */
+#include "sampler/tabulated/density_wedge.h"
+#include "sampler/tabulated/exact.h"
+#include "sampler/tabulated/front.h"
+
+static const double QUARTER_TURN = 1.57079632679489662;
+
+/* ---- rows: azimuths with cos >= 0, masses times the square of shares ---- */
+
+/* Cell j of the mix, per its part of q. */
+static vndf_exact_cell cell_of(const vndf_wedge *w, const vndf_shares *s, const vndf_row_place *at)
+{
+    vndf_mixed_cell mixed = vndf_shares_cell(w, s, at->cell);
+    vndf_exact_cell cell = {mixed.begin * at->width, mixed.end * at->width, mixed.mass};
+    return cell;
+}
+
+/* Mass before cell j. */
+static double mass_before(const vndf_wedge *w, const vndf_shares *s, uint32_t j)
+{
+    const float *a = w->cdf + (size_t)s->row * w->stride + j, *b = a + w->stride, *c = b + w->stride;
+    return s->first * *a + s->middle * *b + s->last * *c;
+}
+
+/* The azimuth with that mass before it; the search is in float. */
+static vndf_exact_azimuth row_draw(const vndf_wedge *w, double y, double part)
+{
+    vndf_shares s = vndf_shares_at(w, y);
+    double target = part * s.square;
+    uint32_t j = vndf_azimuth_find(w, s.row, (float)s.first, (float)s.middle, (float)s.last, (float)target);
+    double from = w->q[j], to = w->q[j + 1], h = to - from;
+    vndf_row_place begin = {j, from, 1.0 - from, 0.0, h, h};
+    vndf_exact_cell cell = cell_of(w, &s, &begin);
+    vndf_exact_place in = vndf_exact_cell_invert(&cell, target - mass_before(w, &s, j));
+    double q = from + in.xi * h, rest = (1.0 - to) + in.eta * h;
+    double x = s.p * rest * (1.0 + q), z = 2.0 * s.r * q;
+    vndf_exact_azimuth a = {x, z, sqrt(x * x + z * z)};
+    return a;
+}
+
+/* The part of the row's mass before an azimuth. */
+static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, double sine)
+{
+    vndf_shares s = vndf_shares_at(w, y);
+    vndf_row_place at = vndf_row_place_at(w, &s, cosine, sine);
+    vndf_exact_cell cell = cell_of(w, &s, &at);
+    vndf_exact_place in = {at.inner / at.width, at.outer / at.width};
+    double before = vndf_exact_cell_before(&cell, in), per = 1.0 / s.square;
+    vndf_quotient density = vndf_row_density(w, &s, cosine, sine);
+    int inner = vndf_exact_is_inner(before * per, cell.mass * per);
+    vndf_exact_part part = {(mass_before(w, &s, at.cell) + before) * per,
+                            inner ? density.above / density.below * per : 0.0};
+    return part;
+}
+
+/* ---- half a turn ---- */
+
+double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine)
+{
+    int toward = cosine >= 0.0, above = w->c >= 0.0;
+    const vndf_wedge *side = vndf_wedge_of(d, w->c);
+    /* below it may underflow */
+    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
+    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0;
+    double per = 0.5 / (front + mass);
+    if (above && toward)
+        return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
+    if (above == toward || !(w->s > 0.0 || above))
+        return 0.0;
+    vndf_shares s = vndf_shares_at(side, y);
+    vndf_quotient density = vndf_row_density(side, &s, fabs(cosine), sine);
+    return density.below > 0.0 ? per * mass * density.above / (density.below * s.square) : 0.0;
+}
+
+static vndf_front front_of(const vndf_view *view)
+{
+    return vndf_front_of(view->distribution, view->of.table.s, view->of.table.c);
+}
+
+/* The side of the horizon that the direction is on, though c may have rounded to 0, and its coordinate there. */
+static const vndf_wedge *wedge_of(const vndf_view *view)
+{
+    return vndf_is_below(view) ? &view->distribution->below : &view->distribution->above;
+}
+
+static double wedge_y(const vndf_view *view)
+{
+    return vndf_is_below(view) ? view->of.table.s : view->of.table.c;
+}
+
+static vndf_exact_azimuth draw_below(const vndf_view *view, float half)
+{
+    const double least = 1e-7; /* at a right angle from wi nothing is visible */
+    vndf_exact_azimuth a = row_draw(wedge_of(view), wedge_y(view), half);
+    a.cosine = a.cosine > least * a.n ? a.cosine : least * a.n;
+    return a;
+}
+
+/* Rows count from the far side. */
+static vndf_exact_azimuth draw_wedge(const vndf_view *view, float half)
+{
+    double front = view->of.table.front, wedge = view->of.table.wedge,
+           rest = (half * (front + wedge) - front) / wedge;
+    vndf_exact_azimuth a = row_draw(wedge_of(view), wedge_y(view), rest < 1.0 ? 1.0 - rest : 0.0);
+    a.cosine = -a.cosine;
+    return a;
+}
+
+/* The front is solved in float (front.h), whose density is that of the azimuth drawn. */
+vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, float half)
+{
+    float front = view->of.table.front, wedge = view->of.table.wedge, target = half * (front + wedge), near;
+    if (vndf_is_below(view))
+        return draw_below(view, half);
+    if (wedge > 0.0f && target >= front)
+        return draw_wedge(view, half);
+    vndf_azimuth at = vndf_front_draw(front_of(view), lanes_positive(front - target), front, &near);
+    double c = at.c, s = at.s;
+    vndf_exact_azimuth a = {c, s, sqrt(c * c + s * s)};
+    return a;
+}
+
+static vndf_exact_part part_in_front(const vndf_view *view, double cosine, double sine)
+{
+    double front = view->of.table.front, total = front + view->of.table.wedge;
+    float rest = vndf_front_rest(front_of(view), (float)cosine, (float)sine);
+    double rate = rest > 0x1p-20 * total ? vndf_front_density(front_of(view), (float)cosine) / total : 0.0;
+    vndf_exact_part part = {(front - rest) / total, rate};
+    return part;
+}
+
+vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, double cosine, double sine)
+{
+    const vndf_exact_part all = {1.0, 0.0};
+    double front = view->of.table.front, wedge = view->of.table.wedge, total = front + wedge;
+    int above = !vndf_is_below(view), toward = cosine >= 0.0;
+    if (above && toward)
+        return part_in_front(view, cosine, sine);
+    if (above == toward || !(wedge > 0.0))
+        return all;
+    vndf_exact_part before = row_part(wedge_of(view), wedge_y(view), fabs(cosine), sine);
+    vndf_exact_part behind = {(front + (1.0 - before.part) * wedge) / total, before.rate * wedge / total};
+    return above ? behind : before;
+}
