@@ -13,7 +13,8 @@ static vndf_azimuth_slice law_of(const vndf_distribution *d)
 vndf_slope vndf_table_slope_exactly(const vndf_distribution *d, float u)
 {
     vndf_azimuth_slice law = law_of(d);
-    vndf_exact_slope at = vndf_exact_law_draw(&law, u);
+    uint32_t cell;
+    vndf_exact_slope at = vndf_exact_law_draw(&law, u, &cell);
     double per = 1.0 / (at.x + at.z);
     vndf_slope r = {(float)(at.x * per), (float)(at.z * per), 0.0f, 0};
     return r;

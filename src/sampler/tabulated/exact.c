@@ -63,21 +63,20 @@ VNDF_RARE double density_exactly(const vndf_view *view, const vndf_query *g)
 }
 
 /* The cases of density.h and density_wedge.h first. */
-double vndf_engine_density(const vndf_view *view, const vndf_query *g)
+static double density_near(const vndf_view *view, const vndf_query *g, const vndf_wedge_near *near)
 {
     const vndf_distribution *d = view->distribution;
     int toward = vndf_query_along(g) >= 0.0;
     doubles_m plain = 1;
-    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, &plain)
+    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, near, &plain)
                      : toward            ? vndf_query_in_front(d, g, &plain)
-                                         : vndf_query_of_wedge(d, g, 0, &plain);
+                                         : vndf_query_of_wedge(d, g, 0, near, &plain);
     return plain ? density : density_exactly(view, g);
 }
 
-static float density_of(const vndf_view *view, vndf_vec3 wm)
+double vndf_engine_density(const vndf_view *view, const vndf_query *g)
 {
-    vndf_query g = vndf_query_of(view, wm);
-    return vndf_positive(vndf_density_from(vndf_engine_density(view, &g)));
+    return density_near(view, g, NULL);
 }
 
 /* ---- D ---- */
@@ -92,10 +91,10 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 /* ---- draw ---- */
 
 /* The law of the radius. Weights are divided, so that none of their squares vanishes; where both do, at the horizon and
- * at a right angle from wi, any ratio is a limit. What rounded to -0 is the horizon. */
-static vndf_azimuth_slice law_of(const vndf_view *view, const vndf_exact_azimuth *a)
+ * at a right angle from wi, any ratio is a limit. */
+static vndf_azimuth_slice law_of(const vndf_view *view, const vndf_stretched *w, const vndf_exact_azimuth *a)
 {
-    double c = view->of.table.c * a->n + 0.0, k = view->of.table.s * a->cosine;
+    double c = w->c * a->n, k = w->s * a->cosine;
     double length = c < 0.0 ? k : c + fabs(k), per = length > 0.0 ? 1.0 / length : 0.0;
     vndf_azimuth_slice law = {view->distribution, c, k, 0.0, 0.0, 0.0, 0};
     law.c = length > 0.0 ? c * per : c;
@@ -114,19 +113,27 @@ static vndf_vec3 normal_at(const vndf_view *view, const vndf_exact_azimuth *a, d
     return vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
 }
 
-/* The density is that of the normal as it was rounded. */
+/* The density is that of the normal as it was rounded, which is near where it was drawn. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     float half = 2.0f * u1 - 1.0f;
-    vndf_exact_azimuth a = vndf_exact_azimuth_draw(view, fabsf(half));
-    vndf_azimuth_slice law = law_of(view, &a);
-    vndf_vec3 wm = normal_at(view, &a, half, vndf_exact_law_draw(&law, u2));
-    if (!(vndf_exact_dot(view->wi, wm) > 0.0)) {
+    vndf_wedge_near near;
+    vndf_stretched w = vndf_stretched_of(view);
+    vndf_exact_azimuth a = vndf_exact_azimuth_draw(view, &w, fabsf(half), &near);
+    vndf_azimuth_slice law = law_of(view, &w, &a);
+    vndf_vec3 wm = normal_at(view, &a, half, vndf_exact_law_draw(&law, u2, &near.cell));
+    near.cut = law.cut < law.table->radial_count ? law.cut : law.table->radial_count - 1;
+    int faces = vndf_exact_dot(view->wi, wm) > 0.0;
+    if (!faces) {
         vndf_frame frame = vndf_table_frame(view);
         wm = vndf_turn_to_face(&frame, wm);
+        faces = vndf_is_facing(view, wm);
     }
-    if (pdf)
-        *pdf = vndf_is_facing(view, wm) ? density_of(view, wm) : 0.0f;
+    if (pdf) {
+        vndf_query g = vndf_query_of(view, wm);
+        double density = faces ? density_near(view, &g, a.in_wedge ? &near : NULL) : 0.0;
+        *pdf = faces ? vndf_positive(vndf_density_from(density)) : 0.0f;
+    }
     return wm;
 }
 
@@ -137,10 +144,11 @@ vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, 
 int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2)
 {
     double x = normal.x, y = normal.y, across = sqrt(x * x + y * y), per = across > 0.0 ? 1.0 / across : 0.0;
-    vndf_exact_azimuth a = {across > 0.0 ? x * per : 1.0, fabs(y) * per, 1.0};
+    vndf_stretched w = vndf_stretched_of(view);
+    vndf_exact_azimuth a = {across > 0.0 ? x * per : 1.0, fabs(y) * per, 1.0, 0};
     vndf_exact_slope slope = {across, normal.z};
-    vndf_azimuth_slice law = law_of(view, &a);
-    vndf_exact_part half = vndf_exact_azimuth_part(view, a.cosine, a.sine),
+    vndf_azimuth_slice law = law_of(view, &w, &a);
+    vndf_exact_part half = vndf_exact_azimuth_part(view, &w, a.cosine, a.sine),
                     radius = vndf_exact_law_part(&law, slope);
     *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * (float)half.part; /* as draws round 2 u1 - 1 */
     *u2 = (float)radius.part;

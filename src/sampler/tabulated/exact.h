@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "sampler/stretch.h"
+#include "sampler/tabulated/density_wedge.h"
 #include "sampler/tabulated/theory.h"
 
 /* ---- rational cells (math/rational_cell.h) ---- */
@@ -65,31 +66,37 @@ VNDF_INLINE int vndf_exact_is_inner(double before, double mass)
 
 /* ---- azimuth ---- */
 
-/* Cosine and sine >= 0 of |a|, both times n. */
+/* Cosine and sine >= 0 of |a|, both times n; whether it was drawn by rows. */
 typedef struct vndf_exact_azimuth {
     double cosine, sine, n;
+    int in_wedge;
 } vndf_exact_azimuth;
 
 /* Mass per radian, 1 in a whole turn, for the stretched direction w. */
 double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine);
 
-/* Where the part `half` of the mass of half a turn lies between the side of wi and |a|. */
-vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, float half);
+/* Where the part `half` of the mass of half a turn lies between the side of wi and |a|. In a wedge it leaves in *near
+ * what it found. */
+vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_stretched *w, float half,
+                                           vndf_wedge_near *near);
 
 /* That part, and its rate per radian. */
-vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, double cosine, double sine);
+vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, const vndf_stretched *w, double cosine,
+                                        double sine);
 
 /* ---- radius ---- */
 
 /* Finds the cut, its part and the mass of a law with the weights c and k. */
 void vndf_exact_law_find(vndf_azimuth_slice *law);
 
-/* The normal (X, Z), of any length, with the part u of the mass before it; the horizon where nothing is visible. */
+/* A normal (X, Z), of any length. */
 typedef struct vndf_exact_slope {
     double x, z;
 } vndf_exact_slope;
 
-vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u);
+/* That with the part u of the mass before it, and its cell; the horizon where nothing is visible. */
+
+vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, uint32_t *cell);
 
 /* The part before a slope, and its rate per radian between the normal and z: 0 at the cut and beside it. */
 vndf_exact_part vndf_exact_law_part(const vndf_azimuth_slice *law, vndf_exact_slope slope);

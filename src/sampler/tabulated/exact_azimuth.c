@@ -7,11 +7,11 @@ static const double QUARTER_TURN = 1.57079632679489662;
 
 /* ---- rows: azimuths with cos >= 0, masses times the square of shares ---- */
 
-/* Cell j of the mix, per its part of q. */
-static vndf_exact_cell cell_of(const vndf_wedge *w, const vndf_shares *s, const vndf_row_place *at)
+/* Cell j of the mix, `width` wide in q. */
+static vndf_exact_cell cell_of(const vndf_wedge *w, const vndf_shares *s, uint32_t j, double width)
 {
-    vndf_mixed_cell mixed = vndf_shares_cell(w, s, at->cell);
-    vndf_exact_cell cell = {mixed.begin * at->width, mixed.end * at->width, mixed.mass};
+    vndf_mixed_cell mixed = vndf_shares_cell(w, s, j);
+    vndf_exact_cell cell = {mixed.begin * width, mixed.end * width, mixed.mass};
     return cell;
 }
 
@@ -22,19 +22,19 @@ static double mass_before(const vndf_wedge *w, const vndf_shares *s, uint32_t j)
     return s->first * *a + s->middle * *b + s->last * *c;
 }
 
-/* The azimuth with that mass before it; the search is in float. */
-static vndf_exact_azimuth row_draw(const vndf_wedge *w, double y, double part)
+/* The azimuth with that part of the mass before it; the search is in float. */
+static vndf_exact_azimuth row_draw(const vndf_wedge *w, double y, double part, vndf_wedge_near *near)
 {
-    vndf_shares s = vndf_shares_at(w, y);
+    vndf_shares s = near->shares = vndf_shares_at(w, y);
     double target = part * s.square;
     uint32_t j = vndf_azimuth_find(w, s.row, (float)s.first, (float)s.middle, (float)s.last, (float)target);
     double from = w->q[j], to = w->q[j + 1], h = to - from;
-    vndf_row_place begin = {j, from, 1.0 - from, 0.0, h, h};
-    vndf_exact_cell cell = cell_of(w, &s, &begin);
+    vndf_exact_cell cell = cell_of(w, &s, j, h);
     vndf_exact_place in = vndf_exact_cell_invert(&cell, target - mass_before(w, &s, j));
     double q = from + in.xi * h, rest = (1.0 - to) + in.eta * h;
-    double x = s.p * rest * (1.0 + q), z = 2.0 * s.r * q;
-    vndf_exact_azimuth a = {x, z, sqrt(x * x + z * z)};
+    double along = s.p * rest * (1.0 + q), aside = 2.0 * s.r * q;
+    vndf_exact_azimuth a = {along, aside, sqrt(along * along + aside * aside), 1};
+    near->azimuth = j;
     return a;
 }
 
@@ -42,11 +42,11 @@ static vndf_exact_azimuth row_draw(const vndf_wedge *w, double y, double part)
 static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, double sine)
 {
     vndf_shares s = vndf_shares_at(w, y);
-    vndf_row_place at = vndf_row_place_at(w, &s, cosine, sine);
-    vndf_exact_cell cell = cell_of(w, &s, &at);
+    vndf_row_place at = vndf_row_place_at(w, &s, cosine, sine, NULL);
+    vndf_exact_cell cell = cell_of(w, &s, at.cell, at.width);
     vndf_exact_place in = {at.inner / at.width, at.outer / at.width};
     double before = vndf_exact_cell_before(&cell, in), per = 1.0 / s.square;
-    vndf_quotient density = vndf_row_density(w, &s, cosine, sine);
+    vndf_quotient density = vndf_row_density(w, &s, &at);
     int inner = vndf_exact_is_inner(before * per, cell.mass * per);
     vndf_exact_part part = {(mass_before(w, &s, at.cell) + before) * per,
                             inner ? density.above / density.below * per : 0.0};
@@ -68,7 +68,8 @@ double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretch
     if (above == toward || !(w->s > 0.0 || above))
         return 0.0;
     vndf_shares s = vndf_shares_at(side, y);
-    vndf_quotient density = vndf_row_density(side, &s, fabs(cosine), sine);
+    vndf_row_place at = vndf_row_place_at(side, &s, fabs(cosine), sine, NULL);
+    vndf_quotient density = vndf_row_density(side, &s, &at);
     return density.below > 0.0 ? per * mass * density.above / (density.below * s.square) : 0.0;
 }
 
@@ -77,46 +78,38 @@ static vndf_front front_of(const vndf_view *view)
     return vndf_front_of(view->distribution, view->of.table.s, view->of.table.c);
 }
 
-/* The side of the horizon that the direction is on, though c may have rounded to 0, and its coordinate there. */
-static const vndf_wedge *wedge_of(const vndf_view *view)
-{
-    return vndf_is_below(view) ? &view->distribution->below : &view->distribution->above;
-}
-
-static double wedge_y(const vndf_view *view)
-{
-    return vndf_is_below(view) ? view->of.table.s : view->of.table.c;
-}
-
-static vndf_exact_azimuth draw_below(const vndf_view *view, float half)
+static vndf_exact_azimuth draw_below(const vndf_view *view, const vndf_stretched *w, float half,
+                                     vndf_wedge_near *near)
 {
     const double least = 1e-7; /* at a right angle from wi nothing is visible */
-    vndf_exact_azimuth a = row_draw(wedge_of(view), wedge_y(view), half);
+    vndf_exact_azimuth a = row_draw(&view->distribution->below, w->s, half, near);
     a.cosine = a.cosine > least * a.n ? a.cosine : least * a.n;
     return a;
 }
 
 /* Rows count from the far side. */
-static vndf_exact_azimuth draw_wedge(const vndf_view *view, float half)
+static vndf_exact_azimuth draw_wedge(const vndf_view *view, const vndf_stretched *w, float half,
+                                     vndf_wedge_near *near)
 {
     double front = view->of.table.front, wedge = view->of.table.wedge,
            rest = (half * (front + wedge) - front) / wedge;
-    vndf_exact_azimuth a = row_draw(wedge_of(view), wedge_y(view), rest < 1.0 ? 1.0 - rest : 0.0);
+    vndf_exact_azimuth a = row_draw(&view->distribution->above, w->c, rest < 1.0 ? 1.0 - rest : 0.0, near);
     a.cosine = -a.cosine;
     return a;
 }
 
 /* The front is solved in float (front.h), whose density is that of the azimuth drawn. */
-vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, float half)
+vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_stretched *w, float half,
+                                           vndf_wedge_near *near)
 {
-    float front = view->of.table.front, wedge = view->of.table.wedge, target = half * (front + wedge), near;
+    float front = view->of.table.front, wedge = view->of.table.wedge, target = half * (front + wedge), about;
     if (vndf_is_below(view))
-        return draw_below(view, half);
+        return draw_below(view, w, half, near);
     if (wedge > 0.0f && target >= front)
-        return draw_wedge(view, half);
-    vndf_azimuth at = vndf_front_draw(front_of(view), lanes_positive(front - target), front, &near);
+        return draw_wedge(view, w, half, near);
+    vndf_azimuth at = vndf_front_draw(front_of(view), lanes_positive(front - target), front, &about);
     double c = at.c, s = at.s;
-    vndf_exact_azimuth a = {c, s, sqrt(c * c + s * s)};
+    vndf_exact_azimuth a = {c, s, sqrt(c * c + s * s), 0};
     return a;
 }
 
@@ -129,7 +122,7 @@ static vndf_exact_part part_in_front(const vndf_view *view, double cosine, doubl
     return part;
 }
 
-vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, double cosine, double sine)
+vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, const vndf_stretched *w, double cosine, double sine)
 {
     const vndf_exact_part all = {1.0, 0.0};
     double front = view->of.table.front, wedge = view->of.table.wedge, total = front + wedge;
@@ -138,7 +131,8 @@ vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, double cosine, do
         return part_in_front(view, cosine, sine);
     if (above == toward || !(wedge > 0.0))
         return all;
-    vndf_exact_part before = row_part(wedge_of(view), wedge_y(view), fabs(cosine), sine);
+    const vndf_wedge *side = vndf_wedge_of(view->distribution, w->c);
+    vndf_exact_part before = row_part(side, vndf_wedge_y(w->s, w->c), fabs(cosine), sine);
     vndf_exact_part behind = {(front + (1.0 - before.part) * wedge) / total, before.rate * wedge / total};
     return above ? behind : before;
 }

@@ -304,17 +304,18 @@ static vndf_exact_place place_in_piece(const vndf_engine_piece *p, vndf_exact_pl
     return cut;
 }
 
-vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u)
+vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, uint32_t *cell)
 {
     const vndf_exact_slope horizon = {1.0, 0.0};
+    *cell = law->table->radial_count - 1;
     if (!(law->mass > 0.0))
         return horizon;
     int above = law->c >= 0.0;
     double target = (above ? u : 1.0 - u) * law->mass;
-    uint32_t j = above ? search_before(law, u, target) : search_beyond(law, target);
+    uint32_t j = *cell = above ? search_before(law, u, target) : search_beyond(law, target);
     vndf_engine_piece p = vndf_engine_piece_of(law, j);
-    vndf_exact_cell cell = cell_of(&p);
+    vndf_exact_cell inside = cell_of(&p);
     double before = above ? target - mass_before(law, j) : p.mass - (target - mass_beyond(law, j + 1));
-    place at = {j, place_in_piece(&p, vndf_exact_cell_invert(&cell, before))};
+    place at = {j, place_in_piece(&p, vndf_exact_cell_invert(&inside, before))};
     return slope_at(law->table, at);
 }

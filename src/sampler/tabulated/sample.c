@@ -31,11 +31,13 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
+    if (!view->plain)
+        return vndf_engine_sample_exactly(view, u1, u2, pdf);
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
     vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
+    lanes_m plain = vndf_trusts_wedge_mass(view->of.table.front, range.mass);
     if (!plain)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
     vndf_drawn n =
