@@ -98,8 +98,8 @@ VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j
     return doubles_gather(w->q + end, j);
 }
 
-/* Where a normal was drawn: the shares of rows, and the cells of its azimuth, of the cut and of its slope. A search that
- * begins there ends at once. */
+/* Where a normal was drawn: the shares of rows, and the cells of its azimuth, of the cut and of its slope. Searches
+ * that begin there end at once. */
 typedef struct vndf_wedge_near {
     vndf_shares shares;
     doubles_u azimuth, cut, cell;

@@ -90,15 +90,18 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 
 /* ---- draw ---- */
 
-/* The law of the radius. Weights are divided, so that none of their squares vanishes; where both do, at the horizon and
- * at a right angle from wi, any ratio is a limit. */
+/* The law of the radius. Below the horizon k = 1, and above it no weight is lost to a float. Where both vanish, at the
+ * horizon and at a right angle from wi, any ratio is a limit. */
 static vndf_azimuth_slice law_of(const vndf_view *view, const vndf_stretched *w, const vndf_exact_azimuth *a)
 {
-    double c = w->c * a->n, k = w->s * a->cosine;
-    double length = c < 0.0 ? k : c + fabs(k), per = length > 0.0 ? 1.0 / length : 0.0;
-    vndf_azimuth_slice law = {view->distribution, c, k, 0.0, 0.0, 0.0, 0};
-    law.c = length > 0.0 ? c * per : c;
-    law.k = length > 0.0 ? k * per : c < 0.0 ? 0.0 : 1.0;
+    vndf_azimuth_slice law = {view->distribution, w->c * a->n, w->s * a->cosine, 0.0, 0.0, 0.0, 0};
+    double length = law.c < 0.0 ? law.k : law.c + fabs(law.k);
+    if (!(length > 0.0)) {
+        law.k = law.c < 0.0 ? 0.0 : 1.0;
+    } else if (law.c < 1e-20) {
+        law.c /= length;
+        law.k /= length;
+    }
     vndf_exact_law_find(&law);
     return law;
 }

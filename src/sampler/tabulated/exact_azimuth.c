@@ -87,13 +87,14 @@ static vndf_exact_azimuth draw_below(const vndf_view *view, const vndf_stretched
     return a;
 }
 
-/* Rows count from the far side. */
+/* Rows count from the far side. That the azimuth is in the wedge was found in float: `part` may be off by that. */
 static vndf_exact_azimuth draw_wedge(const vndf_view *view, const vndf_stretched *w, float half,
                                      vndf_wedge_near *near)
 {
-    double front = view->of.table.front, wedge = view->of.table.wedge,
-           rest = (half * (front + wedge) - front) / wedge;
-    vndf_exact_azimuth a = row_draw(&view->distribution->above, w->c, rest < 1.0 ? 1.0 - rest : 0.0, near);
+    double front = view->of.table.front, wedge = view->of.table.wedge;
+    double part = 1.0 - (half * (front + wedge) - front) / wedge;
+    part = part > 0.0 ? (part < 1.0 ? part : 1.0) : 0.0;
+    vndf_exact_azimuth a = row_draw(&view->distribution->above, w->c, part, near);
     a.cosine = -a.cosine;
     return a;
 }
@@ -108,8 +109,7 @@ vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_str
     if (wedge > 0.0f && target >= front)
         return draw_wedge(view, w, half, near);
     vndf_azimuth at = vndf_front_draw(front_of(view), lanes_positive(front - target), front, &about);
-    double c = at.c, s = at.s;
-    vndf_exact_azimuth a = {c, s, sqrt(c * c + s * s), 0};
+    vndf_exact_azimuth a = {at.c, at.s, 1.0, 0};
     return a;
 }
 
