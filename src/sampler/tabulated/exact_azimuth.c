@@ -53,6 +53,75 @@ static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, do
     return part;
 }
 
+/* ---- the density of a row ---- */
+
+/* Rows of cells and their shares, as certificates of shipped tables are measured: another order of these operations
+ * would change a last digit in them. */
+typedef struct mixed_row {
+    const vndf_row_cell *cell[3]; /* of each row */
+    const float *q;
+    double share[3], p, r;
+    uint32_t cells;
+} mixed_row;
+
+static double mixed_mass(const mixed_row *row, uint32_t j)
+{
+    const vndf_row_cell *const *cell = row->cell;
+    return row->share[0] * cell[0][j].mass + row->share[1] * cell[1][j].mass + row->share[2] * cell[2][j].mass;
+}
+
+/* Where cell j begins. */
+static double mixed_density(const mixed_row *row, uint32_t j)
+{
+    const vndf_row_cell *const *cell = row->cell;
+    return row->share[0] * cell[0][j].density + row->share[1] * cell[1][j].density +
+           row->share[2] * cell[2][j].density;
+}
+
+/* The last of ascending knots at or below y: the guide finds it but for the rounding of y. */
+static uint32_t knot_before(const vndf_guide *guide, const float *knots, double y)
+{
+    uint32_t i = vndf_guide_find(guide, (float)y);
+    return i - (i > 0 && y < knots[i]);
+}
+
+static mixed_row wedge_row(const vndf_wedge *w, double y)
+{
+    uint32_t i = knot_before(&w->row_guide, w->row_y, y);
+    double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
+    size_t first = 2 * (size_t)i;
+    mixed_row row = {{vndf_row_cells(w, first), vndf_row_cells(w, first + 1), vndf_row_cells(w, first + 2)},
+                     w->q,
+                     {rest * rest, 2.0 * rest * m, m * m},
+                     0.0,
+                     0.0,
+                     w->cell_count};
+    for (size_t n = 0; n < 3; n++) {
+        row.p += row.share[n] * w->row_span[i].p[n];
+        row.r += row.share[n] * w->row_span[i].r[n];
+    }
+    return row;
+}
+
+/* Mass per radian at an azimuth, cos >= 0; 1 - q is formed without a difference. */
+static double row_density(const mixed_row *row, double cosine, double sine)
+{
+    double c = row->r * cosine, s = row->p * sine, n = sqrt(c * c + s * s);
+    if (!(n > 0.0))
+        return 0.0;
+    double q = s / (c + n), rest = (c + c * (c / (n + s))) / (c + n);
+    uint32_t j = 0;
+    for (uint32_t i = 1; i < row->cells; i++)
+        j += row->q[i] <= q;
+    double from = row->q[j], to = row->q[j + 1], h = to - from;
+    double xi = (q - from) / h, eta = (rest - (1.0 - to)) / h;
+    vndf_exact_cell cell = {mixed_density(row, j) * h, mixed_density(row, j + 1) * h, mixed_mass(row, j)};
+    vndf_exact_place in = {xi, eta};
+    double per_q = vndf_exact_cell_density(&cell, in) / h;
+    double x = row->p * rest * (1.0 + q), y = 2.0 * row->r * q;
+    return per_q * (x * x + y * y) / (2.0 * row->p * row->r * (1.0 + q * q));
+}
+
 /* ---- half a turn ---- */
 
 double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine)
@@ -67,10 +136,8 @@ double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretch
         return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
     if (above == toward || !(w->s > 0.0 || above))
         return 0.0;
-    vndf_shares s = vndf_shares_at(side, y);
-    vndf_row_place at = vndf_row_place_at(side, &s, fabs(cosine), sine, NULL);
-    vndf_quotient density = vndf_row_density(side, &s, &at);
-    return density.below > 0.0 ? per * mass * density.above / (density.below * s.square) : 0.0;
+    mixed_row row = wedge_row(side, y);
+    return row.p > 0.0 ? per * mass * row_density(&row, fabs(cosine), sine) : 0.0;
 }
 
 static vndf_front front_of(const vndf_view *view)

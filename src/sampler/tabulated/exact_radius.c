@@ -68,9 +68,8 @@ static void weigh_piece(vndf_engine_piece *p, const vndf_azimuth_slice *law, uin
     if (j + 2 == law->cut)
         p->v1 += (way < 1.0 ? way : 1.0) * (w0 - w1);
     double half = 0.5 * (p->v0 + p->v1);
-    int same = w1 == p->v1 || !(p->v1 > 0.0);
     p->e0 = cell->f0 * half;
-    p->e1 = cell->f1 * (same ? half : w1 / p->v1 * half);
+    p->e1 = cell->f1 * (p->v1 > 0.0 ? w1 / p->v1 : 1.0) * half;
 }
 
 vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *law, uint32_t j)
