@@ -1,7 +1,7 @@
 /* Drawing is in float: a number stands for a mass that is some steps of 2^-24 off, and where next to no mass is -
- * in far tails, gaps, beside the cut - that is far away. The inverse of exact.c knows nothing of that. What numbers really give
- * is looked at here: from 1 to 64 steps, each way, of u2 and then of u1 the best is kept, and the same again from
- * there. There is no descending, as from one step to the next a normal may go back by a rounding. Of random
+ * in far tails, gaps, beside the cut - that is far away. The inverse of exact.c knows nothing of that. What numbers
+ * really give is looked at here: from 1 to 64 steps, each way, of u2 and then of u1 the best is kept, and the same
+ * again from there. There is no descending, as from one step to the next a normal may go back by a rounding. Of random
  * numbers one in ten thousand takes that, and 5 to 50 us; of the others one in ten takes a sample. */
 #include "sampler/nearest.h"
 
