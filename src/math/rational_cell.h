@@ -33,25 +33,11 @@ VNDF_INLINE lanes_f vndf_rational_part(const vndf_rational_cell *cell, lanes_f w
     return lanes_keep(lanes_less(nothing, below), cell->mass / below);
 }
 
-/* Mass before xi. */
-VNDF_INLINE lanes_f vndf_rational_cdf(const vndf_rational_cell *cell, lanes_f xi)
-{
-    lanes_f w = xi * (1.0f - xi);
-    return (cell->mass * xi * xi + cell->e0 * w) * vndf_rational_part(cell, w);
-}
-
 /* Mass per unit of xi. */
 VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_f xi)
 {
     lanes_f eta = 1.0f - xi, w = xi * eta, part = vndf_rational_part(cell, w);
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
-}
-
-/* The same, but 0 where at most 2^-20 of mass lies between xi and an end. */
-VNDF_INLINE lanes_f vndf_rational_inner_density(const vndf_rational_cell *cell, lanes_f xi)
-{
-    lanes_f before = vndf_rational_cdf(cell, xi), least = lanes_least(before, cell->mass - before);
-    return lanes_keep(lanes_less(lanes_set(0x1p-20f), least), vndf_rational_density(cell, xi));
 }
 
 /* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below. The caller forms this

@@ -18,13 +18,4 @@ VNDF_INLINE float vndf_weighted_zeta(float w0, float w1, float xi)
     return zeta < 1.0f ? zeta : 1.0f;
 }
 
-VNDF_INLINE float vndf_weighted_xi(float w0, float w1, float zeta)
-{
-    float sum = w0 + w1, per = sum > 0.0f ? 1.0f / sum : 0.0f;
-    float r0 = w0 * per, r1 = w1 * per; /* squares stay in range */
-    float r = sqrtf(r0 * r0 * (1.0f - zeta) + r1 * r1 * zeta);
-    float xi = r0 + r > 0.0f ? zeta / (r0 + r) : zeta;
-    return xi < 1.0f ? xi : 1.0f;
-}
-
 #endif

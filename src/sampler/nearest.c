@@ -1,7 +1,7 @@
 /* Drawing is in float: a number stands for a mass that is some steps of 2^-24 off, and where next to no mass is -
- * in far tails, gaps, beside the cut - that is far away. So is the inverse of sample.c. What numbers really give
- * is looked at here: from 1 to 64 steps, each way, of u2 and then of u1 the best is kept, and the same again from
- * there. There is no descending, as from one step to the next a normal may go back by a rounding. Of random
+ * in far tails, gaps, beside the cut - that is far away. The inverse of exact.c knows nothing of that. What numbers
+ * really give is looked at here: from 1 to 64 steps, each way, of u2 and then of u1 the best is kept, and the same
+ * again from there. There is no descending, as from one step to the next a normal may go back by a rounding. Of random
  * numbers one in ten thousand takes that, and 5 to 50 us; of the others one in ten takes a sample. */
 #include "sampler/nearest.h"
 
@@ -30,11 +30,17 @@ static candidate candidate_at(const vndf_view *view, vndf_vec3 wanted, float u1,
     return made;
 }
 
+/* One step of a number: draws round 2 u1 - 1 to 2^-24, so that below 1/2 a step of u1 is half as long. */
+static double step_of(float u, int which)
+{
+    return which == 0 && u < 0.5f ? 0x1p-25 : 0x1p-24;
+}
+
 /* The better one of `best` and `from` with one of its numbers so many steps away. */
 static candidate step(const vndf_view *view, vndf_vec3 wanted, candidate from, int which, int steps,
                       candidate best)
 {
-    from.u[which] = vndf_clamp_unit((float)(from.u[which] + steps * 0x1p-24));
+    from.u[which] = vndf_clamp_unit((float)(from.u[which] + steps * step_of(from.u[which], which)));
     candidate made = candidate_at(view, wanted, from.u[0], from.u[1]);
     return made.far < best.far ? made : best;
 }

@@ -16,12 +16,12 @@ VNDF_INLINE uint32_t vndf_count_two(const float *x, const float *y, float a, flo
     return count;
 }
 
-/* a x[i] + b y[i] + c z[i] <= most. */
-VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, float a, float b, float c,
-                                      float most)
+/* a x[i] + b y[i] + c z[i] <= most, of n that are a multiple of eight. */
+VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, uint32_t n, float a, float b,
+                                      float c, float most)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < 8; i++)
+    for (uint32_t i = 0; i < n; i++)
         count += a * x[i] + b * y[i] + c * z[i] <= most;
     return count;
 }
@@ -51,11 +51,15 @@ VNDF_INLINE uint32_t vndf_count_two(const float *x, const float *y, float a, flo
     return vndf_count_at_most(first + _mm256_set1_ps(b) * _mm256_loadu_ps(y), most);
 }
 
-VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, float a, float b, float c,
-                                      float most)
+VNDF_INLINE uint32_t vndf_count_three(const float *x, const float *y, const float *z, uint32_t n, float a, float b,
+                                      float c, float most)
 {
-    __m256 two = _mm256_set1_ps(a) * _mm256_loadu_ps(x) + _mm256_set1_ps(b) * _mm256_loadu_ps(y);
-    return vndf_count_at_most(two + _mm256_set1_ps(c) * _mm256_loadu_ps(z), most);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < n; i += 8) {
+        __m256 two = _mm256_set1_ps(a) * _mm256_loadu_ps(x + i) + _mm256_set1_ps(b) * _mm256_loadu_ps(y + i);
+        count += vndf_count_at_most(two + _mm256_set1_ps(c) * _mm256_loadu_ps(z + i), most);
+    }
+    return count;
 }
 
 /* Pairs are taken apart in an order of their own, which a count does not see. */

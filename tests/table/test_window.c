@@ -1,7 +1,7 @@
 /* The radial search by windows finds the cell that a search of all knots finds, whatever the weights of the law
  * and the part of its mass: random ones, and those beside the borders of the ranges of u and of |k|/c. */
 #include "oracle/oracle.h"
-#include "sampler/tabulated/radial_draw.h"
+#include "sampler/tabulated/radial.h"
 #include "harness/test.h"
 
 /* Whether that cell is found. */

@@ -211,7 +211,7 @@ VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, cons
         vndf_query g = given_at(&in, i, scale);
         doubles_m plain = doubles_at_most(g.z, g.z);
         doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &plain)
-                                          : vndf_query_of_wedge(d, &g, way == BELOW, &plain);
+                                          : vndf_query_of_wedge(d, &g, way == BELOW, NULL, &plain);
         scatter(b, index, s->count[way] - i, density, plain);
     }
 }

@@ -10,8 +10,7 @@
 #include "math/vector.h"
 #include "sampler/bounded/table.h"
 #include "sampler/tabulated/draw.h"
-#include "sampler/tabulated/theory.h"
-#include "sampler/tabulated/radial_cut.h"
+#include "sampler/tabulated/exact.h"
 
 /* ---- in double ---- */
 
@@ -74,12 +73,13 @@ VNDF_INLINE inside inside_of(const vndf_rational_cell *in, float width, float in
     return at;
 }
 
-/* In the two cells beside the cut, which are others (radial_cut.h), and the cell at it: where there is none that
- * is at infinity, and little is lost. */
-static border border_beside(const vndf_radial_law *law, float total, border at, vndf_radius place, lanes_m *plain)
+/* In the two cells beside the cut and at it, which float does not follow: where there is no cut it is at infinity, and
+ * little is lost. */
+static border border_beside(const vndf_radial_law *law, border at, lanes_m *plain)
 {
-    vndf_radial_law scaled = vndf_radial_scaled(*law, total);
-    at.kept = vndf_radial_cdf(&scaled, place);
+    vndf_azimuth_slice slice = {law->table, law->c, law->k, 0.0, 0.0, 0.0, 0};
+    vndf_exact_law_find(&slice);
+    at.kept = (float)vndf_azimuth_slice_part(&slice, at.x, at.z);
     *plain &= at.kept > VNDF_TRUST_BORDER_CUT;
     return at;
 }
@@ -98,10 +98,8 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_azimuth_sample 
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     float inner = lanes_positive(x * cell.z0 - z * cell.x0), outer = lanes_positive(z * cell.x1 - x * cell.z1);
     *plain &= VNDF_TRUST_BORDER_ROOT * n < root_c;
-    if (j + 3 > law->cut) {
-        vndf_radius place = {j, inner / (inner + outer), outer / (inner + outer)};
-        return border_beside(law, b->total, at, place, plain);
-    }
+    if (j + 3 > law->cut)
+        return border_beside(law, at, plain);
     vndf_rational_cell in = vndf_radial_plain(law, &cell);
     float before = whole ? vndf_radial_before_whole(law, &cell) : vndf_radial_before(law, &cell);
     inside mass = inside_of(&in, cell.width, inner, outer);

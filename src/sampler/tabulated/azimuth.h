@@ -89,10 +89,7 @@ VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, f
                                         float last, float target)
 {
     const float *a = wedge->cdf + (size_t)row * wedge->stride, *b = a + wedge->stride, *c = b + wedge->stride;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < wedge->stride; i += VNDF_PADDING)
-        count += vndf_count_three(a + i, b + i, c + i, first, middle, last, target);
-    return count;
+    return vndf_count_three(a, b, c, wedge->stride, first, middle, last, target);
 }
 
 /* The cell of one lane's row in which the mass `target` ends. */

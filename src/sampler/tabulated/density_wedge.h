@@ -98,19 +98,55 @@ VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j
     return doubles_gather(w->q + end, j);
 }
 
-/* Mass per radian of the row, times `square`, as above/below; cosine and sine >= 0 and of any length. */
-VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, doubles cosine, doubles sine)
+/* Where a normal was drawn: the shares of rows, and the cells of its azimuth, of the cut and of its slope. Searches
+ * that begin there end at once. */
+typedef struct vndf_wedge_near {
+    vndf_shares shares;
+    doubles_u azimuth, cut, cell;
+} vndf_wedge_near;
+
+/* The last knot of q at or below, from cell j. */
+VNDF_INLINE doubles_u vndf_cell_of_q_near(const vndf_wedge *w, doubles q, doubles_u j)
+{
+    const doubles_u one = doubles_set_u(1), none = doubles_set_u(0);
+    for (;;) {
+        doubles_m back = doubles_both(doubles_less(q, vndf_cell_end(w, 0, j)), doubles_at_most_u(one, j));
+        doubles_m more = doubles_at_most_u(j + 2u, doubles_set_u(w->cell_count));
+        doubles_m on = doubles_both(doubles_at_most(vndf_cell_end(w, 1, j), q), more);
+        doubles_u step = doubles_pick_u(on, one, none) - doubles_pick_u(back, one, none);
+        if (!doubles_differ_u(step, none))
+            return j;
+        j += step;
+    }
+}
+
+/* Where an azimuth stands in the rows: q, 1 - q, its cell and how far its ends are. */
+typedef struct vndf_row_place {
+    doubles_u cell;
+    doubles q, rest, inner, outer, width;
+} vndf_row_place;
+
+/* Cosine and sine >= 0 and of any length; `near` may be NULL, here and below. */
+VNDF_INLINE vndf_row_place vndf_row_place_at(const vndf_wedge *w, const vndf_shares *s, doubles cosine,
+                                             doubles sine, const vndf_wedge_near *near)
 {
     doubles along = s->r * cosine, aside = s->p * sine, n = doubles_root(along * along + aside * aside);
     doubles reach = n + aside, per = 1.0 / ((along + n) * reach);
     doubles q = aside * reach * per, rest = along * (reach + along) * per;
-    doubles_u j = vndf_cell_of_q(w, q);
-    vndf_mixed_cell cell = vndf_shares_cell(w, s, j);
-    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j), h = to - from;
-    doubles a = q - from, b = rest - (1.0 - to), ab = a * b;
+    doubles_u j = near ? vndf_cell_of_q_near(w, q, near->azimuth) : vndf_cell_of_q(w, q);
+    doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j);
+    vndf_row_place at = {j, q, rest, q - from, rest - (1.0 - to), to - from};
+    return at;
+}
+
+/* Mass per radian of the row there, times `square`, as above/below. */
+VNDF_INLINE vndf_quotient vndf_row_density(const vndf_wedge *w, const vndf_shares *s, const vndf_row_place *at)
+{
+    vndf_mixed_cell cell = vndf_shares_cell(w, s, at->cell);
+    doubles q = at->q, a = at->inner, b = at->outer, h = at->width, ab = a * b;
     doubles twice = 2.0 * cell.mass, e0 = cell.begin * h, e1 = cell.end * h;
     doubles over = e1 * (a * a) + twice * ab + e0 * (b * b), under = cell.mass * (h * h) + (e0 + e1 - twice) * ab;
-    doubles x = s->p * rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
+    doubles x = s->p * at->rest * (1.0 + q), y = 2.0 * s->r * q, mass = cell.mass;
     vndf_quotient density = {over * (mass * mass) * (h * (x * x + y * y)),
                              under * under * (2.0 * s->p * s->r * (1.0 + q * q))};
     return density;
@@ -141,9 +177,11 @@ VNDF_INLINE doubles vndf_visible_part(doubles w, doubles end)
 }
 
 /* c > 0 > k. */
-VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles c, doubles k)
+VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles c, doubles k,
+                                            const vndf_wedge_near *near)
 {
-    vndf_radial_location at = vndf_radial_location_at(d, c, -k);
+    vndf_radial_location at =
+        near ? vndf_radial_location_near(d, c, -k, near->cut) : vndf_radial_location_at(d, c, -k);
     doubles_lines pole = doubles_lines_at(&d->knots.pole->e, 2, at.cell);
     doubles_four f = vndf_radial_location_cell(d, &at), sums = doubles_load_four(&pole, 0);
     doubles w = doubles_positive(c * at.z0 + k * at.x0), h = vndf_visible_part(w, c * at.z1 + k * at.x1);
@@ -153,9 +191,11 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_above(const vndf_distribution *d, doubles 
 }
 
 /* c < 0 < k. */
-VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles c, doubles k)
+VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles c, doubles k,
+                                            const vndf_wedge_near *near)
 {
-    vndf_radial_location at = vndf_radial_location_at(d, -c, k);
+    vndf_radial_location at =
+        near ? vndf_radial_location_near(d, -c, k, near->cut) : vndf_radial_location_at(d, -c, k);
     doubles_lines tail = doubles_lines_at(&d->knots.tail[1].s, 2, at.cell);
     doubles_four f = vndf_radial_location_cell(d, &at), sums = doubles_load_four(&tail, 0);
     doubles w = doubles_positive(c * at.z1 + k * at.x1), h = vndf_visible_part(w, c * at.z0 + k * at.x0);
@@ -169,7 +209,7 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles 
 
 /* The normal's azimuth and radius. */
 VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_query *g, int below,
-                                        doubles_m *plain)
+                                        const vndf_wedge_near *near, doubles_m *plain)
 {
     const vndf_wedge *w = below ? &d->below : &d->above;
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;
@@ -178,10 +218,12 @@ VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_q
     doubles_m leans = doubles_less(doubles_set(0.0), across);
     doubles cosine = doubles_abs(doubles_pick(leans, k, n.x));
     doubles sine = doubles_abs(doubles_pick(leans, g->wi.ax * g->wi.x * n.y - g->wi.ay * g->wi.y * n.x, n.y));
-    vndf_shares shares = vndf_shares_at(w, (below ? across : up) / sum);
-    vndf_quotient azimuth = vndf_row_density(w, &shares, cosine, sine);
-    vndf_cut_law law = below ? vndf_cut_law_below(d, c, k) : vndf_cut_law_above(d, c, k);
-    vndf_radial_location at = vndf_radial_location_at(d, n.across, n.z);
+    vndf_shares shares = near ? near->shares : vndf_shares_at(w, (below ? across : up) / sum);
+    vndf_row_place place = vndf_row_place_at(w, &shares, cosine, sine, near);
+    vndf_quotient azimuth = vndf_row_density(w, &shares, &place);
+    vndf_cut_law law = below ? vndf_cut_law_below(d, c, k, near) : vndf_cut_law_above(d, c, k, near);
+    vndf_radial_location at =
+        near ? vndf_radial_location_near(d, n.across, n.z, near->cell) : vndf_radial_location_at(d, n.across, n.z);
     vndf_quotient q = below ? vndf_query_in_weighted_cell(d, &at, &n, c, k) : vndf_query_in_cell(d, &at, &n, c, k);
     *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
                                         : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));

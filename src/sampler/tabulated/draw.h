@@ -161,7 +161,7 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
 }
 
 /* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
- * (radial_cut.h). */
+ * (exact_radius.c). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w,
                                         const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
                                         lanes_f u2, lanes_m *plain)

@@ -29,13 +29,13 @@ VNDF_INLINE doubles_u vndf_radial_location_step(doubles_u cell, doubles inner, d
     return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
 }
 
-/* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
- * way. */
-VNDF_INLINE vndf_radial_location vndf_radial_location_at(const vndf_distribution *d, doubles x, doubles z)
+/* From a cell that is near. */
+VNDF_INLINE vndf_radial_location vndf_radial_location_near(const vndf_distribution *d, doubles x, doubles z,
+                                                           doubles_u cell)
 {
     const doubles_u none = doubles_set_u(0);
     vndf_radial_location at;
-    at.cell = vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z));
+    at.cell = cell;
     for (;;) {
         doubles_lines line = doubles_lines_at(&d->knots.at->x, 2, at.cell);
         doubles_four knots = doubles_load_four(&line, 0); /* x0, z0, x1, z1 */
@@ -53,6 +53,14 @@ VNDF_INLINE vndf_radial_location vndf_radial_location_at(const vndf_distribution
         at.z1 = knots.d;
         return at;
     }
+}
+
+/* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
+ * way. */
+VNDF_INLINE vndf_radial_location vndf_radial_location_at(const vndf_distribution *d, doubles x, doubles z)
+{
+    return vndf_radial_location_near(d, x, z,
+                                     vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z)));
 }
 
 /* f0, f1, mu0, mu1 of its cell. */

@@ -1,6 +1,6 @@
 /* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
  * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the
- * horizon, and cells away from the cut; the rest is in radial_cut.h, drawing in radial_draw.h.
+ * horizon, and cells away from the cut; exact_radius.c has all of them.
  *
  * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
  * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that

@@ -52,12 +52,12 @@
 #include "sampler/analytic_density.h"
 #include "vndf.h"
 
-/* All of it is for tables, whose views have s + |c| = 1: drawing in sample.c, densities and D in exact.c. */
+/* All of it is for tables, whose views have s + |c| = 1: the fast tier in sample.c, the exact one in exact.c. */
 
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The same where densities in float are known not to do. */
+/* The same by the exact tier (exact.h), where float is known not to do. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 struct vndf_query; /* sampler/tabulated/density.h */
@@ -80,7 +80,7 @@ vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm);
 double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *slice, vndf_normal wm,
                               double facing);
 
-/* The part of the law with slopes up to X/Z; c >= 0. */
+/* The part of the law with slopes up to X/Z. */
 double vndf_azimuth_slice_part(const vndf_azimuth_slice *slice, double x, double z);
 
 /* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */

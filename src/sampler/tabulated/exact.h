@@ -1,0 +1,104 @@
+/* The exact tier of tables: draws, evaluates and inverts in double, for every direction and every normal. It is the one
+ * transcription of cells at the cut and beside it, and asks no threshold. The fast tier knows no special case, and
+ * leaves the rest to this: it draws in float (draw.h) and evaluates in lanes of doubles (density.h). Both tiers look
+ * up a place and mix rows by location.h and density_wedge.h; searches stay in float.
+ *
+ *     exact_azimuth.c  the azimuth: its density, draw and inverse
+ *     exact_radius.c   the same for the slope length at one azimuth
+ *     exact.c          both together: what theory.h declares */
+#ifndef VNDF_SAMPLER_TABULATED_EXACT_H
+#define VNDF_SAMPLER_TABULATED_EXACT_H
+
+#include <math.h>
+
+#include "sampler/stretch.h"
+#include "sampler/tabulated/density_wedge.h"
+#include "sampler/tabulated/theory.h"
+
+/* ---- rational cells (math/rational_cell.h) ---- */
+
+typedef struct vndf_exact_cell {
+    double e0, e1, mass;
+} vndf_exact_cell;
+
+/* A place between two knots: xi and eta = 1 - xi, each exact where it is small. */
+typedef struct vndf_exact_place {
+    double xi, eta;
+} vndf_exact_place;
+
+/* Mass per xi. */
+VNDF_INLINE double vndf_exact_cell_density(const vndf_exact_cell *cell, vndf_exact_place at)
+{
+    double m = cell->mass, w = at.xi * at.eta, q = 1.0 + ((cell->e0 + cell->e1) / m - 2.0) * w;
+    return (cell->e1 * at.xi * at.xi + 2.0 * m * w + cell->e0 * at.eta * at.eta) / (q * q);
+}
+
+/* Mass before a place. */
+VNDF_INLINE double vndf_exact_cell_before(const vndf_exact_cell *cell, vndf_exact_place at)
+{
+    double m = cell->mass, w = at.xi * at.eta, below = m + (cell->e0 + cell->e1 - 2.0 * m) * w;
+    return below > 0.0 ? m * (m * at.xi * at.xi + cell->e0 * w) / below : 0.0;
+}
+
+/* The place with that mass before it, or the nearer end: the root of math/rational_cell.h. */
+VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell, double before)
+{
+    double m = cell->mass, t = before > 0.0 ? (before < m ? before : m) : 0.0, twice = 2.0 * t * m;
+    double middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
+    double sum = fabs(b) + sqrt(middle * middle + twice * (2.0 * m * (m - t)));
+    double above = b >= 0.0 ? twice : sum, below = b >= 0.0 ? sum : 2.0 * (m * m - b);
+    double per = below > 0.0 ? 1.0 / below : 0.0, rest = below > above ? below - above : 0.0;
+    vndf_exact_place at = {above * per, below > 0.0 ? rest * per : 1.0};
+    return at;
+}
+
+/* ---- parts of a mass ---- */
+
+/* The part before a place, and how fast it grows there: 0 where 2^-20 of the mass or less lies on either side. */
+typedef struct vndf_exact_part {
+    double part, rate;
+} vndf_exact_part;
+
+VNDF_INLINE int vndf_exact_is_inner(double before, double mass)
+{
+    return before > 0x1p-20 && mass - before > 0x1p-20;
+}
+
+/* ---- azimuth ---- */
+
+/* Cosine and sine >= 0 of |a|, both times n; whether it was drawn by rows. */
+typedef struct vndf_exact_azimuth {
+    double cosine, sine, n;
+    int in_wedge;
+} vndf_exact_azimuth;
+
+/* Mass per radian, 1 in a whole turn, for the stretched direction w. */
+double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine);
+
+/* Where the part `half` of the mass of half a turn lies between the side of wi and |a|. In a wedge it leaves in *near
+ * what it found. */
+vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_stretched *w, float half,
+                                           vndf_wedge_near *near);
+
+/* That part, and its rate per radian. */
+vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, const vndf_stretched *w, double cosine,
+                                        double sine);
+
+/* ---- radius ---- */
+
+/* Finds the cut, its part and the mass of a law with the weights c and k. */
+void vndf_exact_law_find(vndf_azimuth_slice *law);
+
+/* A normal (X, Z), of any length. */
+typedef struct vndf_exact_slope {
+    double x, z;
+} vndf_exact_slope;
+
+/* That with the part u of the mass before it, and its cell; the horizon where nothing is visible. */
+
+vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, uint32_t *cell);
+
+/* The part before a slope, and its rate per radian between the normal and z: 0 at the cut and beside it. */
+vndf_exact_part vndf_exact_law_part(const vndf_azimuth_slice *law, vndf_exact_slope slope);
+
+#endif
