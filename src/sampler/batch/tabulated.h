@@ -77,7 +77,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_azimuth_sample *b = &w->bearing[g];
         vndf_radial_lanes cell = vndf_load_cells(d, w->cut + i);
-        w->law[g] = vndf_radial_law_cut(d, b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
+        w->law[g] = vndf_radial_law_cut(b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
         vndf_ask_radii(d, &w->radii, i, b, lanes_load(u2 + i));
     }
     vndf_find_radii(d, &w->radii, count, 0);

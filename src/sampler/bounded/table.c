@@ -4,9 +4,9 @@
  *
  *     c q r^2 - 2 k r - c < 0,     r < (k + sqrt(k^2 + q c^2))/(q c) = c/(sqrt(k^2 + q c^2) - k),
  *
- * below half the slope at which normals turn away. `kept` is the part of the law of r up to there and u2 is
- * multiplied by it: the sample is that of vndf_sample for (u1, kept u2), and sums from the pole keep the digits
- * of a small part. In float where that is good enough; elsewhere by just that, with kept from exact.c. */
+ * below half the slope at which normals turn away. `inside_mass` is the part of the law of r up to there and u2 is
+ * multiplied by it: the sample is that of vndf_sample for (u1, inside_mass u2), and sums from the pole keep the digits
+ * of a small part. In float where that is good enough; elsewhere by just that, with inside_mass from exact.c. */
 #include "math/vector.h"
 #include "sampler/bounded/table.h"
 #include "sampler/tabulated/draw.h"
@@ -46,8 +46,8 @@ VNDF_RARE vndf_bounded bounded_exactly(const vndf_view *view, float u1, float u2
 {
     vndf_normal middle = vndf_normal_of(vndf_engine_sample_exactly(view, u1, 0.5f, NULL));
     vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, middle);
-    float kept = (float)kept_on(&slice, stretch_at(view, middle));
-    vndf_vec3 drawn = vndf_engine_sample_exactly(view, u1, kept * u2, NULL);
+    float inside_mass = (float)kept_on(&slice, stretch_at(view, middle));
+    vndf_vec3 drawn = vndf_engine_sample_exactly(view, u1, inside_mass * u2, NULL);
     vndf_vec3 wm = vndf_disc_normal(view, vndf_normal_of(drawn));
     return vndf_bounded_from(wm, vndf_bounded_table_at(view, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
 }
@@ -56,7 +56,7 @@ VNDF_RARE vndf_bounded bounded_exactly(const vndf_view *view, float u1, float u2
 
 /* The border of the disc along an azimuth: a normal (x, 0, z) of any length, and the part of the law up to it. */
 typedef struct border {
-    float x, z, kept;
+    float x, z, inside_mass;
 } border;
 
 /* Mass of a cell, above/below, up to a place that is `inner` and `outer` of its width from its knots: a quotient
@@ -75,21 +75,20 @@ VNDF_INLINE inside inside_of(const vndf_rational_cell *in, float width, float in
 
 /* In the two cells beside the cut and at it, which float does not follow: where there is no cut it is at infinity, and
  * little is lost. */
-static border border_beside(const vndf_radial_law *law, border at, lanes_m *plain)
+static border border_beside(const vndf_distribution *d, const vndf_radial_law *law, border at, lanes_m *plain)
 {
-    vndf_azimuth_slice slice = {law->table, law->c, law->k, 0.0, 0.0, 0.0, 0};
+    vndf_azimuth_slice slice = {d, law->c, law->k, 0.0, 0.0, 0.0, 0};
     vndf_exact_law_find(&slice);
-    at.kept = (float)vndf_azimuth_slice_part(&slice, at.x, at.z);
-    *plain &= at.kept > VNDF_TRUST_BORDER_CUT;
+    at.inside_mass = (float)vndf_azimuth_slice_part(&slice, at.x, at.z);
+    *plain &= at.inside_mass > VNDF_TRUST_BORDER_CUT;
     return at;
 }
 
-/* The law of the bearing, not scaled; knots have X + Z = 1. kept moves with the slope of the border, and that by
+/* The law of the bearing, not scaled; knots have X + Z = 1. inside_mass moves with the slope of the border, and that by
  * 1e-7 of s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
-VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_azimuth_sample *b, const vndf_radial_law *law,
-                             int whole, lanes_m *plain)
+VNDF_INLINE border border_at(const vndf_distribution *d, const vndf_incidence *w, const vndf_azimuth_sample *b,
+                             const vndf_radial_law *law, int whole, lanes_m *plain)
 {
-    const vndf_distribution *d = law->table;
     float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c);
     float n = w->s * b->c, root_c = w->c * root;
     border at = {whole ? b->k + root : b->c, whole ? qc : root - b->k, 1.0f};
@@ -99,14 +98,14 @@ VNDF_INLINE border border_at(const vndf_incidence *w, const vndf_azimuth_sample 
     float inner = lanes_positive(x * cell.z0 - z * cell.x0), outer = lanes_positive(z * cell.x1 - x * cell.z1);
     *plain &= VNDF_TRUST_BORDER_ROOT * n < root_c;
     if (j + 3 > law->cut)
-        return border_beside(law, at, plain);
+        return border_beside(d, law, at, plain);
     vndf_rational_cell in = vndf_radial_plain(law, &cell);
     float before = whole ? vndf_radial_before_whole(law, &cell) : vndf_radial_before(law, &cell);
     inside mass = inside_of(&in, cell.width, inner, outer);
     float per_mass = 1.0f / (mass.below * b->total), scale = in.mass * (per_mass * b->total);
-    at.kept = (before * mass.below + mass.above) * per_mass;
+    at.inside_mass = (before * mass.below + mass.above) * per_mass;
     float rise = mass.rise * (scale * scale) * (cell.width * (x * z));
-    *plain &= rise * (root_c + n) < VNDF_TRUST_BORDER_STEEP * root_c * (at.kept * b->total);
+    *plain &= rise * (root_c + n) < VNDF_TRUST_BORDER_STEEP * root_c * (at.inside_mass * b->total);
     return at;
 }
 
@@ -115,7 +114,7 @@ VNDF_INLINE vndf_drawn drawn_inside(const vndf_azimuth_sample *b, vndf_place at,
                                     lanes_m *plain)
 {
     *plain &= at.x * edge->z * (float)VNDF_TRUST_INSIDE < edge->x * at.z;
-    at.below *= edge->kept;
+    at.below *= edge->inside_mass;
     return vndf_drawn_at(&b->level, &at, plain);
 }
 
@@ -124,8 +123,8 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
 {
     vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     vndf_radial_law law = vndf_radial_law_whole(d, b.c, b.k);
-    *edge = border_at(w, &b, &law, 1, plain);
-    float u = edge->kept * u2;
+    *edge = border_at(d, w, &b, &law, 1, plain);
+    float u = edge->inside_mass * u2;
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -141,8 +140,8 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
     vndf_azimuth_sample b = vndf_azimuth_sample_wedge(d, w, range, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
-    *edge = border_at(w, &b, &law, 0, plain);
-    float u = edge->kept * u2;
+    *edge = border_at(d, w, &b, &law, 0, plain);
+    float u = edge->inside_mass * u2;
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
@@ -164,6 +163,6 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
                                   : draw_in_wedge(d, &w, &range, u2, &edge, &plain);
     if (!plain)
         return bounded_exactly(view, u1, u2);
-    vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.kept};
+    vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.inside_mass};
     return b;
 }

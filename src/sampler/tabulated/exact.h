@@ -54,15 +54,10 @@ VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell,
 
 /* ---- parts of a mass ---- */
 
-/* The part before a place, and how fast it grows there: 0 where 2^-20 of the mass or less lies on either side. */
+/* The part before a place, and how fast it grows there. */
 typedef struct vndf_exact_part {
     double part, rate;
 } vndf_exact_part;
-
-VNDF_INLINE int vndf_exact_is_inner(double before, double mass)
-{
-    return before > 0x1p-20 && mass - before > 0x1p-20;
-}
 
 /* ---- azimuth ---- */
 
@@ -95,7 +90,6 @@ typedef struct vndf_exact_slope {
 } vndf_exact_slope;
 
 /* That with the part u of the mass before it, and its cell; the horizon where nothing is visible. */
-
 vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, uint32_t *cell);
 
 /* The part before a slope, and its rate per radian between the normal and z: 0 at the cut and beside it. */

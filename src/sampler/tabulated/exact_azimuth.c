@@ -47,9 +47,7 @@ static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, do
     vndf_exact_place in = {at.inner / at.width, at.outer / at.width};
     double before = vndf_exact_cell_before(&cell, in), per = 1.0 / s.square;
     vndf_quotient density = vndf_row_density(w, &s, &at);
-    int inner = vndf_exact_is_inner(before * per, cell.mass * per);
-    vndf_exact_part part = {(mass_before(w, &s, at.cell) + before) * per,
-                            inner ? density.above / density.below * per : 0.0};
+    vndf_exact_part part = {(mass_before(w, &s, at.cell) + before) * per, density.above / density.below * per};
     return part;
 }
 

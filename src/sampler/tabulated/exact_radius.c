@@ -240,8 +240,7 @@ vndf_exact_part vndf_exact_law_part(const vndf_azimuth_slice *law, vndf_exact_sl
     vndf_exact_part part = {law->mass > 0.0 ? part_at(law, at) : 0.5, 0.0};
     vndf_engine_piece p = vndf_engine_piece_of(law, at.cell);
     vndf_exact_cell cell = cell_of(&p);
-    double before = vndf_exact_cell_before(&cell, at.in) / law->mass;
-    if (p.weighted || !vndf_exact_is_inner(before, p.mass / law->mass))
+    if (p.weighted)
         return part;
     vndf_exact_slope on = slope_at(law->table, at);
     double per = (on.x * on.x + on.z * on.z) / (law->mass * law->table->cells[at.cell].width);

@@ -27,21 +27,12 @@
 #include "table/table.h"
 #include "table/window.h"
 
-/* The law of R: everything that does not depend on the uniform number. Above the horizon the weights are scaled so
- * that its mass is 1, where it may be small: no square of a mass vanishes where next to nothing is visible. Below
- * it they are (c/k, 1), since k may be 1e-12 where the sums of the table are 1e-29, and masses are multiplied
- * by `gain`. */
+/* The law of R above the horizon: everything that does not depend on the uniform number. */
 typedef struct vndf_radial_law {
-    const vndf_distribution *table;
-    lanes_f c, k;             /* weights of Z and X */
-    lanes_f scale;            /* by which they were multiplied; 0 if nothing is visible: the horizon is drawn */
-    lanes_f gain;             /* factor of all masses: 1 above the horizon */
-    lanes_u cut;              /* the cell that holds the cut; radial_count if there is none */
-    lanes_f part;             /* length of that cell's visible part in xi; without a cut 0 */
-    lanes_f part_mass;        /* its mass, less the gain */
-    lanes_f part_f0, part_f1; /* f times that length at its ends, from the pole outwards */
-    lanes_f part_w0, part_w1; /* W there */
-    lanes_m trusted;          /* whether rounding the cut changes its mass little */
+    lanes_f c, k;    /* weights of Z and X */
+    lanes_u cut;     /* the cell that holds the cut; radial_count if there is none */
+    lanes_f part;    /* length of that cell's visible part in xi; without a cut 0 */
+    lanes_m trusted; /* whether rounding the cut changes its mass little */
 } vndf_radial_law;
 
 /* A cell, lane by lane: the members of vndf_radial_cell, both knots, the bend, and the sums up to the first. */
@@ -92,13 +83,6 @@ VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes
 
 #endif
 
-/* f at xi from the cubic. */
-VNDF_INLINE lanes_f vndf_radial_f(const vndf_radial_lanes *cell, lanes_f xi)
-{
-    lanes_f eta = 1.0f - xi, f = cell->f0 * eta + cell->f1 * xi + xi * eta * (cell->a + cell->b * xi);
-    return lanes_positive(f); /* where it touches 0, rounding */
-}
-
 /* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t); a thousandth of
  * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
 VNDF_INLINE lanes_f vndf_radial_part(lanes_f f0, lanes_f f1, lanes_f a, lanes_f b, lanes_f h)
@@ -122,16 +106,13 @@ VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const v
     return law->c * cell->before0 + law->k * cell->before1;
 }
 
-/* The law with all its weights multiplied so that `total`, its mass, becomes 1. */
+/* The law with its weights multiplied so that `total`, its mass, becomes 1: no square of a mass vanishes where next to
+ * nothing is visible. */
 VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
 {
     lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
     law.c *= scale;
     law.k *= scale;
-    law.scale = scale;
-    law.part_mass *= scale;
-    law.part_w0 *= scale;
-    law.part_w1 *= scale;
     return law;
 }
 
@@ -145,9 +126,7 @@ VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lan
  * drops out of that of the normal. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
-    lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    vndf_radial_law law = {d,    c,    k,    one,  one,        lanes_set_u(d->radial_count), zero, zero,
-                           zero, zero, zero, zero, lanes_all()};
+    vndf_radial_law law = {c, k, lanes_set_u(d->radial_count), lanes_set(0.0f), lanes_all()};
     return law;
 }
 
@@ -157,22 +136,18 @@ VNDF_INLINE lanes_u vndf_radial_cut(const vndf_distribution *d, lanes_f c, lanes
     return vndf_guide_lanes(&d->slope_guide, c / -k);
 }
 
-/* The law with its cut in that cell; not scaled yet, *total is its mass. */
-VNDF_INLINE vndf_radial_law vndf_radial_law_cut(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_u j,
-                                                const vndf_radial_lanes *at, lanes_f *total)
+/* The law with its cut in cell j, which is *cell; not scaled yet, *total is its mass. */
+VNDF_INLINE vndf_radial_law vndf_radial_law_cut(lanes_f c, lanes_f k, lanes_u j, const vndf_radial_lanes *cell,
+                                                lanes_f *total)
 {
-    const vndf_radial_lanes cell = *at;
     lanes_f zero = lanes_set(0.0f), one = lanes_set(1.0f);
-    vndf_radial_law law = {d, c, k, one, one, j, one, zero, zero, zero, zero, zero, lanes_all()};
-    lanes_f w0 = lanes_positive(c * cell.z0 + k * cell.x0), w1 = c * cell.z1 + k * cell.x1;
+    vndf_radial_law law = {c, k, j, one, lanes_all()};
+    lanes_f w0 = lanes_positive(c * cell->z0 + k * cell->x0), w1 = c * cell->z1 + k * cell->x1;
     law.part = lanes_pick(lanes_less(w1, zero), w0 / (w0 - w1), one);
-    law.part_mass = w0 * law.part * vndf_radial_part(cell.f0, cell.f1, cell.a, cell.b, law.part);
-    law.part_f0 = cell.f0 * law.part;
-    law.part_f1 = vndf_radial_f(&cell, law.part) * law.part;
-    law.part_w0 = w0;
-    *total = vndf_radial_before(&law, &cell) + law.part_mass;
+    lanes_f mass = w0 * law.part * vndf_radial_part(cell->f0, cell->f1, cell->a, cell->b, law.part);
+    *total = vndf_radial_before(&law, cell) + mass;
     law.trusted =
-        vndf_trusts_cut(-k * cell.x0 * cell.g, law.part_mass, cell.x1 * cell.z0, *total, cell.width * law.part);
+        vndf_trusts_cut(-k * cell->x0 * cell->g, mass, cell->x1 * cell->z0, *total, cell->width * law.part);
     return law;
 }
 
@@ -180,14 +155,14 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, la
 {
     lanes_u j = vndf_radial_cut(d, c, k);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    return vndf_radial_law_cut(d, c, k, j, &cell, total);
+    return vndf_radial_law_cut(c, k, j, &cell, total);
 }
 
 /* A cell away from the cut, where W > 0 without a guard. */
 VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
 {
-    lanes_f g0 = law->gain * (law->c * cell->z0 + law->k * cell->x0);
-    lanes_f g1 = law->gain * (law->c * cell->z1 + law->k * cell->x1);
+    lanes_f g0 = law->c * cell->z0 + law->k * cell->x0;
+    lanes_f g1 = law->c * cell->z1 + law->k * cell->x1;
     vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
     return plain;
 }
