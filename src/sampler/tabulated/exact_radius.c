@@ -215,31 +215,32 @@ static double unit(double part)
     return part > 0.0 ? (part < 1.0 ? part : 1.0) : 0.0;
 }
 
-/* The part of the mass before a place. It is counted from the side where nothing cancels. */
-static double part_at(const vndf_azimuth_slice *law, place at)
+/* The part of the mass before a place in the piece p. It is counted from the side where nothing cancels. */
+static double part_in(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at)
 {
     int above = law->c >= 0.0;
     if (!(law->mass > 0.0) || is_hidden(law, at.cell))
         return above ? 1.0 : 0.0;
-    vndf_engine_piece p = vndf_engine_piece_of(law, at.cell);
-    vndf_exact_cell cell = cell_of(&p);
+    vndf_exact_cell cell = cell_of(p);
     double inside =
-        p.length > 0.0 && p.mass > 0.0 ? vndf_exact_cell_before(&cell, inner_of(&p, at.in, 0.0).in) : 0.0;
+        p->length > 0.0 && p->mass > 0.0 ? vndf_exact_cell_before(&cell, inner_of(p, at.in, 0.0).in) : 0.0;
     return above ? unit((mass_before(law, at.cell) + inside) / law->mass)
-                 : 1.0 - unit((mass_beyond(law, at.cell + 1) + (p.mass - inside)) / law->mass);
+                 : 1.0 - unit((mass_beyond(law, at.cell + 1) + (p->mass - inside)) / law->mass);
 }
 
 double vndf_azimuth_slice_part(const vndf_azimuth_slice *law, double x, double z)
 {
-    return part_at(law, place_of(law->table, x, z));
+    place at = place_of(law->table, x, z);
+    vndf_engine_piece p = vndf_engine_piece_of(law, at.cell);
+    return part_in(law, &p, at);
 }
 
 vndf_exact_part vndf_exact_law_part(const vndf_azimuth_slice *law, vndf_exact_slope slope)
 {
     place at = place_of(law->table, slope.x, slope.z);
-    vndf_exact_part part = {law->mass > 0.0 ? part_at(law, at) : 0.5, 0.0};
     vndf_engine_piece p = vndf_engine_piece_of(law, at.cell);
     vndf_exact_cell cell = cell_of(&p);
+    vndf_exact_part part = {law->mass > 0.0 ? part_in(law, &p, at) : 0.5, 0.0};
     if (p.weighted)
         return part;
     vndf_exact_slope on = slope_at(law->table, at);
