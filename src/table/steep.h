@@ -7,7 +7,7 @@
 #define VNDF_STEEP_RADIUS 10.0f
 
 /* The same for a cell that is nowhere steep, where W is constant or proportional to the slope. What W adds where the
- * horizon cuts it off is 9.5 at most (VNDF_TRUST_FACING): 15.5 of 4e-7 are the shares of both. */
+ * horizon cuts it off is 7.8 at most (VNDF_TRUST_FACING): 13.8 of 4e-7 are less than the shares of both. */
 #define VNDF_STEEP_CELL 6.0
 
 /* One over the width of a cell in e-folds of the slope, from which on that rounding is a thousandth of the cell. */
