@@ -234,25 +234,25 @@ VNDF_INLINE double vndf_law_pdf_all(const vndf_distribution *d, double ax, doubl
 /* ---- areas of one direction ---- */
 
 /* A(w) for a unit w, w.z > 0, and ax, ay the roughness times the distribution's scale; relative error below 2e-6.
- * Where *ready is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+ * Where *trusted is 0 it has to be computed otherwise. */
+VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
 {
     switch (d->kind) {
-    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, ready);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, ready);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, ready);
+    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, trusted);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, trusted);
     }
     VNDF_NO_OTHER_KIND();
 }
 
 /* The same of a view's own direction; a table's view holds it. */
-VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *ready)
+VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *trusted)
 {
-    *ready = 1;
+    *trusted = 1;
     switch (view->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_table_view_area(view);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, ready);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, ready);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, trusted);
     }
     VNDF_NO_OTHER_KIND();
 }
@@ -298,7 +298,7 @@ VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
 }
 
 /* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
- * plain: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
+ * trusted: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
 VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
 {
     switch (d->kind) {

@@ -10,8 +10,8 @@
 
 VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    return vndf_ggx_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
-                        lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+    return vndf_ggx_incidence_from(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                                   lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
 VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
@@ -33,8 +33,8 @@ VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
 
 VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    return vndf_beckmann_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
-                             lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+    return vndf_beckmann_incidence_from(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i),
+                                        lanes_load(b->wi_x + i), lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
 /* Step by step over all groups, as for tables. */

@@ -185,12 +185,12 @@ VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t
     return made;
 }
 
-/* A group's answers to where its normals were; what is not plain is left. */
+/* A group's answers to where its normals were; what is not trusted is left. */
 VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density,
-                         doubles_m plain)
+                         doubles_m trusted)
 {
     float value[VNDF_DOUBLES];
-    uint32_t bits = doubles_mask_bits(plain);
+    uint32_t bits = doubles_mask_bits(trusted);
     doubles_store_f(value, positive_of(density));
     for (uint32_t i = 0; i < VNDF_DOUBLES && i < count; i++) {
         b->value[index[i]] = value[i];
@@ -209,10 +209,10 @@ VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, cons
     for (uint32_t i = 0; i < s->count[way]; i += VNDF_DOUBLES) {
         const uint32_t *index = s->index[way] + i;
         vndf_query g = given_at(&in, i, scale);
-        doubles_m plain = doubles_at_most(g.z, g.z);
-        doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &plain)
-                                          : vndf_query_of_wedge(d, &g, way == BELOW, NULL, &plain);
-        scatter(b, index, s->count[way] - i, density, plain);
+        doubles_m trusted = doubles_at_most(g.z, g.z);
+        doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &trusted)
+                                          : vndf_query_of_wedge(d, &g, way == BELOW, NULL, &trusted);
+        scatter(b, index, s->count[way] - i, density, trusted);
     }
 }
 

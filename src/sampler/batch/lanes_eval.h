@@ -1,5 +1,5 @@
 /* Batches of D, densities of given normals, areas, Lambda and G1, in lanes of doubles: one source, lanes_eval.c,
- * compiled for each instruction set. Densities under a table are left to the call of one where they are not plain
+ * compiled for each instruction set. Densities under a table are left to the call of one where they are not trusted
  * (density.h). */
 #ifndef VNDF_SAMPLER_BATCH_LANES_EVAL_H
 #define VNDF_SAMPLER_BATCH_LANES_EVAL_H

@@ -1,5 +1,5 @@
 /* Batches in lanes: one source, lanes_draw.c, compiled for each instruction set. A block of a batch is drawn
- * where that is plain (draw.h), sorted into samples in front of wi and in the wedge (sort.h); the rest is
+ * where float is trusted (draw.h), sorted into samples in front of wi and in the wedge (sort.h); the rest is
  * left to the calls of one. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_SAMPLE_H
 #define VNDF_SAMPLER_BATCH_LANES_SAMPLE_H

@@ -89,8 +89,8 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
     return copy;
 }
 
-static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
-                      const float *u2, copies *c)
+static void read_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
+                       const float *u2, copies *c)
 {
     uint32_t n = block->count;
     int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
@@ -182,14 +182,14 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         view = vndf_batch_view(b, 0);
         block.view = &view;
     }
-    if (block.view && !view.plain) { /* lanes would leave all of it */
+    if (block.view && !view.trusted) { /* lanes would leave all of it */
         sample_one_by_one(b, u1, u2, wm, pdf);
         return;
     }
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
-        aim_block(&block, b, first, u1, u2, &own);
+        read_block(&block, b, first, u1, u2, &own);
         place_results(&block, &own, first, apart, wm, pdf);
         draw_block(b, &block, wide);
         sample_left(&block, b, first);

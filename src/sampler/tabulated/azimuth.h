@@ -70,16 +70,16 @@ VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_
     return 2.0f * row->p * row->r * (1.0f + q2) * cell->width / (c * c + s * s);
 }
 
-/* The azimuth at a place of a cell; not *plain where the density is steep. */
+/* The azimuth at a place of a cell; not *trusted where the density is steep. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
-                                         const vndf_rational_place *in, lanes_m *plain)
+                                         const vndf_rational_place *in, lanes_m *trusted)
 {
     lanes_f q = cell->q + in->xi * cell->width;
     lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
     lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
     vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
-    *plain = lanes_both(*plain, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
-    *plain = lanes_both(*plain, vndf_trusts_azimuth_density(at.density));
+    *trusted = lanes_both(*trusted, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
+    *trusted = lanes_both(*trusted, vndf_trusts_azimuth_density(at.density));
     return at;
 }
 
@@ -102,10 +102,10 @@ VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, fl
 
 /* The azimuth with mass `target` before it, in that cell. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
-                                           lanes_f target, lanes_m *plain)
+                                           lanes_f target, lanes_m *trusted)
 {
     vndf_rational_place in = vndf_rational_invert(&cell->cell, target - cell->before);
-    return vndf_azimuth_at(row, cell, &in, plain);
+    return vndf_azimuth_at(row, cell, &in, trusted);
 }
 
 #if VNDF_LANES == 1
@@ -128,12 +128,12 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, 
 }
 
 /* The azimuth of a row with the mass `target` before it. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *plain)
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *trusted)
 {
     const vndf_wedge *wedge = row->wedge;
     uint32_t j = vndf_azimuth_find(wedge, row->row, row->first, row->middle, row->last, target);
     vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    return vndf_azimuth_draw(row, &cell, target, plain);
+    return vndf_azimuth_draw(row, &cell, target, trusted);
 }
 
 #else

@@ -1,4 +1,4 @@
-/* The density of a given normal under a table where it is plain, for one or for lanes, in double from the very
+/* The density of a given normal under a table where it is trusted, for one or for lanes, in double from the very
  * numbers that came in: what exact.c has for all, with two square roots and two divisions in front of wi. The
  * normal is (X cos a, X sin a, Z) = (ay wm.x, ax wm.y, ax ay wm.z), the direction (S, 0, +-U) as long as the
  * stretched one is: neither is brought to a length, since a density is a quotient that drops both. With A = ax ay,
@@ -13,7 +13,7 @@
  *
  * and in front of wi azimuth/mass of the law = 1/(X total), total = 2 (front + wedge), the area.
  *
- * Plain is a cell two others away from the cut, wherever nothing underflows. */
+ * Trusted is a cell two others away from the cut, wherever nothing underflows. */
 #ifndef VNDF_SAMPLER_TABULATED_DENSITY_H
 #define VNDF_SAMPLER_TABULATED_DENSITY_H
 
@@ -135,12 +135,12 @@ VNDF_INLINE vndf_quotient vndf_query_in_weighted_cell(const vndf_distribution *d
 }
 
 /* The quotient, if all digits are there. */
-VNDF_INLINE doubles vndf_query_density(doubles above, doubles below, doubles_m *plain)
+VNDF_INLINE doubles vndf_query_density(doubles above, doubles below, doubles_m *trusted)
 {
     const doubles least = doubles_set(1e-280), most = doubles_set(1e280);
     doubles_m low = doubles_both(doubles_less(least, above), doubles_less(least, below));
     doubles_m high = doubles_both(doubles_less(above, most), doubles_less(below, most));
-    *plain = doubles_both(*plain, doubles_both(low, high));
+    *trusted = doubles_both(*trusted, doubles_both(low, high));
     return above / below;
 }
 
@@ -160,15 +160,15 @@ VNDF_INLINE doubles vndf_query_wedge(const vndf_distribution *d, doubles across,
 }
 
 /* wi.z >= 0, cos a >= 0. */
-VNDF_INLINE doubles vndf_query_in_front(const vndf_distribution *d, const vndf_query *g, doubles_m *plain)
+VNDF_INLINE doubles vndf_query_in_front(const vndf_distribution *d, const vndf_query *g, doubles_m *trusted)
 {
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z);
     doubles total = 2.0 * (vndf_query_front(d, across, up) + vndf_query_wedge(d, across, up));
     vndf_bare n = vndf_bare_of(g);
     vndf_radial_location at = vndf_radial_location_at(d, n.across, n.z);
     vndf_quotient q = vndf_query_in_cell(d, &at, &n, up * n.across, vndf_query_level(g) * n.product);
-    *plain = doubles_both(*plain, doubles_at_most_u(at.cell + 3u, doubles_set_u(d->radial_count)));
-    return vndf_query_density(q.above, q.below * (n.across * total), plain);
+    *trusted = doubles_both(*trusted, doubles_at_most_u(at.cell + 3u, doubles_set_u(d->radial_count)));
+    return vndf_query_density(q.above, q.below * (n.across * total), trusted);
 }
 
 #endif

@@ -209,7 +209,7 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles 
 
 /* The normal's azimuth and radius. */
 VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_query *g, int below,
-                                        const vndf_wedge_near *near, doubles_m *plain)
+                                        const vndf_wedge_near *near, doubles_m *trusted)
 {
     const vndf_wedge *w = below ? &d->below : &d->above;
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;
@@ -225,13 +225,13 @@ VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_q
     vndf_radial_location at =
         near ? vndf_radial_location_near(d, n.across, n.z, near->cell) : vndf_radial_location_at(d, n.across, n.z);
     vndf_quotient q = below ? vndf_query_in_weighted_cell(d, &at, &n, c, k) : vndf_query_in_cell(d, &at, &n, c, k);
-    *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
-                                        : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
+    *trusted = doubles_both(*trusted, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
+                                            : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
     doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);
     if (below) /* the wedge is all there is */
-        return vndf_query_density(0.5 * above, under, plain);
+        return vndf_query_density(0.5 * above, under, trusted);
     doubles wedge = vndf_query_wedge(d, across, up), total = 2.0 * (vndf_query_front(d, across, up) + wedge);
-    return vndf_query_density(above * wedge, under * total, plain);
+    return vndf_query_density(above * wedge, under * total, trusted);
 }
 
 #endif

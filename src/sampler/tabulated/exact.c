@@ -67,11 +67,11 @@ static double density_near(const vndf_view *view, const vndf_query *g, const vnd
 {
     const vndf_distribution *d = view->distribution;
     int toward = vndf_query_along(g) >= 0.0;
-    doubles_m plain = 1;
-    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, near, &plain)
-                     : toward            ? vndf_query_in_front(d, g, &plain)
-                                         : vndf_query_of_wedge(d, g, 0, near, &plain);
-    return plain ? density : density_exactly(view, g);
+    doubles_m trusted = 1;
+    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, near, &trusted)
+                     : toward            ? vndf_query_in_front(d, g, &trusted)
+                                         : vndf_query_of_wedge(d, g, 0, near, &trusted);
+    return trusted ? density : density_exactly(view, g);
 }
 
 double vndf_engine_density(const vndf_view *view, const vndf_query *g)

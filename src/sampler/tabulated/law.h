@@ -34,16 +34,16 @@ VNDF_INLINE double vndf_table_p22(const vndf_distribution *d, double r2)
     return vndf_engine_p22_over_z4(d, r * z, z) * (z * z) * (z * z);
 }
 
-/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *ready is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *trusted is 0 it has to be computed otherwise. */
+VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
-    *ready = vndf_trusts_direction(across2, w.z, sum);
-    if (!*ready)
+    *trusted = vndf_trusts_direction(across2, w.z, sum);
+    if (!*trusted)
         return 0.0f;
     float per = 1.0f / sum, s = across * per, c = w.z * per, per_width;
     float area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
-    *ready = vndf_trusts_area_piece(per_width);
+    *trusted = vndf_trusts_area_piece(per_width);
     return area * sum;
 }
 

@@ -159,12 +159,12 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, la
 }
 
 /* A cell away from the cut, where W > 0 without a guard. */
-VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+VNDF_INLINE vndf_rational_cell vndf_radial_cell_away(const vndf_radial_law *law, const vndf_radial_lanes *cell)
 {
     lanes_f g0 = law->c * cell->z0 + law->k * cell->x0;
     lanes_f g1 = law->c * cell->z1 + law->k * cell->x1;
-    vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
-    return plain;
+    vndf_rational_cell away = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
+    return away;
 }
 
 /* Whether a cell inside the cut is drawn like that: the second from the cell at the cut where h is above 1/16,
