@@ -1,5 +1,5 @@
-/* What a sample is put together from once its azimuth and radius are drawn (sampler/tabulated/theory.h), for one or for
- * lanes: the normal, its density in float, and where that is good enough. */
+/* Samples in float, for one or for lanes (sampler/tabulated/theory.h): the azimuth, the radius, the normal, its
+ * density, and whether float is trusted. */
 #ifndef VNDF_SAMPLER_TABULATED_DRAW_H
 #define VNDF_SAMPLER_TABULATED_DRAW_H
 
@@ -22,7 +22,7 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
     return level;
 }
 
-/* ---- where the density of the place is that of the normal, as it was rounded ---- */
+/* ---- whether the density at the place that was drawn is the density of the rounded normal ---- */
 
 VNDF_INLINE lanes_m vndf_trusts_normal_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
@@ -36,8 +36,8 @@ VNDF_INLINE lanes_m vndf_trusts_normal_in_wedge(lanes_f s, lanes_f c, lanes_f co
     return lanes_both(vndf_trusts_side(-cosine), vndf_trusts_facing_in_wedge(across, along, up));
 }
 
-/* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
- * wi most cells are known to be so. */
+/* The place is away from knots that may matter, and the density changes little from a normal to its rounded self. Most
+ * cells in front of wi are known to be smooth. */
 VNDF_INLINE lanes_m vndf_trusts_place_in_cell(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
                                               const vndf_rational_place *in)
 {
@@ -55,14 +55,14 @@ typedef struct vndf_drawn {
     lanes_f x, y, z, density;
 } vndf_drawn;
 
-/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for
- * dwm = ax ay X Z^2 dR da over the third power of the length. */
+/* A place in the table, X = x per and Z = z per. The density of the normal is above/below times the third power of its
+ * length, since dwm is ax ay X Z^2 dR da over that power. */
 typedef struct vndf_place {
     lanes_f x, z, per, above, below;
 } vndf_place;
 
-/* `per` is nowhere on the way to the normal, and there is one division. Good where *trusted stays: nothing has
- * underflowed, and a table that is none of ours may have numbers that overflow. */
+/* The normal does not wait for `per`, and there is one division. Clears *trusted where numbers underflow, or overflow
+ * as a hostile table may make them. */
 VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *trusted)
 {
     lanes_f square = at->x * at->x * level->square + at->z * at->z, root = lanes_root(square);
@@ -74,9 +74,9 @@ VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *
     return n;
 }
 
-/* ---- all of it, where it is trusted ---- */
+/* ---- the azimuth ---- */
 
-/* Surface and direction of a sample. */
+/* The surface and the direction of a sample. */
 typedef struct vndf_incidence {
     lanes_f ax, ay, s, c, cos_phi, sin_phi, spread;
     lanes_m trusted;
@@ -95,7 +95,7 @@ VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vnd
     return w;
 }
 
-/* Of a view, the same in all lanes. */
+/* The same from a view, equal in all lanes. */
 VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 {
     vndf_incidence w = {lanes_set(v->ax),
@@ -109,8 +109,8 @@ VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
     return w;
 }
 
-/* Where an azimuth is drawn: in front of wi or in the wedge, the mass of that, and the part of it from the side of
- * wi, where both begin, to the azimuth, with the sign of the azimuth. */
+/* The range where an azimuth is drawn: in front of wi or in the wedge, and its mass. `apart` is the mass from the side
+ * of wi, where both ranges begin, to the azimuth, with the sign of the azimuth. */
 typedef struct vndf_azimuth_range {
     lanes_m in_front;
     lanes_f mass, apart;
@@ -125,7 +125,7 @@ VNDF_INLINE vndf_azimuth_range vndf_azimuth_range_at(lanes_f front, lanes_f wedg
     return range;
 }
 
-/* A sample whose azimuth is drawn: what its radius and its normal take. */
+/* A sample whose azimuth is drawn: the inputs of its radius and its normal. */
 typedef struct vndf_azimuth_sample {
     vndf_level level;
     lanes_f cosine, c, k;   /* of the azimuth; weights of the law of the radius */
@@ -140,7 +140,7 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distributio
 {
     lanes_f near, k;
     vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), range->mass, &near);
-    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
+    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for `near` */
     k = w->s * a.c;
     vndf_azimuth_sample b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, range->apart),
                              a.c,
@@ -161,8 +161,8 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
-/* In cell j. Good where *trusted stays. Beside the cut - here at infinity, where W vanishes - cells are others
- * (exact_radius.c). */
+/* The place in cell j. Clears *trusted beside the cut - here at infinity, where W vanishes - where cells have another
+ * form (exact_radius.c). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w,
                                         const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
                                         lanes_f u2, lanes_m *trusted)

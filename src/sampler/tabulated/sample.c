@@ -1,4 +1,4 @@
-/* The fast tier for one sample of a table (theory.h): in float by draw.h, and where trust.h forbids that by exact.c. */
+/* The fast tier for one sample of a table (theory.h): draw.h draws in float, and exact.c where trust.h forbids that. */
 #include "math/vector.h"
 #include "sampler/tabulated/draw.h"
 #include "sampler/tabulated/theory.h"

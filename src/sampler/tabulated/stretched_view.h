@@ -1,8 +1,8 @@
-/* What drawing wants of a direction of incidence, in float: the stretched direction (s, 0, c), s + |c| = 1 for
- * tables, its azimuth, and the masses of half a turn. Densities of given normals start from wi itself (exact.c).
+/* The part of a view that draws read, in float, for one or for lanes: the stretched direction (s, 0, c) with s + |c| =
+ * 1, its azimuth, and the masses of half a turn. Densities of given normals start from wi itself (exact.c).
  *
- * Here for directions above the horizon of middling size, in a dozen roundings: s, c, cos_phi and sin_phi within
- * 4e-7, masses within 1e-6. view.c makes the others from doubles. */
+ * This file serves directions above the horizon, of ordinary size. A dozen roundings leave s, c, cos_phi and
+ * sin_phi within 4e-7, and masses within 1e-6. view.c makes the others from doubles. */
 #ifndef VNDF_SAMPLER_TABULATED_STRETCHED_VIEW_H
 #define VNDF_SAMPLER_TABULATED_STRETCHED_VIEW_H
 
@@ -15,8 +15,7 @@ typedef struct vndf_stretched_view {
     lanes_f area;         /* of the unit problem */
 } vndf_stretched_view;
 
-/* From the stretched direction (x, y, z), as far as *trusted stays: elsewhere this is not good enough. Masses are to
- * come. */
+/* From the stretched direction (x, y, z), without masses. Clears *trusted where float does not do. */
 VNDF_INLINE vndf_stretched_view vndf_stretched_view_towards(lanes_f x, lanes_f y, lanes_f z, lanes_m *trusted)
 {
     lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z, none = lanes_set(0.0f);
@@ -27,6 +26,7 @@ VNDF_INLINE vndf_stretched_view vndf_stretched_view_towards(lanes_f x, lanes_f y
     return stretched;
 }
 
+/* Adds the masses and the area. */
 VNDF_INLINE void vndf_stretched_view_weigh(const vndf_distribution *d, vndf_stretched_view *stretched,
                                            lanes_m *trusted)
 {

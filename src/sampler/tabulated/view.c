@@ -4,7 +4,8 @@
 #include "sampler/nearest.h"
 #include "sampler/tabulated/law.h"
 
-/* From doubles, where it cannot be had in float: below the horizon, along z, at extremes. */
+/* In double, where float does not do: below the horizon, along z, at extremes. The mass below may underflow, so `wedge`
+ * is its part of the whole there. */
 VNDF_RARE vndf_stretched_view stretched_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
     vndf_stretched w = vndf_stretch(wi, ax, ay, VNDF_LENGTH_SUM);
@@ -14,13 +15,11 @@ VNDF_RARE vndf_stretched_view stretched_exactly(const vndf_distribution *d, doub
     double front = w.c >= 0.0 ? w.c * (d->f0_total * VNDF_QUARTER_TURN) + w.s * d->f1_total : 0.0;
     stretched.front = (float)front;
     stretched.area = (float)(2.0 * (front + mass));
-    stretched.wedge = w.c >= 0.0  ? (float)mass
-                      : w.s > 0.0 ? 1.0f
-                                  : 0.0f; /* its part below: the mass may underflow */
+    stretched.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f;
     return stretched;
 }
 
-/* For roughness times the table's scale, as it is and as it is drawn with. */
+/* The view for roughness times the table's scale: in double, and as draws use it in float. */
 static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
 {
     lanes_m trusted = 1;
@@ -62,7 +61,7 @@ void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3
 
 /* ---- inverse ---- */
 
-/* Where some steps of 2^-24 matter and wi sees wm, u is what gives it, not what should. */
+/* Where some steps of 2^-24 matter and wi sees wm, the search finds numbers that really give wm. */
 void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     vndf_frame frame = vndf_table_frame(view);

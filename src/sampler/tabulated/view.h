@@ -8,7 +8,7 @@
 
 #if VNDF_LANES == 1
 
-/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
+/* Writes each member once and by itself: a read soon after must not wait for a wider store. */
 VNDF_INLINE void vndf_table_view_put(vndf_view *view, const vndf_distribution *d, double ax, double ay, float x,
                                      float y, vndf_vec3 wi, const vndf_stretched_view *stretched)
 {
@@ -31,14 +31,14 @@ VNDF_INLINE void vndf_table_view_put(vndf_view *view, const vndf_distribution *d
     view->of.table.spread = stretched->area * (x * y);
 }
 
-/* Of a usable direction, for roughness times the table's scale. */
+/* The view of a usable direction for roughness times the table's scale. */
 vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
-/* vndf_view_from where float does not do, or for what is invalid. */
+/* vndf_view_from where float does not do, or the input is invalid. */
 vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi);
 
-/* Roughness times scale, and the stretched view. Returns whether float is trusted: then the view is valid, and nothing
- * else is to be checked. */
+/* Roughness times scale, and the stretched view. Returns whether float is trusted; then the view is valid, and the
+ * caller checks nothing else. */
 VNDF_INLINE int vndf_table_stretches(const vndf_surface *surface, vndf_vec3 wi, float *x, float *y,
                                      vndf_stretched_view *stretched)
 {
