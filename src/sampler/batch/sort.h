@@ -1,5 +1,5 @@
-/* A block of samples sorted into those in front of wi and those in the wedge, which are drawn in other ways, so
- * that lanes are all of one kind; and the way back. */
+/* Sorts a block of samples into samples in front of wi and samples in the wedge, so that all lanes draw in the same
+ * way; and puts results back in order. */
 #ifndef VNDF_SAMPLER_BATCH_SORT_H
 #define VNDF_SAMPLER_BATCH_SORT_H
 
@@ -10,8 +10,8 @@
 
 enum { VNDF_BLOCK_GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
 
-/* Samples sorted: those in front of wi from the beginning on, those in the wedge from the end down
- * (simd/lanes_split.h). What all share stands in `shared` alone. */
+/* Sorted samples: fronts from the beginning on, wedges from the end down (simd/lanes_split.h). If all samples share one
+ * incidence, only `shared` holds it. */
 typedef struct vndf_sorted {
     float ax[VNDF_BLOCK_SAMPLES], ay[VNDF_BLOCK_SAMPLES], s[VNDF_BLOCK_SAMPLES], c[VNDF_BLOCK_SAMPLES];
     float cos_phi[VNDF_BLOCK_SAMPLES], sin_phi[VNDF_BLOCK_SAMPLES], spread[VNDF_BLOCK_SAMPLES];
@@ -20,12 +20,12 @@ typedef struct vndf_sorted {
     int is_shared;
 } vndf_sorted;
 
-/* What is drawn of them; the density is negative where that is not good enough. */
+/* The normals that were drawn. A negative density marks a sample that float may not draw. */
 typedef struct vndf_results {
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
 } vndf_results;
 
-/* How a group was sorted, which of it can be drawn here, and for which of those that is good enough so far. */
+/* How a group was sorted, which of its samples can be drawn here, and which of these float may draw so far. */
 typedef struct vndf_origin {
     lanes_split split;
     lanes_m usable, trusted;
@@ -50,7 +50,7 @@ VNDF_INLINE uint32_t vndf_block_append(uint32_t *list, uint32_t count, lanes_m m
     return count;
 }
 
-/* Those that cannot be drawn here, and those that the call of one would draw again exactly. */
+/* Leaves samples that were not drawn here, and samples that the scalar call is to draw again exactly. */
 VNDF_INLINE void vndf_block_leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
 {
     b->left_count = vndf_block_append(b->left, b->left_count, unready, first, b->count);
@@ -89,7 +89,7 @@ VNDF_INLINE void vndf_sort_range(vndf_sorted *to, const lanes_split *split, cons
     lanes_split_store(split, to->u2, u2);
 }
 
-/* Directions of a block's samples, and where they are good enough. */
+/* The stretched views of a block's samples, and which of them are usable. */
 VNDF_INLINE void vndf_stretch_block(const vndf_distribution *d, const vndf_sample_block *b, float scale,
                                     vndf_stretched_view *stretched, vndf_origin *from)
 {
@@ -105,7 +105,7 @@ VNDF_INLINE void vndf_stretch_block(const vndf_distribution *d, const vndf_sampl
         vndf_stretched_view_weigh(d, &stretched[g], &from[g].usable);
 }
 
-/* Samples from `i` on of a block, between *low and *high. What cannot be drawn goes with the fronts. */
+/* Sorts the group from sample `i` on between *low and *high. Unusable samples go with the fronts. */
 VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float scale,
                                  const vndf_stretched_view *stretched, vndf_sorted *to, vndf_origin *from,
                                  uint32_t *low, uint32_t *high)
@@ -121,7 +121,7 @@ VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float s
     vndf_sort_range(to, &from->split, &range, u2);
 }
 
-/* The same where all have one view, which is trusted. */
+/* The same where all samples share one trusted view. */
 VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_sorted *to, vndf_origin *from,
                                   uint32_t *low, uint32_t *high)
 {
@@ -134,7 +134,7 @@ VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_s
     vndf_sort_range(to, &from->split, &range, u2);
 }
 
-/* All of a block; how many are in front, or cannot be drawn. */
+/* Sorts a block. Returns how many samples are in front or unusable. */
 VNDF_INLINE uint32_t vndf_sort_block(const vndf_distribution *d, const vndf_sample_block *b, vndf_sorted *to,
                                      vndf_origin *from)
 {
@@ -170,7 +170,7 @@ VNDF_INLINE vndf_azimuth_range vndf_sorted_range(const vndf_sorted *w, uint32_t 
     return range;
 }
 
-/* Results to where their samples were; what is not good enough is left. */
+/* Puts results where their samples were, and leaves samples that float may not draw. */
 VNDF_INLINE void vndf_unsort_block(vndf_sample_block *b, const vndf_origin *from, const vndf_results *front,
                                    const vndf_results *wedge)
 {

@@ -1,12 +1,12 @@
-/* Blocks of tables in lanes (lanes_sample.h). Lanes past the end of a block are drawn like the others and not
- * written. */
+/* Draws blocks of samples of a table in lanes (lanes_sample.h). Lanes past the end of a block draw like the others, and
+ * nobody reads their results. */
 #ifndef VNDF_SAMPLER_BATCH_TABULATED_H
 #define VNDF_SAMPLER_BATCH_TABULATED_H
 
 #include "sampler/batch/search.h"
 
-/* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
- * for each other, groups do not. */
+/* Intermediate results of a block. Each step goes over all groups of lanes before the next step begins: the steps of
+ * one group wait for each other, groups do not. */
 typedef struct fronts {
     vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
@@ -53,7 +53,7 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from
 
 /* ---- in the wedge ---- */
 
-/* Azimuths, and where their laws of the radius are cut. */
+/* Azimuths, and the cells where the laws of the radius are cut. */
 VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                                wedges *w)
 {
@@ -91,7 +91,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
     }
 }
 
-/* Samples from `first` on, `count` of them. */
+/* Draws `count` samples from `first` on. */
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                              wedges *w, vndf_results *to)
 {
@@ -114,8 +114,8 @@ VNDF_INLINE uint32_t whole_groups(uint32_t count)
     return (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
 }
 
-/* The last group in front may end among the wedges, and the first of those begin among the fronts: each kind has
- * results of its own. */
+/* The last group of fronts may reach into the wedges, and the first group of wedges into the fronts, so each kind has
+ * its own results. */
 static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     vndf_sorted sorted;
