@@ -141,7 +141,7 @@ static chart chart_of(frontier *f, const char *name)
                .height = 710,
                .right = 20,
                .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation to the reference, worst angle"},
                .zero = "exact",
                .band = 100,
                .series = f->series,
@@ -181,8 +181,8 @@ int report_write_frontier(html_page *page, const report *r)
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
-        "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The "
-        "band at the bottom holds what is exact but for the rounding of floats.");
+        "nearer to the reference. Tables are exact with their weight; the weight mends the error shown. The band at "
+        "the bottom holds methods that are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);
