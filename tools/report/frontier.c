@@ -1,6 +1,5 @@
-/* The frontier: error against time. Every row of tools/bench/bench.h is a point; tables of this library are joined over
- * their sizes, a curve for each instruction set. What is exact stands in a band of its own: a logarithm has
- * no 0. */
+/* The frontier: error against time. Every row of tools/bench/bench.h is a point; a curve for each instruction set joins
+ * the tables of this library over their sizes. Exact methods stand in a band of their own: a logarithm has no 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ static int names_distribution(const bench_row *row)
     return 0;
 }
 
-/* Of a table only the size, since shape and line tell the rest; colours tell batches. */
+/* A table's label is its size alone: shape and line tell the rest, and colours tell batches. */
 static void label_row(const bench_row *row, char label[LABEL])
 {
     const char *batch = strstr(row->method, ", batch");
@@ -64,8 +63,8 @@ static void label_row(const bench_row *row, char label[LABEL])
         snprintf(label, LABEL, "%.*s, %s", length, row->method, row->distribution);
 }
 
-/* What is left of an exact method is the rounding of floats, which the comparison with a density cannot tell from
- * an error of that size. */
+/* The error of an exact method is the rounding of floats; a comparison with a density cannot tell it from another error
+ * of that size. */
 static double error_of(const bench_row *row)
 {
     return row->kind != BENCH_TABLE && row->tv < rounding ? 0 : row->tv;
@@ -86,7 +85,7 @@ static void add_row(frontier *f, const bench_row *row)
     chart_widen(&f->y_range, f->y[f->count][at]);
 }
 
-/* The rows of one kind and instruction set; a series if there are any. */
+/* Makes a series of the rows of one kind and instruction set, if there are any. */
 static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, size_t set)
 {
     static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
@@ -114,7 +113,7 @@ static void collect(frontier *f, const bench_rows *rows)
             add_series(f, rows, (bench_kind)kind, set);
 }
 
-/* Shapes say who, colours say how many at once. The key names the colours that occur. */
+/* Shapes name the method, colours the number of samples at once. The key names the colours that occur. */
 static void fill_key(frontier *f)
 {
     static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},
