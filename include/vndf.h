@@ -168,7 +168,7 @@ struct vndf_table_view {
     float area, spread;           /* projected area of the unit problem; times ax ay */
 };
 
-struct vndf_ggx_view {        /* filled where the view is plain, as the next one is */
+struct vndf_ggx_view {        /* filled where the view is trusted, as the next one is */
     float x, y, c, q, spread; /* sampler/analytic/ggx_draw.h */
 };
 
@@ -184,7 +184,7 @@ typedef struct vndf_view {
     vndf_vec3 wi;                          /* as given: a rounding to unit length would move the horizon */
     double alpha_x, alpha_y;               /* roughness times the table's own slope scale */
     float ax, ay;                          /* the same */
-    int plain;                             /* densities may be formed in float */
+    int trusted;                           /* densities may be formed in float */
     union {
         struct vndf_table_view table;
         struct vndf_ggx_view ggx;
@@ -194,7 +194,7 @@ typedef struct vndf_view {
 
 /* What bounded normals (vndf_bsdf.h) take of a view; private too. Tables take nothing. */
 struct vndf_ggx_bounds {
-    float s2, q, e12, e2, c0; /* of a plain view: sampler/bounded/ggx_draw.h */
+    float s2, q, e12, e2, c0; /* of a trusted view: sampler/bounded/ggx_draw.h */
     float slow, fast, in_front, in_wedge;
     struct {
         double front, in_front, in_wedge, begin, span;
@@ -203,7 +203,7 @@ struct vndf_ggx_bounds {
 
 struct vndf_beckmann_bounds {
     double x0, x1, begin, span, cos_phi, sin_phi; /* sampler/bounded/beckmann.c */
-    double whole, line;                           /* where the view is not plain */
+    double whole, line;                           /* where the view is not trusted */
     float s, c, spread;
 };
 

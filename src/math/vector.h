@@ -59,7 +59,7 @@ VNDF_INLINE float vndf_max_abs(vndf_vec3 v)
 }
 
 /* Squares between these neither overflow nor lose digits when they are added. */
-VNDF_INLINE int vndf_is_plain(float square)
+VNDF_INLINE int vndf_is_safe_square(float square)
 {
     return square > 1e-30f && square < 1e30f;
 }
@@ -69,7 +69,7 @@ VNDF_INLINE int vndf_is_plain(float square)
 VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 {
     float square = vndf_dot(v, v);
-    if (!vndf_is_plain(square)) {
+    if (!vndf_is_safe_square(square)) {
         float largest = vndf_max_abs(v);
         v = largest < 1e-30f ? vndf_scale(v, 0x1p100f) : largest > 1e30f ? vndf_scale(v, 0x1p-100f) : v;
         v = vndf_scale(v, 1.0f / vndf_max_abs(v));
@@ -82,7 +82,7 @@ VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
 VNDF_INLINE float vndf_length2(float x, float y)
 {
     float square = x * x + y * y, ax = fabsf(x), ay = fabsf(y);
-    if (vndf_is_plain(square))
+    if (vndf_is_safe_square(square))
         return sqrtf(square);
     float big = ax > ay ? ax : ay;
     if (!(big < HUGE_VALF))

@@ -1,5 +1,5 @@
-/* Densities of the closed forms: P22 and D of the real problem, any roughness within [1e-18, 1e18], in double:
- * nothing overflows or underflows on the way, and products of two floats are exact. Results may lie beyond float.
+/* Densities of the closed forms: P22 and D of the real problem, for any roughness in [1e-18, 1e18], in double. Nothing
+ * overflows or underflows on the way, and products of two floats are exact. Results may lie beyond float.
  *
  * With a = alpha_x alpha_y, Q = (alpha_y wm.x)^2 + (alpha_x wm.y)^2 + (a wm.z)^2 and r = 1/(a wm.z)^2
  *
@@ -31,14 +31,14 @@ VNDF_INLINE vndf_normal vndf_normal_of(vndf_vec3 wm)
 
 /* ---- GGX ---- */
 
-/* At the squared slope length r2. */
+/* P22 at the squared slope length r2. */
 VNDF_INLINE doubles vndf_ggx_p22(doubles r2)
 {
     doubles q = 1.0 + r2;
     return vndf_inverse_pi / (q * q);
 }
 
-/* At a unit wm, wm.z >= 0; relative error below 1e-14. */
+/* D at a unit wm, wm.z >= 0; relative error below 1e-14. */
 VNDF_INLINE doubles vndf_ggx_ndf(doubles alpha_x, doubles alpha_y, vndf_normal wm)
 {
     doubles a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z;
@@ -48,7 +48,7 @@ VNDF_INLINE doubles vndf_ggx_ndf(doubles alpha_x, doubles alpha_y, vndf_normal w
 
 /* ---- Beckmann ---- */
 
-/* exp(-r2), 0 beyond 700: what is multiplied by it there, up to 1e90, does not bring it back to a float. */
+/* exp(-r2), or 0 beyond 700: factors are at most 1e90, which does not bring it back to a float. */
 VNDF_INLINE doubles vndf_exp_falling(doubles r2)
 {
     const doubles most = doubles_set(700.0), nothing = doubles_set(0.0);
@@ -68,7 +68,7 @@ VNDF_INLINE doubles vndf_beckmann_scaled(doubles a, doubles r, doubles exponent)
     return doubles_pick(doubles_less(exponent, doubles_set(700.0)), scaled, doubles_set(0.0));
 }
 
-/* At a unit wm, wm.z >= 0; relative error below 1e-15 (1 + R^2). */
+/* D at a unit wm, wm.z >= 0; relative error below 1e-15 (1 + R^2). */
 VNDF_INLINE doubles vndf_beckmann_ndf(doubles alpha_x, doubles alpha_y, vndf_normal wm)
 {
     doubles a = alpha_x * alpha_y, x = alpha_y * wm.x, y = alpha_x * wm.y, z = a * wm.z, r = 1.0 / (z * z);

@@ -1,12 +1,12 @@
-/* Projected area, Lambda and G1 of any distribution, in double from the very numbers that came in, for one or
- * for lanes. All three come from the area A(-|w|) of the direction turned below the horizon, a sum of positive
- * terms: A(w) - A(-w) = cos(theta), so A(|w|) = cos(theta) + A(-|w|) and Lambda = A(-|w|)/cos(theta). */
+/* Projected area, Lambda and G1 of any distribution, in double from the caller's own numbers, for one or for lanes. All
+ * three come from A(-|w|), the area of the direction turned below the horizon, which is a sum of positive terms:
+ * A(w) - A(-w) = cos(theta), so A(|w|) = cos(theta) + A(-|w|) and Lambda = A(-|w|)/cos(theta). */
 #ifndef VNDF_SAMPLER_AREA_H
 #define VNDF_SAMPLER_AREA_H
 
 #include "sampler/law.h"
 
-/* Per length of w. */
+/* The area for w made unit. */
 VNDF_INLINE doubles_f vndf_area_of(const vndf_distribution *d, const vndf_direction *w)
 {
     doubles_m valid = vndf_direction_is_valid(w);
@@ -15,7 +15,7 @@ VNDF_INLINE doubles_f vndf_area_of(const vndf_distribution *d, const vndf_direct
     return doubles_narrow(doubles_pick(valid, area / length, doubles_set(0.0)));
 }
 
-/* At the horizon the quotient is infinite, or 0/0. */
+/* At the horizon the quotient is infinite or 0/0, and Lambda becomes FLT_MAX. */
 VNDF_INLINE doubles_f vndf_lambda_of(const vndf_distribution *d, const vndf_direction *w)
 {
     const doubles most = doubles_set(FLT_MAX);

@@ -1,8 +1,8 @@
 #include "sampler/frame.h"
 
-/* By about one unit in the last place of the unit problem, where the lobe has its width: in the real one such a
- * step would leave a narrow lobe altogether. Where even that fails (wi within rounding of straight down) the
- * horizontal normal towards wi is taken. */
+/* Turns by about one unit in the last place of the unit problem, where the lobe is wide: in the real problem such a
+ * step would leave a narrow lobe. Where even that fails, for wi within rounding of straight down, the result is the
+ * horizontal normal towards wi. */
 vndf_vec3 vndf_turn_to_face(const vndf_frame *f, vndf_vec3 wm)
 {
     vndf_vec3 n = vndf_normalize(vndf_to_unit(f, wm));

@@ -1,5 +1,5 @@
-/* Between a surface and its unit problem. Normals of the unit problem n = (X cos a, X sin a, Z) and real ones
- * are related by  wm ~ (alpha_x n'_x, alpha_y n'_y, n_z),  n' = n turned by the azimuth of the stretched
+/* From a surface to its unit problem and back. A normal n = (X cos a, X sin a, Z) of the unit problem belongs to the
+ * real normal  wm ~ (alpha_x n'_x, alpha_y n'_y, n_z),  where n' is n turned by the azimuth of the stretched
  * direction. */
 #ifndef VNDF_SAMPLER_FRAME_H
 #define VNDF_SAMPLER_FRAME_H
@@ -10,7 +10,7 @@
 
 #if VNDF_LANES == 1
 
-/* A view's direction and roughness, the direction stretched, and its azimuth. */
+/* A view's direction and roughness, the stretched direction, and its azimuth. */
 typedef struct vndf_frame {
     vndf_vec3 wi;
     double alpha_x, alpha_y;
@@ -33,7 +33,7 @@ VNDF_INLINE vndf_frame vndf_analytic_frame(const vndf_view *view)
     return f;
 }
 
-/* wm taken back to the unit problem, in the turned frame: not of unit length. */
+/* Takes wm back to the unit problem, in the turned frame; the result is not of unit length. */
 VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_frame *f, vndf_vec3 wm)
 {
     float x = wm.x / (float)f->alpha_x, y = wm.y / (float)f->alpha_y;
@@ -50,7 +50,7 @@ VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_frame *f, vndf_vec3 wm)
     return n;
 }
 
-/* The real normal of one of the unit problem: not of unit length. */
+/* The real normal for a normal of the unit problem; the result is not of unit length. */
 VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_frame *f, vndf_vec3 n)
 {
     vndf_vec3 wm = {(float)f->alpha_x * (f->cos_phi * n.x - f->sin_phi * n.y),
@@ -58,10 +58,10 @@ VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_frame *f, vndf_vec3 n)
     return wm;
 }
 
-/* A normal that rounding has turned away from wi, turned back: frame.c. */
+/* Turns a normal back that rounding has turned away from wi (frame.c). */
 vndf_vec3 vndf_turn_to_face(const vndf_frame *f, vndf_vec3 wm);
 
-/* Whether wm is a normal that wi sees. */
+/* Whether wi sees wm. */
 VNDF_INLINE int vndf_is_facing(const vndf_view *view, vndf_vec3 wm)
 {
     return view->distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;

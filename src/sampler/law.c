@@ -1,4 +1,4 @@
-/* The closed forms as distributions, and what any distribution says of itself. */
+/* The closed forms as distributions, and the information about any distribution. */
 #include "sampler/law.h"
 
 #include "table/layout.h"

@@ -1,5 +1,5 @@
-/* The law of normals behind a distribution: what is asked of it, answered for each kind. This is where the kinds are
- * told apart, and the only place: sources ask a law, and do not look which one it is.
+/* The law of normals behind a distribution: every question, answered by each kind. The kinds are told apart here and
+ * nowhere else: other sources ask the law, and do not look at its kind.
  *
  * A kind answers in files of its own: tabulated/law.h, analytic/ggx_law.h, analytic/beckmann_law.h, and beside them its
  * bounded normals (bounded/) and its blocks of a batch (batch/). A new kind adds such files, its view and bounds to
@@ -71,7 +71,7 @@ VNDF_INLINE doubles_m vndf_normal_is_valid(const vndf_query *g)
     return doubles_both(doubles_both(low, high), doubles_both(usable, doubles_at_most(doubles_set(0.0), g->z)));
 }
 
-/* D, of a valid normal. */
+/* D of a valid normal. */
 VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_query *g)
 {
     vndf_normal wm = {g->x, g->y, g->z};
@@ -83,7 +83,7 @@ VNDF_INLINE doubles vndf_law_ndf(const vndf_distribution *d, const vndf_query *g
     VNDF_NO_OTHER_KIND();
 }
 
-/* Dv where wi . wm = facing > 0 and all is valid. */
+/* Dv for a valid query with wi . wm = facing > 0. */
 VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_query *g, doubles facing)
 {
     switch (d->kind) {
@@ -98,7 +98,7 @@ VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_quer
 
 /* ---- views and their samples ---- */
 
-/* vndf_view_from, of a surface with a distribution. */
+/* vndf_view_from of a surface with a distribution. */
 VNDF_INLINE vndf_view vndf_law_view(const vndf_surface *surface, vndf_vec3 wi)
 {
     switch (surface->distribution->kind) {
@@ -156,7 +156,7 @@ VNDF_INLINE vndf_vec3 vndf_law_sample(const vndf_view *view, float u1, float u2,
     VNDF_NO_OTHER_KIND();
 }
 
-/* The same where densities in float are known not to do. */
+/* The same for samples that float may not draw. */
 VNDF_INLINE vndf_vec3 vndf_law_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     switch (view->distribution->kind) {
@@ -196,7 +196,7 @@ VNDF_INLINE void vndf_law_invert(const vndf_view *view, vndf_vec3 wm, float *u1,
     VNDF_NO_OTHER_KIND();
 }
 
-/* ---- normals that are not for a direction ---- */
+/* ---- normals without a direction ---- */
 
 /* P22 at the squared slope length r2, roughness 1. */
 VNDF_INLINE double vndf_law_p22(const vndf_distribution *d, double r2)
@@ -220,7 +220,7 @@ VNDF_INLINE vndf_slope vndf_law_slope(const vndf_distribution *d, float u)
     VNDF_NO_OTHER_KIND();
 }
 
-/* D cos(theta_m) as all normals are drawn with it, wm.z >= 0. */
+/* D cos(theta_m), the density of all normals as they are drawn, wm.z >= 0. */
 VNDF_INLINE double vndf_law_pdf_all(const vndf_distribution *d, double ax, double ay, vndf_normal wm)
 {
     switch (d->kind) {
@@ -233,31 +233,31 @@ VNDF_INLINE double vndf_law_pdf_all(const vndf_distribution *d, double ax, doubl
 
 /* ---- areas of one direction ---- */
 
-/* A(w) for a unit w, w.z > 0, and ax, ay the roughness times the distribution's scale; relative error below 2e-6.
- * Where *ready is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+/* A(w) for a unit w, w.z > 0, where ax, ay is the roughness times the distribution's scale; relative error below 2e-6.
+ * Where *trusted is 0 the caller computes it in double. */
+VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
 {
     switch (d->kind) {
-    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, ready);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, ready);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, ready);
+    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, trusted);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, trusted);
     }
     VNDF_NO_OTHER_KIND();
 }
 
-/* The same of a view's own direction; a table's view holds it. */
-VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *ready)
+/* The same for a view's own direction; a table's view holds it. */
+VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *trusted)
 {
-    *ready = 1;
+    *trusted = 1;
     switch (view->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_table_view_area(view);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, ready);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, ready);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, trusted);
     }
     VNDF_NO_OTHER_KIND();
 }
 
-/* The stretched direction, as long as the law has it. */
+/* The stretched direction, with the length that the law uses. */
 VNDF_INLINE vndf_stretched vndf_law_stretch(const vndf_distribution *d, vndf_vec3 w, double ax, double ay)
 {
     switch (d->kind) {
@@ -275,7 +275,7 @@ VNDF_INLINE double vndf_law_slant(const vndf_view *view, vndf_vec3 w)
     return vndf_unit_area(view->distribution, s.s, s.c) / fabs(s.c);
 }
 
-/* The same of a view's own direction. Of a table infinite where c is no more a float. */
+/* The same for a view's own direction. For a table it is infinite where c is too small for a float. */
 VNDF_INLINE double vndf_law_view_slant(const vndf_view *view)
 {
     switch (view->distribution->kind) {
@@ -286,7 +286,7 @@ VNDF_INLINE double vndf_law_view_slant(const vndf_view *view)
     return vndf_law_slant(view, view->wi);
 }
 
-/* The largest change of log P22 over the slope length, in units of alpha, but for places with hardly any samples. */
+/* The largest change of log P22 over the slope length, in units of alpha, except where hardly any samples are. */
 VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
 {
     switch (d->kind) {
@@ -298,7 +298,7 @@ VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
 }
 
 /* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
- * plain: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
+ * trusted: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
 VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
 {
     switch (d->kind) {

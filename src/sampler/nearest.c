@@ -1,8 +1,8 @@
-/* Drawing is in float: a number stands for a mass that is some steps of 2^-24 off, and where next to no mass is -
- * in far tails, gaps, beside the cut - that is far away. The inverse of exact.c knows nothing of that. What numbers
- * really give is looked at here: from 1 to 64 steps, each way, of u2 and then of u1 the best is kept, and the same
- * again from there. There is no descending, as from one step to the next a normal may go back by a rounding. Of random
- * numbers one in ten thousand takes that, and 5 to 50 us; of the others one in ten takes a sample. */
+/* Drawing is in float, so a number stands for a mass that is some steps of 2^-24 off. Where there is next to no mass -
+ * in far tails, in gaps, beside the cut - these steps lead far away, which the inverse of exact.c does not know. This
+ * file draws with the numbers nearby: it tries from 1 to 64 steps each way, of u2 and then of u1, takes the best and
+ * begins again there. It tries every step, since a rounding may take a normal back from one step to the next. One
+ * random number in ten thousand needs this search of 5 to 50 us; of the others one in ten draws one sample. */
 #include "sampler/nearest.h"
 
 #include "sampler/tabulated/theory.h"
@@ -11,7 +11,7 @@
 static const float NEAR_ENOUGH = 16e-12f; /* squared */
 enum { REACH = 64, ROUNDS = 4 };
 
-/* Both numbers, and the squared distance from what they give to what is wanted. */
+/* Both numbers, and the squared distance from their normal to the wanted one. */
 typedef struct candidate {
     float u[2], far;
 } candidate;
@@ -30,13 +30,13 @@ static candidate candidate_at(const vndf_view *view, vndf_vec3 wanted, float u1,
     return made;
 }
 
-/* One step of a number: draws round 2 u1 - 1 to 2^-24, so that below 1/2 a step of u1 is half as long. */
+/* One step of a number. Draws round 2 u1 - 1 to 2^-24, so a step of u1 below 1/2 is half as long. */
 static double step_of(float u, int which)
 {
     return which == 0 && u < 0.5f ? 0x1p-25 : 0x1p-24;
 }
 
-/* The better one of `best` and `from` with one of its numbers so many steps away. */
+/* The better of `best` and `from` with one of its numbers moved by `steps`. */
 static candidate step(const vndf_view *view, vndf_vec3 wanted, candidate from, int which, int steps,
                       candidate best)
 {

@@ -4,9 +4,9 @@
 
 #include "vndf.h"
 
-/* Moves uniform numbers that give about the normal wm, which faces wi, to such that give it within 4e-6, or as
- * nearly as numbers within some tens of 2^-24 do: of a valid view of a table. Distances are those of unit normals
- * of the unit problem. */
+/* For a valid view of a table, and a normal wm that faces wi: moves uniform numbers that give about wm to numbers that
+ * give wm within 4e-6, or as nearly as some tens of steps of 2^-24 can. Distances are between unit normals of the unit
+ * problem. */
 void vndf_nearest(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
 #endif

@@ -1,6 +1,5 @@
-/* The stretched direction of a view in double, from wi and the roughness as they were given: no length or
- * roughness is out of range, and the digits are there that an area takes which falls as fast as the normals of
- * a Beckmann do. */
+/* The stretched direction of a view in double, from the caller's wi and roughness: no length or roughness is out of
+ * range, and there are digits enough for an area that falls as fast as Beckmann's. */
 #ifndef VNDF_SAMPLER_STRETCH_H
 #define VNDF_SAMPLER_STRETCH_H
 
@@ -9,15 +8,15 @@
 #include "core/inline.h"
 #include "vndf.h"
 
-/* How long the stretched direction is made. */
+/* The length of the stretched direction. */
 typedef enum vndf_length {
     VNDF_LENGTH_SUM, /* s + |c| = 1: tables */
     VNDF_LENGTH_ROOT /* s^2 + c^2 = 1: closed forms */
 } vndf_length;
 
-/* (alpha_x wi.x, alpha_y wi.y, wi.z): across, along z, and what brings it there. */
+/* (alpha_x wi.x, alpha_y wi.y, wi.z) times per_length is s across and c along z. */
 typedef struct vndf_stretched {
-    double x, y; /* before */
+    double x, y; /* without per_length */
     double s, c, per_length;
 } vndf_stretched;
 
@@ -38,13 +37,13 @@ VNDF_INLINE vndf_stretched vndf_stretched_of(const vndf_view *view)
     return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, VNDF_LENGTH_SUM);
 }
 
-/* The same of a closed form. */
+/* The direction of a view of a closed form. */
 VNDF_INLINE vndf_stretched vndf_stretched_analytic(const vndf_view *view)
 {
     return vndf_stretch(view->wi, view->alpha_x, view->alpha_y, VNDF_LENGTH_ROOT);
 }
 
-/* Cosine and sine of the azimuth to turn to; along z that is x. */
+/* Cosine and sine of the azimuth to turn to; a direction along z turns to x. */
 typedef struct vndf_heading {
     double cosine, sine;
 } vndf_heading;

@@ -1,4 +1,4 @@
-/* What the view and the surface calls share: the distribution under a stretch. */
+/* Code that calls of a view and calls of a surface share: the distribution under a stretch. */
 #ifndef VNDF_SAMPLER_SURFACE_H
 #define VNDF_SAMPLER_SURFACE_H
 
@@ -14,7 +14,7 @@ VNDF_INLINE double vndf_unit_scale(const vndf_distribution *d)
     return vndf_is_table(d) ? d->scale : 1.0;
 }
 
-/* The same in float, 0 where that would lose digits: roughness for drawing is alpha times it. */
+/* The same in float, or 0 where float would lose digits: draws use alpha times it. */
 VNDF_INLINE float vndf_unit_scale_float(const vndf_distribution *d)
 {
     double scale = vndf_unit_scale(d);
@@ -39,10 +39,10 @@ double vndf_unit_area(const vndf_distribution *d, double s, double c);
 /* A(w) of the surface with this roughness times the distribution's scale. */
 float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w);
 
-/* vndf_view_from where the view is part of something: assigned, it would be copied, and waited for. */
+/* vndf_view_from for a view inside another object: an assigned view would be copied, and waited for. */
 void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
-/* Not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
+/* Whether w is not zero, infinite or NaN: squares of floats neither overflow nor vanish in double. */
 VNDF_INLINE int vndf_is_usable_direction(vndf_vec3 w)
 {
     double square = (double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z;
@@ -65,7 +65,7 @@ vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vnd
  * vndf_view_from. */
 void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
-/* vndf_sample of a valid view, where densities in float are known not to do. */
+/* vndf_sample of a valid view, for samples that float may not draw. */
 vndf_vec3 vndf_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 #endif

@@ -1,10 +1,10 @@
-/* Where float may stand: every threshold of the fast tier, with its cause. Drawing is in float, and the density of
- * the place that was drawn is that of the normal as it was rounded only where rounding changes little; everywhere
- * else a sample is drawn again and its normal evaluated in double (vndf_law_sample_exactly).
+/* Where float is trusted: every threshold of the fast tier, with its cause. Drawing is in float. The density at the
+ * place that was drawn is the density of the rounded normal only where rounding changes little; everywhere else the
+ * sample is drawn again and its normal evaluated in double (vndf_law_sample_exactly).
  *
- * The promise is 1e-5, relative, of a density. The budget below says which part of it each cause may use up; those
- * that can meet in one sample add up to no more, which the compiler checks. A share is the worst error measured
- * on the trusted side of the threshold, within a factor of two of it, and rounded up by hand. */
+ * The promise is that a density has a relative error below 1e-5. The budget below says which part of it each cause may
+ * use up; the shares that can meet in one sample add up to no more, which the compiler checks. A share is the worst
+ * error measured on the trusted side of the threshold, within a factor of two of it, and rounded up by hand. */
 #ifndef VNDF_SAMPLER_TRUST_H
 #define VNDF_SAMPLER_TRUST_H
 
@@ -14,10 +14,10 @@
 
 /* ---- the budget ---- */
 
-/* Parts of the promise in units of 1e-8, those of a cause without the roundings that every sample has. Measured with
- * 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and lobes a thousand times
- * apart, roughness 1e-3 to 10. Worst of all: 570; a search that climbs from the worst points finds 730 for a ring of
- * relative width 1e-6 (test float_accuracy). */
+/* Parts of the promise in units of 1e-8. The share of a cause leaves out the roundings that every sample has. The
+ * shares were measured with 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and
+ * lobes whose widths differ a thousandfold, at roughness 1e-3 to 10. The worst error of all was 570; a search that
+ * climbs from the worst points finds 730 for a ring of relative width 1e-6 (test float_accuracy). */
 enum {
     VNDF_PROMISE = 1000,
     VNDF_SHARE_ROUNDING = 180, /* of a dozen operations each: direction, masses, cell, normal */
@@ -38,8 +38,8 @@ _Static_assert(VNDF_SHARE_GGX <= VNDF_PROMISE && VNDF_SHARE_BECKMANN <= VNDF_PRO
 
 /* ---- range: nothing underflows, overflows or loses digits on the way; these thresholds have no share ---- */
 
-/* The level part of the stretched direction, squared; its height over its length; its length. Beyond, quotients by
- * these lose digits. */
+/* The level part of the stretched direction, squared; its height over its length; its length. Beyond these, quotients
+ * lose digits. */
 static const float VNDF_TRUST_ACROSS2 = 1e-24f, VNDF_TRUST_HEIGHT = 1e-6f, VNDF_TRUST_LENGTH = 1e12f;
 
 VNDF_INLINE lanes_m vndf_trusts_direction(lanes_f across2, lanes_f z, lanes_f length)
@@ -59,8 +59,8 @@ VNDF_INLINE lanes_m vndf_trusts_scale(lanes_f ax, lanes_f ay, lanes_f c)
     return lanes_both(lanes_both(low, high), lanes_less(lanes_set(VNDF_TRUST_HEIGHT), c));
 }
 
-/* The density, what it is made from, and the squared length of a normal before it is made unit: a hostile table may
- * overflow here. */
+/* The density, the product that it divides by, and the squared length of a normal before it is made unit: a hostile
+ * table may overflow here. */
 static const float VNDF_TRUST_DENSITY_LEAST = 1e-37f, VNDF_TRUST_DENSITY_MOST = 1e38f;
 static const float VNDF_TRUST_SQUARE = 1e-30f, VNDF_TRUST_PRODUCT = 1e-36f;
 
@@ -76,8 +76,8 @@ VNDF_INLINE lanes_m vndf_trusts_lengths(lanes_f square, lanes_f product)
                       lanes_less(lanes_set(VNDF_TRUST_PRODUCT), product));
 }
 
-/* The root in the inverse of a rational cell, of the fourth power of a mass: what is drawn at the pole, at u2 = 1e-10,
- * has lost digits to denormals. */
+/* The root in the inverse of a rational cell, of the fourth power of a mass: at the pole, at u2 = 1e-10, denormals cost
+ * it digits. */
 static const float VNDF_TRUST_ROOT = 2e-18f;
 
 VNDF_INLINE lanes_m vndf_trusts_root(lanes_f root)
@@ -87,8 +87,8 @@ VNDF_INLINE lanes_m vndf_trusts_root(lanes_f root)
 
 /* ---- tables: azimuth ---- */
 
-/* The mass of the half turn where the azimuth is drawn, over that in front: in a wedge of next to no mass the
- * rounding of the direction shows. */
+/* The mass of the range where the azimuth is drawn, over the mass in front: in a wedge of next to no mass the rounding
+ * of the direction shows. */
 static const float VNDF_TRUST_WEDGE_MASS = 0.01f;
 
 VNDF_INLINE lanes_m vndf_trusts_wedge_mass(lanes_f front, lanes_f mass)
@@ -96,8 +96,8 @@ VNDF_INLINE lanes_m vndf_trusts_wedge_mass(lanes_f front, lanes_f mass)
     return lanes_less(VNDF_TRUST_WEDGE_MASS * front, mass);
 }
 
-/* One over the width, in the wedge's coordinate, of a piece of the areas' spline: a rounding of the direction moves it
- * by that part of its width. Lobes hundreds of times apart have narrow ones, and rows as close. */
+/* One over the width of a piece of the areas' spline, in the wedge's coordinate: a rounding of the direction shows more
+ * in a narrow piece. Lobes whose widths differ hundreds of times have narrow pieces, and rows as close. */
 static const float VNDF_TRUST_AREA_PER_WIDTH = 500.0f;
 
 VNDF_INLINE lanes_m vndf_trusts_area_piece(lanes_f per_width)
@@ -129,8 +129,8 @@ VNDF_INLINE lanes_m vndf_trusts_azimuth(vndf_change change, lanes_f turn, lanes_
     return lanes_at_most(change.above * n2, VNDF_TRUST_AZIMUTH_STEEP * change.below * lanes_least(turn, n2));
 }
 
-/* The density of an azimuth over its mean, about: where one of the three rows has next to all of it, and the least
- * weight, the rounding of the direction shows in that weight. */
+/* The density of an azimuth over its mean, about. Where one of the three rows has almost all of the density, and the
+ * least weight, the rounding of the direction shows in that weight. */
 static const float VNDF_TRUST_AZIMUTH_DENSITY = 0.05f;
 
 VNDF_INLINE lanes_m vndf_trusts_azimuth_density(lanes_f density)
@@ -148,9 +148,9 @@ VNDF_INLINE lanes_m vndf_trusts_side(lanes_f away)
     return lanes_less(lanes_set(VNDF_TRUST_SIDE), away);
 }
 
-/* W = along + up, wi.wm but for a length: it is neither a small difference nor small beside what a rounding of the
- * azimuth, a part of `across`, does to it. In front of wi nearly nothing is drawn where it is small, and roundings of
- * the direction and of the azimuth, 6e-7 in all, meet there. */
+/* W = along + up is wi.wm times a length. It must be no small difference, and large beside the change by a rounding of
+ * the azimuth, which is a part of `across`. In front of wi nearly nothing is drawn where W is small, and there roundings
+ * of the direction and of the azimuth meet, 6e-7 in all. */
 static const float VNDF_TRUST_FACING_IN_FRONT = 0.1f, VNDF_TRUST_FACING = 0.06f;
 
 VNDF_INLINE lanes_m vndf_trusts_facing_in_front(lanes_f across, lanes_f along, lanes_f up)
@@ -165,12 +165,12 @@ VNDF_INLINE lanes_m vndf_trusts_facing_in_wedge(lanes_f across, lanes_f along, l
 
 /* ---- tables: radius ---- */
 
-/* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves that by some 1e-7. Smooth
- * lobes have 1 to 4; where nothing but the foot of a ring is seen it may be 500, and float is off by 2e-3. */
+/* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves the cut by some 1e-7. Smooth
+ * lobes have 1 to 4; where only the foot of a ring is visible it may be 500, and float is off by 2e-3. */
 static const float VNDF_TRUST_CUT = 6.0f;
 
-/* `inside` changes in the cells inside the cut; the mass of the cell at the cut is as steep as its visible part of the
- * cell is narrow. */
+/* `inside` is the change of the cells inside the cut. The mass of the cell at the cut is the steeper, the narrower its
+ * visible part is. */
 VNDF_INLINE lanes_m vndf_trusts_cut(lanes_f inside, lanes_f part_mass, lanes_f reach, lanes_f total,
                                     lanes_f visible)
 {
@@ -222,7 +222,7 @@ VNDF_INLINE lanes_m vndf_trusts_beckmann_middle(lanes_f middle)
     return lanes_less(lanes_set(VNDF_TRUST_BECKMANN_MIDDLE), middle);
 }
 
-/* d = wi.wm but for a length, over the terms that it is a sum of. */
+/* d, which is wi.wm times a length, over the sum of its terms. */
 static const float VNDF_TRUST_BECKMANN_FACING = 0.06f;
 
 VNDF_INLINE lanes_m vndf_trusts_beckmann_facing(lanes_f terms, lanes_f d)
@@ -235,15 +235,15 @@ VNDF_INLINE lanes_m vndf_trusts_beckmann_facing(lanes_f terms, lanes_f d)
 /* R^2: the rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */
 static const double VNDF_TRUST_ALL_BECKMANN = 4.0;
 
-/* ---- bounded normals: what `inside_mass`, the part of the law inside the horizon's disc, adds ---- */
+/* ---- bounded normals: errors by `inside_mass`, the part of the law inside the horizon's disc ---- */
 
-/* How far inside the border a normal is, so that no rounding takes it out: the border's slope over the normal's. */
+/* The border's slope over the normal's: the normal is so far inside that no rounding takes it out. */
 #define VNDF_TRUST_INSIDE 1.00001
 
 /* The root of the border's slope: a rounding of the azimuth moves it by 1e-7 of s/root. */
 static const float VNDF_TRUST_BORDER_ROOT = 0.02f;
 
-/* The density per e-fold of the border's slope over the mass inside: how fast that moves with the slope. */
+/* The density per e-fold of the border's slope over the mass inside: how fast that mass moves with the slope. */
 static const float VNDF_TRUST_BORDER_STEEP = 30.0f;
 
 /* In cells that float does not follow, at the cut, hardly anything is lost. */
@@ -253,13 +253,13 @@ static const float VNDF_TRUST_BORDER_CUT = 0.999f;
 static const float VNDF_TRUST_CHORD_INSIDE = -0.1f;
 static const float VNDF_TRUST_CHORD_HEIGHT = 0.02f, VNDF_TRUST_CHORD_COSINE = 0.03f;
 
-/* GGX: d log(mass)/d psi, which a rounding of 1e-7/(reach sine) bears on; psi beside the border between front and
- * wedge, where the mass differs; the sine; and what may hide in the matrix of level directions. */
+/* GGX: d log(mass)/d psi, times a rounding of psi by 1e-7/(reach sine); psi beside the border between front and wedge,
+ * where the mass has another form; the sine; and the cancellation in the matrix of level directions. */
 static const float VNDF_TRUST_CHORD_STEEP = 150.0f, VNDF_TRUST_CHORD_SIDE = 1e-12f;
 static const float VNDF_TRUST_CHORD_SINE = 0.01f, VNDF_TRUST_CHORD_MATRIX = 100.0f;
 
-/* Beckmann: the slope squared and wi.wm as above; how fast the part on the chord moves with the slopes; and the part
- * that a difference in float leaves its digits. */
+/* Beckmann: the slope squared and wi.wm as above; how fast the part on the chord moves with the slopes; and the least
+ * part that keeps its digits as a difference in float. */
 static const double VNDF_TRUST_BOUNDED_SLOPE = 12.0, VNDF_TRUST_BOUNDED_FACING = 0.05;
 static const double VNDF_TRUST_BOUNDED_STEEP = 30.0;
 static const float VNDF_TRUST_BOUNDED_PART = 0.1f;

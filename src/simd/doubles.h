@@ -1,7 +1,7 @@
-/* Lanes of doubles, as lanes.h has lanes of floats. Code that uses `doubles` is compiled for one double, for 4
- * (AVX2) and for 8 (AVX-512), VNDF_DOUBLES of them, and gives the same bits in each lane. The compiler provides
- * + - * / between them. doubles_f holds as many floats, the numbers of tables, and doubles_u as many indices. The
- * rules of lanes.h hold. */
+/* Lanes of doubles; lanes.h is the same for floats. Code that uses `doubles` is compiled for one double, for 4 (AVX2)
+ * and for 8 (AVX-512), VNDF_DOUBLES of them, and gives the same bits in each lane. The compiler provides + - * /
+ * between them. doubles_f holds as many floats, the numbers of tables, and doubles_u as many indices. The rules of
+ * lanes.h hold. */
 #ifndef VNDF_SIMD_DOUBLES_H
 #define VNDF_SIMD_DOUBLES_H
 

@@ -1,4 +1,4 @@
-/* What follows from the arrays that the file holds: the parts of vndf_table_derive (table/layout.h). */
+/* Numbers that follow from the arrays of the file: the parts of vndf_table_derive (table/layout.h). */
 #ifndef VNDF_TABLE_DERIVE_H
 #define VNDF_TABLE_DERIVE_H
 

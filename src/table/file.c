@@ -104,7 +104,7 @@ static void read_array(vndf_reader *r, float *values, size_t count, size_t strid
         values[i * stride] = vndf_read_f32(r);
 }
 
-/* Texts are printed: control characters could do things to a terminal. */
+/* Programs print the texts, and a control character could harm a terminal. */
 static int is_printable(const unsigned char *bytes, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++)
@@ -113,7 +113,7 @@ static int is_printable(const unsigned char *bytes, uint32_t n)
     return 1;
 }
 
-/* A copy of the next length-prefixed text, terminated; NULL if there is none (the reader fails) or no memory. */
+/* A terminated copy of the next length-prefixed text; NULL if there is no text (the reader fails) or no memory. */
 static char *read_text(vndf_reader *r)
 {
     uint32_t n = vndf_read_u32(r);
@@ -186,7 +186,7 @@ static int counts_valid(vndf_table_size s)
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
 
-/* Everything after the counts; 0 if bytes end early (the reader fails) or memory does. */
+/* Reads everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
 static int read_body(vndf_reader *r, vndf_distribution *table)
 {
     vndf_certificate *c = &table->certificate;
@@ -202,7 +202,7 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
     return !r->failed;
 }
 
-/* The first HEAD bytes; *stated is the size that they say the table has. */
+/* Checks the first HEAD bytes; *stated is the size of the table that they state. */
 static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t *stated, vndf_error *error)
 {
     vndf_reader r = {bytes, size, sizeof MAGIC, 0};
@@ -270,8 +270,7 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     return NULL;
 }
 
-/* Reads what the head promises and one byte more, so that neither a file nor a pipe without end is read to its
- * end. */
+/* Reads the size that the head states and one byte more: an endless file or pipe must not be read for ever. */
 static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
 {
     unsigned char head[HEAD];
@@ -295,7 +294,7 @@ static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
     return NULL;
 }
 
-/* The whole file in memory; NULL and an error otherwise. */
+/* Reads the whole file into memory; NULL and an error if that fails. */
 static unsigned char *read_file(const char *path, size_t *size, vndf_error *error)
 {
     vndf_error inner = {VNDF_OK, ""};

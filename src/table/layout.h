@@ -1,4 +1,4 @@
-/* Memory of a table: one block for the arrays that the file holds, and what follows from them. */
+/* Memory of a table: one block for the arrays of the file and the numbers that follow from them. */
 #ifndef VNDF_TABLE_LAYOUT_H
 #define VNDF_TABLE_LAYOUT_H
 

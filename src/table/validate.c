@@ -4,13 +4,14 @@
 
 #include "table/layout.h"
 
-/* In [least, most]; false for NaN. */
+/* Whether value is in [least, most]; 0 for NaN. */
 static int in_range(float value, float least, float most)
 {
     return value >= least && value <= most;
 }
 
-/* From 0 to 1, by steps whose inverse is a float, with room for products: the builder's are above 1e-10. */
+/* Whether values ascend from 0 to 1 by steps whose inverse is a float, with room for products. The builder's steps are
+ * above 1e-10. */
 static int ascending(const float *values, uint32_t count)
 {
     for (uint32_t i = 0; i + 1 < count; i++)
@@ -64,7 +65,7 @@ static const char *rows_invalid(const vndf_wedge *wedge)
     return NULL;
 }
 
-/* Knots from 0 to 1, and masses that grow. */
+/* Checks that knots ascend from 0 to 1 and masses ascend. */
 static const char *area_invalid(const vndf_wedge *wedge)
 {
     const float *m = wedge->mass;
@@ -102,8 +103,8 @@ const char *vndf_table_invalid(const vndf_distribution *table)
     return why ? why : area_invalid(&table->below);
 }
 
-/* Bernstein coefficients of the cubic: all >= 0 keeps the density >= 0 in the whole cell. Rounding of a
- * moment moves a coefficient by some 1e-5 of the larger end; that much is forgiven here and cut in the sampler. */
+/* If all Bernstein coefficients of the cubic are >= 0, the density is >= 0 in the whole cell. Rounding a moment moves a
+ * coefficient by some 1e-5 of the larger end; this check forgives that much, and the sampler cuts it off. */
 static int cubic_positive(const vndf_radial_cell *c, const vndf_radial_bend *bend)
 {
     float least = -1e-4f * (c->f0 + c->f1 + c->mu0 + c->mu1);

@@ -183,8 +183,8 @@ static estimate sum_up(const points *of, size_t first, vndf_vec3 wi)
  * crosses: it is known to 5e-4 there. The budget ends what is not a jump but noise. */
 enum { HALVINGS_PHI = 12, HALVINGS_SLOPE = 15, HALVINGS_CUT = 11, BUDGET = 1000000 };
 
-/* How far the two rules may be apart; the better one is much closer to the truth. Absolute, a twentieth of what one of
- * 1e9 samples weighs; relative, since a kink that all bins of a ring share errs to one side in all of them. */
+/* How far the two rules may be apart; the better one is much closer to the integral. ABSOLUTE is a twentieth of the
+ * weight of one of 1e9 samples; RELATIVE is small, since a kink errs to one side in all bins of a ring. */
 static const double ABSOLUTE = 5e-11, RELATIVE = 1e-6;
 
 /* Part of what the rounding of normals may amount to that is left alone: they do not all err to one side. */

@@ -1,5 +1,5 @@
-/* Pearson's test of samples against the density that the sampler claims, over the bins of bins.h: the
- * library against itself, no other truth involved. Shared by `vndf check` and the tests. */
+/* Pearson's test of samples against the density that the sampler states, over the bins of bins.h: it tests the library
+ * against itself, without another reference. `vndf check` and the tests share it. */
 #ifndef TOOLS_MEASURE_CHI_SQUARE_H
 #define TOOLS_MEASURE_CHI_SQUARE_H
 
@@ -14,7 +14,7 @@ typedef struct chi_square {
     double mass;      /* the density integrated over the hemisphere; 1 is right */
     size_t bins;      /* classes after pooling; bins - 1 degrees of freedom */
     size_t pooled;    /* bins of expected count < 5, pooled with their neighbours into some of the classes */
-    size_t unclaimed; /* samples that came with density 0 or none that is finite; 0 is right */
+    size_t unclaimed; /* samples whose density was 0 or not finite; 0 is right */
     int blind;        /* the view sees nothing (every density 0): there is nothing to test, and p is 1 */
 } chi_square;
 

@@ -1,14 +1,13 @@
 /* Which table to ship.
  *
- * Any table is right with its weight; what it costs is noise, rare bright samples, and, for those who leave the
- * weight out, bias. So the advice is the smallest table that keeps four limits, over all directions from 0 to 180
- * degrees:
- *     the largest weight of the samples tried is at most 2: none is brighter by more than it would be by chance
- *         (the certificate's is larger: it looks where 1e-10 of the area is left);
+ * Any table is right with its weight; a small one costs noise and rare bright samples, and bias without the weight. So
+ * the advice is the smallest table that keeps four limits, over all directions from 0 to 180 degrees:
+ *     the largest weight of the samples tried is at most 2: no sample is brighter than chance would make it
+ *         (the certificate's weight is larger: it looks where 1e-10 of the area is left);
  *     the weights add at most 1% to the variance: nobody can see that;
- *     total variation is at most 1e-3: without the weight, what is off stays below half a step of 8 bits;
+ *     total variation is at most 1e-3: without the weight the error stays below half a step of 8 bits;
  *     areas, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not mend them.
- * What the largest breaks none can keep; there a table counts as good if it is within a quarter of the largest. */
+ * No table keeps a limit that the largest breaks; there a table is good if it is within a quarter of the largest. */
 #include <string.h>
 
 #include "draw/chart.h"
@@ -97,7 +96,7 @@ static void write_choice(FILE *html, const report_subject *s)
     fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", t->time.view + t->time.sample, t->time.batch);
 }
 
-/* Those who never look from below the horizon need less where the error is worst there. */
+/* Without directions from below the horizon a smaller table may do, if the error is worst there. */
 static void write_reflection(FILE *html, const report_subject *s)
 {
     char size[16];
@@ -113,7 +112,7 @@ static void write_reflection(FILE *html, const report_subject *s)
     }
 }
 
-/* What the next smaller one lacks, and the command. */
+/* Says which limits the next smaller table breaks, and gives the command. */
 static void write_advice(FILE *html, const report_subject *s)
 {
     write_choice(html, s);
@@ -135,7 +134,7 @@ static void write_advice(FILE *html, const report_subject *s)
 
 /* ---- the table ----------------------------------------------------------------------------------- */
 
-/* A figure that ends with a mark, in a colour, where a limit is not kept. */
+/* A figure; a mark in a colour ends it where it breaks a limit. */
 static void put_limited(text_table *t, const char *heading, const char *format, double value, int kept)
 {
     char figure[32], marked[40];

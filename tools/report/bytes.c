@@ -1,4 +1,4 @@
-/* Error against bytes in memory: a curve over its tables for each distribution, and other methods that have tables as
+/* Error against bytes in memory: each distribution has a curve over its tables, and other methods with tables are
  * points. */
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,5 @@
-/* The frontier: error against time. Every row of tools/bench/bench.h is a point; tables of this library are joined over
- * their sizes, a curve for each instruction set. What is exact stands in a band of its own: a logarithm has
- * no 0. */
+/* The frontier: error against time. Every row of tools/bench/bench.h is a point; a curve for each instruction set joins
+ * the tables of this library over their sizes. Exact methods stand in a band of their own: a logarithm has no 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ static int names_distribution(const bench_row *row)
     return 0;
 }
 
-/* Of a table only the size, since shape and line tell the rest; colours tell batches. */
+/* A table's label is its size alone: shape and line tell the rest, and colours tell batches. */
 static void label_row(const bench_row *row, char label[LABEL])
 {
     const char *batch = strstr(row->method, ", batch");
@@ -64,8 +63,8 @@ static void label_row(const bench_row *row, char label[LABEL])
         snprintf(label, LABEL, "%.*s, %s", length, row->method, row->distribution);
 }
 
-/* What is left of an exact method is the rounding of floats, which the comparison with a density cannot tell from
- * an error of that size. */
+/* The error of an exact method is the rounding of floats; a comparison with a density cannot tell it from another error
+ * of that size. */
 static double error_of(const bench_row *row)
 {
     return row->kind != BENCH_TABLE && row->tv < rounding ? 0 : row->tv;
@@ -86,7 +85,7 @@ static void add_row(frontier *f, const bench_row *row)
     chart_widen(&f->y_range, f->y[f->count][at]);
 }
 
-/* The rows of one kind and instruction set; a series if there are any. */
+/* Makes a series of the rows of one kind and instruction set, if there are any. */
 static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, size_t set)
 {
     static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
@@ -114,7 +113,7 @@ static void collect(frontier *f, const bench_rows *rows)
             add_series(f, rows, (bench_kind)kind, set);
 }
 
-/* Shapes say who, colours say how many at once. The key names the colours that occur. */
+/* Shapes name the method, colours the number of samples at once. The key names the colours that occur. */
 static void fill_key(frontier *f)
 {
     static const chart_key shapes[] = {{"tables of this library", 7, CHART_DOT},
@@ -141,7 +140,7 @@ static chart chart_of(frontier *f, const char *name)
                .height = 710,
                .right = 20,
                .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation to the truth, worst angle"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation to the reference, worst angle"},
                .zero = "exact",
                .band = 100,
                .series = f->series,
@@ -181,8 +180,8 @@ int report_write_frontier(html_page *page, const report *r)
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
-        "nearer to the truth. Tables are exact with their weight; the error shown is what the weight mends. The "
-        "band at the bottom holds what is exact but for the rounding of floats.");
+        "nearer to the reference. Tables are exact with their weight; the weight mends the error shown. The band at "
+        "the bottom holds methods that are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);

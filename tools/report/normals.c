@@ -24,7 +24,7 @@ static vndf_surface finest_of(const report_subject *s)
     return surface;
 }
 
-/* The angle of the normal up to which panel_ndf draws; narrow lobes want fine steps. */
+/* The largest angle of the normal that panel_ndf draws; narrow lobes need fine steps. */
 static double widest_angle(const report_subject *s)
 {
     return round_angle(atan(8 * s->table[0].info.scale) * 180 / acos(-1.0));
@@ -76,7 +76,7 @@ static int write_ndf(html_page *page, const report *r)
     return page_data(page, "ndf.csv", "D against the angle of the normal", data);
 }
 
-/* The dots of panel_disc: the same numbers. */
+/* Adds the dots of panel_disc, from the same uniform numbers. */
 static void add_samples(text_table *t, const report_subject *s, unsigned v)
 {
     vndf_surface surface = surface_of(s);

@@ -1,5 +1,5 @@
-/* What the parts of `vndf report` share. commands/report.c reads the words, measures one thing after the other and has
- * the page written; a section calls no other.
+/* Declarations that the parts of `vndf report` share. commands/report.c reads the words, measures one thing after the
+ * other and calls the sections to write the page; no section calls another.
  *
  *   subject.c    a distribution of normals, its tables of several sizes, and how far each is from the reference
  *   time.c       nanoseconds of view, sample and pdf, one by one and in batches
@@ -22,15 +22,15 @@
 
 enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
 
-/* How far drawn visible normals are from the true ones, from one direction. NaN where less is visible than
- * 1e-10 of what is at grazing incidence. */
+/* How far drawn visible normals are from the true ones, from one direction. NaN where the visible area is below 1e-10
+ * of the area at grazing incidence. */
 typedef struct report_error {
     double tv;         /* total variation: half the integral of |drawn - true| */
-    double variance;   /* that of the weight true/drawn: what an estimator of something constant has left */
+    double variance;   /* of the weight true/drawn: the variance of an estimator of something constant */
     double max_weight; /* the largest weight met */
 } report_error;
 
-/* Median nanoseconds per call, of what is drawn or evaluated for random directions. */
+/* Median nanoseconds per call, for random directions. */
 typedef struct report_time {
     double view, sample, pdf;   /* one by one: the view; what a sample with its density adds; a given normal */
     double batch, batch_shared; /* vndf_sample_n, view included: a direction each; one direction for all */
@@ -41,7 +41,7 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
-    double tv;       /* the larger of what the certificate and the angles here say */
+    double tv;       /* the larger of the certificate's and that of the worst angle here */
     double tv_above; /* the largest total variation from above the horizon */
     report_time time;
 } report_table;
@@ -54,7 +54,7 @@ typedef struct report_subject {
     vndf_reference *reference;
     report_table table[REPORT_SIZES];
     size_t count;
-    size_t left_out; /* sizes for which the time did not suffice */
+    size_t left_out; /* sizes that there was no time for */
     size_t chosen;   /* the recommended table */
 } report_subject;
 
@@ -79,7 +79,7 @@ typedef struct report {
     bench_rows rows;
 } report;
 
-/* Tells how far the work is, in [0, 1] of the step at hand; nonzero: stop. */
+/* Receives how far the current step is, in [0, 1]; returns nonzero to stop. */
 typedef struct report_watch {
     vndf_progress *progress;
     void *user;
@@ -87,24 +87,24 @@ typedef struct report_watch {
 
 double report_theta(size_t angle);
 
-/* ---- measuring; each returns VNDF_OK, or what stopped it with an error ---- */
+/* ---- measuring; each returns VNDF_OK, or the status that stopped it and an error ---- */
 
-/* Takes the source; free with report_subject_free whatever is returned. `name` is cut to fit. */
+/* Takes the source over. Free with report_subject_free, whatever this returns. `name` is cut to fit. */
 vndf_status report_subject_begin(report_subject *subject, vndf_source *source, const char *name,
                                  const char *arguments, vndf_error *error);
 
-/* Builds the tables up to `largest` bytes, smallest first, as long as a next one is likely to end before `seconds`
- * have been spent, and measures them; two at least. */
+/* Builds and measures the tables up to `largest` bytes, smallest first: two at least, and more as long as the next one
+ * is likely to end within `seconds`. */
 vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds,
                                  const report_watch *watch, vndf_error *error);
 void report_subject_free(report_subject *subject);
 
-/* Which of its tables to ship. */
+/* Chooses the table to ship. */
 void report_choose(report_subject *subject);
 
 report_time report_time_of(const vndf_distribution *distribution);
 
-/* The albedo of a conductor at 60 and 85 degrees. */
+/* Measures the noise of the albedo of a conductor at 60 and 85 degrees. */
 void report_variance_measure(const report_subject *subject, report_integral integral[2]);
 
 /* ---- writing: one section each; 0 if there is no memory ---- */

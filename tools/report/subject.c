@@ -3,9 +3,9 @@
  * Error. With w = true/drawn density at a normal and normals drawn from two uniform numbers u, every integral over
  * the drawn density is one over the unit square of u:
  *     total variation = 1/2 integral |w(u) - 1| du,   variance of the weight = integral (w(u) - 1)^2 du.
- * They are taken on a Fibonacci lattice (a rank-1 lattice of 6765 points), for 61 directions. The reference is the
- * source itself by vndf_reference_p22 and vndf_reference_area, in double. Nothing is missed: where the true density is
- * positive the drawn one is too. */
+ * A Fibonacci lattice (a rank-1 lattice of 6765 points) gives the integrals, for 61 directions. The reference is the
+ * source itself by vndf_reference_p22 and vndf_reference_area, in double. The integrals miss nothing: where the true
+ * density is positive, so is the drawn one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,7 +81,7 @@ static void measure_angles(const report_subject *subject, const double areas[REP
 
 /* ---- building ------------------------------------------------------------------------------------ */
 
-/* Cut between characters, with an ellipsis. */
+/* Cuts between characters, and ends with an ellipsis. */
 static void copy_cut(char *copy, size_t size, const char *text)
 {
     size_t length = strlen(text);
@@ -119,19 +119,19 @@ static vndf_status build_one(report_subject *subject, size_t bytes, const report
     return VNDF_OK;
 }
 
-/* A table that did not grow with what was allowed is as large as it gets. */
+/* Whether the last table did not grow with its limit: then it is as large as it gets. */
 static int is_full(const report_subject *subject)
 {
     size_t n = subject->count;
     return n >= 2 && subject->table[n - 1].info.bytes < subject->table[n - 1].asked / 2;
 }
 
-/* Each size takes about twice the time of the one before; the largest, 16 times the bytes, four times. */
+/* Each size takes about twice the time of the one before; the largest has 16 times the bytes and takes four times. */
 static vndf_status build_all(report_subject *subject, size_t largest, double seconds, const report_watch *watch,
                              vndf_error *error)
 {
     static const size_t sizes[REPORT_SIZES] = {2048, 4096, 8192, 16384, 32768, 65536, 1048576};
-    /* Of this process: others on the machine do not make tables fewer. */
+    /* time of this process: others on the machine do not make tables fewer */
     double begin = clock_processor_seconds(), before = begin, last = 0;
     for (size_t i = 0; i < REPORT_SIZES && sizes[i] <= largest && !is_full(subject); i++) {
         double next = last * (sizes[i] > 65536 ? 4 : 2);

@@ -1,10 +1,10 @@
-/* Where the time goes: nanoseconds of making a view, drawing from it, evaluating a density, one by one and in
+/* Where the time goes: nanoseconds to make a view, to draw from it and to evaluate a density, one by one and in
  * batches, and a chart of them.
  *
  * For 4096 incident directions, uniform over the upper hemisphere, and roughness from 0.1 to 1: few enough to stay
- * in cache with a table, too many for a branch predictor to learn. Each loop is timed 11 times, the median counts.
- * Results are added up and the sum is looked at, so that no compiler leaves the work out. A sample is what view
- * and sample take together, less the view. */
+ * in cache with a table, too many for a branch predictor to learn. Each loop is timed 11 times; the median counts.
+ * Results are added up and the sum is read, so that no compiler leaves the work out. The time of a sample is the time
+ * of view and sample together, less the view. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -113,7 +113,7 @@ static int take_turn(void *user, size_t turn, double *number)
     return 1;
 }
 
-/* Alone: what the caches hold of one loop is not what the next one finds. */
+/* Times a loop by itself: another loop would leave other data in the caches. */
 static double time_loop(workload *w, loop *run)
 {
     timed_loop timed = {w, run};
@@ -191,7 +191,7 @@ static double nice_step(double most)
 
 enum { ROW = 54, BAR = 14, LEFT = 170, WIDE = 640, RIGHT = 120 };
 
-/* Parts `from` to `to` end to end, and their lengths in numbers. */
+/* Draws parts `from` to `to` end to end, and their lengths as numbers. */
 static void draw_bar(FILE *file, double y, const time_line *line, int from, int to, double per_ns)
 {
     double x = LEFT;

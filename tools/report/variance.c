@@ -4,12 +4,12 @@
  *     integral f(wi, wo) cos(theta_o) dwo = integral F(wi.wm) G2/G1(wi) Dv(wm) dwm
  * over normals that reflect upwards, with Schlick's F (0.9 at normal incidence) and height-correlated masking.
  * Ways to estimate it:
- *     visible normals from a table, weighted by true/drawn density: unbiased whatever the size;
- *     the same without the weight: biased by what the table is off;
- *     all normals (Walter et al. 2007), D cos(theta_m): what is visible from straight above the largest table;
+ *     visible normals from a table, weighted by true/drawn density: unbiased at any size;
+ *     the same without the weight: biased by the table's error;
+ *     all normals (Walter et al. 2007), D cos(theta_m): the visible normals of the largest table from straight above;
  *     directions by their cosine, which do not know D.
- * The noise at N samples is the root mean square, over all groups of N of the same 2^17 samples, of the mean's
- * distance to the reference, which comes from 2^18 points of a lattice with the weight. */
+ * The noise at N samples is the root mean square distance of a mean to the reference, over all groups of N of the same
+ * 2^17 samples. The reference comes from 2^18 points of a lattice, with the weight. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +63,7 @@ static double dot(vndf_vec3 a, vndf_vec3 b)
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-/* F G2: what both kinds of estimate share; 0 for a reflection that goes down. */
+/* F G2, which both kinds of estimate share; 0 for a reflection that goes down. */
 static double reflected(const scene *s, vndf_vec3 wm, double cosine)
 {
     vndf_vec3 wo = {(float)(2 * cosine * (double)wm.x - (double)s->wi.x),
@@ -82,7 +82,7 @@ typedef enum way { WAY_WEIGHTED, WAY_UNWEIGHTED, WAY_ALL_NORMALS, WAY_COSINE } w
 typedef struct estimator {
     const scene *scene;
     way way;
-    vndf_view view; /* what normals are drawn from */
+    vndf_view view; /* the view that draws normals */
 } estimator;
 
 static double estimate_visible(const estimator *e, double u1, double u2)
@@ -106,7 +106,7 @@ static double estimate_all_normals(const estimator *e, double u1, double u2)
            ((double)e->scene->wi.z * (double)pdf);
 }
 
-/* wo by its cosine; D at the half vector. */
+/* Draws wo by its cosine; D is evaluated at the half vector. */
 static double estimate_cosine(const estimator *e, double u1, double u2)
 {
     double r = sqrt(u1), x = r * cos(2 * pi * u2), y = r * sin(2 * pi * u2), z = sqrt(fmax(0, 1 - u1));
@@ -199,7 +199,7 @@ static void measure_integral(const report_subject *subject, const scene *s, repo
     add_noise(integral, &e, size);
 }
 
-/* Distributions that nobody brought stand for shapes, at the roughness of a usual material. */
+/* Built-in distributions stand for shapes, at the roughness of a usual material. */
 static double alpha_of(const report_subject *subject)
 {
     return subject->brought ? 1 : 0.3;

@@ -10,7 +10,7 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    if (!b->view.plain) {
+    if (!b->view.trusted) {
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].sample(b, u, s);
         return;
     }
@@ -42,7 +42,7 @@ VNDF_INLINE int is_trusted(const vndf_bsdf *b, vndf_vec3 wo)
 {
     vndf_vec3 wi = b->view.wi;
     float x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z, square = x * x + y * y + z * z;
-    return b->view.plain && wo.z > 0.0f && vndf_is_near_unit(wo) &&
+    return b->view.trusted && wo.z > 0.0f && vndf_is_near_unit(wo) &&
            square > 4.0f * VNDF_TRUST_GGX_FACING * VNDF_TRUST_GGX_FACING;
 }
 

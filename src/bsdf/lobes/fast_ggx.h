@@ -17,7 +17,7 @@ VNDF_INLINE float vndf_fast_ggx_area(const vndf_bsdf *b, vndf_vec3 w)
 VNDF_INLINE int vndf_prepare_fast_ggx(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     const vndf_surface surface = {b->material->is.distribution, r->alpha_x, r->alpha_y};
-    vndf_ggx_incidence w = vndf_ggx_aim(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
+    vndf_ggx_incidence w = vndf_ggx_incidence_from(r->alpha_x, r->alpha_y, wi.x, wi.y, wi.z);
     if (!w.trusted)
         return 0;
     vndf_ggx_view_put(&b->view, &surface, wi, &w);

@@ -190,7 +190,7 @@ VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
 /* Whether that formula may stand: nothing underflows in a trusted view. */
 VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
 {
-    return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.plain &&
+    return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.trusted &&
            facing > VNDF_TRUST_GGX_FACING;
 }
 

@@ -51,7 +51,7 @@ VNDF_INLINE drawn_normal normal_at(const vndf_distribution *d, double ax, double
     float along = (float)ax, across = (float)ay, x = r->x * (along * cosine), y = r->x * (across * sine);
     float length2 = x * x + y * y + r->z * r->z, length = sqrtf(length2), per = 1.0f / length;
     float density = r->p22_over_z3 * (length2 * length) / (along * across);
-    if (!(r->plain & vndf_trusts_scale(along, across, 1.0f)) || !vndf_trusts_density(density))
+    if (!(r->trusted & vndf_trusts_scale(along, across, 1.0f)) || !vndf_trusts_density(density))
         return normal_exactly(d, ax, ay, r, cosine, sine);
     drawn_normal drawn = {{x * per, y * per, r->z * per}, density};
     return drawn;

@@ -8,7 +8,7 @@
 /* X and Z at any scale, P22/Z^3 at that scale, and whether that is good for the rounded normal. */
 typedef struct vndf_slope {
     float x, z, p22_over_z3;
-    int plain;
+    int trusted;
 } vndf_slope;
 
 /* Bounds the slopes that u2 = 1 stands for; far below the step of a float u2 < 1. */
@@ -30,7 +30,7 @@ VNDF_INLINE vndf_slope vndf_table_slope(const vndf_distribution *d, float u)
     vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
     vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
     vndf_place at = vndf_place_in(&cell, &in);
-    if (!vndf_plain_place(&cell, &mass, &in))
+    if (!vndf_trusts_place_in_cell(&cell, &mass, &in))
         return vndf_table_slope_exactly(d, u);
     float x = at.x * at.per;
     vndf_slope r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};

@@ -57,8 +57,8 @@ VNDF_INLINE lanes_f vndf_beckmann_start(int i, lanes_f k, lanes_m near)
     return lanes_one_of(c[0], near) + k * (lanes_one_of(c[1], near) + k * lanes_one_of(c[2], near));
 }
 
-VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y,
-                                                      lanes_f wi_z)
+VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_from(lanes_f ax, lanes_f ay, lanes_f wi_x,
+                                                                 lanes_f wi_y, lanes_f wi_z)
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, across = lanes_root(across2);
     lanes_f both = 1.0f / (across * wi_z), per = wi_z * both, bound = wi_z * per;
@@ -94,7 +94,7 @@ VNDF_INLINE vndf_beckmann_incidence vndf_beckmann_incidence_of(const vndf_view *
         lanes_set(w->sin_phi), lanes_set(w->bound),  lanes_set(w->line),
         lanes_set(w->tail),    lanes_set(w->spread), lanes_set(w->near_side),
         lanes_set(w->p0),      lanes_set(w->p1),     lanes_set(w->p2),
-        lanes_set(w->p3),      lanes_set(w->p4),     v->plain ? lanes_all() : lanes_none()};
+        lanes_set(w->p3),      lanes_set(w->p4),     v->trusted ? lanes_all() : lanes_none()};
     return of;
 }
 

@@ -17,14 +17,14 @@ VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi,
     view->alpha_y = w->ay;
     view->ax = w->ax;
     view->ay = w->ay;
-    view->plain = 1;
+    view->trusted = 1;
     view->of.beckmann = (struct vndf_beckmann_view){w->cos_phi, w->sin_phi, w->bound, w->line, w->tail, w->spread,
                                                     w->near,    w->p0,      w->p1,    w->p2,   w->p3,   w->p4};
 }
 
 vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    vndf_beckmann_incidence w = vndf_beckmann_incidence_from(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     vndf_view view;
     if (!w.trusted)
         return vndf_analytic_view_exactly(surface, vndf_packed(wi));
@@ -34,7 +34,7 @@ vndf_view vndf_beckmann_view_from(const vndf_surface *surface, vndf_vec3 wi)
 
 void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_beckmann_incidence w = vndf_beckmann_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    vndf_beckmann_incidence w = vndf_beckmann_incidence_from(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (w.trusted)
         put(view, surface, wi, &w);
     else
@@ -43,7 +43,7 @@ void vndf_beckmann_view_set(vndf_view *view, const vndf_surface *surface, vndf_v
 
 vndf_vec3 vndf_beckmann_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    if (!view->plain)
+    if (!view->trusted)
         return vndf_beckmann_view_sample_exactly(view, u1, u2, pdf);
     vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
     lanes_m trusted;

@@ -96,12 +96,12 @@ VNDF_INLINE float vndf_beckmann_area_over(float bound)
     return 0.282094792f * (1.0f + (line + vndf_beckmann_tail(bound, bound < 2.0f)));
 }
 
-/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *ready is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_beckmann_area_above(float ax, float ay, vndf_vec3 w, int *ready)
+/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *trusted is 0 it has to be computed otherwise. */
+VNDF_INLINE float vndf_beckmann_area_above(float ax, float ay, vndf_vec3 w, int *trusted)
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
-    *ready = vndf_trusts_direction(across2, w.z, sum);
-    return *ready ? across * vndf_beckmann_area_over(w.z / across) : 0.0f;
+    *trusted = vndf_trusts_direction(across2, w.z, sum);
+    return *trusted ? across * vndf_beckmann_area_over(w.z / across) : 0.0f;
 }
 
 /* The rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */

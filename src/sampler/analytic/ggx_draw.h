@@ -26,7 +26,8 @@ typedef struct vndf_ggx_incidence {
 /* Near the normal, from q = 1e10 on, products of drawn numbers could overflow; so they could at extreme
  * roughness. Beyond per = 1e26 wi is so short that products here lose digits to denormals, or become 0 where those
  * are flushed: below 1e-38 per = 1e-12 that is nothing beside s > 2e-5. Where products overflow, c is 0 or NaN. */
-VNDF_INLINE vndf_ggx_incidence vndf_ggx_aim(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y, lanes_f wi_z)
+VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_from(lanes_f ax, lanes_f ay, lanes_f wi_x, lanes_f wi_y,
+                                                       lanes_f wi_z)
 {
     lanes_f x = ax * wi_x, y = ay * wi_y, across2 = x * x + y * y, length = lanes_root(across2 + wi_z * wi_z);
     lanes_f per = 1.0f / (across2 * length), up = length + wi_z; /* of both at once */
@@ -44,7 +45,7 @@ VNDF_INLINE vndf_ggx_incidence vndf_ggx_incidence_of(const vndf_view *v)
     const struct vndf_ggx_view *w = &v->of.ggx;
     vndf_ggx_incidence of = {
         lanes_set(v->ax), lanes_set(v->ay), lanes_set(w->x),      lanes_set(w->y),
-        lanes_set(w->c),  lanes_set(w->q),  lanes_set(w->spread), v->plain ? lanes_all() : lanes_none()};
+        lanes_set(w->c),  lanes_set(w->q),  lanes_set(w->spread), v->trusted ? lanes_all() : lanes_none()};
     return of;
 }
 

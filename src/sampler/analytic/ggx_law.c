@@ -9,7 +9,7 @@
 
 vndf_vec3 vndf_ggx_view_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    if (!view->plain)
+    if (!view->trusted)
         return vndf_ggx_view_sample_exactly(view, u1, u2, pdf);
     vndf_ggx_incidence w = vndf_ggx_incidence_of(view);
     lanes_m trusted;

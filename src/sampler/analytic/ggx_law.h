@@ -46,7 +46,7 @@ VNDF_INLINE void vndf_ggx_view_put(vndf_view *view, const vndf_surface *surface,
     view->alpha_y = w->ay;
     view->ax = w->ax;
     view->ay = w->ay;
-    view->plain = 1;
+    view->trusted = 1;
     view->of.ggx.x = w->x;
     view->of.ggx.y = w->y;
     view->of.ggx.c = w->c;
@@ -57,7 +57,7 @@ VNDF_INLINE void vndf_ggx_view_put(vndf_view *view, const vndf_surface *surface,
 /* vndf_view_from; inline, since a call would be a tenth of its cost. */
 VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    vndf_ggx_incidence w = vndf_ggx_incidence_from(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (!w.trusted)
         return vndf_analytic_view_exactly(surface, vndf_packed(wi));
     vndf_view view;
@@ -68,7 +68,7 @@ VNDF_INLINE vndf_view vndf_ggx_view_from(const vndf_surface *surface, vndf_vec3 
 /* The same in place. */
 VNDF_INLINE void vndf_ggx_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_ggx_incidence w = vndf_ggx_aim(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
+    vndf_ggx_incidence w = vndf_ggx_incidence_from(surface->alpha_x, surface->alpha_y, wi.x, wi.y, wi.z);
     if (w.trusted)
         vndf_ggx_view_put(view, surface, wi, &w);
     else
@@ -84,12 +84,12 @@ void vndf_ggx_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float 
 
 /* ---- areas, all normals ---- */
 
-/* A(w) for a unit w, w.z > 0: 2 A = w.z + |(ax w.x, ay w.y, w.z)|; relative error below 2e-6. Where *ready is 0 it
+/* A(w) for a unit w, w.z > 0: 2 A = w.z + |(ax w.x, ay w.y, w.z)|; relative error below 2e-6. Where *trusted is 0 it
  * has to be computed otherwise. */
-VNDF_INLINE float vndf_ggx_area_above(float ax, float ay, vndf_vec3 w, int *ready)
+VNDF_INLINE float vndf_ggx_area_above(float ax, float ay, vndf_vec3 w, int *trusted)
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y;
-    *ready = across2 < VNDF_TRUST_GGX_ACROSS2;
+    *trusted = across2 < VNDF_TRUST_GGX_ACROSS2;
     return 0.5f * (w.z + sqrtf(across2 + w.z * w.z));
 }
 

@@ -12,7 +12,7 @@ VNDF_INLINE void put(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
     view->alpha_y = ay;
     view->ax = surface->alpha_x;
     view->ay = surface->alpha_y;
-    view->plain = 0;
+    view->trusted = 0;
 }
 
 vndf_view vndf_analytic_view_exactly(const vndf_surface *surface, vndf_vec3 wi)

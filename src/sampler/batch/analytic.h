@@ -1,4 +1,4 @@
-/* Blocks of the closed forms in lanes, for lanes_draw.c. */
+/* Draws blocks of the closed forms in lanes, for lanes_draw.c. */
 #ifndef VNDF_SAMPLER_BATCH_ANALYTIC_H
 #define VNDF_SAMPLER_BATCH_ANALYTIC_H
 
@@ -10,8 +10,8 @@
 
 VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    return vndf_ggx_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
-                        lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+    return vndf_ggx_incidence_from(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
+                                   lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
 VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
@@ -33,18 +33,18 @@ VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
 
 VNDF_INLINE vndf_beckmann_incidence beckmann_incidence_at(const vndf_sample_block *b, uint32_t i)
 {
-    return vndf_beckmann_aim(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i), lanes_load(b->wi_x + i),
-                             lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
+    return vndf_beckmann_incidence_from(lanes_load(b->alpha_x + i), lanes_load(b->alpha_y + i),
+                                        lanes_load(b->wi_x + i), lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
-/* Step by step over all groups, as for tables. */
+/* Each step goes over all groups, as for tables. */
 typedef struct beckmann_work {
     vndf_beckmann_incidence at[VNDF_BLOCK_GROUPS];
     vndf_beckmann_place first[VNDF_BLOCK_GROUPS];
     lanes_f u1[VNDF_BLOCK_GROUPS], u2[VNDF_BLOCK_GROUPS], second[VNDF_BLOCK_GROUPS];
 } beckmann_work;
 
-/* `one` is the view of all, or NULL. */
+/* `one` is the incidence that all samples share, or NULL. */
 VNDF_INLINE void draw_slopes(const vndf_sample_block *b, beckmann_work *w, const vndf_beckmann_incidence *one,
                              uint32_t groups)
 {

@@ -1,4 +1,4 @@
-/* Elements of a batch, and loops over them. */
+/* The elements of a batch, and loops over them. */
 #ifndef VNDF_SAMPLER_BATCH_BATCH_H
 #define VNDF_SAMPLER_BATCH_BATCH_H
 
@@ -24,13 +24,13 @@ VNDF_INLINE vndf_vec3 vndf_batch_normal(vndf_normals wm, size_t i)
     return vndf_vec3_of(wm.x[i], wm.y[i], wm.z[i]);
 }
 
-/* Whether all elements have one view. */
+/* Whether all elements share one view. */
 VNDF_INLINE int vndf_batch_is_one_view(const vndf_batch *b)
 {
     return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI) && b->count > 0;
 }
 
-/* Whether there are lanes that are worth it; a build without lanes uses none. */
+/* Whether the batch is drawn in lanes; a build without lanes has only VNDF_INSTRUCTIONS_PORTABLE. */
 VNDF_INLINE int vndf_batch_has_lanes(const vndf_batch *b)
 {
     return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
@@ -42,14 +42,14 @@ VNDF_INLINE vndf_view vndf_batch_view(const vndf_batch *b, size_t i)
     return vndf_view_from(&surface, vndf_batch_wi(b, i));
 }
 
-/* Arrays of a call: normals and two of numbers, read or written as the call has it. */
+/* The arrays of a call: normals, two arrays to read and two to write. */
 typedef struct vndf_batch_call {
     vndf_normals wm;
     const float *from1, *from2;
     float *to1, *to2;
 } vndf_batch_call;
 
-/* `one` with each element's view. (A view that is assigned would be copied, and waited for.) */
+/* Calls `one` with each element's view. (An assigned view would be copied, and waited for.) */
 VNDF_INLINE void vndf_batch_for_each_view(const vndf_batch *b, const vndf_batch_call *c,
                                           void (*one)(const vndf_view *view, const vndf_batch_call *c, size_t i))
 {

@@ -1,5 +1,5 @@
-/* Densities, D, areas, Lambda and G1 of many: in lanes of doubles where there are any (lanes_eval.h), else one
- * after the other. The inverse is always that. */
+/* Densities, D, areas, Lambda and G1 of a batch: in lanes of doubles where the processor has them (lanes_eval.h), else
+ * one after the other. The inverse always takes one after the other. */
 #include <string.h>
 
 #include "core/inline.h"
@@ -8,7 +8,7 @@
 #include "sampler/batch/lanes_eval.h"
 #include "sampler/surface.h"
 
-/* What a call asks of all elements. */
+/* The question that a call asks of all elements, its normals, and where the answers go. */
 typedef struct call {
     const vndf_batch *batch;
     vndf_question question;
@@ -23,7 +23,7 @@ static int is_of_direction(vndf_question question)
 
 /* ---- one by one ---- */
 
-/* Element i, by the call of one. */
+/* The answer for element i, by the scalar call. */
 static float answer_of(const call *c, size_t i)
 {
     vndf_surface surface = vndf_batch_surface(c->batch, i);
@@ -50,8 +50,8 @@ static void answer_one_by_one(const call *c)
 
 #if VNDF_HAS_LANES
 
-/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
- * lanes would read beyond. */
+/* Copies of the inputs that lanes cannot read in place: a number that all elements share, and the last block of a
+ * batch, whose last group would read past the end. */
 typedef struct copies {
     float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK];
 } copies;
@@ -73,13 +73,13 @@ static void read_block(vndf_eval_block *block, const call *c, size_t first, copi
     int last = is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
     for (int n = 0; n <= last; n++) {
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
-            continue; /* need not be there */
+            continue; /* D needs no wi; the arrays may be missing */
         unsigned bit = n <= VNDF_EVAL_ALPHA_Y ? VNDF_SHARED_ALPHA : n <= VNDF_EVAL_WI_Z ? VNDF_SHARED_WI : 0;
         block->in.of[n] = input_at(from[n], (b->shared & bit) != 0, first, block->count, own->of[n]);
     }
 }
 
-/* Answers go where the block's numbers may have come from when all are there. */
+/* Answers may overwrite inputs, so they are stored after the whole block is read. */
 static void answer_in_lanes(const call *c)
 {
     const vndf_batch *b = c->batch;

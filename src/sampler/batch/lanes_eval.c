@@ -1,8 +1,8 @@
-/* See lanes_eval.h. What the calls of one do (surface.c, view.c, exact.c) from the same sources; lanes past the
- * end of a block are given numbers that are there and not asked for.
+/* See lanes_eval.h. The scalar calls (surface.c, view.c, exact.c) use the same sources. Lanes past the end of a block
+ * read numbers that are in memory, and nobody reads their answers.
  *
- * Densities under a table take three ways: in front of wi, behind it, and below the horizon. Normals are sorted by
- * them first, and each way is gone for those that take it, gathered. */
+ * Densities of a table take three ways: in front of wi, behind it, and below the horizon. The normals are sorted by way
+ * first; then each way evaluates its own normals, gathered. */
 #include "sampler/batch/lanes_eval.h"
 
 #include "sampler/tabulated/density_wedge.h"
@@ -10,7 +10,7 @@
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
-/* ---- what is given ---- */
+/* ---- inputs ---- */
 
 VNDF_INLINE doubles input(const vndf_eval_inputs *in, int which, uint32_t i)
 {
@@ -31,7 +31,7 @@ VNDF_INLINE vndf_query given_at(const vndf_eval_inputs *in, uint32_t i, double s
     return g;
 }
 
-/* What is not in `m` replaced by numbers that can be looked up. */
+/* The query, with numbers that can be looked up in lanes outside `m`. */
 VNDF_INLINE vndf_query picked_given(doubles_m m, const vndf_query *g)
 {
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
@@ -50,7 +50,7 @@ VNDF_INLINE doubles_f density_of(doubles density)
     return doubles_narrow(doubles_between(doubles_positive(density), 0.0, FLT_MAX));
 }
 
-/* vndf_positive of that. */
+/* vndf_positive of density_of. */
 VNDF_INLINE doubles_f positive_of(doubles density)
 {
     const doubles least = doubles_set(FLT_MIN);
@@ -58,7 +58,7 @@ VNDF_INLINE doubles_f positive_of(doubles density)
     return doubles_narrow(doubles_pick(doubles_less(least, rounded), rounded, least));
 }
 
-/* ---- of a direction ---- */
+/* ---- answers for a direction ---- */
 
 static void answer_area(const vndf_distribution *d, vndf_eval_block *b)
 {
@@ -87,7 +87,7 @@ static void answer_g1(const vndf_distribution *d, vndf_eval_block *b)
     }
 }
 
-/* ---- of a normal ---- */
+/* ---- answers for a normal ---- */
 
 static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
 {
@@ -106,7 +106,7 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
     }
 }
 
-/* Whether it is a normal that wi sees. */
+/* Whether wi sees the normal. */
 VNDF_INLINE doubles_m is_seen(const vndf_query *g, doubles facing)
 {
     const doubles nothing = doubles_set(0.0);
@@ -114,7 +114,7 @@ VNDF_INLINE doubles_m is_seen(const vndf_query *g, doubles facing)
                         doubles_both(doubles_at_most(nothing, g->z), doubles_less(nothing, facing)));
 }
 
-/* Dv, of an exact law FLT_MIN at least. */
+/* Dv; for an exact law it is the density of a sample, and at least FLT_MIN. */
 static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
 {
     const doubles nothing = doubles_set(0.0);
@@ -130,16 +130,16 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
     }
 }
 
-/* ---- the density under a table ---- */
+/* ---- the density of a table ---- */
 
 enum { IN_FRONT, BEHIND, BELOW, WAYS };
 
-/* Indices of those that take each way. */
+/* The indices of the normals that take each way. */
 typedef struct sorted {
     uint32_t index[WAYS][VNDF_EVAL_BLOCK], count[WAYS];
 } sorted;
 
-/* What those that take a way are given, side by side, and room for the last group. */
+/* The inputs of the normals of one way, side by side, with room for the last group. */
 typedef struct gathered {
     float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK + VNDF_DOUBLES];
 } gathered;
@@ -154,7 +154,7 @@ VNDF_INLINE void append(sorted *s, int way, doubles_m m, uint32_t first, uint32_
         s->index[way][s->count[way]++] = first + (uint32_t)__builtin_ctz(bits);
 }
 
-/* What is not seen has the answer 0. */
+/* A normal that wi does not see takes no way; its answer is 0. */
 static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
 {
     const doubles nothing = doubles_set(0.0);
@@ -170,13 +170,13 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
     }
 }
 
-/* What those of a way are given, put into `own` one after the other: gathers cost more. */
+/* Copies the inputs of one way into `own`, one after the other: gathers cost more. */
 VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count,
                                         gathered *own)
 {
     vndf_eval_inputs made;
     for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++) {
-        uint32_t from = index[i < count ? i : 0]; /* lanes that are not needed repeat one */
+        uint32_t from = index[i < count ? i : 0]; /* spare lanes repeat the first normal */
         for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
             own->of[n][i] = b->in.of[n][from];
     }
@@ -185,12 +185,12 @@ VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t
     return made;
 }
 
-/* A group's answers to where its normals were; what is not plain is left. */
+/* Puts a group's answers where its normals were, and leaves densities that are not trusted. */
 VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density,
-                         doubles_m plain)
+                         doubles_m trusted)
 {
     float value[VNDF_DOUBLES];
-    uint32_t bits = doubles_mask_bits(plain);
+    uint32_t bits = doubles_mask_bits(trusted);
     doubles_store_f(value, positive_of(density));
     for (uint32_t i = 0; i < VNDF_DOUBLES && i < count; i++) {
         b->value[index[i]] = value[i];
@@ -209,10 +209,10 @@ VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, cons
     for (uint32_t i = 0; i < s->count[way]; i += VNDF_DOUBLES) {
         const uint32_t *index = s->index[way] + i;
         vndf_query g = given_at(&in, i, scale);
-        doubles_m plain = doubles_at_most(g.z, g.z);
-        doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &plain)
-                                          : vndf_query_of_wedge(d, &g, way == BELOW, NULL, &plain);
-        scatter(b, index, s->count[way] - i, density, plain);
+        doubles_m trusted = doubles_at_most(g.z, g.z);
+        doubles density = way == IN_FRONT ? vndf_query_in_front(d, &g, &trusted)
+                                          : vndf_query_of_wedge(d, &g, way == BELOW, NULL, &trusted);
+        scatter(b, index, s->count[way] - i, density, trusted);
     }
 }
 
@@ -244,7 +244,7 @@ void vndf_eval_block_avx2(const vndf_distribution *d, vndf_question question, vn
     else if (question == VNDF_ASK_PDF && !vndf_law_is_exact(d))
         answer_pdf(d, b);
     else
-        answer_visible(d, b); /* of an exact law it is the density */
+        answer_visible(d, b); /* for an exact law it is the density too */
 }
 
 #endif

@@ -1,6 +1,6 @@
-/* Batches of D, densities of given normals, areas, Lambda and G1, in lanes of doubles: one source, lanes_eval.c,
- * compiled for each instruction set. Densities under a table are left to the call of one where they are not plain
- * (density.h). */
+/* Batches of D, densities of given normals, areas, Lambda and G1, in lanes of doubles. One source, lanes_eval.c, is
+ * compiled for each instruction set. Densities of a table that are not trusted (density.h) are left to the scalar
+ * call. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_EVAL_H
 #define VNDF_SAMPLER_BATCH_LANES_EVAL_H
 
@@ -19,7 +19,7 @@ typedef enum vndf_question {
     VNDF_ASK_G1
 } vndf_question;
 
-/* What a block is given: members of vndf_query, in their order. */
+/* The inputs of a block: the members of vndf_query, in their order. */
 enum {
     VNDF_EVAL_ALPHA_X,
     VNDF_EVAL_ALPHA_Y,
@@ -32,7 +32,7 @@ enum {
     VNDF_EVAL_INPUTS
 };
 
-/* Arrays that lanes may read to the end of the last group; those that the question wants. */
+/* The arrays that the question needs; lanes may read each to the end of the last group. */
 typedef struct vndf_eval_inputs {
     const float *of[VNDF_EVAL_INPUTS];
 } vndf_eval_inputs;

@@ -1,6 +1,6 @@
-/* Batches in lanes: one source, lanes_draw.c, compiled for each instruction set. A block of a batch is drawn
- * where that is plain (draw.h), sorted into samples in front of wi and in the wedge (sort.h); the rest is
- * left to the calls of one. */
+/* Batches in lanes: one source, lanes_draw.c, is compiled for each instruction set. It sorts a block of a batch into
+ * samples in front of wi and in the wedge (sort.h), draws them in float (draw.h), and leaves samples that float may not
+ * draw to the scalar calls. */
 #ifndef VNDF_SAMPLER_BATCH_LANES_SAMPLE_H
 #define VNDF_SAMPLER_BATCH_LANES_SAMPLE_H
 
@@ -15,15 +15,14 @@
 
 enum { VNDF_BLOCK_SAMPLES = 256, VNDF_DELICATE = 1 << 16 };
 
-/* Samples of a block: what they are given, arrays that lanes may read to the end of the last group, and where
- * what is drawn goes. */
+/* The samples of a block: input arrays, which lanes may read to the end of the last group, and output arrays. */
 typedef struct vndf_sample_block {
     const float *alpha_x, *alpha_y, *wi_x, *wi_y, *wi_z, *u1, *u2;
-    const vndf_view *view; /* of all, then alpha and wi are not read; or NULL */
+    const vndf_view *view; /* shared by all samples, then alpha and wi are not read; or NULL */
     uint32_t count, left_count;
-    /* indices of those that are not drawn, VNDF_DELICATE added if that was tried */
+    /* indices of samples that were left; VNDF_DELICATE is added where float has tried */
     uint32_t left[VNDF_BLOCK_SAMPLES];
-    float *x, *y, *z, *density; /* to be written, to the end of the last group */
+    float *x, *y, *z, *density; /* written to the end of the last group */
 } vndf_sample_block;
 
 #if VNDF_HAS_LANES

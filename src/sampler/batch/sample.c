@@ -1,4 +1,4 @@
-/* Sampling many: in lanes where there are any, else one after the other. */
+/* Draws a batch: in lanes where the processor has them, else one after the other. */
 #include <stdint.h>
 #include <string.h>
 
@@ -68,9 +68,9 @@ static void sample_one_by_one(const vndf_batch *b, const float *u1, const float 
 
 enum { INPUTS = 7, RESULTS = 4 };
 
-/* Inputs of a block that are not read where they lie: one for all, and the last of a batch, which groups of
- * lanes would read beyond. Results that do not go where they belong at once: those of the last, and all where what
- * is read may lie there. */
+/* Copies of the inputs that lanes cannot read in place: a number that all samples share, and the last block of a batch,
+ * whose last group would read past the end. Results wait here for the last block, and wherever results may overwrite
+ * inputs. */
 typedef struct copies {
     float of[INPUTS][VNDF_BLOCK_SAMPLES], result[RESULTS][VNDF_BLOCK_SAMPLES];
 } copies;
@@ -89,8 +89,8 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
     return copy;
 }
 
-static void aim_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
-                      const float *u2, copies *c)
+static void read_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
+                       const float *u2, copies *c)
 {
     uint32_t n = block->count;
     int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
@@ -111,7 +111,7 @@ static int overlap(const float *a, const float *b, size_t count)
     return first < second + bytes && second < first + bytes;
 }
 
-/* Whether no result lies where a number is read from. */
+/* Whether no result overlaps an input. */
 static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, const float *pdf)
 {
     const float *read[INPUTS] = {u1, u2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
@@ -123,7 +123,7 @@ static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_
     return 1;
 }
 
-/* Where the results of a block go first. */
+/* Where a block writes its results: in place, or into the copies. */
 static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm,
                           float *pdf)
 {
@@ -134,7 +134,7 @@ static void place_results(vndf_sample_block *block, copies *c, size_t first, int
     block->density = at_once && pdf ? pdf + first : c->result[3];
 }
 
-/* What lanes have left, before the block's results go where its numbers may have come from. */
+/* Draws the samples that lanes have left, before results overwrite inputs. */
 static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
     for (uint32_t n = 0; n < block->left_count; n++) {
@@ -149,7 +149,7 @@ static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t fi
     }
 }
 
-/* Those that are not there yet. */
+/* Moves results from the copies to where they belong. */
 static void move_results(const vndf_sample_block *block, size_t first, vndf_normals wm, float *pdf)
 {
     size_t bytes = block->count * sizeof(float);
@@ -182,14 +182,14 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         view = vndf_batch_view(b, 0);
         block.view = &view;
     }
-    if (block.view && !view.plain) { /* lanes would leave all of it */
+    if (block.view && !view.trusted) { /* lanes would leave every sample */
         sample_one_by_one(b, u1, u2, wm, pdf);
         return;
     }
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
-        aim_block(&block, b, first, u1, u2, &own);
+        read_block(&block, b, first, u1, u2, &own);
         place_results(&block, &own, first, apart, wm, pdf);
         draw_block(b, &block, wide);
         sample_left(&block, b, first);

@@ -1,6 +1,5 @@
-/* Searches of lanes for cells, one sample after the other, each in eight knots at once. They go over all samples
- * of a block when the last has been asked for: what is stored by vectors and loaded by numbers, or the other way
- * round, is waited for. */
+/* Lanes search their cells one sample after the other, each search in eight knots at once. It goes over a block after
+ * all its samples are stored: to read singly what a vector has just stored, or the other way round, takes a wait. */
 #ifndef VNDF_SAMPLER_BATCH_SEARCH_H
 #define VNDF_SAMPLER_BATCH_SEARCH_H
 
@@ -8,13 +7,13 @@
 
 /* ---- cells of radii ---- */
 
-/* Weights and targets; codes of windows, which become cells. */
+/* Weights and targets. `cell` holds the codes of windows first, then the cells. */
 typedef struct vndf_radial_search {
     float c[VNDF_BLOCK_SAMPLES], k[VNDF_BLOCK_SAMPLES], target[VNDF_BLOCK_SAMPLES];
     uint32_t cell[VNDF_BLOCK_SAMPLES];
 } vndf_radial_search;
 
-/* Of samples from `i` on. Wide windows, which are few, are narrowed at once. */
+/* Stores the search of the group from sample `i` on. Wide windows are few; they are narrowed at once. */
 VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t i,
                                 const vndf_azimuth_sample *b, lanes_f u2)
 {
@@ -31,7 +30,7 @@ VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *
     }
 }
 
-/* `whole` for c, k >= 0. */
+/* Turns codes into cells. `whole` says that c, k >= 0. */
 VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
@@ -47,7 +46,7 @@ VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
     lanes_store_u(cell, lanes_limit_u(lanes_load_u(cell), most));
 }
 
-/* Cells that have long been found. */
+/* Loads cells that were found long before. */
 VNDF_INLINE vndf_radial_lanes vndf_load_cells(const vndf_distribution *d, const uint32_t *cell)
 {
     return vndf_radial_load_from(d, cell);
@@ -55,14 +54,14 @@ VNDF_INLINE vndf_radial_lanes vndf_load_cells(const vndf_distribution *d, const 
 
 /* ---- cells of azimuths ---- */
 
-/* The row of a view that all share: its cells, few enough to be looked up in registers. */
+/* The row of a view that all samples share, with so few cells that registers hold them. */
 typedef struct vndf_mixed_row {
     float before[VNDF_FEW], mass[VNDF_FEW], e0[VNDF_FEW], e1[VNDF_FEW], q[VNDF_FEW], width[VNDF_FEW];
     uint32_t count;
 } vndf_mixed_row;
 
-/* Between which knots of rows a direction is, its row, the part before the azimuth, the cell, and where that is
- * among those of all rows. */
+/* For each sample the span of its row, the row with its weights, the part before the azimuth, the cell, and the index
+ * of the cell among the cells of all rows. */
 typedef struct vndf_row_search {
     uint32_t span[VNDF_BLOCK_SAMPLES], row[VNDF_BLOCK_SAMPLES], cell[VNDF_BLOCK_SAMPLES], at[VNDF_BLOCK_SAMPLES];
     float first[VNDF_BLOCK_SAMPLES], middle[VNDF_BLOCK_SAMPLES], last[VNDF_BLOCK_SAMPLES];
@@ -71,7 +70,7 @@ typedef struct vndf_row_search {
     vndf_mixed_row mixed;
 } vndf_row_search;
 
-/* Whether all samples have one row of few cells. */
+/* Whether all samples share one row of few cells. */
 VNDF_INLINE int vndf_has_one_row(const vndf_distribution *d, const vndf_sorted *from)
 {
     return from->is_shared && d->above.stride <= VNDF_FEW;
@@ -84,7 +83,7 @@ VNDF_INLINE float vndf_first_lane(lanes_f x)
     return all[0];
 }
 
-/* As vndf_azimuth_mix does. */
+/* Mixes all cells of a row as vndf_azimuth_mix mixes one. */
 VNDF_INLINE void vndf_mix_row(const vndf_azimuth_row *row, vndf_mixed_row *to)
 {
     const vndf_wedge *wedge = row->wedge;
@@ -116,7 +115,7 @@ VNDF_INLINE vndf_azimuth_cell vndf_mixed_cell_of(const vndf_mixed_row *m, lanes_
     return cell;
 }
 
-/* Cells where the azimuths are, of that row, of samples from `first` on. */
+/* The cells of the azimuths of samples from `first` on, in the one row that all share. */
 VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
                                       uint32_t count, vndf_row_search *s)
 {
@@ -131,7 +130,7 @@ VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sor
     }
 }
 
-/* Rows of directions, and their cells where the azimuths are. */
+/* The same, each sample in the row of its direction. */
 VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
                                     uint32_t count, vndf_row_search *s)
 {
@@ -154,7 +153,7 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
     }
 }
 
-/* Of samples from `i` on after the first. */
+/* The cells of the group from sample `i` on. */
 VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, const vndf_sorted *from, uint32_t i,
                                                    const vndf_row_search *s)
 {

@@ -1,5 +1,5 @@
-/* A block of samples sorted into those in front of wi and those in the wedge, which are drawn in other ways, so
- * that lanes are all of one kind; and the way back. */
+/* Sorts a block of samples into samples in front of wi and samples in the wedge, so that all lanes draw in the same
+ * way; and puts results back in order. */
 #ifndef VNDF_SAMPLER_BATCH_SORT_H
 #define VNDF_SAMPLER_BATCH_SORT_H
 
@@ -10,8 +10,8 @@
 
 enum { VNDF_BLOCK_GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
 
-/* Samples sorted: those in front of wi from the beginning on, those in the wedge from the end down
- * (simd/lanes_split.h). What all share stands in `shared` alone. */
+/* Sorted samples: fronts from the beginning on, wedges from the end down (simd/lanes_split.h). If all samples share one
+ * incidence, only `shared` holds it. */
 typedef struct vndf_sorted {
     float ax[VNDF_BLOCK_SAMPLES], ay[VNDF_BLOCK_SAMPLES], s[VNDF_BLOCK_SAMPLES], c[VNDF_BLOCK_SAMPLES];
     float cos_phi[VNDF_BLOCK_SAMPLES], sin_phi[VNDF_BLOCK_SAMPLES], spread[VNDF_BLOCK_SAMPLES];
@@ -20,15 +20,15 @@ typedef struct vndf_sorted {
     int is_shared;
 } vndf_sorted;
 
-/* What is drawn of them; the density is negative where that is not good enough. */
+/* The normals that were drawn. A negative density marks a sample that float may not draw. */
 typedef struct vndf_results {
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
 } vndf_results;
 
-/* How a group was sorted, which of it can be drawn here, and for which of those that is good enough so far. */
+/* How a group was sorted, which of its samples can be drawn here, and which of these float may draw so far. */
 typedef struct vndf_origin {
     lanes_split split;
-    lanes_m usable, plain;
+    lanes_m usable, trusted;
 } vndf_origin;
 
 /* ---- a block ---- */
@@ -50,7 +50,7 @@ VNDF_INLINE uint32_t vndf_block_append(uint32_t *list, uint32_t count, lanes_m m
     return count;
 }
 
-/* Those that cannot be drawn here, and those that the call of one would draw again exactly. */
+/* Leaves samples that were not drawn here, and samples that the scalar call is to draw again exactly. */
 VNDF_INLINE void vndf_block_leave(vndf_sample_block *b, lanes_m unready, lanes_m delicate, uint32_t first)
 {
     b->left_count = vndf_block_append(b->left, b->left_count, unready, first, b->count);
@@ -89,38 +89,39 @@ VNDF_INLINE void vndf_sort_range(vndf_sorted *to, const lanes_split *split, cons
     lanes_split_store(split, to->u2, u2);
 }
 
-/* Directions of a block's samples, and where they are good enough. */
-VNDF_INLINE void vndf_sort_aim(const vndf_distribution *d, const vndf_sample_block *b, float scale, vndf_aim *aim,
-                               vndf_origin *from)
+/* The stretched views of a block's samples, and which of them are usable. */
+VNDF_INLINE void vndf_stretch_block(const vndf_distribution *d, const vndf_sample_block *b, float scale,
+                                    vndf_stretched_view *stretched, vndf_origin *from)
 {
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++) {
         uint32_t i = g * VNDF_LANES;
         lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
-        lanes_m ready = lanes_all();
-        aim[g] = vndf_aim_towards(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i),
-                                  lanes_load(b->wi_z + i), &ready);
-        from[g].usable = lanes_both(ready, vndf_trusts_scale(ax, ay, aim[g].c));
+        lanes_m trusted = lanes_all();
+        stretched[g] = vndf_stretched_view_towards(ax * lanes_load(b->wi_x + i), ay * lanes_load(b->wi_y + i),
+                                                   lanes_load(b->wi_z + i), &trusted);
+        from[g].usable = lanes_both(trusted, vndf_trusts_scale(ax, ay, stretched[g].c));
     }
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
-        vndf_aim_weigh(d, &aim[g], &from[g].usable);
+        vndf_stretched_view_weigh(d, &stretched[g], &from[g].usable);
 }
 
-/* Samples from `i` on of a block, between *low and *high. What cannot be drawn goes with the fronts. */
-VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float scale, const vndf_aim *aim,
-                                 vndf_sorted *to, vndf_origin *from, uint32_t *low, uint32_t *high)
+/* Sorts the group from sample `i` on between *low and *high. Unusable samples go with the fronts. */
+VNDF_INLINE void vndf_sort_group(const vndf_sample_block *b, uint32_t i, float scale,
+                                 const vndf_stretched_view *stretched, vndf_sorted *to, vndf_origin *from,
+                                 uint32_t *low, uint32_t *high)
 {
     lanes_f half = 2.0f * vndf_block_u(b->u1 + i) - 1.0f, u2 = vndf_block_u(b->u2 + i);
     lanes_f ax = lanes_load(b->alpha_x + i) * scale, ay = lanes_load(b->alpha_y + i) * scale;
-    vndf_incidence w = vndf_incidence_from(ax, ay, aim);
-    vndf_azimuth_range range = vndf_azimuth_range_at(aim->front, aim->wedge, half);
-    from->plain = lanes_both(from->usable, vndf_trusts_wedge_mass(aim->front, range.mass));
+    vndf_incidence w = vndf_incidence_from(ax, ay, stretched);
+    vndf_azimuth_range range = vndf_azimuth_range_at(stretched->front, stretched->wedge, half);
+    from->trusted = lanes_both(from->usable, vndf_trusts_wedge_mass(stretched->front, range.mass));
     lanes_m unusable = lanes_without(lanes_all(), from->usable);
     from->split = lanes_split_by(lanes_either(range.in_front, unusable), low, high);
     vndf_sort_incidence(to, &from->split, &w);
     vndf_sort_range(to, &from->split, &range, u2);
 }
 
-/* The same where all have one view, which is plain. */
+/* The same where all samples share one trusted view. */
 VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_sorted *to, vndf_origin *from,
                                   uint32_t *low, uint32_t *high)
 {
@@ -128,28 +129,28 @@ VNDF_INLINE void vndf_sort_shared(const vndf_sample_block *b, uint32_t i, vndf_s
     lanes_f front = lanes_set(b->view->of.table.front);
     vndf_azimuth_range range = vndf_azimuth_range_at(front, lanes_set(b->view->of.table.wedge), half);
     from->usable = lanes_all();
-    from->plain = vndf_trusts_wedge_mass(front, range.mass);
+    from->trusted = vndf_trusts_wedge_mass(front, range.mass);
     from->split = lanes_split_by(range.in_front, low, high);
     vndf_sort_range(to, &from->split, &range, u2);
 }
 
-/* All of a block; how many are in front, or cannot be drawn. */
+/* Sorts a block. Returns how many samples are in front or unusable. */
 VNDF_INLINE uint32_t vndf_sort_block(const vndf_distribution *d, const vndf_sample_block *b, vndf_sorted *to,
                                      vndf_origin *from)
 {
     uint32_t low = 0, high = (b->count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
     float scale = vndf_unit_scale_float(d);
-    vndf_aim aim[VNDF_BLOCK_GROUPS];
+    vndf_stretched_view stretched[VNDF_BLOCK_GROUPS];
     to->is_shared = b->view != NULL;
     if (b->view)
         to->shared = vndf_incidence_of(b->view);
     else
-        vndf_sort_aim(d, b, scale, aim, from);
+        vndf_stretch_block(d, b, scale, stretched, from);
     for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
         if (b->view)
             vndf_sort_shared(b, g * VNDF_LANES, to, &from[g], &low, &high);
         else
-            vndf_sort_group(b, g * VNDF_LANES, scale, &aim[g], to, &from[g], &low, &high);
+            vndf_sort_group(b, g * VNDF_LANES, scale, &stretched[g], to, &from[g], &low, &high);
     return low;
 }
 
@@ -169,7 +170,7 @@ VNDF_INLINE vndf_azimuth_range vndf_sorted_range(const vndf_sorted *w, uint32_t 
     return range;
 }
 
-/* Results to where their samples were; what is not good enough is left. */
+/* Puts results where their samples were, and leaves samples that float may not draw. */
 VNDF_INLINE void vndf_unsort_block(vndf_sample_block *b, const vndf_origin *from, const vndf_results *front,
                                    const vndf_results *wedge)
 {
@@ -180,17 +181,17 @@ VNDF_INLINE void vndf_unsort_block(vndf_sample_block *b, const vndf_origin *from
                         lanes_split_load(&o->split, front->z, wedge->z),
                         lanes_split_load(&o->split, front->density, wedge->density)};
         vndf_block_store(b, i, &n);
-        lanes_m good = lanes_both(o->plain, lanes_less(lanes_set(0.0f), n.density));
+        lanes_m good = lanes_both(o->trusted, lanes_less(lanes_set(0.0f), n.density));
         vndf_block_leave(b, lanes_without(lanes_all(), o->usable), lanes_without(o->usable, good), i);
     }
 }
 
-VNDF_INLINE void vndf_results_keep(vndf_results *to, uint32_t i, const vndf_drawn *n, lanes_m plain)
+VNDF_INLINE void vndf_results_keep(vndf_results *to, uint32_t i, const vndf_drawn *n, lanes_m trusted)
 {
     lanes_store(to->x + i, n->x);
     lanes_store(to->y + i, n->y);
     lanes_store(to->z + i, n->z);
-    lanes_store(to->density + i, lanes_pick(plain, n->density, lanes_set(-1.0f)));
+    lanes_store(to->density + i, lanes_pick(trusted, n->density, lanes_set(-1.0f)));
 }
 
 #endif

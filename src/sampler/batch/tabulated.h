@@ -1,16 +1,16 @@
-/* Blocks of tables in lanes (lanes_sample.h). Lanes past the end of a block are drawn like the others and not
- * written. */
+/* Draws blocks of samples of a table in lanes (lanes_sample.h). Lanes past the end of a block draw like the others, and
+ * nobody reads their results. */
 #ifndef VNDF_SAMPLER_BATCH_TABULATED_H
 #define VNDF_SAMPLER_BATCH_TABULATED_H
 
 #include "sampler/batch/search.h"
 
-/* A block as it is worked on. Each step goes over all groups of lanes before the next begins: a group's steps wait
- * for each other, groups do not. */
+/* Intermediate results of a block. Each step goes over all groups of lanes before the next step begins: the steps of
+ * one group wait for each other, groups do not. */
 typedef struct fronts {
     vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
-    lanes_m plain[VNDF_BLOCK_GROUPS];
+    lanes_m trusted[VNDF_BLOCK_GROUPS];
     vndf_radial_search radii;
 } fronts;
 
@@ -20,7 +20,7 @@ typedef struct wedges {
     vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_radial_law law[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
-    lanes_m plain[VNDF_BLOCK_GROUPS];
+    lanes_m trusted[VNDF_BLOCK_GROUPS];
     vndf_radial_search radii;
 } wedges;
 
@@ -41,27 +41,27 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_incidence at = vndf_sorted_incidence(from, i);
         vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
-        w->plain[g] = lanes_all();
+        w->trusted[g] = lanes_all();
         w->place[g] = vndf_place_front(d, &at, &w->bearing[g], &cell, lanes_load_u(w->radii.cell + i),
-                                       lanes_load(from->u2 + i), &w->plain[g]);
+                                       lanes_load(from->u2 + i), &w->trusted[g]);
     }
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
-        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        vndf_results_keep(to, i, &n, w->plain[g]);
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->trusted[g]);
+        vndf_results_keep(to, i, &n, w->trusted[g]);
     }
 }
 
 /* ---- in the wedge ---- */
 
-/* Azimuths, and where their laws of the radius are cut. */
+/* Azimuths, and the cells where the laws of the radius are cut. */
 VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                                wedges *w)
 {
     const vndf_row_search *s = &w->azimuths;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_azimuth_cell cell = vndf_azimuth_cell_of(d, from, i, s);
-        w->plain[g] = lanes_all();
-        vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->plain[g]);
+        w->trusted[g] = lanes_all();
+        vndf_azimuth a = vndf_azimuth_draw(&s->rows[g], &cell, lanes_load(s->part + i), &w->trusted[g]);
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_azimuth_range range = vndf_sorted_range(from, first + i);
         w->bearing[g] = vndf_azimuth_sample_wedge(d, &at, &range, &a, lanes_load(from->u2 + first + i));
@@ -87,11 +87,11 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
         w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
-                                       lanes_load(u2 + i), &w->plain[g]);
+                                       lanes_load(u2 + i), &w->trusted[g]);
     }
 }
 
-/* Samples from `first` on, `count` of them. */
+/* Draws `count` samples from `first` on. */
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                              wedges *w, vndf_results *to)
 {
@@ -102,8 +102,8 @@ VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from
     draw_azimuths(d, from, first, count, w);
     draw_radii(d, from, first, count, w);
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->plain[g]);
-        vndf_results_keep(to, first + i, &n, w->plain[g]);
+        vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->trusted[g]);
+        vndf_results_keep(to, first + i, &n, w->trusted[g]);
     }
 }
 
@@ -114,8 +114,8 @@ VNDF_INLINE uint32_t whole_groups(uint32_t count)
     return (count + VNDF_LANES - 1) / VNDF_LANES * VNDF_LANES;
 }
 
-/* The last group in front may end among the wedges, and the first of those begin among the fronts: each kind has
- * results of its own. */
+/* The last group of fronts may reach into the wedges, and the first group of wedges into the fronts, so each kind has
+ * its own results. */
 static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block *b)
 {
     vndf_sorted sorted;

@@ -53,7 +53,7 @@ static double part_in_float(const vndf_view *view, double x)
 VNDF_RARE vndf_beckmann_law law_of(const vndf_view *view, const extent *bounds)
 {
     double bound = vndf_beckmann_bound(bounds->s, bounds->c), scale = bound < 1.25 ? vndf_exp(bound * bound) : 1.0;
-    if (!view->plain)
+    if (!view->trusted)
         return (vndf_beckmann_law){bound, bounds->whole, bounds->line};
     double line = view->of.beckmann.line, tail = view->of.beckmann.tail;
     return (vndf_beckmann_law){bound, scale * (1.0 + (line + tail)), scale * line};
@@ -91,7 +91,7 @@ void vndf_bound_beckmann(const vndf_view *view, extent *bounds)
     double h = w.s / w.c, across = h * e.qyy, root = sqrt(across * across + e.det * e.qyy), sum = across + root;
     bounds->x0 = -sum / e.det;
     bounds->x1 = e.qyy / sum;
-    if (view->plain)
+    if (view->trusted)
         set_law_in_float(view, bounds);
     else
         set_law(view, bounds);
@@ -198,7 +198,7 @@ static int is_settled(const vndf_view *view, const extent *bounds, const ellipse
     double change = (1.0 - h->part) * (2.0 * farther + 1.2) * gain * (fabs(x) + fabs(y));
     double turned = bounds->s * (fabs(x) + fabs(y)) + bounds->c, facing = bounds->c - bounds->s * x;
     int trusted =
-        view->plain && x * x + y * y < VNDF_TRUST_BOUNDED_SLOPE && VNDF_TRUST_BOUNDED_FACING * turned < facing;
+        view->trusted && x * x + y * y < VNDF_TRUST_BOUNDED_SLOPE && VNDF_TRUST_BOUNDED_FACING * turned < facing;
     return trusted && change < VNDF_TRUST_BOUNDED_STEEP * h->part * e->qyy * root;
 }
 
@@ -206,7 +206,7 @@ static int is_settled(const vndf_view *view, const extent *bounds, const ellipse
 static double draw_along(const vndf_view *view, const extent *bounds, float u1)
 {
     double u = bounds->begin + u1 * bounds->span, x;
-    if (view->plain && vndf_beckmann_product((float)u) > VNDF_TRUST_BECKMANN_MIDDLE) {
+    if (view->trusted && vndf_beckmann_product((float)u) > VNDF_TRUST_BECKMANN_MIDDLE) {
         vndf_beckmann_incidence w = vndf_beckmann_incidence_of(view);
         x = vndf_beckmann_step(&w, vndf_beckmann_first(&w, (float)u), (float)u).x;
     } else {
@@ -228,7 +228,7 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const extent *bounds, 
     ellipse e = ellipse_of(view, bounds);
     double x = draw_along(view, bounds, u1);
     chord h = chord_on(&e, bounds, x);
-    if (view->plain)
+    if (view->trusted)
         weigh_chord_in_float(&h);
     else
         weigh_chord(&h);

@@ -52,7 +52,7 @@ VNDF_INLINE vndf_outlook vndf_outlook_set(const vndf_view *v, struct vndf_ggx_bo
 /* Away from where w leaves the disc. */
 VNDF_INLINE int vndf_outlook_is_trusted(const vndf_view *view, const vndf_outlook *o)
 {
-    return view->plain && o->c0 < VNDF_TRUST_CHORD_INSIDE * o->c;
+    return view->trusted && o->c0 < VNDF_TRUST_CHORD_INSIDE * o->c;
 }
 
 /* 1 or 0. Sums take one part or the other by it: a compiler would branch, and no processor foresees that branch. */

@@ -3,7 +3,7 @@
 
 void vndf_bound_ggx(const vndf_view *view, struct vndf_ggx_bounds *bounds)
 {
-    if (view->plain) {
+    if (view->trusted) {
         vndf_outlook o = vndf_outlook_set(view, bounds);
         if (vndf_outlook_is_trusted(view, &o)) {
             vndf_ggx_law_set(bounds, &o);

@@ -27,7 +27,7 @@ static double stretch_at(const vndf_view *view, vndf_normal wm)
     return (x * x + y * y) / (mx * mx + my * my);
 }
 
-static double kept_on(const vndf_azimuth_slice *slice, double q)
+static double inside_mass_on(const vndf_azimuth_slice *slice, double q)
 {
     double c = slice->c, k = slice->k, root = sqrt(k * k + q * c * c);
     return k > 0.0 ? vndf_azimuth_slice_part(slice, k + root, q * c) : vndf_azimuth_slice_part(slice, c, root - k);
@@ -37,7 +37,7 @@ vndf_bounded_factors vndf_bounded_table_at(const vndf_view *view, vndf_normal wm
 {
     vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, wm);
     vndf_bounded_factors at = {vndf_engine_density_on(view, &slice, wm, facing),
-                               kept_on(&slice, stretch_at(view, wm))};
+                               inside_mass_on(&slice, stretch_at(view, wm))};
     return at;
 }
 
@@ -46,7 +46,7 @@ VNDF_RARE vndf_bounded bounded_exactly(const vndf_view *view, float u1, float u2
 {
     vndf_normal middle = vndf_normal_of(vndf_engine_sample_exactly(view, u1, 0.5f, NULL));
     vndf_azimuth_slice slice = vndf_azimuth_slice_of(view, middle);
-    float inside_mass = (float)kept_on(&slice, stretch_at(view, middle));
+    float inside_mass = (float)inside_mass_on(&slice, stretch_at(view, middle));
     vndf_vec3 drawn = vndf_engine_sample_exactly(view, u1, inside_mass * u2, NULL);
     vndf_vec3 wm = vndf_disc_normal(view, vndf_normal_of(drawn));
     return vndf_bounded_from(wm, vndf_bounded_table_at(view, vndf_normal_of(wm), vndf_exact_dot(view->wi, wm)));
@@ -75,19 +75,19 @@ VNDF_INLINE inside inside_of(const vndf_rational_cell *in, float width, float in
 
 /* In the two cells beside the cut and at it, which float does not follow: where there is no cut it is at infinity, and
  * little is lost. */
-static border border_beside(const vndf_distribution *d, const vndf_radial_law *law, border at, lanes_m *plain)
+static border border_beside(const vndf_distribution *d, const vndf_radial_law *law, border at, lanes_m *trusted)
 {
     vndf_azimuth_slice slice = {d, law->c, law->k, 0.0, 0.0, 0.0, 0};
     vndf_exact_law_find(&slice);
     at.inside_mass = (float)vndf_azimuth_slice_part(&slice, at.x, at.z);
-    *plain &= at.inside_mass > VNDF_TRUST_BORDER_CUT;
+    *trusted &= at.inside_mass > VNDF_TRUST_BORDER_CUT;
     return at;
 }
 
 /* The law of the bearing, not scaled; knots have X + Z = 1. inside_mass moves with the slope of the border, and that by
  * 1e-7 of s/root for what the azimuth is rounded by, and by its own rounding: good for 3e-6. */
 VNDF_INLINE border border_at(const vndf_distribution *d, const vndf_incidence *w, const vndf_azimuth_sample *b,
-                             const vndf_radial_law *law, int whole, lanes_m *plain)
+                             const vndf_radial_law *law, int whole, lanes_m *trusted)
 {
     float qc = b->level.square * b->c, root = sqrtf(b->k * b->k + qc * b->c);
     float n = w->s * b->c, root_c = w->c * root;
@@ -96,57 +96,57 @@ VNDF_INLINE border border_at(const vndf_distribution *d, const vndf_incidence *w
     uint32_t j = vndf_guide_find(&d->slope_guide, at.x * (around * per));
     vndf_radial_lanes cell = vndf_radial_load(d, j);
     float inner = lanes_positive(x * cell.z0 - z * cell.x0), outer = lanes_positive(z * cell.x1 - x * cell.z1);
-    *plain &= VNDF_TRUST_BORDER_ROOT * n < root_c;
+    *trusted &= VNDF_TRUST_BORDER_ROOT * n < root_c;
     if (j + 3 > law->cut)
-        return border_beside(d, law, at, plain);
-    vndf_rational_cell in = vndf_radial_plain(law, &cell);
+        return border_beside(d, law, at, trusted);
+    vndf_rational_cell in = vndf_radial_cell_away(law, &cell);
     float before = whole ? vndf_radial_before_whole(law, &cell) : vndf_radial_before(law, &cell);
     inside mass = inside_of(&in, cell.width, inner, outer);
     float per_mass = 1.0f / (mass.below * b->total), scale = in.mass * (per_mass * b->total);
     at.inside_mass = (before * mass.below + mass.above) * per_mass;
     float rise = mass.rise * (scale * scale) * (cell.width * (x * z));
-    *plain &= rise * (root_c + n) < VNDF_TRUST_BORDER_STEEP * root_c * (at.inside_mass * b->total);
+    *trusted &= rise * (root_c + n) < VNDF_TRUST_BORDER_STEEP * root_c * (at.inside_mass * b->total);
     return at;
 }
 
 /* The normal, if it is far enough inside for its roundings. */
 VNDF_INLINE vndf_drawn drawn_inside(const vndf_azimuth_sample *b, vndf_place at, const border *edge,
-                                    lanes_m *plain)
+                                    lanes_m *trusted)
 {
-    *plain &= at.x * edge->z * (float)VNDF_TRUST_INSIDE < edge->x * at.z;
+    *trusted &= at.x * edge->z * (float)VNDF_TRUST_INSIDE < edge->x * at.z;
     at.below *= edge->inside_mass;
-    return vndf_drawn_at(&b->level, &at, plain);
+    return vndf_drawn_at(&b->level, &at, trusted);
 }
 
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted)
 {
     vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     vndf_radial_law law = vndf_radial_law_whole(d, b.c, b.k);
-    *edge = border_at(d, w, &b, &law, 1, plain);
+    *edge = border_at(d, w, &b, &law, 1, trusted);
     float u = edge->inside_mass * u2;
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, plain);
-    return drawn_inside(&b, at, edge, plain);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, trusted);
+    return drawn_inside(&b, at, edge, trusted);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(range->apart), range->mass);
-    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
+    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, trusted);
     vndf_azimuth_sample b = vndf_azimuth_sample_wedge(d, w, range, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
-    *edge = border_at(d, w, &b, &law, 0, plain);
+    *edge = border_at(d, w, &b, &law, 0, trusted);
     float u = edge->inside_mass * u2;
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, plain);
-    return drawn_inside(&b, at, edge, plain);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted);
+    return drawn_inside(&b, at, edge, trusted);
 }
 
 vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
@@ -155,13 +155,13 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
     vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m plain = w.plain & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
+    lanes_m trusted = w.trusted & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
     border edge;
-    if (!plain)
+    if (!trusted)
         return bounded_exactly(view, u1, u2);
-    vndf_drawn n = range.in_front ? draw_in_front(d, &w, &range, u2, &edge, &plain)
-                                  : draw_in_wedge(d, &w, &range, u2, &edge, &plain);
-    if (!plain)
+    vndf_drawn n = range.in_front ? draw_in_front(d, &w, &range, u2, &edge, &trusted)
+                                  : draw_in_wedge(d, &w, &range, u2, &edge, &trusted);
+    if (!trusted)
         return bounded_exactly(view, u1, u2);
     vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.inside_mass};
     return b;

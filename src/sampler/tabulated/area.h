@@ -1,6 +1,6 @@
-/* The projected area A(-|w|) of a table (sampler/area.h), in double from the very numbers that came in, for one or
- * for lanes. The direction (alpha_x w.x, alpha_y w.y, w.z) stays as long as it is: an area grows with the length, and
- * quotients drop it. With S its part across and U = |w.z| it is
+/* The projected area A(-|w|) of a table (sampler/area.h), in double from the caller's own numbers, for one or for
+ * lanes. The direction (alpha_x w.x, alpha_y w.y, w.z) is not made unit: an area grows with its length, and
+ * quotients of areas drop the length. With its level length S and U = |w.z| the area is
  *
  *     2 (S + U) M(S/(S + U)),    M the mass of half the wedge below (sampler/tabulated/theory.h). */
 #ifndef VNDF_SAMPLER_TABULATED_AREA_H
@@ -14,7 +14,7 @@ typedef struct vndf_direction {
     doubles ax, ay, x, y, z;
 } vndf_direction;
 
-/* Whether it is one: elsewhere all is 0. */
+/* Whether roughness is in range and the direction is finite and not zero. Elsewhere all answers are 0. */
 VNDF_INLINE doubles_m vndf_direction_is_valid(const vndf_direction *w)
 {
     const doubles least = doubles_set(1e-18), most = doubles_set(1e18);
@@ -26,7 +26,7 @@ VNDF_INLINE doubles_m vndf_direction_is_valid(const vndf_direction *w)
     return doubles_both(doubles_both(low, high), usable);
 }
 
-/* S. */
+/* The level length S. */
 VNDF_INLINE doubles vndf_direction_across(const vndf_direction *w)
 {
     doubles x = w->ax * w->x, y = w->ay * w->y;

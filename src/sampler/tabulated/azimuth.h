@@ -3,7 +3,7 @@
  * The rows' variable is q in [0, 1], a half-angle tangent with an aspect (p, r) that follows the width of
  * the density:  (cos phi, sin phi) = (p (1 - q^2), r 2 q) / N,  N^2 = p^2 (1 - q^2)^2 + 4 r^2 q^2,
  *               dphi/dq = 2 p r (1 + q^2) / N^2.
- * With p = r this is the plain half-angle tangent. */
+ * With p = r, q is the half-angle tangent itself. */
 #ifndef VNDF_SAMPLER_TABULATED_AZIMUTH_H
 #define VNDF_SAMPLER_TABULATED_AZIMUTH_H
 
@@ -27,13 +27,13 @@ typedef struct vndf_azimuth {
     lanes_f c, s, n, density;
 } vndf_azimuth;
 
-/* A cell of the mix, the mass before it, where it begins in q and how wide it is. */
+/* A cell of the mix, the mass before it, its first q and its width in q. */
 typedef struct vndf_azimuth_cell {
     vndf_rational_cell cell;
     lanes_f before, q, width;
 } vndf_azimuth_cell;
 
-/* The ends of cell j. */
+/* The first end of cell j in q, or with `end` = 1 the second. */
 VNDF_INLINE lanes_f vndf_azimuth_q(const vndf_wedge *wedge, uint32_t end, lanes_u j)
 {
 #if VNDF_LANES > 1
@@ -48,7 +48,7 @@ typedef struct vndf_azimuth_parts {
     lanes_four a, b, c;
 } vndf_azimuth_parts;
 
-/* Their mix, where it is cell j. */
+/* The mix of cell j of three rows. */
 VNDF_INLINE vndf_azimuth_cell vndf_azimuth_mix(const vndf_azimuth_row *row, lanes_u j,
                                                const vndf_azimuth_parts *parts)
 {
@@ -70,21 +70,21 @@ VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_
     return 2.0f * row->p * row->r * (1.0f + q2) * cell->width / (c * c + s * s);
 }
 
-/* The azimuth at a place of a cell; not *plain where the density is steep. */
+/* The azimuth at a place of a cell. Clears *trusted where the density is steep. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
-                                         const vndf_rational_place *in, lanes_m *plain)
+                                         const vndf_rational_place *in, lanes_m *trusted)
 {
     lanes_f q = cell->q + in->xi * cell->width;
     lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
     lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
     vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
-    *plain = lanes_both(*plain, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
-    *plain = lanes_both(*plain, vndf_trusts_azimuth_density(at.density));
+    *trusted = lanes_both(*trusted, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
+    *trusted = lanes_both(*trusted, vndf_trusts_azimuth_density(at.density));
     return at;
 }
 
-/* How many cells of one lane's row have no more than `target` before them. All are counted through: no step waits
- * for another. */
+/* How many cells of one lane's row have no more than `target` before them. The count visits every cell, so that no
+ * step waits for another. */
 VNDF_INLINE uint32_t vndf_azimuth_count(const vndf_wedge *wedge, uint32_t row, float first, float middle,
                                         float last, float target)
 {
@@ -100,12 +100,12 @@ VNDF_INLINE uint32_t vndf_azimuth_find(const vndf_wedge *wedge, uint32_t row, fl
     return count > 0 ? count - 1 : 0;
 }
 
-/* The azimuth with mass `target` before it, in that cell. */
+/* The azimuth in a cell with the mass `target` before it. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_draw(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
-                                           lanes_f target, lanes_m *plain)
+                                           lanes_f target, lanes_m *trusted)
 {
     vndf_rational_place in = vndf_rational_invert(&cell->cell, target - cell->before);
-    return vndf_azimuth_at(row, cell, &in, plain);
+    return vndf_azimuth_at(row, cell, &in, trusted);
 }
 
 #if VNDF_LANES == 1
@@ -128,17 +128,17 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_at(const vndf_azimuth_row *row, 
 }
 
 /* The azimuth of a row with the mass `target` before it. */
-VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *plain)
+VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, float target, lanes_m *trusted)
 {
     const vndf_wedge *wedge = row->wedge;
     uint32_t j = vndf_azimuth_find(wedge, row->row, row->first, row->middle, row->last, target);
     vndf_azimuth_cell cell = vndf_azimuth_cell_at(row, j);
-    return vndf_azimuth_draw(row, &cell, target, plain);
+    return vndf_azimuth_draw(row, &cell, target, trusted);
 }
 
 #else
 
-/* Cells j, from where their row_line is to be loaded. */
+/* Cells j, loaded from their row lines. */
 VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j,
                                                    const lanes_lines *lines)
 {

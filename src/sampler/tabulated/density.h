@@ -1,7 +1,7 @@
-/* The density of a given normal under a table where it is plain, for one or for lanes, in double from the very
- * numbers that came in: what exact.c has for all, with two square roots and two divisions in front of wi. The
- * normal is (X cos a, X sin a, Z) = (ay wm.x, ax wm.y, ax ay wm.z), the direction (S, 0, +-U) as long as the
- * stretched one is: neither is brought to a length, since a density is a quotient that drops both. With A = ax ay,
+/* The density of a given normal under a table, for one or for lanes, in double from the caller's own numbers. It serves
+ * the cases where it is trusted, with two square roots and two divisions in front of wi; exact.c serves all. The
+ * normal is (X cos a, X sin a, Z) = (ay wm.x, ax wm.y, ax ay wm.z), the direction (S, 0, +-U) as stretched. Neither is
+ * made unit, since a density is a quotient that drops both lengths. With A = ax ay,
  *
  *     S X cos a = A (wi.x wm.x + wi.y wm.y) = K,       S X |sin a| = |ax wi.x (ax wm.y) - ay wi.y (ay wm.x)|,
  *
@@ -13,7 +13,8 @@
  *
  * and in front of wi azimuth/mass of the law = 1/(X total), total = 2 (front + wedge), the area.
  *
- * Plain is a cell two others away from the cut, wherever nothing underflows. */
+ * Trusted are cells with two others between them and the cut, and below the horizon all cells but the cell of the cut,
+ * unless something underflows. */
 #ifndef VNDF_SAMPLER_TABULATED_DENSITY_H
 #define VNDF_SAMPLER_TABULATED_DENSITY_H
 
@@ -45,20 +46,20 @@ VNDF_INLINE doubles vndf_query_facing(const vndf_query *g)
     return (level + z) + lost;
 }
 
-/* Its level part. */
+/* The level part of wi . wm. */
 VNDF_INLINE doubles vndf_query_level(const vndf_query *g)
 {
     return g->wi.x * g->x + g->wi.y * g->y;
 }
 
-/* Of the sign of cos a: straight up and down the azimuth is the normal's own. */
+/* A number with the sign of cos a. For wi straight up or down the azimuth is the normal's own. */
 VNDF_INLINE doubles vndf_query_along(const vndf_query *g)
 {
     doubles across2 = g->wi.x * g->wi.x + g->wi.y * g->wi.y;
     return doubles_pick(doubles_less(doubles_set(0.0), across2), vndf_query_level(g), g->x);
 }
 
-/* The normal in the unit problem, turned and as long as the head of this file has it. */
+/* The normal in the unit problem, turned, with the length that the head of this file gives it. */
 typedef struct vndf_bare {
     doubles x, y, across, z, product; /* product: A */
 } vndf_bare;
@@ -72,7 +73,7 @@ VNDF_INLINE vndf_bare vndf_bare_of(const vndf_query *g)
 
 /* ---- D ---- */
 
-/* Of a table, at a valid place. */
+/* D of a table, for a valid normal. */
 VNDF_INLINE doubles vndf_query_ndf(const vndf_distribution *d, const vndf_bare *n)
 {
     vndf_radial_location at = vndf_radial_location_at(d, n->across, n->z);
@@ -83,9 +84,9 @@ VNDF_INLINE doubles vndf_query_ndf(const vndf_distribution *d, const vndf_bare *
 
 /* ---- the cell of the radius ---- */
 
-/* What all cells have in common: p is the numerator of a rational cell, over X in the first cell where f begins at
- * 0 as X does, and b what its square divides, m the cell's mass. xi, eta, x and x + z stand here times inner +
- * outer, which drops out. */
+/* The part that all cells share. p is the numerator of a rational cell, over X in the first cell where f begins at 0 as
+ * X does; b^2 is its denominator, and m the cell's mass. xi, eta, x and x + z are all multiplied by inner + outer,
+ * which drops out. */
 VNDF_INLINE vndf_quotient vndf_query_quotient(const vndf_radial_location *at, const vndf_bare *n, doubles_m first,
                                               doubles m, doubles p, doubles b)
 {
@@ -102,7 +103,7 @@ VNDF_INLINE doubles_m vndf_query_is_first(const vndf_radial_location *at, double
     return doubles_both(vndf_radial_location_is_first(at), doubles_at_most(f0, doubles_set(0.0)));
 }
 
-/* Mass per xi and what is beside it in the density, as above/below, for the weights (c, k). */
+/* Mass per xi, with the other factors of the density, as above/below, for the weights (c, k). */
 VNDF_INLINE vndf_quotient vndf_query_in_cell(const vndf_distribution *d, const vndf_radial_location *at,
                                              const vndf_bare *n, doubles c, doubles k)
 {
@@ -115,7 +116,7 @@ VNDF_INLINE vndf_quotient vndf_query_in_cell(const vndf_distribution *d, const v
     return vndf_query_quotient(at, n, first, m, p, b);
 }
 
-/* The same for a weighted cell (math/weighted_cell.h) whose V is W: all of them beyond the cut. */
+/* The same for a weighted cell (math/weighted_cell.h) whose V is W, as beyond the cut. */
 VNDF_INLINE vndf_quotient vndf_query_in_weighted_cell(const vndf_distribution *d, const vndf_radial_location *at,
                                                       const vndf_bare *n, doubles c, doubles k)
 {
@@ -134,19 +135,19 @@ VNDF_INLINE vndf_quotient vndf_query_in_weighted_cell(const vndf_distribution *d
     return q;
 }
 
-/* The quotient, if all digits are there. */
-VNDF_INLINE doubles vndf_query_density(doubles above, doubles below, doubles_m *plain)
+/* The quotient. Clears *trusted where underflow or overflow may cost digits. */
+VNDF_INLINE doubles vndf_query_density(doubles above, doubles below, doubles_m *trusted)
 {
     const doubles least = doubles_set(1e-280), most = doubles_set(1e280);
     doubles_m low = doubles_both(doubles_less(least, above), doubles_less(least, below));
     doubles_m high = doubles_both(doubles_less(above, most), doubles_less(below, most));
-    *plain = doubles_both(*plain, doubles_both(low, high));
+    *trusted = doubles_both(*trusted, doubles_both(low, high));
     return above / below;
 }
 
 /* ---- in front of wi ---- */
 
-/* Areas 2 (front + wedge) and 2 wedge of a direction above the horizon. */
+/* Masses of the front and of the wedge for a direction above the horizon, times its length. */
 VNDF_INLINE doubles vndf_query_front(const vndf_distribution *d, doubles across, doubles up)
 {
     const double quarter_turn = 1.57079632679489662;
@@ -159,16 +160,16 @@ VNDF_INLINE doubles vndf_query_wedge(const vndf_distribution *d, doubles across,
     return sum * vndf_wedge_mass(&d->above, up / sum);
 }
 
-/* wi.z >= 0, cos a >= 0. */
-VNDF_INLINE doubles vndf_query_in_front(const vndf_distribution *d, const vndf_query *g, doubles_m *plain)
+/* The density for wi.z >= 0, cos a >= 0. */
+VNDF_INLINE doubles vndf_query_in_front(const vndf_distribution *d, const vndf_query *g, doubles_m *trusted)
 {
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z);
     doubles total = 2.0 * (vndf_query_front(d, across, up) + vndf_query_wedge(d, across, up));
     vndf_bare n = vndf_bare_of(g);
     vndf_radial_location at = vndf_radial_location_at(d, n.across, n.z);
     vndf_quotient q = vndf_query_in_cell(d, &at, &n, up * n.across, vndf_query_level(g) * n.product);
-    *plain = doubles_both(*plain, doubles_at_most_u(at.cell + 3u, doubles_set_u(d->radial_count)));
-    return vndf_query_density(q.above, q.below * (n.across * total), plain);
+    *trusted = doubles_both(*trusted, doubles_at_most_u(at.cell + 3u, doubles_set_u(d->radial_count)));
+    return vndf_query_density(q.above, q.below * (n.across * total), trusted);
 }
 
 #endif

@@ -2,7 +2,7 @@
  *
  * The azimuth's density is that of the mixed row (wedge.h) at q = s(n + s)/h and 1 - q = c(n + s + c)/h,
  * h = (c + n)(n + s), for (c, s) ~ (r |cos a|, p |sin a|) of any length n. Shares of the rows are not divided by
- * the distance of their knots either. In the cell of the cut (radial.h) the part h of xi is visible. */
+ * the distance of their knots either. The part h of xi in the cell of the cut (radial.h) is visible. */
 #ifndef VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
 #define VNDF_SAMPLER_TABULATED_DENSITY_WEDGE_H
 
@@ -25,7 +25,7 @@ VNDF_INLINE vndf_shares vndf_shares_from(doubles_u i, doubles y, doubles from, d
 
 #if VNDF_DOUBLES == 8
 
-/* Where there are no more than VNDF_FEW knots of rows: all is found and read in registers. */
+/* For no more than VNDF_FEW knots of rows: finds and reads all in registers. */
 VNDF_INLINE vndf_shares vndf_shares_few(const vndf_wedge *w, doubles y)
 {
     doubles_u i = doubles_set_u(0);
@@ -98,8 +98,8 @@ VNDF_INLINE doubles vndf_cell_end(const vndf_wedge *w, uint32_t end, doubles_u j
     return doubles_gather(w->q + end, j);
 }
 
-/* Where a normal was drawn: the shares of rows, and the cells of its azimuth, of the cut and of its slope. Searches
- * that begin there end at once. */
+/* Where a normal was drawn: the shares of rows, and the cells of its azimuth, of the cut and of its slope. A search
+ * that begins there ends at once. */
 typedef struct vndf_wedge_near {
     vndf_shares shares;
     doubles_u azimuth, cut, cell;
@@ -120,7 +120,7 @@ VNDF_INLINE doubles_u vndf_cell_of_q_near(const vndf_wedge *w, doubles q, double
     }
 }
 
-/* Where an azimuth stands in the rows: q, 1 - q, its cell and how far its ends are. */
+/* Where an azimuth stands in the rows: q, 1 - q, its cell, the distances to the cell's ends and its width. */
 typedef struct vndf_row_place {
     doubles_u cell;
     doubles q, rest, inner, outer, width;
@@ -170,7 +170,7 @@ typedef struct vndf_cut_law {
     doubles_u cut;
 } vndf_cut_law;
 
-/* The part of a cell that is visible: w at the end that is, `end` at the other. */
+/* The visible part of a cell. W is w at its visible end, and `end` at the other. */
 VNDF_INLINE doubles vndf_visible_part(doubles w, doubles end)
 {
     return doubles_pick(doubles_less(end, doubles_set(0.0)), w / (w - end), doubles_set(1.0));
@@ -207,9 +207,9 @@ VNDF_INLINE vndf_cut_law vndf_cut_law_below(const vndf_distribution *d, doubles 
 
 /* ---- both ---- */
 
-/* The normal's azimuth and radius. */
+/* The density of a normal by its azimuth and its radius. */
 VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_query *g, int below,
-                                        const vndf_wedge_near *near, doubles_m *plain)
+                                        const vndf_wedge_near *near, doubles_m *trusted)
 {
     const vndf_wedge *w = below ? &d->below : &d->above;
     doubles across = vndf_direction_across(&g->wi), up = doubles_abs(g->wi.z), sum = across + up;
@@ -225,13 +225,13 @@ VNDF_INLINE doubles vndf_query_of_wedge(const vndf_distribution *d, const vndf_q
     vndf_radial_location at =
         near ? vndf_radial_location_near(d, n.across, n.z, near->cell) : vndf_radial_location_at(d, n.across, n.z);
     vndf_quotient q = below ? vndf_query_in_weighted_cell(d, &at, &n, c, k) : vndf_query_in_cell(d, &at, &n, c, k);
-    *plain = doubles_both(*plain, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
-                                        : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
+    *trusted = doubles_both(*trusted, below ? doubles_at_most_u(law.cut + doubles_set_u(1), at.cell)
+                                            : doubles_at_most_u(at.cell + doubles_set_u(3), law.cut));
     doubles above = q.above * azimuth.above, under = q.below * azimuth.below * (shares.square * law.mass);
     if (below) /* the wedge is all there is */
-        return vndf_query_density(0.5 * above, under, plain);
+        return vndf_query_density(0.5 * above, under, trusted);
     doubles wedge = vndf_query_wedge(d, across, up), total = 2.0 * (vndf_query_front(d, across, up) + wedge);
-    return vndf_query_density(above * wedge, under * total, plain);
+    return vndf_query_density(above * wedge, under * total, trusted);
 }
 
 #endif

@@ -1,9 +1,9 @@
-/* What a sample is put together from once its azimuth and radius are drawn (sampler/tabulated/theory.h), for one or for
- * lanes: the normal, its density in float, and where that is good enough. */
+/* Samples in float, for one or for lanes (sampler/tabulated/theory.h): the azimuth, the radius, the normal, its
+ * density, and whether float is trusted. */
 #ifndef VNDF_SAMPLER_TABULATED_DRAW_H
 #define VNDF_SAMPLER_TABULATED_DRAW_H
 
-#include "sampler/tabulated/aim.h"
+#include "sampler/tabulated/stretched_view.h"
 #include "sampler/tabulated/radial.h"
 
 /* The horizontal unit vector at an azimuth of the turned frame, stretched back; and its square. */
@@ -22,24 +22,24 @@ VNDF_INLINE vndf_level vndf_level_at(lanes_f ax, lanes_f ay, lanes_f cos_phi, la
     return level;
 }
 
-/* ---- where the density of the place is that of the normal, as it was rounded ---- */
+/* ---- whether the density at the place that was drawn is the density of the rounded normal ---- */
 
-VNDF_INLINE lanes_m vndf_plain_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
+VNDF_INLINE lanes_m vndf_trusts_normal_in_front(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
     return lanes_both(vndf_trusts_side(cosine), vndf_trusts_facing_in_front(across, along, up));
 }
 
-VNDF_INLINE lanes_m vndf_plain_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
+VNDF_INLINE lanes_m vndf_trusts_normal_in_wedge(lanes_f s, lanes_f c, lanes_f cosine, lanes_f x, lanes_f z)
 {
     lanes_f across = s * x, along = across * cosine, up = c * z;
     return lanes_both(vndf_trusts_side(-cosine), vndf_trusts_facing_in_wedge(across, along, up));
 }
 
-/* Away from knots that may matter, where the density changes little from a normal to its rounded self. In front of
- * wi most cells are known to be so. */
-VNDF_INLINE lanes_m vndf_plain_place(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
-                                     const vndf_rational_place *in)
+/* The place is away from knots that may matter, and the density changes little from a normal to its rounded self. Most
+ * cells in front of wi are known to be smooth. */
+VNDF_INLINE lanes_m vndf_trusts_place_in_cell(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
+                                              const vndf_rational_place *in)
 {
     lanes_m at_knots = lanes_less(lanes_set(1.0f), at->smooth);
     if (!lanes_any(lanes_without(lanes_all(), at_knots)))
@@ -55,46 +55,47 @@ typedef struct vndf_drawn {
     lanes_f x, y, z, density;
 } vndf_drawn;
 
-/* A place in the table, X = x per and Z = z per, and the density of xi and azimuth there, above/below but for
- * dwm = ax ay X Z^2 dR da over the third power of the length. */
+/* A place in the table, X = x per and Z = z per. The density of the normal is above/below times the third power of its
+ * length, since dwm is ax ay X Z^2 dR da over that power. */
 typedef struct vndf_place {
     lanes_f x, z, per, above, below;
 } vndf_place;
 
-/* `per` is nowhere on the way to the normal, and there is one division. Good where *plain stays: nothing has
- * underflowed, and a table that is none of ours may have numbers that overflow. */
-VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *plain)
+/* The normal does not wait for `per`, and there is one division. Clears *trusted where numbers underflow, or overflow
+ * as a hostile table may make them. */
+VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *trusted)
 {
     lanes_f square = at->x * at->x * level->square + at->z * at->z, root = lanes_root(square);
     lanes_f product = root * at->below, both = 1.0f / product, per = at->below * both, length = root * at->per;
     lanes_f density = at->above * (length * length) * (length * (root * both));
     vndf_drawn n = {at->x * level->x * per, at->x * level->y * per, at->z * per, density};
-    *plain = lanes_both(*plain, lanes_both(vndf_trusts_lengths(square, product), vndf_trusts_density(density)));
+    *trusted =
+        lanes_both(*trusted, lanes_both(vndf_trusts_lengths(square, product), vndf_trusts_density(density)));
     return n;
 }
 
-/* ---- all of it, where it is plain ---- */
+/* ---- the azimuth ---- */
 
-/* Surface and direction of a sample. */
+/* The surface and the direction of a sample. */
 typedef struct vndf_incidence {
     lanes_f ax, ay, s, c, cos_phi, sin_phi, spread;
-    lanes_m plain;
+    lanes_m trusted;
 } vndf_incidence;
 
-VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_aim *aim)
+VNDF_INLINE vndf_incidence vndf_incidence_from(lanes_f ax, lanes_f ay, const vndf_stretched_view *stretched)
 {
     vndf_incidence w = {ax,
                         ay,
-                        aim->s,
-                        aim->c,
-                        aim->cos_phi,
-                        aim->sin_phi,
-                        aim->area * (ax * ay),
-                        vndf_trusts_scale(ax, ay, aim->c)};
+                        stretched->s,
+                        stretched->c,
+                        stretched->cos_phi,
+                        stretched->sin_phi,
+                        stretched->area * (ax * ay),
+                        vndf_trusts_scale(ax, ay, stretched->c)};
     return w;
 }
 
-/* Of a view, the same in all lanes. */
+/* The same from a view, equal in all lanes. */
 VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
 {
     vndf_incidence w = {lanes_set(v->ax),
@@ -104,12 +105,12 @@ VNDF_INLINE vndf_incidence vndf_incidence_of(const vndf_view *v)
                         lanes_set(v->of.table.cos_phi),
                         lanes_set(v->of.table.sin_phi),
                         lanes_set(v->of.table.spread),
-                        v->plain ? lanes_all() : lanes_none()};
+                        v->trusted ? lanes_all() : lanes_none()};
     return w;
 }
 
-/* Where an azimuth is drawn: in front of wi or in the wedge, the mass of that, and the part of it from the side of
- * wi, where both begin, to the azimuth, with the sign of the azimuth. */
+/* The range where an azimuth is drawn: in front of wi or in the wedge, and its mass. `apart` is the mass from the side
+ * of wi, where both ranges begin, to the azimuth, with the sign of the azimuth. */
 typedef struct vndf_azimuth_range {
     lanes_m in_front;
     lanes_f mass, apart;
@@ -124,7 +125,7 @@ VNDF_INLINE vndf_azimuth_range vndf_azimuth_range_at(lanes_f front, lanes_f wedg
     return range;
 }
 
-/* A sample whose azimuth is drawn: what its radius and its normal take. */
+/* A sample whose azimuth is drawn: the inputs of its radius and its normal. */
 typedef struct vndf_azimuth_sample {
     vndf_level level;
     lanes_f cosine, c, k;   /* of the azimuth; weights of the law of the radius */
@@ -139,7 +140,7 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distributio
 {
     lanes_f near, k;
     vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), range->mass, &near);
-    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for that */
+    lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for `near` */
     k = w->s * a.c;
     vndf_azimuth_sample b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, range->apart),
                              a.c,
@@ -160,21 +161,21 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
-/* In cell j. Good where *plain stays. Beside the cut - here at infinity, where W vanishes - cells are others
- * (exact_radius.c). */
+/* The place in cell j. Clears *trusted beside the cut - here at infinity, where W vanishes - where cells have another
+ * form (exact_radius.c). */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w,
                                         const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
-                                        lanes_f u2, lanes_m *plain)
+                                        lanes_f u2, lanes_m *trusted)
 {
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
     lanes_f before = vndf_radial_before_whole(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
     vndf_place at = vndf_place_in(cell, &in);
-    *plain = lanes_both(*plain, vndf_plain_in_front(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, &in));
-    *plain = lanes_both(*plain, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
-    *plain = lanes_both(*plain, vndf_trusts_root(in.root));
+    *trusted = lanes_both(*trusted, vndf_trusts_normal_in_front(w->s, w->c, b->cosine, at.x, at.z));
+    *trusted = lanes_both(*trusted, vndf_trusts_place_in_cell(cell, &in_cell, &in));
+    *trusted = lanes_both(*trusted, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
+    *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
     at.above = in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
@@ -200,18 +201,18 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_wedge(const vndf_distributio
 
 VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_azimuth_sample *b,
                                         const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
-                                        lanes_f u2, lanes_m *plain)
+                                        lanes_f u2, lanes_m *trusted)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
-    vndf_rational_cell in_cell = vndf_radial_plain(&law, cell);
+    vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
     lanes_f before = vndf_radial_before(&law, cell);
     vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
     vndf_place at = vndf_place_in(cell, &in);
-    *plain = lanes_both(*plain, vndf_plain_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
-    *plain = lanes_both(*plain, vndf_plain_place(cell, &in_cell, &in));
-    *plain = lanes_both(*plain, vndf_radial_is_away(&law, j));
-    *plain = lanes_both(*plain, unscaled->trusted);
-    *plain = lanes_both(*plain, vndf_trusts_root(in.root));
+    *trusted = lanes_both(*trusted, vndf_trusts_normal_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
+    *trusted = lanes_both(*trusted, vndf_trusts_place_in_cell(cell, &in_cell, &in));
+    *trusted = lanes_both(*trusted, vndf_radial_is_away(&law, j));
+    *trusted = lanes_both(*trusted, unscaled->trusted);
+    *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
     at.above = b->density * in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;

@@ -1,13 +1,13 @@
-/* Densities, draws and the inverse of the exact tier (exact.h), in double from the very numbers that came in. In float
- * three things would cancel in a density: W = wi.wm at the cut, where the density ends; the place of a slope in its
- * cell, which is narrow where D is steep; and the distance to a right angle from wi, where the azimuth's density ends
- * below the horizon. None of them has to be formed in the turned frame:
+/* Densities, draws and the inverse of the exact tier (exact.h), in double from the caller's own numbers. In float three
+ * numbers of a density would cancel: W = wi.wm at the cut, where the density ends; the place of a slope in its cell,
+ * which is narrow where D is steep; and the distance to a right angle from wi, where the azimuth's density ends below
+ * the horizon. In double none of them needs the turned frame:
  *
  *     s X cos a = wi.x wm.x + wi.y wm.y,       s X sin a = ax wi.x (wm.y/ay) - ay wi.y (wm.x/ax)
  *
- * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch, with s of the
- * stretched direction before per_length brings it to s + |c| = 1. This serves every normal, and the builder of tables;
- * most normals, in lanes too, are evaluated by density.h and density_wedge.h. The relative error is below 1e-5 of the
+ * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch; s is the level length of the
+ * stretched direction before per_length brings it to s + |c| = 1. This file serves every normal, and the builder of
+ * tables; density.h and density_wedge.h evaluate most normals, in lanes too. The relative error is below 1e-5 of the
  * density that the numbers of the file define, wherever that exceeds 1e-30 (test float_accuracy). */
 #include "sampler/tabulated/exact.h"
 
@@ -37,7 +37,8 @@ vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm)
     double mx = wm.x / view->alpha_x, my = wm.y / view->alpha_y, x = sqrt(mx * mx + my * my);
     double level = view->wi.x * wm.x + view->wi.y * wm.y, cosine = 1.0, sine = 0.0;
     vndf_stretched w = vndf_stretched_of(view);
-    if (x > 0.0) { /* straight up and down the azimuth is the normal's own; that of a level normal is 0 */
+    if (x >
+        0.0) { /* for wi straight up or down the azimuth is the normal's own; for a normal straight up it is 0 */
         double per = w.s > 0.0 ? w.per_length / (w.s * x) : 1.0 / x;
         cosine = per * (w.s > 0.0 ? level : mx);
         sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
@@ -54,7 +55,7 @@ double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *s
     return density * scale * scale * scale / (ax * ay);
 }
 
-/* Any normal that faces wi. */
+/* The density of any normal that faces wi. */
 VNDF_RARE double density_exactly(const vndf_view *view, const vndf_query *g)
 {
     vndf_normal wm = {g->x, g->y, g->z};
@@ -62,16 +63,16 @@ VNDF_RARE double density_exactly(const vndf_view *view, const vndf_query *g)
     return vndf_engine_density_on(view, &slice, wm, vndf_query_facing(g));
 }
 
-/* The cases of density.h and density_wedge.h first. */
+/* Tries density.h and density_wedge.h first. */
 static double density_near(const vndf_view *view, const vndf_query *g, const vndf_wedge_near *near)
 {
     const vndf_distribution *d = view->distribution;
     int toward = vndf_query_along(g) >= 0.0;
-    doubles_m plain = 1;
-    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, near, &plain)
-                     : toward            ? vndf_query_in_front(d, g, &plain)
-                                         : vndf_query_of_wedge(d, g, 0, near, &plain);
-    return plain ? density : density_exactly(view, g);
+    doubles_m trusted = 1;
+    double density = vndf_is_below(view) ? vndf_query_of_wedge(d, g, 1, near, &trusted)
+                     : toward            ? vndf_query_in_front(d, g, &trusted)
+                                         : vndf_query_of_wedge(d, g, 0, near, &trusted);
+    return trusted ? density : density_exactly(view, g);
 }
 
 double vndf_engine_density(const vndf_view *view, const vndf_query *g)
@@ -90,8 +91,8 @@ double vndf_engine_p22_over_z4(const vndf_distribution *d, double x, double z)
 
 /* ---- draw ---- */
 
-/* The law of the radius. Below the horizon k = 1, and above it no weight is lost to a float. Where both vanish, at the
- * horizon and at a right angle from wi, any ratio is a limit. */
+/* The law of the radius, scaled so that k = 1 below the horizon, and no weight is too small for a float above it. Where
+ * both weights vanish, at the horizon and at a right angle from wi, any ratio is a limit. */
 static vndf_azimuth_slice law_of(const vndf_view *view, const vndf_stretched *w, const vndf_exact_azimuth *a)
 {
     vndf_azimuth_slice law = {view->distribution, w->c * a->n, w->s * a->cosine, 0.0, 0.0, 0.0, 0};
@@ -116,7 +117,7 @@ static vndf_vec3 normal_at(const vndf_view *view, const vndf_exact_azimuth *a, d
     return vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
 }
 
-/* The density is that of the normal as it was rounded, which is near where it was drawn. */
+/* The density is the density of the rounded normal; its search begins where the normal was drawn. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
 {
     float half = 2.0f * u1 - 1.0f;
@@ -153,7 +154,7 @@ int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float
     vndf_azimuth_slice law = law_of(view, &w, &a);
     vndf_exact_part half = vndf_exact_azimuth_part(view, &w, a.cosine, a.sine),
                     radius = vndf_exact_law_part(&law, slope);
-    *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * (float)half.part; /* as draws round 2 u1 - 1 */
+    *u1 = 0.5f + (normal.y < 0.0f ? -0.5f : 0.5f) * (float)half.part; /* draws round 2 u1 - 1 in the same way */
     *u2 = (float)radius.part;
     return half.rate > 0.2 && radius.rate > 0.1;
 }

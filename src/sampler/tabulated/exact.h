@@ -1,7 +1,7 @@
-/* The exact tier of tables: draws, evaluates and inverts in double, for every direction and every normal. It is the one
- * transcription of cells at the cut and beside it, and asks no threshold. The fast tier knows no special case, and
- * leaves the rest to this: it draws in float (draw.h) and evaluates in lanes of doubles (density.h). Both tiers look
- * up a place and mix rows by location.h and density_wedge.h; searches stay in float.
+/* The exact tier of tables draws, evaluates and inverts in double, for every direction and every normal. Only here do
+ * cells at the cut and beside it stand, and no threshold is asked. The fast tier draws in float (draw.h) and evaluates
+ * in lanes of doubles (density.h); it leaves every special case to this one. Both tiers look up a place by location.h
+ * and mix rows by density_wedge.h; searches stay in float.
  *
  *     exact_azimuth.c  the azimuth: its density, draw and inverse
  *     exact_radius.c   the same for the slope length at one azimuth
@@ -40,7 +40,7 @@ VNDF_INLINE double vndf_exact_cell_before(const vndf_exact_cell *cell, vndf_exac
     return below > 0.0 ? m * (m * at.xi * at.xi + cell->e0 * w) / below : 0.0;
 }
 
-/* The place with that mass before it, or the nearer end: the root of math/rational_cell.h. */
+/* The place with the mass `before` before it, or the nearer end: the root of math/rational_cell.h. */
 VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell, double before)
 {
     double m = cell->mass, t = before > 0.0 ? (before < m ? before : m) : 0.0, twice = 2.0 * t * m;
@@ -54,14 +54,14 @@ VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell,
 
 /* ---- parts of a mass ---- */
 
-/* The part before a place, and how fast it grows there. */
+/* The part of a mass before a place, and how fast it grows there. */
 typedef struct vndf_exact_part {
     double part, rate;
 } vndf_exact_part;
 
 /* ---- azimuth ---- */
 
-/* Cosine and sine >= 0 of |a|, both times n; whether it was drawn by rows. */
+/* Cosine and sine >= 0 of |a|, both times n, and whether rows drew it. */
 typedef struct vndf_exact_azimuth {
     double cosine, sine, n;
     int in_wedge;
@@ -70,12 +70,12 @@ typedef struct vndf_exact_azimuth {
 /* Mass per radian, 1 in a whole turn, for the stretched direction w. */
 double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine);
 
-/* Where the part `half` of the mass of half a turn lies between the side of wi and |a|. In a wedge it leaves in *near
- * what it found. */
+/* The azimuth |a| with the part `half` of half a turn's mass between the side of wi and it. In a wedge *near gets the
+ * shares of rows and the cell. */
 vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_stretched *w, float half,
                                            vndf_wedge_near *near);
 
-/* That part, and its rate per radian. */
+/* The part of half a turn's mass before an azimuth, and its rate per radian. */
 vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, const vndf_stretched *w, double cosine,
                                         double sine);
 
@@ -84,12 +84,12 @@ vndf_exact_part vndf_exact_azimuth_part(const vndf_view *view, const vndf_stretc
 /* Finds the cut, its part and the mass of a law with the weights c and k. */
 void vndf_exact_law_find(vndf_azimuth_slice *law);
 
-/* A normal (X, Z), of any length. */
+/* A normal (X, Z) of any length. */
 typedef struct vndf_exact_slope {
     double x, z;
 } vndf_exact_slope;
 
-/* That with the part u of the mass before it, and its cell; the horizon where nothing is visible. */
+/* The slope with the part u of the mass before it, and its cell; the horizon where nothing is visible. */
 vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, uint32_t *cell);
 
 /* The part before a slope, and its rate per radian between the normal and z: 0 at the cut and beside it. */

@@ -1,4 +1,4 @@
-/* The azimuth in double (exact.h): the front, and rows of the wedges mixed by their shares (density_wedge.h). */
+/* The azimuth in double (exact.h): the front, and the rows of a wedge mixed by their shares (density_wedge.h). */
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/tabulated/exact.h"
 #include "sampler/tabulated/front.h"
@@ -22,7 +22,7 @@ static double mass_before(const vndf_wedge *w, const vndf_shares *s, uint32_t j)
     return s->first * *a + s->middle * *b + s->last * *c;
 }
 
-/* The azimuth with that part of the mass before it; the search is in float. */
+/* The azimuth with the part `part` of the row's mass before it; the search is in float. */
 static vndf_exact_azimuth row_draw(const vndf_wedge *w, double y, double part, vndf_wedge_near *near)
 {
     vndf_shares s = near->shares = vndf_shares_at(w, y);
@@ -53,8 +53,8 @@ static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, do
 
 /* ---- the density of a row ---- */
 
-/* Rows of cells and their shares, as certificates of shipped tables are measured: another order of these operations
- * would change a last digit in them. */
+/* Rows of cells and their shares. The certificates of shipped tables were measured with this order of operations;
+ * another order would change a last digit in them. */
 typedef struct mixed_row {
     const vndf_row_cell *cell[3]; /* of each row */
     const float *q;
@@ -68,7 +68,7 @@ static double mixed_mass(const mixed_row *row, uint32_t j)
     return row->share[0] * cell[0][j].mass + row->share[1] * cell[1][j].mass + row->share[2] * cell[2][j].mass;
 }
 
-/* Where cell j begins. */
+/* Density where cell j begins. */
 static double mixed_density(const mixed_row *row, uint32_t j)
 {
     const vndf_row_cell *const *cell = row->cell;
@@ -152,7 +152,7 @@ static vndf_exact_azimuth draw_below(const vndf_view *view, const vndf_stretched
     return a;
 }
 
-/* Rows count from the far side. That the azimuth is in the wedge was found in float: `part` may be off by that. */
+/* Rows count from the far side. Float decided that the azimuth is in the wedge, so `part` may need the clamp. */
 static vndf_exact_azimuth draw_wedge(const vndf_view *view, const vndf_stretched *w, float half,
                                      vndf_wedge_near *near)
 {
@@ -164,7 +164,7 @@ static vndf_exact_azimuth draw_wedge(const vndf_view *view, const vndf_stretched
     return a;
 }
 
-/* The front is solved in float (front.h), whose density is that of the azimuth drawn. */
+/* front.h solves the front in float; its density is the density of the azimuth it draws. */
 vndf_exact_azimuth vndf_exact_azimuth_draw(const vndf_view *view, const vndf_stretched *w, float half,
                                            vndf_wedge_near *near)
 {

@@ -1,5 +1,5 @@
-/* The slope length at one azimuth in double (exact.h): radial.h has the mathematics of its law, and of the cells at the
- * cut and beside it. */
+/* The slope length at one azimuth in double (exact.h). radial.h explains its law, and the cells at the cut and beside
+ * it. */
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/tabulated/exact.h"
 #include "sampler/tabulated/radial.h"
@@ -20,7 +20,7 @@ static place place_of(const vndf_distribution *d, double x, double z)
     return at;
 }
 
-/* Not of unit length: knots have X + Z = 1 but for their rounding. */
+/* The slope at a place; knots have X + Z = 1 but for their rounding. */
 static vndf_exact_slope slope_at(const vndf_distribution *d, place at)
 {
     const vndf_knot *k = d->knots.at + at.cell;
@@ -42,7 +42,8 @@ static double knot_weight(const vndf_azimuth_slice *law, uint32_t j)
     return w > 0.0 ? w : 0.0;
 }
 
-/* The cell j of the cut, from its visible end on: below the horizon that is the outer one, and the cubic is turned. */
+/* The visible part of cell j, which holds the cut. Below the horizon the visible end is the outer one, and the cubic is
+ * turned. */
 static vndf_engine_piece piece_at_cut(const vndf_azimuth_slice *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
@@ -59,7 +60,7 @@ static vndf_engine_piece piece_at_cut(const vndf_azimuth_slice *law, uint32_t j)
     return above ? inside : beyond;
 }
 
-/* Beyond the cut V is W; radial.h says what it is in the second cell inside. What vanishes does so together. */
+/* Beyond the cut V is W; radial.h derives V in the second cell inside. V and W vanish together. */
 static void weigh_piece(vndf_engine_piece *p, const vndf_azimuth_slice *law, uint32_t j)
 {
     const vndf_radial_cell *cell = &law->table->cells[j];
@@ -96,7 +97,7 @@ typedef struct inner {
     double ratio, per;
 } inner;
 
-/* Where the normal has the weight w. */
+/* The place where the normal has the weight w. */
 static inner inner_of(const vndf_engine_piece *p, vndf_exact_place at, double w)
 {
     double xi = at.xi, eta = at.eta;
@@ -126,8 +127,8 @@ static double density_over(const vndf_engine_piece *p, vndf_exact_place at)
     return (p->e1 * at.xi + 2.0 * p->mass * at.eta) / (q * q);
 }
 
-/* Mass per xi over X at a place where the normal has the weight w; f, and with it the mass per xi, begins at 0 as
- * X does. */
+/* Mass per xi over X at a place where the normal has the weight w. Where f begins at 0, the mass per xi does so as X
+ * does, and their quotient is finite. */
 static double density_over_x(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at, double w)
 {
     inner in = inner_of(p, at.in, w);
@@ -157,7 +158,7 @@ double vndf_azimuth_slice_density(const vndf_azimuth_slice *law, double x, doubl
         place end = {law->cut, {law->c > 0.0 ? p.length : p.begin, law->c > 0.0 ? 1.0 - p.length : p.length}};
         at = end;
     }
-    /* the knots' X + Z: per X + Z = 1 of the normal becomes per that */
+    /* from X + Z = 1 of the normal to X + Z of the knots */
     vndf_exact_slope slope = slope_at(law->table, at);
     double sum = slope.x + slope.z, density = density_over_x(law, &p, at, w * sum) * (sum * sum * sum);
     return law->azimuth * density / (law->mass * law->table->cells[at.cell].width);
@@ -184,14 +185,14 @@ static double mass_before(const vndf_azimuth_slice *law, uint32_t j)
                         : law->c * knots->f0[j] + law->k * knots->f1[j];
 }
 
-/* Beyond it, c < 0. */
+/* Mass beyond knot j, c < 0. */
 static double mass_beyond(const vndf_azimuth_slice *law, uint32_t j)
 {
     const vndf_tail_sums *tail = &law->table->knots.tail[j];
     return law->k * tail->s + knot_weight(law, j) * tail->t;
 }
 
-/* The law for one azimuth: its cut, and all of its mass. */
+/* Finds the cut and the mass of a law. */
 void vndf_exact_law_find(vndf_azimuth_slice *law)
 {
     const vndf_distribution *d = law->table;
@@ -215,7 +216,7 @@ static double unit(double part)
     return part > 0.0 ? (part < 1.0 ? part : 1.0) : 0.0;
 }
 
-/* The part of the mass before a place in the piece p. It is counted from the side where nothing cancels. */
+/* The part of the mass before a place in the piece p, counted from the side where nothing cancels. */
 static double part_in(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at)
 {
     int above = law->c >= 0.0;
@@ -287,8 +288,8 @@ static uint32_t search_beyond(const vndf_azimuth_slice *law, double target)
     return j < last ? j : last;
 }
 
-/* The place of a piece at a place of its rational cell, times any number unless the piece is cut: xi from zeta
- * (math/weighted_cell.h), where xi : eta = zeta/(v0 + V) : (1 - zeta)/(v1 + V). */
+/* The place in a piece from the place in its rational cell, xi from zeta (math/weighted_cell.h): xi : eta =
+ * zeta/(v0 + V) : (1 - zeta)/(v1 + V). Unless the piece is cut, the result may have any factor. */
 static vndf_exact_place place_in_piece(const vndf_engine_piece *p, vndf_exact_place zeta)
 {
     if (!p->weighted)

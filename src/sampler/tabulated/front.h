@@ -1,14 +1,13 @@
-/* The front half circle, cos a >= 0, above the horizon: the density of the azimuth is A + B cos a, A = c F0 and B
- * = s F1, known without a table of D. With b = pi/2 - a its mass beyond a is
+/* The front half circle, cos a >= 0, above the horizon: the density of the azimuth is A + B cos a with A = c F0 and B
+ * = s F1, and needs no table of D. With b = pi/2 - a its mass beyond a is
  *
  *     A b + B (1 - cos b) = 2 A asin(y) + 2 B y^2,      y = sin(b/2),
  *
- * Kepler's equation if it is to be R. With k for asin(y)/y the root is y = R/(A k + sqrt((A k)^2 + 2 B R)); for
- * A = 0 that is exact, and where A rules k = 1 + 0.1107 (R/whole)^2 is good: b is within 4.3e-3 (all is multiplied
- * by whole^2, which spares a division). One step of
- * Halley's method in b, made by turning (sin b, cos b), leaves an error of 7.4e-9 of the mass, so (A + B cos a)
- * is the density of what is drawn to float precision. asin(y)/y is a polynomial in y^2 up to 0.505, largest
- * error 1.8e-8 (fitted for that). */
+ * To find the b with a given mass R is Kepler's equation. With k for asin(y)/y its root is y = R/(A k + sqrt((A k)^2 +
+ * 2 B R)). For A = 0 this is exact; where A dominates, k = 1 + 0.1107 (R/whole)^2 leaves b within 4.3e-3. (The code
+ * multiplies all by whole^2, which spares a division.) One step of Halley's method in b, made by turning (sin b, cos
+ * b), leaves an error of 7.4e-9 of the mass, so A + B cos a is the density of the sample to float precision. A
+ * polynomial in y^2 replaces asin(y)/y up to y^2 = 0.505; its largest error is 1.8e-8. */
 #ifndef VNDF_SAMPLER_TABULATED_FRONT_H
 #define VNDF_SAMPLER_TABULATED_FRONT_H
 
@@ -32,7 +31,7 @@ VNDF_INLINE lanes_f vndf_front_density(vndf_front front, lanes_f cos_phi)
     return front.even + front.odd * cos_phi;
 }
 
-/* Of the whole front. */
+/* The mass of the whole front. */
 VNDF_INLINE lanes_f vndf_front_mass(vndf_front front)
 {
     return front.even * VNDF_QUARTER_TURN + front.odd;
@@ -53,8 +52,8 @@ VNDF_INLINE lanes_f vndf_front_rest(vndf_front front, lanes_f cos_phi, lanes_f s
     return vndf_front_beyond(front, y, y * y);
 }
 
-/* The azimuth with mass `rest` beyond it; `whole` is the mass of the front. The third power of the step is
- * 1e-8. *near becomes the cosine before that step, within 0.6% of it: for those who cannot wait. */
+/* The azimuth with the mass `rest` beyond it; `whole` is the mass of the front. The third power of the step is
+ * 1e-8. *near is the cosine before that step, within 0.6%: a search can begin with it early. */
 VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, lanes_f rest, lanes_f whole, lanes_f *near)
 {
     const float tiny = 1e-30f; /* quotients of nothing become 0, here and below */

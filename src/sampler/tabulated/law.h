@@ -1,4 +1,4 @@
-/* What a table answers to sampler/law.h, beside its area (area.h) and what theory.h declares. */
+/* The answers of a table to sampler/law.h; its area is in area.h, its samples and densities are in theory.h. */
 #ifndef VNDF_SAMPLER_TABULATED_LAW_H
 #define VNDF_SAMPLER_TABULATED_LAW_H
 
@@ -8,14 +8,14 @@
 
 /* ---- for one or for lanes ---- */
 
-/* D, of a valid normal. */
+/* D of a valid normal. */
 VNDF_INLINE doubles vndf_table_ndf(const vndf_distribution *d, const vndf_query *g)
 {
     vndf_bare n = vndf_bare_of(g);
     return vndf_query_ndf(d, &n);
 }
 
-/* Dv where wi . wm = facing > 0 and all is valid. */
+/* Dv for a valid query with wi . wm = facing > 0. */
 VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_query *g, doubles facing)
 {
     const doubles nothing = doubles_set(0.0);
@@ -27,27 +27,27 @@ VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_qu
 
 #if VNDF_LANES == 1
 
-/* At the squared slope length r2. */
+/* P22 at the squared slope length r2. */
 VNDF_INLINE double vndf_table_p22(const vndf_distribution *d, double r2)
 {
     double r = sqrt(r2), z = 1.0 / (1.0 + r);
     return vndf_engine_p22_over_z4(d, r * z, z) * (z * z) * (z * z);
 }
 
-/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *ready is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *ready)
+/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *trusted is 0 the caller computes it in double. */
+VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
 {
     float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
-    *ready = vndf_trusts_direction(across2, w.z, sum);
-    if (!*ready)
+    *trusted = vndf_trusts_direction(across2, w.z, sum);
+    if (!*trusted)
         return 0.0f;
     float per = 1.0f / sum, s = across * per, c = w.z * per, per_width;
     float area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
-    *ready = vndf_trusts_area_piece(per_width);
+    *trusted = vndf_trusts_area_piece(per_width);
     return area * sum;
 }
 
-/* The same of a view's own direction, from what the view holds, for any roughness. */
+/* The same for a view's own direction, for any roughness, from numbers in the view. */
 VNDF_INLINE float vndf_table_view_area(const vndf_view *view)
 {
     float x = view->ax * view->wi.x, y = view->ay * view->wi.y;

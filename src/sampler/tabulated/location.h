@@ -1,10 +1,10 @@
-/* A place in the radial table, found from the slope of a given normal, in double, for one or for lanes; and D
- * there. X and Z, both >= 0, are of any length: with
+/* A place in the radial table, found from the slope of a given normal, and D at that place; in double, for one or for
+ * lanes. X and Z, both >= 0, have any length: with
  *
  *     inner = X z0 - Z x0,   outer = Z x1 - X z1        for the knots (x0, z0), (x1, z1) of the cell
  *
  * xi = inner/(inner + outer) and eta = outer/(inner + outer) are each exact where they are small. Knots have
- * x + z = 1 but for their rounding; x + z at the place tells what is for the normal from what is for the table. */
+ * x + z = 1 but for their rounding, so a density for the normal needs x + z of the place. */
 #ifndef VNDF_SAMPLER_TABULATED_LOCATION_H
 #define VNDF_SAMPLER_TABULATED_LOCATION_H
 
@@ -18,7 +18,8 @@ typedef struct vndf_radial_location {
     doubles x0, x1, z0, z1; /* the knots */
 } vndf_radial_location;
 
-/* Those of a distance from the inner knot below 0, and from the outer one. Neither is both. */
+/* The step to the next cell: inwards where `inner` is below 0, outwards where `outer` is not above 0. No lane steps
+ * both ways. */
 VNDF_INLINE doubles_u vndf_radial_location_step(doubles_u cell, doubles inner, doubles outer, uint32_t count)
 {
     const doubles nothing = doubles_set(0.0);
@@ -29,7 +30,7 @@ VNDF_INLINE doubles_u vndf_radial_location_step(doubles_u cell, doubles inner, d
     return doubles_pick_u(out, one, zero) - doubles_pick_u(in, one, zero);
 }
 
-/* From a cell that is near. */
+/* The place of (X, Z), looked for from a cell that is near. */
 VNDF_INLINE vndf_radial_location vndf_radial_location_near(const vndf_distribution *d, doubles x, doubles z,
                                                            doubles_u cell)
 {
@@ -55,22 +56,21 @@ VNDF_INLINE vndf_radial_location vndf_radial_location_near(const vndf_distributi
     }
 }
 
-/* The guide finds the cell, or one near it; from so small numbers that a float has no digits of them it is a long
- * way. */
+/* The place of (X, Z). The guide finds the cell or one near it; numbers too small for a float lead it far away. */
 VNDF_INLINE vndf_radial_location vndf_radial_location_at(const vndf_distribution *d, doubles x, doubles z)
 {
     return vndf_radial_location_near(d, x, z,
                                      vndf_guide_about(&d->slope_guide, doubles_narrow(x) / doubles_narrow(z)));
 }
 
-/* f0, f1, mu0, mu1 of its cell. */
+/* f0, f1, mu0, mu1 of the cell. */
 VNDF_INLINE doubles_four vndf_radial_location_cell(const vndf_distribution *d, const vndf_radial_location *at)
 {
     doubles_lines line = doubles_lines_at(&d->cells->f0, sizeof *d->cells / sizeof(float), at->cell);
     return doubles_load_four(&line, 0);
 }
 
-/* Of numbers at the inner and at the outer knot, that at the place, times inner + outer. */
+/* A number at the place, times inner + outer, from the numbers at the inner and the outer knot. */
 VNDF_INLINE doubles vndf_radial_location_between(const vndf_radial_location *at, doubles in, doubles out)
 {
     return at->outer * in + at->inner * out;
@@ -82,14 +82,14 @@ VNDF_INLINE doubles vndf_radial_location_width(const vndf_radial_location *at)
     return at->x1 * at->z0 - at->x0 * at->z1;
 }
 
-/* Whether it is the cell where X begins. */
+/* Whether it is the first cell, where X begins at 0. */
 VNDF_INLINE doubles_m vndf_radial_location_is_first(const vndf_radial_location *at)
 {
     return doubles_at_most_u(at->cell, doubles_set_u(0));
 }
 
-/* The bump of a cell's cubic (table/moment_cubic.h), from its moments: rounded to float it would show where f
- * nearly vanishes. */
+/* The bump of a cell's cubic (table/moment_cubic.h), computed from its moments. A bump rounded to float would show
+ * where f nearly vanishes. */
 typedef struct vndf_bump {
     doubles a, b;
 } vndf_bump;

@@ -1,21 +1,20 @@
 /* Stage 2 of the engine: the slope length R = X/Z for a given azimuth, density f(xi) (c Z + k X) dxi in each
- * cell of the radial table, where c Z + k X > 0. Here is what lanes share: the laws of a direction above the
- * horizon, and cells away from the cut; exact_radius.c has all of them.
+ * cell of the radial table, where c Z + k X > 0. This file serves one and lanes: the laws of a direction above the
+ * horizon, and cells away from the cut. exact_radius.c has all laws and all cells.
  *
- * The weight W = c Z + k X is linear in xi. Masses come from the moments of a cell, W0 mu0 + W1 mu1, sums from
- * the prefix of the side where nothing cancels. Inside a cell f W is drawn by a rational cell; in the cell that
- * holds the cut W = 0, in all cells beyond it and in the two inside it, by a weighted one (math/weighted_cell.h),
- * with a weight V that is W. The cell at the cut is used on its visible part alone, with its mass and its value at
- * the cut from the cubic.
+ * The weight W = c Z + k X is linear in xi. The mass of a cell comes from its moments, W0 mu0 + W1 mu1, and sums of
+ * masses from the side where nothing cancels. Most cells draw f W by a rational cell. The cell of the cut W = 0, all
+ * cells beyond it and the two inside it draw by a weighted cell (math/weighted_cell.h), whose weight V is W. The
+ * cell at the cut is used on its visible part alone; the cubic gives its mass and its value at the cut.
  *
- * Below the horizon all that is seen lies beyond the cut, so that no law jumps as the cut moves. Above it most
- * cells lie far inside the cut, where a constant V saves a root; the second cell inside leads from one to the
- * other. Its V depends on the visible part h of the cell at the cut: it is W at h = 0, where the cut leaves the
- * first, and from h = 1/16 constant. V is W at the knot away from the cut, and 16 h of the way from W there to
- * that value at the knot towards it. W and a constant follow a law f W equally well, what is between them less
- * so, by 1e-3 of the cell's mass where W doubles in it. Above the horizon such a cell holds little; below it would
- * hold up to three quarters of all that is seen, and raise the TV from 6e-5 to 4.5e-4 wherever the cut is
- * about to pass a knot. */
+ * Below the horizon all visible normals lie beyond the cut, so that no law jumps as the cut moves. Above it most
+ * cells lie far inside the cut, where a constant V saves a root; the second cell inside leads from one form to the
+ * other. Its V depends on the visible part h of the cell at the cut: at h = 0, where the cut leaves the first cell, V
+ * is W; from h = 1/16 on it is constant. At the knot away from the cut V is W, and at the knot towards the cut it has
+ * gone 16 h of the way from W there to that value. W and a constant follow a law f W equally well; a V between them
+ * misses by 1e-3 of the cell's mass where W doubles in it. Above the horizon such a cell holds little. Below it would
+ * hold up to three quarters of the visible mass, and raise the TV from 6e-5 to 4.5e-4 wherever the cut is about to pass
+ * a knot. */
 #ifndef VNDF_SAMPLER_TABULATED_RADIAL_H
 #define VNDF_SAMPLER_TABULATED_RADIAL_H
 
@@ -40,7 +39,7 @@ typedef struct vndf_radial_lanes {
     lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, smooth, a, b, e, g;
 } vndf_radial_lanes;
 
-/* From lines of d's cells, knots, bends and sums. What is not used of it is not loaded. */
+/* From lines of d's cells, knots, bends and sums. The compiler leaves out loads that nobody reads. */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *cells, const lanes_lines *at,
                                                      const lanes_lines *bends, const lanes_lines *pole)
 {
@@ -65,7 +64,7 @@ VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes
 
 #else
 
-/* Cells that have long been in memory (lanes_lines_from). */
+/* The same for cells that were stored long before (lanes_lines_from). */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load_from(const vndf_distribution *d, const uint32_t *j)
 {
     lanes_lines cells = lanes_lines_from(&d->cells->f0, VNDF_CELL_FLOATS, j);
@@ -83,8 +82,8 @@ VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes
 
 #endif
 
-/* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t); a thousandth of
- * what the straight line gives at least: where the cubic is any good that is far away, and no cell is empty. */
+/* integral_0^1 f(h t) (1 - t) dt for the cubic from f0 to f1 with the bump t (1-t) (a + b t), but at least a thousandth
+ * of the integral of the straight line: a good cubic is far above that, and no cell becomes empty. */
 VNDF_INLINE lanes_f vndf_radial_part(lanes_f f0, lanes_f f1, lanes_f a, lanes_f b, lanes_f h)
 {
     const float sixth = 1.0f / 6.0f;
@@ -106,8 +105,7 @@ VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const v
     return law->c * cell->before0 + law->k * cell->before1;
 }
 
-/* The law with its weights multiplied so that `total`, its mass, becomes 1: no square of a mass vanishes where next to
- * nothing is visible. */
+/* The law scaled from the mass `total` to the mass 1: no square of a mass vanishes where next to nothing is visible. */
 VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
 {
     lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
@@ -122,21 +120,21 @@ VNDF_INLINE lanes_f vndf_radial_total(const vndf_distribution *d, lanes_f c, lan
     return c * d->f0_total + k * d->f1_total;
 }
 
-/* c, k >= 0. It is not scaled, which takes a division: in front of wi the mass is the density of the azimuth, and
- * drops out of that of the normal. */
+/* The law for c, k >= 0. It is not scaled, which saves a division: in front of wi the mass is the density of the
+ * azimuth, and drops out of the density of the normal. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_whole(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
     vndf_radial_law law = {c, k, lanes_set_u(d->radial_count), lanes_set(0.0f), lanes_all()};
     return law;
 }
 
-/* c > 0 > k: the cell of the cut. */
+/* The cell of the cut for c > 0 > k. */
 VNDF_INLINE lanes_u vndf_radial_cut(const vndf_distribution *d, lanes_f c, lanes_f k)
 {
     return vndf_guide_lanes(&d->slope_guide, c / -k);
 }
 
-/* The law with its cut in cell j, which is *cell; not scaled yet, *total is its mass. */
+/* The law with its cut in cell j, which is *cell. It is not scaled yet; *total is its mass. */
 VNDF_INLINE vndf_radial_law vndf_radial_law_cut(lanes_f c, lanes_f k, lanes_u j, const vndf_radial_lanes *cell,
                                                 lanes_f *total)
 {
@@ -159,16 +157,16 @@ VNDF_INLINE vndf_radial_law vndf_radial_law_above(const vndf_distribution *d, la
 }
 
 /* A cell away from the cut, where W > 0 without a guard. */
-VNDF_INLINE vndf_rational_cell vndf_radial_plain(const vndf_radial_law *law, const vndf_radial_lanes *cell)
+VNDF_INLINE vndf_rational_cell vndf_radial_cell_away(const vndf_radial_law *law, const vndf_radial_lanes *cell)
 {
     lanes_f g0 = law->c * cell->z0 + law->k * cell->x0;
     lanes_f g1 = law->c * cell->z1 + law->k * cell->x1;
-    vndf_rational_cell plain = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
-    return plain;
+    vndf_rational_cell away = {cell->f0 * g0, cell->f1 * g1, g0 * cell->mu0 + g1 * cell->mu1};
+    return away;
 }
 
-/* Whether a cell inside the cut is drawn like that: the second from the cell at the cut where h is above 1/16,
- * any further away (c > 0 > k). */
+/* Whether cell j is away from the cut for c > 0 > k: the second cell inside is where h is above 1/16, and so is every
+ * cell further inside. */
 VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
 {
     return lanes_at_most_u(lanes_count(j + 2u, lanes_less(law->part, lanes_set(0.0626f))), law->cut);
@@ -176,7 +174,7 @@ VNDF_INLINE lanes_m vndf_radial_is_away(const vndf_radial_law *law, lanes_u j)
 
 /* ---- search, one lane at a time ---- */
 
-/* How many of eight knots have no more than `target` before them (c > 0 > k), the first being `from`. */
+/* How many of the eight knots from `from` on have no more than `target` before them (c > 0 > k). */
 VNDF_INLINE uint32_t vndf_radial_count_above(const vndf_knots *knots, uint32_t from, float c, float k,
                                              float target)
 {
@@ -190,7 +188,7 @@ VNDF_INLINE uint32_t vndf_radial_count_whole(const vndf_knots *knots, uint32_t f
     return vndf_count_two(knots->f0 + from, knots->f1 + from, c, k, target);
 }
 
-/* A wide window narrowed to eight cells: of its knots every step-th is looked at. */
+/* Narrows a wide window to eight cells; looks at every step-th knot of it. */
 VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, float c, float k, float target)
 {
     for (; w.step > 1; w.step /= VNDF_WINDOW) {
@@ -203,11 +201,11 @@ VNDF_RARE uint32_t vndf_radial_narrow(const vndf_knots *knots, vndf_window w, fl
         }
         w.first += count * w.step;
     }
-    const uint32_t most = knots->count - VNDF_WINDOW - 1; /* lanes of no use may have sums that do not ascend */
+    const uint32_t most = knots->count - VNDF_WINDOW - 1; /* unused lanes may have sums that do not ascend */
     return w.first < most ? w.first : most;
 }
 
-/* The cell in which the mass `target` ends, by its window; `whole` for c, k >= 0, else c > 0 > k. */
+/* The cell in which the mass `target` ends, from the code of its window. `whole` says c, k >= 0; else c > 0 > k. */
 VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t code, float c, float k,
                                           float target, int whole)
 {
@@ -218,7 +216,7 @@ VNDF_INLINE uint32_t vndf_radial_find_one(const vndf_distribution *d, uint32_t c
                             : vndf_radial_count_above(&d->knots, w.first + 1, c, k, target));
 }
 
-/* ---- where the density of a place is that of its rounded normal ---- */
+/* ---- whether the density at a place is the density of its rounded normal ---- */
 
 VNDF_INLINE lanes_m vndf_radial_is_trusted(const vndf_radial_lanes *at, const vndf_rational_cell *cell,
                                            const vndf_rational_place *in)

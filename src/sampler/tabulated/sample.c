@@ -1,48 +1,48 @@
-/* The fast tier for one sample of a table (theory.h): in float by draw.h, and where trust.h forbids that by exact.c. */
+/* The fast tier for one sample of a table (theory.h): draw.h draws in float, and exact.c where trust.h forbids that. */
 #include "math/vector.h"
 #include "sampler/tabulated/draw.h"
 #include "sampler/tabulated/theory.h"
 
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, lanes_m *trusted)
 {
     vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u2, plain);
-    return vndf_drawn_at(&b.level, &at, plain);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u2, trusted);
+    return vndf_drawn_at(&b.level, &at, trusted);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, lanes_m *plain)
+                                     const vndf_azimuth_range *range, float u2, lanes_m *trusted)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(range->apart), range->mass);
-    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, plain);
+    vndf_azimuth a = vndf_azimuth_draw_one(&row, part, trusted);
     vndf_azimuth_sample b = vndf_azimuth_sample_wedge(d, w, range, &a, u2);
     vndf_radial_law law = vndf_radial_law_above(d, b.c, b.k, &b.total);
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u2, plain);
-    return vndf_drawn_at(&b.level, &at, plain);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u2, trusted);
+    return vndf_drawn_at(&b.level, &at, trusted);
 }
 
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    if (!view->plain)
+    if (!view->trusted)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
     vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m plain = vndf_trusts_wedge_mass(view->of.table.front, range.mass);
-    if (!plain)
+    lanes_m trusted = vndf_trusts_wedge_mass(view->of.table.front, range.mass);
+    if (!trusted)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
     vndf_drawn n =
-        range.in_front ? draw_in_front(d, &w, &range, u2, &plain) : draw_in_wedge(d, &w, &range, u2, &plain);
-    if (!plain)
+        range.in_front ? draw_in_front(d, &w, &range, u2, &trusted) : draw_in_wedge(d, &w, &range, u2, &trusted);
+    if (!trusted)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;

@@ -14,36 +14,34 @@
  *     a front half (c >= 0, cos a >= 0):   c F0(inf) + s cos(a) F1(inf)                               (2)
  *     the wedge above (c > 0, cos a < 0):  c (F0(rho) - F1(rho)/rho),   rho = c/(s |cos a|)           (3)
  *     the wedge below (c < 0, cos a > 0):  k (T1(rho) - rho T0(rho)),   T_n = F_n(inf) - F_n          (4)
- * u1 goes round from behind wi (0) through its side (1/2) and back (1): |2 u1 - 1| is the part of a half turn's
+ * u1 goes round from behind wi (0) through the side of wi (1/2) and back (1): |2 u1 - 1| is the part of a half turn's
  * mass between the side of wi and |a|. Above the horizon the front comes first and then the wedge, by their two
  * masses; below it the wedge is all there is.
  *
- * The front. (2) needs two numbers of D and no table; its integral is Kepler's equation, solved to float
- * precision by one step from a closed start (front.h).
+ * The front. (2) needs two numbers of D and no table. Its inverse is Kepler's equation; one step from a closed start
+ * solves it to float precision (front.h).
  *
  * The wedge. (3) and (4) are integrals of D over a half plane's strip, twice smoother than D. Their masses over
  * the angle of incidence are quintic splines (table/area_piece.h); the one below also gives areas, Lambda and
- * G1, since A(w) - A(-w) = c. For what is inside a wedge, here and only here, a 2D table stands (vndf_wedge):
- * rows over the angle of incidence of mass and density on cells of a half-angle tangent q (azimuth.h), three of
- * which a direction mixes by quadratic Bezier weights (wedge.h). Linear mixing left twice the error at 64 KiB;
- * higher orders may leave the positive numbers.
+ * G1, since A(w) - A(-w) = c. Only for the azimuth inside a wedge does a 2D table stand (vndf_wedge): rows over the
+ * angle of incidence, each with mass and density on cells of a half-angle tangent q (azimuth.h). A direction mixes
+ * three rows by quadratic Bezier weights (wedge.h). Linear mixing left twice the error at 64 KiB; higher orders may
+ * leave the positive numbers.
  *
  * The wedges and the radius (radial.h) are drawn from piecewise densities that are *defined* by the numbers of
  * the table (cells of math/rational_cell.h: exact mass and exact end densities), and the pdf evaluates the same
  * cells: the density is known whatever the size of the table, only its distance to (1) shrinks with it.
  *
  * Drawing is in float: a place that is off by a rounding is as good as the one asked for, and where the density
- * changes little from a normal to its rounded self, that of the place comes for nothing (sample.c). The density
- * of a *given* normal has no such freedom: its place has to be found from the normal, and in float W at the
- * cut, the slope in a narrow cell and the angle to a right angle from wi are differences that may lose every
- * digit where the density is steep or ends. So it is computed in double from wi, wm and the roughness as they
- * were given (exact.c), by the same cells; and where rounding would show, that is also the density that a
- * sample comes with.
+ * changes little from a normal to its rounded self, the density at the place comes for nothing (sample.c). The density
+ * of a *given* normal has no such freedom: its place is found from the normal, and in float three numbers are
+ * differences that may lose every digit where the density is steep or ends: W at the cut, the slope in a narrow cell,
+ * and the angle to a right angle from wi. So the same cells are evaluated in double from the caller's wi, wm and
+ * roughness (exact.c); where rounding would show, a sample comes with that density too.
  *
- * Why this and not the other orders, both measured on prototypes of 16 KiB: slope x first, then y given x, needs a
- * 2D table of D itself and leaves a total variation of 5e-2 on a ring and 1e-1 on a disc; radius first needs
- * a kernel of angle and radius approximated by sums of powers, which stops at 1e-3 below the horizon, whatever
- * the size, and takes twice the time. */
+ * Why not the other orders? Both were measured on prototypes of 16 KiB. Slope x first, then y given x, needs a 2D table
+ * of D itself and leaves a total variation of 5e-2 on a ring and 1e-1 on a disc. Radius first needs a kernel of angle
+ * and radius as a sum of powers, which stops at 1e-3 below the horizon at any size, and takes twice the time. */
 #ifndef VNDF_SAMPLER_TABULATED_THEORY_H
 #define VNDF_SAMPLER_TABULATED_THEORY_H
 
@@ -57,13 +55,13 @@
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The same by the exact tier (exact.h), where float is known not to do. */
+/* The same by the exact tier (exact.h), for samples that float may not draw. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
 struct vndf_query; /* sampler/tabulated/density.h */
 double vndf_engine_density(const vndf_view *view, const struct vndf_query *given);
 
-/* Densities of normals of one azimuth a, given by its cosine and sine >= 0: the law of the radius there. */
+/* The law of the radius at one azimuth a, given by its cosine and sine >= 0. */
 typedef struct vndf_azimuth_slice {
     const vndf_distribution *table;
     double c, k;       /* k = s cos a */
@@ -73,34 +71,34 @@ typedef struct vndf_azimuth_slice {
 } vndf_azimuth_slice;
 vndf_azimuth_slice vndf_azimuth_slice_at(const vndf_view *view, double cosine, double sine);
 
-/* That of a normal, of any length. */
+/* The slice through a normal of any length. */
 vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm);
 
-/* The density of that normal per steradian, its length 1 but for rounding and facing = wi.wm > 0. */
+/* The density per steradian of a normal in the slice, of length 1 but for rounding, with facing = wi.wm > 0. */
 double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *slice, vndf_normal wm,
                               double facing);
 
 /* The part of the law with slopes up to X/Z. */
 double vndf_azimuth_slice_part(const vndf_azimuth_slice *slice, double x, double z);
 
-/* Per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
+/* The density per X Z^2 dR da at X + Z = 1, where w = c Z + k X > 0. */
 double vndf_azimuth_slice_density(const vndf_azimuth_slice *slice, double x, double z, double w);
 
-/* A cell of the law as far as it is visible, from `begin` on, `length` long in xi: its mass and the densities at
- * its ends per xi of the part or, if weighted, per zeta of V (math/weighted_cell.h), and V there. */
+/* The visible part of a cell of the law, from `begin` on, `length` long in xi: its mass, the densities at its ends, and
+ * V there. Densities are per xi of the part or, if weighted, per zeta of V (math/weighted_cell.h). */
 typedef struct vndf_engine_piece {
     double e0, e1, mass, v0, v1, begin, length;
     int weighted;
 } vndf_engine_piece;
 vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *slice, uint32_t cell);
 
-/* Per dxi da at a visible place of that cell, xi and eta from its knots. */
+/* The density per dxi da at a visible place of that cell, xi and eta from its knots. */
 double vndf_engine_piece_density(const vndf_azimuth_slice *slice, const vndf_engine_piece *piece, uint32_t cell,
                                  double xi, double eta);
 
-/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some
- * steps of 2^-24: returns whether that is known to move it by no more than 1e-5 (sampler/nearest.h is for where it
- * is not). */
+/* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some steps
+ * of 2^-24. Returns whether these steps are known to move it by no more than 1e-5; if not, sampler/nearest.h improves
+ * them. */
 int vndf_engine_invert(const vndf_view *view, vndf_vec3 normal, float *u1, float *u2);
 
 /* P22/Z^4 at (X, Z), X + Z = 1: D is this times (X^2 + Z^2)^2, finite at the horizon. */

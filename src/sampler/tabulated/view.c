@@ -4,29 +4,30 @@
 #include "sampler/nearest.h"
 #include "sampler/tabulated/law.h"
 
-/* From doubles, where it cannot be had in float: below the horizon, along z, at extremes. */
-VNDF_RARE vndf_aim aim_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+/* In double, where float does not do: below the horizon, along z, at extremes. The mass below may underflow, so `wedge`
+ * is its part of the whole there. */
+VNDF_RARE vndf_stretched_view stretched_exactly(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
 {
     vndf_stretched w = vndf_stretch(wi, ax, ay, VNDF_LENGTH_SUM);
     vndf_heading to = vndf_heading_of(&w);
-    vndf_aim aim = {(float)w.s, (float)w.c, (float)to.cosine, (float)to.sine, 0, 0, 0};
+    vndf_stretched_view stretched = {(float)w.s, (float)w.c, (float)to.cosine, (float)to.sine, 0, 0, 0};
     double mass = vndf_wedge_mass(vndf_wedge_of(d, w.c), vndf_wedge_y(w.s, w.c));
     double front = w.c >= 0.0 ? w.c * (d->f0_total * VNDF_QUARTER_TURN) + w.s * d->f1_total : 0.0;
-    aim.front = (float)front;
-    aim.area = (float)(2.0 * (front + mass));
-    aim.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f; /* its part below: the mass may underflow */
-    return aim;
+    stretched.front = (float)front;
+    stretched.area = (float)(2.0 * (front + mass));
+    stretched.wedge = w.c >= 0.0 ? (float)mass : w.s > 0.0 ? 1.0f : 0.0f;
+    return stretched;
 }
 
-/* For roughness times the table's scale, as it is and as it is drawn with. */
+/* The view for roughness times the table's scale: in double, and as draws use it in float. */
 static vndf_view view_scaled(const vndf_distribution *d, double ax, double ay, float x, float y, vndf_vec3 wi)
 {
-    lanes_m ready = 1;
-    vndf_aim aim = vndf_aim_at(d, x * wi.x, y * wi.y, wi.z, &ready);
+    lanes_m trusted = 1;
+    vndf_stretched_view stretched = vndf_stretched_view_at(d, x * wi.x, y * wi.y, wi.z, &trusted);
     vndf_view view;
-    if (!ready)
-        aim = aim_exactly(d, ax, ay, wi);
-    vndf_table_view_put(&view, d, ax, ay, x, y, wi, &aim);
+    if (!trusted)
+        stretched = stretched_exactly(d, ax, ay, wi);
+    vndf_table_view_put(&view, d, ax, ay, x, y, wi, &stretched);
     return view;
 }
 
@@ -49,17 +50,18 @@ vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi)
 void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
     const vndf_distribution *d = surface->distribution;
-    vndf_aim aim;
+    vndf_stretched_view stretched;
     float x, y;
-    if (vndf_table_aims(surface, wi, &x, &y, &aim))
-        vndf_table_view_put(view, d, surface->alpha_x * d->scale, surface->alpha_y * d->scale, x, y, wi, &aim);
+    if (vndf_table_stretches(surface, wi, &x, &y, &stretched))
+        vndf_table_view_put(view, d, surface->alpha_x * d->scale, surface->alpha_y * d->scale, x, y, wi,
+                            &stretched);
     else
         *view = vndf_table_view_exactly(surface, vndf_packed(wi));
 }
 
 /* ---- inverse ---- */
 
-/* Where some steps of 2^-24 matter and wi sees wm, u is what gives it, not what should. */
+/* Where some steps of 2^-24 matter and wi sees wm, the search finds numbers that really give wm. */
 void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     vndf_frame frame = vndf_table_frame(view);

@@ -4,13 +4,13 @@
 
 #include "math/vector.h"
 #include "sampler/surface.h"
-#include "sampler/tabulated/aim.h"
+#include "sampler/tabulated/stretched_view.h"
 
 #if VNDF_LANES == 1
 
-/* Members are written once, each by itself: what is read soon after must not wait for wider stores. */
+/* Writes each member once and by itself: a read soon after must not wait for a wider store. */
 VNDF_INLINE void vndf_table_view_put(vndf_view *view, const vndf_distribution *d, double ax, double ay, float x,
-                                     float y, vndf_vec3 wi, const vndf_aim *aim)
+                                     float y, vndf_vec3 wi, const vndf_stretched_view *stretched)
 {
     view->distribution = d;
     view->wi.x = wi.x;
@@ -20,46 +20,47 @@ VNDF_INLINE void vndf_table_view_put(vndf_view *view, const vndf_distribution *d
     view->alpha_y = ay;
     view->ax = x;
     view->ay = y;
-    view->plain = vndf_trusts_scale(x, y, aim->c);
-    view->of.table.s = aim->s;
-    view->of.table.c = aim->c;
-    view->of.table.cos_phi = aim->cos_phi;
-    view->of.table.sin_phi = aim->sin_phi;
-    view->of.table.front = aim->front;
-    view->of.table.wedge = aim->wedge;
-    view->of.table.area = aim->area;
-    view->of.table.spread = aim->area * (x * y);
+    view->trusted = vndf_trusts_scale(x, y, stretched->c);
+    view->of.table.s = stretched->s;
+    view->of.table.c = stretched->c;
+    view->of.table.cos_phi = stretched->cos_phi;
+    view->of.table.sin_phi = stretched->sin_phi;
+    view->of.table.front = stretched->front;
+    view->of.table.wedge = stretched->wedge;
+    view->of.table.area = stretched->area;
+    view->of.table.spread = stretched->area * (x * y);
 }
 
-/* Of a usable direction, for roughness times the table's scale. */
+/* The view of a usable direction for roughness times the table's scale. */
 vndf_view vndf_table_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi);
 
-/* vndf_view_from where float does not do, or for what is invalid. */
+/* vndf_view_from where float does not do, or the input is invalid. */
 vndf_view vndf_table_view_exactly(const vndf_surface *surface, vndf_vec3 wi);
 
-/* Roughness as it is drawn with, and the aim; whether float does. Then the view is valid, and nothing else has to be
- * looked at. */
-VNDF_INLINE int vndf_table_aims(const vndf_surface *surface, vndf_vec3 wi, float *x, float *y, vndf_aim *aim)
+/* Roughness times scale, and the stretched view. Returns whether float is trusted; then the view is valid, and the
+ * caller checks nothing else. */
+VNDF_INLINE int vndf_table_stretches(const vndf_surface *surface, vndf_vec3 wi, float *x, float *y,
+                                     vndf_stretched_view *stretched)
 {
     const vndf_distribution *d = surface->distribution;
     float scale = vndf_unit_scale_float(d);
-    lanes_m ready = 1;
+    lanes_m trusted = 1;
     *x = surface->alpha_x * scale;
     *y = surface->alpha_y * scale;
-    *aim = vndf_aim_at(d, *x * wi.x, *y * wi.y, wi.z, &ready);
-    return ready & vndf_trusts_scale(*x, *y, aim->c);
+    *stretched = vndf_stretched_view_at(d, *x * wi.x, *y * wi.y, wi.z, &trusted);
+    return trusted & vndf_trusts_scale(*x, *y, stretched->c);
 }
 
 VNDF_INLINE vndf_view vndf_table_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_aim aim;
+    vndf_stretched_view stretched;
     vndf_view view;
     float x, y;
-    if (!vndf_table_aims(surface, wi, &x, &y, &aim))
+    if (!vndf_table_stretches(surface, wi, &x, &y, &stretched))
         return vndf_table_view_exactly(surface, wi);
     double scale = vndf_unit_scale(surface->distribution);
     vndf_table_view_put(&view, surface->distribution, surface->alpha_x * scale, surface->alpha_y * scale, x, y, wi,
-                        &aim);
+                        &stretched);
     return view;
 }
 

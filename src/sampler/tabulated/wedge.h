@@ -1,4 +1,5 @@
-/* The wedge, the part of the circle that the horizon of wi cuts: its mass, and its row for a direction. */
+/* The wedge is the part of the circle where the horizon of wi cuts the law of the radius. Here are its mass and its row
+ * for a direction. */
 #ifndef VNDF_SAMPLER_TABULATED_WEDGE_H
 #define VNDF_SAMPLER_TABULATED_WEDGE_H
 
@@ -14,7 +15,7 @@ VNDF_INLINE const vndf_wedge *vndf_wedge_of(const vndf_distribution *d, double c
 
 #if VNDF_DOUBLES == 8
 
-/* Where there are no more than VNDF_FEW pieces: the one of y is found and read in registers. */
+/* For no more than VNDF_FEW pieces: finds the piece of y and reads it in registers. */
 VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
 {
     const uint32_t pitch = wedge->few_pitch;
@@ -33,8 +34,8 @@ VNDF_INLINE doubles vndf_wedge_mass_few(const vndf_wedge *wedge, doubles y)
 
 #endif
 
-/* Mass of half a wedge at y, per (s + |c|). In double: near the horizon the mass above it falls as c^3, and a
- * narrow lobe makes up for that; and where D falls fast a rounding of y to the float of the guide would show. */
+/* Mass of half a wedge at y, per (s + |c|), in double. Near the horizon the mass above it falls as c^3, and a narrow
+ * lobe makes up for that; where D falls fast, rounding y to the guide's float would show. */
 VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
 {
 #if VNDF_DOUBLES == 8
@@ -57,8 +58,8 @@ VNDF_INLINE doubles vndf_wedge_mass(const vndf_wedge *wedge, doubles y)
     }
 }
 
-/* The same above the horizon in float, where that is good enough: for drawing, and for densities where *per_width, one
- * over the width of its piece, is trusted. */
+/* The same above the horizon in float. Draws may always use it, densities where *per_width, one over the width of the
+ * piece, is trusted. */
 VNDF_INLINE lanes_f vndf_wedge_quick(const vndf_wedge *wedge, lanes_f y, lanes_f *per_width)
 {
 #if VNDF_LANES > 1
@@ -84,7 +85,7 @@ VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
     return vndf_guide_lanes(&wedge->row_guide, y);
 }
 
-/* The row for the coordinate y in span i, from where it is to be loaded. Its mass is 1. */
+/* The row for the coordinate y in span i, loaded from `lines`. Its mass is 1. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
                                                  const lanes_lines *lines)
 {
@@ -98,7 +99,7 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_
 
 enum { VNDF_ROW_SPAN_FLOATS = sizeof(vndf_row_span) / sizeof(float) };
 
-/* Not part of the view, since most samples are in front. */
+/* The row is not part of the view, since most samples are in front. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 {
     lanes_u i = vndf_wedge_span(wedge, y);
@@ -106,8 +107,8 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
     return vndf_wedge_row_from(wedge, y, i, &lines);
 }
 
-/* Part of the wedge's mass between the far side, a = pi, and the azimuth with the mass `apart` between the side of
- * wi and it. */
+/* The mass `apart` is counted from the side of wi to an azimuth. The result is the part of the wedge's mass from that
+ * azimuth to the far side, a = pi. */
 VNDF_INLINE lanes_f vndf_wedge_part(lanes_f apart, lanes_f mass)
 {
     lanes_f rest = apart / mass;

@@ -44,7 +44,7 @@ static long double mass_below(long double x, long double k)
     return (root * k * erfcl(-x) + expl(-x * x)) / all;
 }
 
-static int is_plain(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at, float u)
+static int is_trusted(const vndf_beckmann_incidence *w, const vndf_beckmann_place *at, float u)
 {
     return vndf_beckmann_is_trusted(w, at, 0.0f, vndf_beckmann_product(u));
 }
@@ -56,27 +56,27 @@ static double error_at(const vndf_beckmann_incidence *w, const vndf_beckmann_pla
     return fabs((double)(mass_below(x, k) - u));
 }
 
-/* Every u where that is plain, from ends far beyond; K = c/s. */
+/* Every u where that is trusted, from ends far beyond; K = c/s. */
 static void beckmann_meets_its_first_number(void)
 {
     double worst = 0.0;
-    long plain = 0, all = 0;
+    long trusted = 0, all = 0;
     for (double k = 2e-6; k < 1e7; k *= 1.07)
         for (int i = 0; i < 1300; i++) {
             double end = pow(10.0, -0.3 - i % 100 * 0.06);
             float u = (float)(i < 100 ? end : i < 200 ? 1.0 - end : (i - 199.5) / 1100.0);
-            vndf_beckmann_incidence w =
-                vndf_beckmann_aim(1.0f, 1.0f, (float)(1.0 / hypot(1.0, k)), 0.0f, (float)(k / hypot(1.0, k)));
+            vndf_beckmann_incidence w = vndf_beckmann_incidence_from(1.0f, 1.0f, (float)(1.0 / hypot(1.0, k)),
+                                                                     0.0f, (float)(k / hypot(1.0, k)));
             vndf_beckmann_place at = vndf_beckmann_step(&w, vndf_beckmann_first(&w, u), u);
             all++;
-            if (!is_plain(&w, &at, u))
+            if (!is_trusted(&w, &at, u))
                 continue;
-            plain++;
+            trusted++;
             worst = fmax(worst, error_at(&w, &at, u));
         }
-    fprintf(stderr, "beckmann: u1 met within %.2g, %ld of %ld plain\n", worst, plain, all);
+    fprintf(stderr, "beckmann: u1 met within %.2g, %ld of %ld trusted\n", worst, trusted, all);
     TEST(worst < 2e-7);
-    TEST(plain > all * 8 / 10);
+    TEST(trusted > all * 8 / 10);
 }
 
 static void beckmann_meets_its_second_number(void)
@@ -115,10 +115,10 @@ static void ggx_meets_its_numbers(void)
     for (int i = 0; i < 400000; i++) {
         double part = test_uniform_double(&state), theta = 0.5 * PI * (i % 2 ? part : pow(10.0, -4.0 * part));
         float u1 = test_uniform(&state), u2 = test_uniform(&state), s = (float)sin(theta), c = (float)cos(theta);
-        vndf_ggx_incidence w = vndf_ggx_aim(1.0f, 1.0f, s, 0.0f, c);
-        lanes_m plain;
-        vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &plain);
-        if (!plain)
+        vndf_ggx_incidence w = vndf_ggx_incidence_from(1.0f, 1.0f, s, 0.0f, c);
+        lanes_m trusted;
+        vndf_drawn n = vndf_ggx_draw(&w, u1, u2, &trusted);
+        if (!trusted)
             continue;
         double square = (double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z;
         double twice = 2.0 * ((double)s * n.x + (double)c * n.z) / square;
@@ -134,7 +134,7 @@ static void ggx_meets_its_numbers(void)
 /* ---- both ---- */
 
 /* Directions even over the hemisphere, roughness from 0.05 to 1: below these shares a batch would be slow. */
-static void nearly_all_is_plain(void)
+static void nearly_all_is_trusted(void)
 {
     enum { SAMPLES = 200000 };
     unsigned long long state = 29;
@@ -142,14 +142,14 @@ static void nearly_all_is_plain(void)
     for (int i = 0; i < SAMPLES; i++) {
         float z = test_uniform(&state), s = sqrtf(1.0f - z * z), alpha = 0.05f + 0.95f * test_uniform(&state);
         float u1 = test_uniform(&state), u2 = test_uniform(&state);
-        vndf_ggx_incidence g = vndf_ggx_aim(alpha, alpha, s, 0.0f, z);
-        vndf_beckmann_incidence b = vndf_beckmann_aim(alpha, alpha, s, 0.0f, z);
+        vndf_ggx_incidence g = vndf_ggx_incidence_from(alpha, alpha, s, 0.0f, z);
+        vndf_beckmann_incidence b = vndf_beckmann_incidence_from(alpha, alpha, s, 0.0f, z);
         vndf_beckmann_place at = vndf_beckmann_step(&b, vndf_beckmann_first(&b, u1), u1);
-        lanes_m plain;
-        vndf_ggx_draw(&g, u1, u2, &plain);
-        ggx += plain;
-        vndf_beckmann_normal(&b, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &plain);
-        beckmann += plain;
+        lanes_m trusted;
+        vndf_ggx_draw(&g, u1, u2, &trusted);
+        ggx += trusted;
+        vndf_beckmann_normal(&b, &at, vndf_beckmann_second(u2), vndf_beckmann_middle(u1, u2), &trusted);
+        beckmann += trusted;
     }
     fprintf(stderr, "left to double: %.2g of ggx, %.2g of beckmann\n", 1.0 - (double)ggx / SAMPLES,
             1.0 - (double)beckmann / SAMPLES);
@@ -164,6 +164,6 @@ int main(void)
     beckmann_meets_its_second_number();
     half_azimuth_is_accurate();
     ggx_meets_its_numbers();
-    nearly_all_is_plain();
+    nearly_all_is_trusted();
     return test_done();
 }

@@ -1,4 +1,4 @@
-/* Inputs: the same random numbers for every set of a turn, so that differences of times are those of the sets. */
+/* Inputs: every set of a turn has the same random numbers, so that only the sets make a difference of times. */
 #include <math.h>
 
 #include "cli/subject.h"
@@ -13,7 +13,7 @@ static vndf_vec3 hemisphere(random_stream *stream)
     return w;
 }
 
-/* On the side that the set scatters to, for both lobes on either. */
+/* wo is on the side that the set scatters to; with both lobes a coin chooses it. */
 static float side_of_wo(const effects_set *set, uint64_t coin)
 {
     vndf_lobes lobes = set->effects.lobes;

@@ -1,11 +1,11 @@
-/* Bare reflection of GGX without the library, the shortest that can be written: spherical caps (J. Dupuy, A.
- * Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) as published, which is NaN at normal
- * incidence with u2 = 1, wi mirrored at the normal, and G2/G1 of height-correlated masking. With l = |stretched
- * wi| and A = (cos_i + l)/2, the density of the normal is (wi.wm) D/A, and
+/* The shortest bare reflection of GGX, without the library: spherical caps as published (J. Dupuy, A. Benyoub,
+ * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023; NaN at normal incidence with u2 = 1), wi mirrored at
+ * the normal, and G2/G1 of height-correlated masking. With l = |stretched wi| and A = (cos_i + l)/2, the density of the
+ * normal is (wi.wm) D/A, and
  *
  *     weight = A(wi) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)).
  *
- * Compiled without vector loops, as method_*.c. */
+ * It is compiled without vector loops, as method_*.c are. */
 #include "bench/methods/vector.h"
 
 #include "bench/effects/effects.h"

@@ -1,9 +1,9 @@
-/* What each effect of vndf_bsdf.h costs and what it is worth: the inside of `vndf bench effects`.
+/* The cost and the worth of each effect of vndf_bsdf.h: the inside of `vndf bench effects`.
  *
  *     open.c          distributions
- *     set.c           the sets of effects, and what each is made into
+ *     set.c           the sets of effects, and the materials made of them
  *     run.c           the loops that are timed, with the library
- *     hand.c          bare reflection by hand, what a user would write over vndf.h
+ *     hand.c          bare reflection by hand, as a user would write it over vndf.h
  *     caps.c          the same for GGX without the library
  *     list.c          which sets of which distributions
  *     block.c         inputs
@@ -44,14 +44,14 @@ typedef struct effects_set {
 extern const effects_set effects_sets[];
 extern const size_t effects_set_count;
 
-/* NULL if there is none of that name. */
+/* The set of that name, or NULL. */
 const effects_set *effects_find(const char *name);
 
-/* ---- what is run ------------------------------------------------------------------------------- */
+/* ---- work -------------------------------------------------------------------------------------- */
 
 enum { EFFECTS_BLOCK = 1024, EFFECTS_SHARE = 256 };
 
-/* wo is for evaluation. Whole inputs, as renderers have them, and not arrays of floats: see method.h. */
+/* An input; evaluation reads wo. Inputs are whole, as renderers have them, and no arrays of floats: see method.h. */
 typedef struct effects_input {
     vndf_vec3 wi, wo;
     float u[3];
@@ -77,7 +77,7 @@ typedef struct effects_job {
 
 typedef void effects_loop(const effects_job *job);
 
-/* A hit for each sample; and the hit of the first input for all samples, values and densities. */
+/* Loops with a hit for each sample, and loops that share the hit of the first input. */
 struct effects_loops {
     effects_loop *each, *shared, *eval, *pdf;
 };
@@ -85,7 +85,7 @@ struct effects_loops {
 extern const effects_loops effects_loops_library, effects_loops_rough;
 extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
 
-/* VNDF_OK, or why the set cannot be. */
+/* VNDF_OK, or why the set cannot be made. */
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
                                  vndf_error *error);
 
@@ -102,28 +102,28 @@ typedef struct effects_block {
  * roughness is 0.5 to 1.5 times the subject's; the subject takes it over. */
 void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed);
 
-/* One direction for all, that angle from the normal. */
+/* Gives all inputs one direction, theta degrees from the normal. */
 void effects_aim(effects_block *block, const effects_set *set, double theta);
 
-/* The whole block. */
+/* The job of the whole block. */
 effects_job effects_job_of(effects_block *block, const effects_subject *subject);
 
 /* ---- rows --------------------------------------------------------------------------------------- */
 
-/* NaN is what does not apply or was not measured. */
+/* A figure is NaN where it does not apply or was not measured. */
 typedef struct effects_row {
     int wrong;                         /* 1: its results failed verification, so nothing was timed */
     double ns, ns_low, ns_high;        /* vndf_bsdf_at and vndf_bsdf_sample: median and quartiles of the turns */
     double to_bare;                    /* ns more than bare reflection: median over the turns of the difference */
     double shared_ns, eval_ns, pdf_ns; /* where EFFECTS_SHARE samples, values or densities share a hit */
     double instructions;               /* for a sample, with its hit */
-    double mean, noise;                /* of the weight, of the first wavelength, and its standard error */
+    double mean, noise;                /* the mean weight of the first wavelength, and its standard error */
     double lost;                       /* part of samples */
     double max_weight, variance;
     double efficiency; /* 1/(variance ns) over that of visible normals */
 } effects_row;
 
-/* Nothing was measured. */
+/* A row without figures. */
 extern const effects_row effects_nothing;
 
 enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 48 * EFFECTS_DISTRIBUTIONS_MAX };
@@ -134,7 +134,7 @@ typedef struct effects_entry {
     double theta;       /* of the directions that are timed; NaN: all over the hemisphere */
     double worth_theta; /* of the direction that variance is measured for */
     int of_variance;    /* belongs to the second table */
-    int shown, needed;  /* what is not shown may be needed as a yardstick */
+    int shown, needed;  /* an entry that is not shown may be needed as a yardstick */
     int bare, visible;  /* entries that to_bare and efficiency refer to, or EFFECTS_NONE */
     effects_row row;
 } effects_entry;
@@ -146,7 +146,7 @@ typedef struct effects_list {
 
 typedef struct effects_named {
     const char *name;
-    const char *path; /* what another process opens: "ggx", "beckmann", a file; NULL: there is none */
+    const char *path; /* for another process to open: "ggx", "beckmann", a file; or NULL */
     const vndf_distribution *distribution;
 } effects_named;
 
@@ -160,26 +160,26 @@ typedef struct effects_plan {
     progress *progress;
 } effects_plan;
 
-/* An empty list and an error if `only` fits nothing or a set cannot be. */
+/* An empty list and an error if `only` fits nothing or a set cannot be made. */
 vndf_status effects_list_make(effects_list *list, const effects_plan *plan, vndf_error *error);
 void effects_list_free(effects_list *list);
 
-/* Whether samples, values and densities are what they have to be and agree; row.wrong if not. */
+/* Sets row.wrong unless samples, values and densities are valid and agree. */
 void effects_verify(effects_entry *entry, effects_block *block);
 
-/* Fills mean, noise, lost, max_weight and variance from twice `blocks` blocks; row.wrong if two halves
+/* Fills mean, noise, lost, max_weight and variance from twice `blocks` blocks. Sets row.wrong if the two halves
  * disagree. */
 void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
 
-/* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT: stopped. */
+/* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT says that the user stopped it. */
 vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_block *block);
 
-/* Fills the instructions of the entries that are shown. `why` gets a line where valgrind cannot run, else "". */
+/* Fills the instructions of the entries that are shown. `why` says in a line why valgrind cannot run, or is "". */
 vndf_status effects_count(effects_list *list, const effects_plan *plan, char *why, size_t size);
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 
-/* Of effects_list. */
+/* The printers of an effects_list. */
 extern const output_printers effects_printers;
 
 #endif

@@ -1,16 +1,16 @@
-/* Bare reflection over vndf.h, as one would write it who wants nothing else: a visible normal, wi mirrored at
+/* Bare reflection over vndf.h, as a user would write it who wants nothing else: a visible normal, wi mirrored at
  * it, and G2/G1 of height-correlated masking,
  *
  *     weight = D(wm) (wi.wm)/pdf(wm) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)),
  *
- * where D (wi.wm)/pdf is A(wi) but for tables, and A of GGX is (cos + |stretched w|)/2. No case is taken care
- * of that vndf_bsdf.h takes care of: smooth surfaces, whose directions are rounded by more than their
- * roughness, below all. Compiled without vector loops, as method_*.c. */
+ * where D (wi.wm)/pdf is A(wi) except for tables, and A of GGX is (cos + |stretched w|)/2. vndf_bsdf.h handles special
+ * cases that this file does not, above all smooth surfaces, whose roughness is below the rounding of a direction. It is
+ * compiled without vector loops, as method_*.c are. */
 #include "bench/methods/vector.h"
 
 #include "bench/effects/effects.h"
 
-/* GGX by its own area; other closed forms; tables. */
+/* GGX with an area of its own; other closed forms; tables. */
 typedef enum hand_kind { HAND_GGX, HAND_CLOSED, HAND_TABLE } hand_kind;
 
 /* `kind` is a constant in all of these. */
@@ -22,7 +22,7 @@ static inline float area_of(const vndf_surface *s, vndf_vec3 w, hand_kind kind)
     return 0.5f * (w.z + sqrtf(x * x + y * y + w.z * w.z));
 }
 
-/* G2/(cos_i cos_o); `area` is that of wi. */
+/* G2/(cos_i cos_o), where `area` is A(wi). */
 static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vndf_vec3 wo, hand_kind kind)
 {
     return 1.0f / (wo.z * area + wi.z * (area_of(s, wo, kind) - wo.z));

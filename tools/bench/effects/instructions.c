@@ -1,5 +1,5 @@
-/* Instructions for a sample. The program runs itself under `valgrind --tool=callgrind` with the option --run,
- * one set and one block of inputs, once and twice over: the difference is a block, start-up cancels. */
+/* Instructions for a sample. The program runs itself under `valgrind --tool=callgrind` with the option --run, for one
+ * set and one block of inputs. One run does the block once, another twice: start-up cancels in the difference. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
@@ -18,7 +18,7 @@ enum { WORD = 64, PATH_LENGTH = 4096, ARGUMENTS = 16 };
 
 /* ---- a process --------------------------------------------------------------------------------- */
 
-/* Runs argv[0], found in PATH, with stdout closed off and stderr to a pipe. 0 or an errno. */
+/* Runs argv[0], found in PATH, without stdout and with stderr to a pipe. Returns 0 or an errno. */
 static int start(char *const argv[], int from[2], pid_t *child)
 {
     posix_spawn_file_actions_t actions;
@@ -38,7 +38,7 @@ static int start(char *const argv[], int from[2], pid_t *child)
     return failed;
 }
 
-/* The number in a line "==123== Collected : 456"; NaN if there is none. The whole text is read. */
+/* The number in a line "==123== Collected : 456", or NaN. Reads the whole text. */
 static double collected_in(FILE *text)
 {
     char line[512];
@@ -52,7 +52,7 @@ static double collected_in(FILE *text)
     return found;
 }
 
-/* NaN if it did not end well. */
+/* The instructions of a run; NaN if it did not end well. */
 static double collect(char *const argv[], int *failed)
 {
     int from[2], status = 1;

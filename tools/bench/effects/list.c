@@ -1,5 +1,5 @@
-/* Which sets are measured of which distributions. Two tables: what each set costs, over directions of the whole
- * hemisphere; and what bounded normals are worth beside plain visible ones, by roughness and angle. */
+/* Lists the sets to measure for each distribution, in two tables: the cost of each set over directions of the whole
+ * hemisphere, and the worth of bounded normals beside visible ones, by roughness and angle. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ static const char variance_name[] = "variance";
 
 const effects_row effects_nothing = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 
-/* The next entry, for the cost table; the material stays where it is made. */
+/* Adds an entry to the cost table; the material stays where it is made. */
 static vndf_status add(effects_list *list, const effects_named *of, const effects_set *set, const float alpha[2],
                        vndf_error *error)
 {
@@ -63,7 +63,7 @@ static vndf_status add_costs(effects_list *list, const effects_plan *plan, const
 
 /* ---- variance ----------------------------------------------------------------------------------- */
 
-/* Plain visible normals, then bounded ones. */
+/* Adds an entry with visible normals, then one with bounded normals. */
 static vndf_status add_pair(effects_list *list, const effects_named *of, float alpha, double theta,
                             vndf_error *error)
 {
@@ -91,7 +91,7 @@ static vndf_status add_variance(effects_list *list, const effects_named *of, vnd
     return status;
 }
 
-/* ---- what is wanted ---------------------------------------------------------------------------- */
+/* ---- selection --------------------------------------------------------------------------------- */
 
 static int is_wanted(const effects_entry *e, const char *only)
 {
@@ -105,7 +105,7 @@ static void need(effects_list *list, int i)
         list->entry[i].needed = 1;
 }
 
-/* Returns how many are shown. A pair is shown if its second is. */
+/* Marks the entries that `only` selects. Returns how many are shown. A pair is shown if its second entry is. */
 static size_t mark(effects_list *list, const char *only)
 {
     size_t shown = 0;

@@ -15,7 +15,7 @@ int effects_open_one(effects_opened *o, effects_plan *plan, const char *command,
     return 1;
 }
 
-/* 0 after a complaint. */
+/* Saves the built table to a temporary file. Returns 0 after a complaint. */
 static int save_built(effects_opened *o, const char *command)
 {
     vndf_error error = {VNDF_OK, ""};

@@ -1,5 +1,5 @@
-/* The rows as lists of columns. For people two tables: the costs of the sets by distribution, which stand side by side
- * in Markdown, and visible beside bounded normals. As CSV every number. */
+/* Prints the rows as lists of columns. People get two tables: the costs of the sets, in Markdown with the distributions
+ * side by side, and visible beside bounded normals. CSV has every number. */
 #include <math.h>
 #include <string.h>
 
@@ -116,7 +116,7 @@ static int is_shown(const effects_entry *e)
     return e->shown;
 }
 
-/* Nothing at all if there are no rows. */
+/* Prints nothing at all if there are no rows. */
 static int print(FILE *file, const effects_list *list, int (*is_row)(const effects_entry *),
                  void (*columns)(text_table *, const effects_entry *), int (*form)(FILE *, const text_table *),
                  const char *legend)
@@ -146,7 +146,7 @@ static const effects_entry *find(const effects_list *list, const char *set, cons
     return NULL;
 }
 
-/* The distributions that have costs, in their order. Returns how many. */
+/* Finds the distributions that have costs, in their order. Returns how many. */
 static size_t distributions_of(const effects_list *list, const char *of[EFFECTS_DISTRIBUTIONS_MAX])
 {
     size_t count = 0;
@@ -158,7 +158,7 @@ static size_t distributions_of(const effects_list *list, const char *of[EFFECTS_
     return count;
 }
 
-/* A set: its costs by each of the distributions, what it is worth by the last one. */
+/* A row for a set: its costs with each distribution, and its worth with the last one. */
 static void side_by_side(text_table *t, const effects_list *list, const char *set, const char *const *of,
                          size_t count)
 {

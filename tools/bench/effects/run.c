@@ -1,4 +1,5 @@
-/* The loops over vndf_bsdf.h: what a renderer does at a hit. Compiled without vector loops, as method_*.c. */
+/* The loops over vndf_bsdf.h, which do the work of a renderer at a hit. They are compiled without vector loops, as
+ * method_*.c are. */
 #include "bench/effects/effects.h"
 
 static void each(const effects_job *job)

@@ -1,14 +1,14 @@
-/* The sets of effects that are measured, from bare reflection upward: what differs from bare stands in its
- * line. */
+/* The sets of effects that are measured, from bare reflection upward: the line of a set says how it differs from bare
+ * reflection. */
 #include <string.h>
 
 #include "bench/effects/effects.h"
 
-static const float index_ratio = 1.5f; /* of what transmits */
+static const float index_ratio = 1.5f; /* of surfaces that transmit */
 
 static const char bare[] = "bare reflection";
 
-/* Light of a conductor, gold at 650, 550 and 450 nm, and of a dielectric under Schlick's approximation. */
+/* Fresnel terms: gold at 650, 550 and 450 nm, and a dielectric under Schlick's approximation. */
 static const float gold_eta[VNDF_WAVELENGTHS] = {0.16f, 0.42f, 1.35f};
 static const float gold_k[VNDF_WAVELENGTHS] = {3.5f, 2.35f, 1.9f};
 static const float schlick_f0[VNDF_WAVELENGTHS] = {0.04f, 0.04f, 0.04f};

@@ -1,7 +1,7 @@
-/* Whether a set's results are right, and what they are worth. Right means: directions are unit and on the side of
- * their lobe, weights and densities finite and not negative; and but for random walks, whose values are random
- * numbers, the density told for a sample is that of its direction, and its weight is value times cosine over
- * density. The tolerance is wider than what the library promises: rare roundings are the tests' concern. */
+/* Checks that a set's results are right, and measures their worth. Results are right if directions are unit and on the
+ * side of their lobe, and weights and densities are finite and not negative. Except for random walks, whose values are
+ * random numbers, the density of a sample must also be the density of its direction, and its weight the value times
+ * cosine over density. The tolerance is wider than the library's promise: the tests look for rare roundings. */
 #include <math.h>
 
 #include "bench/effects/effects.h"
@@ -49,7 +49,7 @@ static int agrees(const vndf_scattered *drawn, const vndf_scattered *found, doub
     return is_near((double)found->density, density, tolerance);
 }
 
-/* Samples of one hit against its values and densities in their directions. */
+/* Compares the samples of one hit with its values and densities in their directions. */
 static int share_agrees(const effects_job *job, double tolerance)
 {
     effects_input in[EFFECTS_SHARE];

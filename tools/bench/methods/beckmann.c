@@ -4,9 +4,9 @@
  *     C(x) = (1 + b + tan(theta) exp(-x^2)/sqrt(pi)) / (1 + c + tan(theta) exp(-cot^2)/sqrt(pi)),
  *     b = erf(x), c = erf(cot(theta)), x <= cot(theta),
  *
- * solved for b in (-1, c) by Newton steps from the fit of that report, kept in a bracket; the slope across is the
- * quantile of the normal law. The inverse of erf is that of M. Giles, "Approximating the erfinv Function", GPU
- * Computing Gems, 2012. Density: erf and exp of the C library. Incident directions above the horizon alone.
+ * Newton steps in a bracket solve it for b in (-1, c), from the report's fit; the slope across is the quantile of the
+ * normal law. The inverse of erf is by M. Giles, "Approximating the erfinv Function", GPU Computing Gems, 2012. The
+ * density takes erf and exp of the C library. It serves incident directions above the horizon only.
  *
  * Departure: the steps stop at 1e-6 in u1 (renderers: 1e-5) or after ten. */
 #include "bench/methods/vector.h"
@@ -41,7 +41,7 @@ static inline float erf_inverse(float x)
     return x * (w < 5.0f ? ladder(middle, 9, w - 2.5f) : ladder(tail, 9, sqrtf(w) - 3.0f));
 }
 
-/* theta = 0 has no tangent to divide by: the least one that a float cosine can show. */
+/* theta = 0 has no tangent to divide by, so it gets the least tangent that a float cosine can show. */
 static inline beckmann_view view_from(vndf_vec3 wi, float alpha)
 {
     beckmann_view v = {.wi = wi, .turn = method_turn_from(wi, alpha), .alpha = alpha};

@@ -2,8 +2,8 @@
  * Caps", HPG 2023. wi is stretched to the unit problem; mirrored directions are uniform on the cap z > -wi.z; the
  * normal is half way between, and is stretched back.
  *
- * Its density is Dv = wi.wm D/A, A = (wi.z + |stretched wi|)/2. Nothing is guarded, as published: at normal
- * incidence u2 = 1 is a NaN. This is the yardstick: others' times are given as multiples of its. */
+ * Its density is Dv = wi.wm D/A with A = (wi.z + |stretched wi|)/2. The published code guards nothing: at normal
+ * incidence u2 = 1 is a NaN. This method is the yardstick: other times are multiples of its time. */
 #include "bench/methods/vector.h"
 
 typedef struct caps_view {

@@ -1,4 +1,4 @@
-/* caps_lanes.h compiled for AVX-512 (CMakeLists.txt); where the compiler has none, there is nothing to run. */
+/* caps_lanes.h compiled for AVX-512 (CMakeLists.txt); nothing, if the compiler has no AVX-512. */
 #include "bench/methods/caps_lanes.h"
 
 caps_code caps_code_avx512(void)

@@ -1,4 +1,4 @@
-/* The batches of caps_lanes.h as methods, where this machine has their instructions. */
+/* The batches of caps_lanes.h as methods, if this machine has their instructions. */
 #include "bench/methods/caps_batch.h"
 
 static int machine_has(vndf_instructions set)

@@ -1,4 +1,4 @@
-/* What one instruction set has of caps_lanes.h; pointers are NULL where the compiler cannot make it. */
+/* The functions of caps_lanes.h for one instruction set; NULL if the compiler lacks the set. */
 #ifndef TOOLS_BENCH_METHODS_CAPS_BATCH_H
 #define TOOLS_BENCH_METHODS_CAPS_BATCH_H
 

@@ -1,4 +1,4 @@
-/* GGX by spherical caps on vectors (lanes.h): what a batch of the best closed form costs, the opponent of ours.
+/* GGX by spherical caps on vectors (lanes.h): the cost of a batch of the best closed form, to compare our batches with.
  * Dupuy & Benyoub 2023 as in caps.c, but
  *
  * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (1 +
@@ -7,7 +7,7 @@
  * - three reciprocal roots and one reciprocal in all, by approximation and a Newton step (lanes.h);
  * - azimuth 2 pi (u1 - 1/2), by polynomials within 5e-8 that need no reduction: with y = 1/4 - |u1 - 1/2| the
  *   cosine is sin(2 pi y), the sine cos(2 pi y) with a sign;
- * - for incident directions above the horizon. */
+ * - only for incident directions above the horizon. */
 #ifndef TOOLS_BENCH_METHODS_CAPS_LANES_H
 #define TOOLS_BENCH_METHODS_CAPS_LANES_H
 
@@ -68,7 +68,7 @@ static inline void caps_store(const method_outputs *out, size_t i, const caps_dr
     lanes_store(out->pdf + i, drawn->pdf);
 }
 
-/* ---- the rest of a count that is no multiple of LANES goes through padded copies ------------------- */
+/* ---- padded copies, for the rest of a count that is no multiple of LANES --------------------------- */
 
 enum { CAPS_IN = 6, CAPS_OUT = 4 };
 
@@ -95,7 +95,7 @@ static inline void caps_rest_store(const caps_rest *rest, const method_outputs *
 
 /* ---- loops ----------------------------------------------------------------------------------------- */
 
-/* Not inlined: the same code, hence the same bits, for whole vectors and for the rest. */
+/* Not inlined, so that whole vectors and the rest run the same code and give the same bits. */
 
 __attribute__((noinline)) static void caps_each_whole(const method_inputs *in, const method_outputs *out,
                                                       size_t count)
@@ -145,7 +145,7 @@ static void caps_shared(const method *m, const method_inputs *in, const method_o
     }
 }
 
-/* 20 bytes in, 16 out, and one addition so that all that is read is needed. */
+/* Moves 20 bytes in and 16 out; one addition makes every input needed. */
 static void caps_move(const method *m, const method_inputs *in, const method_outputs *out)
 {
     size_t whole = in->count / LANES * LANES;

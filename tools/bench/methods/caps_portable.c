@@ -1,4 +1,4 @@
-/* caps_lanes.h for whatever the compiler makes for all: SSE2 on x86-64. */
+/* caps_lanes.h for the compiler's default instructions: SSE2 on x86-64. */
 #include "bench/methods/caps_lanes.h"
 
 caps_code caps_code_portable(void)

@@ -1,8 +1,8 @@
 /* Visible normals of GGX as before spherical caps: E. Heitz, "Sampling the GGX Distribution of Visible Normals",
- * JCGT 7(4), 2018. In the unit problem the visible half of the hemisphere is a disc of which wi sees a part
- * squeezed by (1 + wi.z)/2: a point of the disc, squeezed, is lifted onto the hemisphere.
+ * JCGT 7(4), 2018. In the unit problem wi sees the hemisphere as a disc with one half squeezed by (1 + wi.z)/2: a point
+ * of the disc is squeezed, then lifted onto the hemisphere.
  *
- * Departure: the tangent frame is built from the azimuth, guarded where wi has none. */
+ * Departure: the tangent frame comes from the azimuth, with a guard for a wi without one. */
 #include "bench/methods/vector.h"
 
 typedef struct disc_view {

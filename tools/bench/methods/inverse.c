@@ -5,12 +5,12 @@
  *     slope along wi    from a table over (theta, u1),    law max(0, cos(theta) - x sin(theta)) P2(x)
  *     slope across      from a table over (x, u2),        law P22(x, y) given x
  *
- * both bilinear, side x side, x and y cut off at CUT median slopes on either side and x in even steps. The density
- * told is that of the true visible normals, from fine 1D tables of P22 and of the projected area: it is not the
- * density with which these tables draw. They are biased, and `vndf bench` shows how much.
+ * Both are bilinear and side x side; x and y are cut off at CUT median slopes on either side, and x has even steps. The
+ * method tells the density of the true visible normals, from fine 1D tables of P22 and of the projected area: it is not
+ * the density with which these tables draw. They are biased, and `vndf bench` shows how much.
  *
- * Departures: the laws are integrated finer than the tables, so that what is wrong is interpolation and cut-off
- * alone; directions above the horizon alone. */
+ * Departures: the laws are integrated finer than the tables, so that only interpolation and cut-off err; only
+ * directions above the horizon. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -38,7 +38,7 @@ static double slope_at(double part)
     return CUT * (2 * part - 1);
 }
 
-/* Quantiles of the law with masses mass[i] in FINE even cells of [-CUT, CUT]; one with no mass is even. */
+/* Quantiles of the law with masses mass[i] in FINE even cells of [-CUT, CUT]; a law without mass becomes uniform. */
 static void fill_quantiles(float *row, size_t side, const double *mass)
 {
     double total = 0, below = 0;

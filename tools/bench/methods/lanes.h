@@ -1,5 +1,5 @@
-/* Vectors of floats, as wide as the compiler was told to go: 16 lanes with AVX-512, 8 with AVX2, else 4. Square
- * roots and reciprocals are the machine's approximations with one Newton step, within 3 ulps of 2^-24. */
+/* Vectors of floats, as wide as the compiler may make them: 16 lanes with AVX-512, 8 with AVX2, else 4. Square roots
+ * and reciprocals are the machine's approximations with one Newton step, within 3 ulps of 2^-24. */
 #ifndef TOOLS_BENCH_METHODS_LANES_H
 #define TOOLS_BENCH_METHODS_LANES_H
 

@@ -1,9 +1,9 @@
-/* A method of drawing normals, as `vndf bench` measures it: direction and roughness in, a normal and its density
- * out. Whatever depends on the distribution alone is prepared before; whatever depends on the direction is part of
- * each draw, or of the head of `shared`.
+/* A method to draw normals, as `vndf bench` measures it: direction and roughness in, a normal and its density out. The
+ * method prepares everything that depends on the distribution alone; work that depends on the direction is part of each
+ * draw, or of the head of `shared`.
  *
- * Scalar methods have `one`, for latency, and `each`, a loop of their own so that the compiler may take the body
- * in; method_*.c are compiled without vector loops. Batches have `each` alone. */
+ * Scalar methods have `one`, for latency, and `each`, a loop of their own so that the compiler may inline the body;
+ * method_*.c are compiled without vector loops. Batches only have `each`. */
 #ifndef TOOLS_BENCH_METHODS_METHOD_H
 #define TOOLS_BENCH_METHODS_METHOD_H
 
@@ -17,10 +17,9 @@ typedef struct method_input {
     float alpha, u1, u2;
 } method_input;
 
-/* The same inputs twice: for batches a structure of arrays, for scalar calls whole ones, as renderers have them.
- * (A vndf_vec3 that is put together from three arrays and passed on costs some 40 ns with gcc 12, which stores it
- * by fours and loads it by eights.) alpha is that of both axes. A `shared` call reads the first of alpha and
- * wi. */
+/* The same inputs twice: batches read a structure of arrays, scalar calls whole inputs, as renderers have them. (To
+ * make a vndf_vec3 from three arrays and pass it on costs some 40 ns with gcc 12, which stores four bytes at a time and
+ * loads eight.) Both axes have the same alpha. A `shared` call reads the first alpha and the first wi. */
 typedef struct method_inputs {
     size_t count;
     const float *alpha, *wi_x, *wi_y, *wi_z, *u1, *u2;
@@ -43,23 +42,23 @@ struct method {
     bench_kind kind;
     size_t memory, file_bytes;    /* as in bench_row */
     const void *state;            /* what was prepared */
-    void (*release)(void *state); /* NULL: somebody else's */
+    void (*release)(void *state); /* NULL: the state has another owner */
     vndf_instructions limit;      /* for batches of ours */
     method_one *one;              /* NULL: a batch */
     method_run *each, *shared;    /* shared may be NULL */
     method_run *same_bits;        /* what `each` must equal to the bit, or NULL */
-    int biased;                   /* the density that it tells is not that with which it draws */
+    int biased;                   /* it draws with another density than it tells */
     int turned;                   /* some normals face away from wi */
 };
 
-/* What any-D methods are prepared from: a table so fine that it stands for the reference, and the scale that brings
- * its median slope to 1. */
+/* The input of methods for any D: a table so fine that it stands for the reference, and the scale that brings its
+ * median slope to 1. */
 typedef struct method_reference {
     vndf_surface canonical; /* its roughness is 1/scale */
     float scale;
 } method_reference;
 
-/* Each fills a method whose `each` is NULL where this machine or a lack of memory does not allow it. */
+/* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
 
 /* GGX and Beckmann, from the publications. */
 method method_ggx_caps(void);
@@ -68,11 +67,11 @@ method method_ggx_all_normals(void);
 method method_beckmann_newton(void);
 method method_beckmann_all_normals(void);
 
-/* GGX by caps, and no more than moving the bytes, on vectors; one of the three instruction sets of vndf.h. */
+/* GGX by caps on vectors, and a method that only moves the bytes; for one of the three instruction sets of vndf.h. */
 method method_ggx_caps_batch(vndf_instructions set);
 method method_move(vndf_instructions set);
 
-/* Any D, from the publications. Without a reference no more than a name. */
+/* Any D, from the publications. Without a reference the method has only a name. */
 method method_any_all_normals(const method_reference *reference);
 method method_inverse_tables(const method_reference *reference, size_t side);
 method method_warp(const method_reference *reference, size_t side);

@@ -1,15 +1,15 @@
-/* All normals, not the visible ones alone: B. Walter et al., "Microfacet Models for Refraction through Rough
- * Surfaces", EGSR 2007, eq. 28 and 35. Density D(wm) cos(theta_m): a radial law and an azimuth, closed for GGX
- * (tan^2 = alpha^2 u/(1-u)) and Beckmann (tan^2 = -alpha^2 log(1-u)). wi is not looked at.
+/* All normals, not only the visible ones: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+ * EGSR 2007, eq. 28 and 35. The density is D(wm) cos(theta_m), a radial law and an azimuth. GGX (tan^2 = alpha^2
+ * u/(1-u)) and Beckmann (tan^2 = -alpha^2 log(1-u)) have closed forms. No draw reads wi.
  *
- * Any other D: a radial CDF. At the scale where the median slope is 1, y = sin^2(theta_m) has the density pi D(y)
- * in [0, 1]; it is cut into cells of equal mass, D constant in each, so that the density told is the density drawn
- * and a coarse table costs variance alone. Roughness stretches. */
+ * Any other D has a radial CDF. At the scale where the median slope is 1, y = sin^2(theta_m) has the density pi D(y)
+ * in [0, 1]. The CDF has cells of equal mass with a constant D in each, so that the density told is the density drawn
+ * and a coarse table only costs variance. Roughness stretches. */
 #include <stdlib.h>
 
 #include "bench/methods/vector.h"
 
-/* slope^2 over alpha^2, the density of slopes there times pi alpha^2, and an azimuth. */
+/* The normal for slope^2 over alpha^2, the density of slopes there times pi alpha^2, and an azimuth. */
 static inline vndf_vec3 normal_from(float slope2, float p22, float alpha, float u1, float *pdf)
 {
     float phi = 2 * method_pi * u1, z2 = 1.0f / (1.0f + alpha * alpha * slope2), z = sqrtf(z2);
@@ -58,14 +58,14 @@ static double ndf_at(const method_reference *reference, double y)
     return (double)vndf_ndf(&reference->canonical, wm);
 }
 
-/* Masses by the midpoint rule in v, y = v^2 (3 - 2 v): finer at both ends, where peaks and tails are. */
+/* Edges for the midpoint rule in v with y = v^2 (3 - 2 v): finer at both ends, where peaks and tails are. */
 static double edge_of(int i)
 {
     double v = (double)i / FINE;
     return v * v * (3 - 2 * v);
 }
 
-/* mass[i] up to edge i; returns the first edge that has it all: where D ends, or comes to nothing, or the
+/* Fills mass[i], the mass up to edge i. Returns the first edge with all of the mass: where D ends or vanishes, or the
  * horizon. */
 static int accumulate(const method_reference *reference, double *mass)
 {

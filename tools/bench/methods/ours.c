@@ -1,5 +1,5 @@
-/* The library itself: vndf_view_from and vndf_sample, or vndf_sample_n up to a set of instructions; and the other
- * calls of a distribution, for times alone. */
+/* The library itself: vndf_view_from and vndf_sample, or vndf_sample_n up to a set of instructions; and the other calls
+ * of a distribution, which are only timed. */
 #include <stdio.h>
 
 #include "bench/methods/vector.h"
@@ -77,7 +77,7 @@ method method_ours(const vndf_distribution *distribution, const char *name, vndf
 
 /* ---- the other calls --------------------------------------------------------------------------- */
 
-/* Read alone by the calls that are given them. */
+/* The normals of the inputs; only calls with a normal read them. */
 static vndf_normals normals_of(const method_inputs *in)
 {
     return (vndf_normals){(float *)in->wm_x, (float *)in->wm_y, (float *)in->wm_z};

@@ -1,4 +1,4 @@
-/* The few vector operations that methods written from publications share: floats, nothing guarded. */
+/* The few vector operations that methods from publications share, in float and without guards. */
 #ifndef TOOLS_BENCH_METHODS_VECTOR_H
 #define TOOLS_BENCH_METHODS_VECTOR_H
 
@@ -27,7 +27,7 @@ static inline void method_put(const method_outputs *out, size_t i, vndf_vec3 wm,
     out->pdf[i] = pdf;
 }
 
-/* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler takes its body in. */
+/* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler inlines it. */
 static inline void method_loop(method_one *one, const method *m, const method_inputs *in,
                                const method_outputs *out)
 {
@@ -38,7 +38,7 @@ static inline void method_loop(method_one *one, const method *m, const method_in
     }
 }
 
-/* And the loop of its `shared`: all samples are drawn from one view, of whatever type the method has. */
+/* The loop of a scalar method's `shared`: one view of the method's own type draws all samples. */
 static inline void method_shared_loop(vndf_vec3 (*draw)(const void *view, float u1, float u2, float *pdf),
                                       const void *view, const method_inputs *in, const method_outputs *out)
 {
@@ -67,7 +67,7 @@ static inline method_turn method_turn_from(vndf_vec3 wi, float alpha)
     return t;
 }
 
-/* A slope of the unit problem turned and stretched back, as a normal. */
+/* The normal for a slope of the unit problem, turned and stretched back. */
 static inline vndf_vec3 method_normal(const method_turn *t, float alpha, float slope_x, float slope_y)
 {
     return method_unit(-alpha * (t->cos_phi * slope_x - t->sin_phi * slope_y),

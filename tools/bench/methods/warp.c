@@ -1,17 +1,17 @@
-/* A bilinear warp of the unit square per incident direction, as renderers have for measured materials: J. Dupuy,
- * W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", TOG 37(6), 2018.
- * Visible normals from SLICES directions are tabulated over (p, q), theta_m = p^2 pi/2 and azimuth from wi
- * (2 q - 1) pi, as densities on the square at side x side nodes with a bilinear interpolant between. The marginal
- * of p is then piecewise linear, the conditional of q at any p too: both are drawn by a binary search of their
- * CDFs and a quadratic. Between two directions the densities mix linearly, and so do all CDFs.
+/* A bilinear warp of the unit square per incident direction, as renderers use for measured materials: J. Dupuy,
+ * W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", TOG 37(6), 2018. For each
+ * of SLICES directions a table holds the density of visible normals over (p, q), with theta_m = p^2 pi/2 and the
+ * azimuth (2 q - 1) pi from wi: side x side nodes on the square, and a bilinear interpolant between them. The marginal
+ * of p and the conditional of q at any p are then piecewise linear; a binary search of the CDF and a quadratic draw
+ * from each. Between two directions the densities mix linearly, and so do all CDFs.
  *
- * The density told is that of the interpolant, the one with which is drawn. Against true visible normals it is
- * off, by direction and by the horizon, where normals may face away; where it is 0 and the reference is not, nothing
- * can be done.
+ * The method draws with the density of the interpolant, and tells it. Its error to true visible normals comes from the
+ * steps of direction, and from the horizon, where normals may face away; where the interpolant is 0 and the reference
+ * is not, no weight can help.
  *
- * Departures: nodes on the horizon; renderers have a table per material and neither roughness nor stretch; here
- * it is a table of the unit problem at median slope 1, and roughness stretches. Its directions are even, from 0
- * to 90 degrees. */
+ * Departures: there are nodes on the horizon. Renderers have a table per material, and neither roughness nor stretch;
+ * here the table is of the unit problem at median slope 1, and roughness stretches. Its directions are even, from 0 to
+ * 90 degrees. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -19,7 +19,8 @@
 
 enum { SLICES = 8 };
 
-/* Slice after slice: density of (p, q) at the nodes, its integral over q up to a node, and of those over p. */
+/* Slice after slice: the density of (p, q) at the nodes, its integral over q up to a node, and the integral of the
+ * whole rows over p. */
 typedef struct warp {
     size_t side;
     float scale;
@@ -37,14 +38,14 @@ static double density_at(const vndf_view *view, double p, double q)
     return (double)vndf_visible(view, wm) * 2 * pi * pi * p * sin(theta);
 }
 
-/* On the horizon a density may be infinite, and integrable: at most twice that half a cell inside. */
+/* On the horizon a density may be infinite though integrable, so it is at most twice the density half a cell inside. */
 static double node_at(const vndf_view *view, double p, double q, double cell)
 {
     double density = density_at(view, p, q);
     return p + 0.5 * cell < 1 ? density : fmin(density, 2 * density_at(view, p - 0.5 * cell, q));
 }
 
-/* Integrals of the row's interpolant, nodes 1/(side - 1) apart. */
+/* Integrals of a row's interpolant, with nodes 1/(side - 1) apart. */
 static void accumulate(const float *value, float *sum, size_t side)
 {
     double total = 0, step = 1 / (double)(side - 1);
@@ -117,7 +118,7 @@ static inline size_t cell_of(const mix *x, size_t side, float value)
     return low;
 }
 
-/* The part of a cell of length 1 below which `rest` of the integral lies, the density linear from a to b. */
+/* The part of a cell of length 1 below which `rest` of the integral lies, for a density linear from a to b. */
 static inline float part_of(float a, float b, float rest)
 {
     float root = sqrtf(fmaxf(0.0f, a * a + 2.0f * rest * (b - a)));
