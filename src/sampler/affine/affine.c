@@ -1,6 +1,7 @@
 /* The public calls on affine surfaces (principal.h): those of the surface along its principal axes, and what the mean
  * slope and the turn do to normals and densities. */
 #include "math/vector.h"
+#include "sampler/affine/areas.h"
 #include "sampler/affine/principal.h"
 #include "sampler/area.h"
 #include "sampler/query.h"
@@ -9,12 +10,12 @@
 
 static vndf_affine_view invalid_view(void)
 {
-    vndf_affine_view view = {.plain = 1};
+    vndf_affine_view view = {.straight = 1};
     return view;
 }
 
 /* Without a turn and a mean slope it is a surface as any other. */
-static int is_plain(const vndf_affine *a)
+static int is_straight(const vndf_affine *a)
 {
     return vndf_affine_is_diagonal(a) && a->mean_x == 0.0f && a->mean_y == 0.0f;
 }
@@ -25,13 +26,13 @@ vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi)
     if (!vndf_principal_of(surface, &p) || !vndf_is_usable_direction(wi))
         return invalid_view();
     vndf_affine_view view = {.wi = wi,
-                             .plain = is_plain(surface),
+                             .straight = is_straight(surface),
                              .cosine = p.cosine,
                              .sine = p.sine,
                              .mean_x = p.mean_x,
                              .mean_y = p.mean_y,
                              .length = 1.0};
-    if (view.plain) {
+    if (view.straight) {
         vndf_surface same = {surface->distribution, fabsf(surface->xx), fabsf(surface->yy)};
         vndf_view_set(&view.principal, &same, wi);
         return view;
@@ -82,7 +83,7 @@ static vndf_vec3 turned_back(const vndf_affine_view *view, vndf_vec3 drawn, vndf
 
 vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf)
 {
-    if (view->plain)
+    if (view->straight)
         return vndf_sample(&view->principal, u1, u2, pdf);
     vndf_vec3 drawn = vndf_law_sample(&view->principal, vndf_clamp_unit(u1), vndf_clamp_unit(u2), NULL);
     vndf_vec3 wm = normal_from(view, vndf_normal_of(drawn));
@@ -126,7 +127,7 @@ static float visible_of(const vndf_affine_view *view, vndf_vec3 wm)
 /* Closed forms draw with Dv itself, which has no use for wi' as it was rounded. */
 float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    if (view->plain)
+    if (view->straight)
         return vndf_pdf(&view->principal, wm);
     if (!is_facing(view, wm))
         return 0.0f;
@@ -138,7 +139,7 @@ float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
 
 float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    if (view->plain)
+    if (view->straight)
         return vndf_visible(&view->principal, wm);
     if (!is_facing(view, wm))
         return 0.0f;
@@ -149,7 +150,7 @@ float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
 void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     *u1 = *u2 = 0.0f;
-    if (view->plain) {
+    if (view->straight) {
         vndf_invert(&view->principal, wm, u1, u2);
         return;
     }
@@ -194,14 +195,23 @@ static vndf_direction direction_of(const vndf_affine *surface, vndf_vec3 w)
     return direction;
 }
 
-float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w)
+int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas)
 {
     vndf_direction to = direction_of(surface, w);
     if (!vndf_direction_is_valid(&to))
-        return 0.0f;
-    double length = vndf_normal_length(vndf_normal_of(w)),
-           area = vndf_law_area_below(surface->distribution, &to, 1);
-    return (float)((area + doubles_positive(to.z)) / length);
+        return 0;
+    double below = vndf_law_area_below(surface->distribution, &to, 1);
+    areas->toward = below + doubles_positive(to.z);
+    areas->away = below + doubles_positive(-to.z);
+    areas->up = to.z;
+    return 1;
+}
+
+float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w)
+{
+    vndf_areas areas;
+    return vndf_affine_areas(surface, w, &areas) ? (float)(areas.toward / vndf_normal_length(vndf_normal_of(w)))
+                                                 : 0.0f;
 }
 
 float vndf_affine_lambda(const vndf_affine *surface, vndf_vec3 w)
