@@ -336,6 +336,107 @@ typedef enum vndf_g2_model {
 /* G2: masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */
 VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
 
+/* ---- any linear map of slopes ------------------------------------------------------------------ */
+
+/* A rough surface whose slopes are s = M u + mean, where u are slopes of the distribution: M = (xx xy; yx yy)
+ * stretches, turns and shears them, as anisotropy along a direction and filtered normal maps do. Slopes are
+ * (-wm.x/wm.z, -wm.y/wm.z), so a mean slope (m, 0) with m > 0 leans the surface towards -x. A plain value. M counts
+ * through M M^T alone, since the distribution is isotropic: the principal axes of the surface are the eigenvectors of
+ * M M^T, and its roughness along them the singular values of M, which may be as far apart as their range allows. A
+ * surface with M = (alpha_x 0; 0 alpha_y) and without a mean slope gives the bits of vndf_surface.
+ *
+ * From wi it looks as the surface without mean slope does from wi', not of unit length:
+ *
+ *     wi' = (wi.x, wi.y, wi.z - wi.x mean.x - wi.y mean.y),    A(wi) = |wi'| A0(wi'/|wi'|),
+ *
+ * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, stands where formulas have cos(theta) (Dupuy et al.,
+ * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z -
+ * 1, G1(wi) = wi'.z/A(wi), for a unit wi. A direction above the horizon may be below the mean plane, wi'.z < 0: then
+ * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere. */
+typedef struct vndf_affine {
+    const vndf_distribution *distribution;
+    float xx, xy, yx, yy;
+    float mean_x, mean_y;
+} vndf_affine;
+
+/* vndf_view of such a surface; its members are private. */
+typedef struct vndf_affine_view {
+    vndf_view principal;   /* along the principal axes, without mean slope; of an invalid view invalid */
+    vndf_vec3 wi;          /* as given */
+    int straight;          /* `principal` is all there is */
+    double cosine, sine;   /* of the first principal axis */
+    double mean_x, mean_y; /* along the axes */
+    double length;         /* of wi' */
+} vndf_affine_view;
+
+/* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
+ * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. That is, beside what is
+ * invalid for vndf_view_from, a matrix with a singular value, times the scale of the distribution, outside [1e-18,
+ * 1e18], or a mean slope above 1e6. The density that comes with a sample is that of vndf_affine_pdf. Numbers u1 and
+ * u2 mean what they mean along the principal axes, seen from wi'. */
+VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
+VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);
+VNDF_API float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm);
+VNDF_API float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm);
+VNDF_API void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, float *u2);
+VNDF_API float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm);
+VNDF_API float vndf_affine_p22(const vndf_affine *surface, float x, float y);
+VNDF_API float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w);
+VNDF_API float vndf_affine_lambda(const vndf_affine *surface, vndf_vec3 w);
+VNDF_API float vndf_affine_g1(const vndf_affine *surface, vndf_vec3 w);
+VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
+
+/* ---- several lobes on one surface --------------------------------------------------------------- */
+
+/* A surface with D = sum of w_i D_i over up to VNDF_MIXTURE_LOBES lobes, w_i the weights over their sum: a core and a
+ * haze, or two tables of a family where its parameter lies between theirs. That is no blend of BSDFs: masking is that
+ * of the whole, A = sum of w_i A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for
+ * Non-Uniform Heightfields", SIGGRAPH 2023). Weights are >= 0 and finite; a lobe of weight 0 is not looked at. Plain
+ * values, without memory of their own. */
+enum { VNDF_MIXTURE_LOBES = 8 };
+
+typedef struct vndf_mixture_lobe {
+    vndf_affine surface;
+    float weight;
+} vndf_mixture_lobe;
+
+typedef struct vndf_mixture {
+    int count; /* 1 to VNDF_MIXTURE_LOBES */
+    vndf_mixture_lobe lobe[VNDF_MIXTURE_LOBES];
+} vndf_mixture;
+
+/* Members are private. Of the lobes' views the first `count` are filled. */
+typedef struct vndf_mixture_view {
+    int count;                                 /* 0 marks an invalid view */
+    int index[VNDF_MIXTURE_LOBES];             /* which lobe of the mixture it is */
+    double begin[VNDF_MIXTURE_LOBES + 1];      /* of u1, where lobe i is drawn: sums of w_i A_i/A */
+    vndf_affine_view lobe[VNDF_MIXTURE_LOBES]; /* those of weight 0 are left out */
+} vndf_mixture_view;
+
+/* What is invalid has the results that it has for vndf_view: a lobe with a weight above 0 that is invalid, a weight
+ * that is negative or not finite, weights that are all 0, a count out of range. */
+VNDF_API vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi);
+
+/* u1 says which lobe is drawn, the part of 1 between is stretched to [0, 1], and the lobe drawn with that and u2: one
+ * draw, and one density for each lobe. *pdf, unless NULL, is the density of the whole; *lobe, unless NULL, the index
+ * of the lobe, -1 of an invalid view. The map is continuous and monotone within each lobe. */
+VNDF_API vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe);
+VNDF_API float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm);
+VNDF_API float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm);
+
+/* The numbers that draw wm from this lobe; from the lobe that draws it most often if `lobe` is -1. Returns the lobe;
+ * -1, with numbers of 0, for what is invalid or a lobe that is never drawn. */
+VNDF_API int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2);
+
+/* Of the whole. Where lobes have mean slopes, the mean plane of the whole stands for cos(theta), as for vndf_affine:
+ * wi'.z = wi.z - wi.(sum of w_i mean_i). */
+VNDF_API float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm);
+VNDF_API float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y);
+VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w);
+VNDF_API float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w);
+VNDF_API float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w);
+VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
+
 #ifdef __cplusplus
 }
 #endif

@@ -59,13 +59,7 @@ float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
     return vndf_direction_is_valid(&direction) ? vndf_g1_of(surface->distribution, &direction) : 0.0f;
 }
 
-/* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1: the smaller G1 times a factor that is 1/2 at least, since a
- * product of two small ones would underflow. */
 float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
 {
-    float gi = vndf_g1(surface, wi), go = vndf_g1(surface, wo);
-    float least = gi < go ? gi : go, most = gi < go ? go : gi;
-    if (model == VNDF_G2_SEPARABLE || least == 0.0f)
-        return gi * go;
-    return least * (most / (most + least * (1.0f - most)));
+    return vndf_g2_of(vndf_g1(surface, wi), vndf_g1(surface, wo), model);
 }

@@ -39,6 +39,16 @@ double vndf_unit_area(const vndf_distribution *d, double s, double c);
 /* A(w) of the surface with this roughness times the distribution's scale. */
 float vndf_area_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 w);
 
+/* G2 from both G1: 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1, is the smaller G1 times a factor that is 1/2 at
+ * least, since a product of two small ones would underflow. */
+VNDF_INLINE float vndf_g2_of(float gi, float go, vndf_g2_model model)
+{
+    float least = gi < go ? gi : go, most = gi < go ? go : gi;
+    if (model == VNDF_G2_SEPARABLE || least == 0.0f)
+        return gi * go;
+    return least * (most / (most + least * (1.0f - most)));
+}
+
 /* vndf_view_from for a view inside another object: an assigned view would be copied, and waited for. */
 void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 

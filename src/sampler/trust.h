@@ -15,9 +15,9 @@
 /* ---- the budget ---- */
 
 /* Parts of the promise in units of 1e-8. The share of a cause leaves out the roundings that every sample has. The
- * shares were measured with 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1 and
- * lobes whose widths differ a thousandfold, at roughness 1e-3 to 10. The worst error of all was 570; a search that
- * climbs from the worst points finds 730 for a ring of relative width 1e-6 (test float_accuracy). */
+ * shares were measured with 130 million samples of all shipped tables and of rings, discs, needles, tails of r^-3.1
+ * and lobes whose widths differ a thousandfold, at roughness 1e-3 to 10. The worst error of all was 570; a search
+ * that climbs from the worst points finds 730 for a ring of relative width 1e-6 (test float_accuracy). */
 enum {
     VNDF_PROMISE = 1000,
     VNDF_SHARE_ROUNDING = 180, /* of a dozen operations each: direction, masses, cell, normal */
@@ -76,8 +76,8 @@ VNDF_INLINE lanes_m vndf_trusts_lengths(lanes_f square, lanes_f product)
                       lanes_less(lanes_set(VNDF_TRUST_PRODUCT), product));
 }
 
-/* The root in the inverse of a rational cell, of the fourth power of a mass: at the pole, at u2 = 1e-10, denormals cost
- * it digits. */
+/* The root in the inverse of a rational cell, of the fourth power of a mass: at the pole, at u2 = 1e-10, denormals
+ * cost it digits. */
 static const float VNDF_TRUST_ROOT = 2e-18f;
 
 VNDF_INLINE lanes_m vndf_trusts_root(lanes_f root)
@@ -96,8 +96,8 @@ VNDF_INLINE lanes_m vndf_trusts_wedge_mass(lanes_f front, lanes_f mass)
     return lanes_less(VNDF_TRUST_WEDGE_MASS * front, mass);
 }
 
-/* One over the width of a piece of the areas' spline, in the wedge's coordinate: a rounding of the direction shows more
- * in a narrow piece. Lobes whose widths differ hundreds of times have narrow pieces, and rows as close. */
+/* One over the width of a piece of the areas' spline, in the wedge's coordinate: a rounding of the direction shows
+ * more in a narrow piece. Lobes whose widths differ hundreds of times have narrow pieces, and rows as close. */
 static const float VNDF_TRUST_AREA_PER_WIDTH = 500.0f;
 
 VNDF_INLINE lanes_m vndf_trusts_area_piece(lanes_f per_width)
@@ -148,9 +148,9 @@ VNDF_INLINE lanes_m vndf_trusts_side(lanes_f away)
     return lanes_less(lanes_set(VNDF_TRUST_SIDE), away);
 }
 
-/* W = along + up is wi.wm times a length. It must be no small difference, and large beside the change by a rounding of
- * the azimuth, which is a part of `across`. In front of wi nearly nothing is drawn where W is small, and there roundings
- * of the direction and of the azimuth meet, 6e-7 in all. */
+/* W = along + up is wi.wm times a length. It must be no small difference, and large beside the change by a rounding
+ * of the azimuth, which is a part of `across`. In front of wi nearly nothing is drawn where W is small, and there
+ * roundings of the direction and of the azimuth meet, 6e-7 in all. */
 static const float VNDF_TRUST_FACING_IN_FRONT = 0.1f, VNDF_TRUST_FACING = 0.06f;
 
 VNDF_INLINE lanes_m vndf_trusts_facing_in_front(lanes_f across, lanes_f along, lanes_f up)
@@ -165,8 +165,8 @@ VNDF_INLINE lanes_m vndf_trusts_facing_in_wedge(lanes_f across, lanes_f along, l
 
 /* ---- tables: radius ---- */
 
-/* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves the cut by some 1e-7. Smooth
- * lobes have 1 to 4; where only the foot of a ring is visible it may be 500, and float is off by 2e-3. */
+/* How much of a law in the wedge changes per e-fold of its cut: rounding the azimuth moves the cut by some 1e-7.
+ * Smooth lobes have 1 to 4; where only the foot of a ring is visible it may be 500, and float is off by 2e-3. */
 static const float VNDF_TRUST_CUT = 6.0f;
 
 /* `inside` is the change of the cells inside the cut. The mass of the cell at the cut is the steeper, the narrower its

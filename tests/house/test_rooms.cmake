@@ -21,7 +21,7 @@ set(run_time core simd math table sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
 set(shared core/replace_file.h)
 
-set(subs_sampler tabulated all_normals analytic bounded batch)
+set(subs_sampler tabulated all_normals analytic bounded batch affine)
 set(subs_bsdf terms lobes walk)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate)
