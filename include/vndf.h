@@ -125,7 +125,8 @@ typedef struct vndf_certificate {
     float tv_theta; /* the incident angle where it was found, degrees */
     float tv_above; /* the same over directions from 0 to 90 degrees */
     float tv_above_theta;
-    float max_weight;     /* largest true/sampled density over the region that holds all but 1e-6 of the mass */
+    float max_weight;     /* largest true/sampled density over the region that holds all but 1e-6 of the mass that
+                           * a direction sees: far below the horizon that region is small */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
     float area_error;     /* largest relative error of the projected area, hence of Lambda and G1 */
     float consistency;    /* largest |integral of the pdf - 1| */

@@ -36,7 +36,9 @@ static double ndf_error(const vndf_validation *v)
  * Over the angle of incidence the total variation has as many maxima as the table has parts: between the knots of
  * azimuth rows, where a quadratic misses a cubic; as the cut passes through a radial cell; and where the last part
  * that is claimed is visible. The certificate measures there and in some fixed directions, and then again between
- * the two neighbours that promise most. */
+ * the two neighbours that promise most. The largest weight has narrower maxima, where the azimuths that see
+ * anything end: at a disc, some hundredths of the distance between two knots. So it is foreseen, which costs little,
+ * at many places between all knots, and measured at the largest maxima. */
 
 /* Angles of incidence at alpha 1, degrees, and tangents of elevation at canonical scale. */
 static const double ANGLES[] = {0,  10,   20, 30, 40,  50,  60,  70,  80,  85,  89, 89.9,
@@ -55,9 +57,11 @@ enum {
     PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
     SPANS_MOST = 40, /* of rows on a side, and of radial cells: if there are more, takes every second, third ... */
-    BETWEEN = 60,
-    DIRECTIONS_MOST =
-        ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT + BETWEEN
+    PEAKS = 4,       /* of the weight, on a side */
+    PLACES = 8,      /* between two knots, where the weight is foreseen */
+    BETWEEN = 44,
+    DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
+                      2 * PEAKS + BETWEEN
 };
 
 typedef struct direction {
@@ -90,15 +94,20 @@ static void add_grid(circle *all, vndf_validation *v)
         add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
 }
 
+/* The direction with the coordinate y of a side. */
+static void add_side(circle *all, vndf_validation *v, const vndf_wedge *side, double y)
+{
+    int above = side == &v->table->above;
+    add_direction(all, v, above ? 1 - y : y, above ? y : y - 1);
+}
+
 /* Between the knots of a side's azimuth rows. */
 static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side)
 {
     uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
     for (uint32_t i = 0; i < spans; i += step)
-        for (int n = 0; n < PEAK_COUNT; n++) {
-            double y = side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]);
-            add_direction(all, v, side == &v->table->above ? 1 - y : y, side == &v->table->above ? y : y - 1);
-        }
+        for (int n = 0; n < PEAK_COUNT; n++)
+            add_side(all, v, side, side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]));
 }
 
 /* Cuts in the radial cells, as long as something beyond the cut is claimed. */
@@ -128,6 +137,67 @@ static void add_levels(circle *all, vndf_validation *v)
         }
         add_direction(all, v, sin(low), cos(low));
     }
+}
+
+/* A maximum of the foreseen weight between two places of a side. */
+typedef struct peak {
+    double from, to, weight;
+} peak;
+
+static double foreseen(vndf_validation *v, const vndf_wedge *side, double y)
+{
+    int above = side == &v->table->above;
+    return vndf_validation_foreseen(v, above ? 1 - y : y, above ? y : y - 1);
+}
+
+/* Keeps the largest, in descending order. */
+static void keep_peak(peak *largest, peak found)
+{
+    for (int i = 0; i < PEAKS; i++)
+        if (found.weight > largest[i].weight) {
+            peak smaller = largest[i];
+            largest[i] = found;
+            found = smaller;
+        }
+}
+
+/* At even places between all knots of a side's rows. */
+static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest)
+{
+    double y[3] = {side->row_y[0], side->row_y[0], side->row_y[0]}, weight[3] = {0, 0, 0};
+    uint32_t places = side->row_count / 2 * PLACES;
+    for (uint32_t i = 0; i <= places; i++) {
+        uint32_t span = i / PLACES;
+        double y0 = side->row_y[span], y1 = side->row_y[i < places ? span + 1 : span];
+        double next = i < places ? y0 + (y1 - y0) * (i % PLACES + 0.5) / PLACES : y0;
+        y[0] = y[1], y[1] = y[2], y[2] = next;
+        weight[0] = weight[1], weight[1] = weight[2], weight[2] = i < places ? foreseen(v, side, next) : 0.0;
+        peak found = {y[0], y[2], weight[1]};
+        if (weight[1] >= weight[0] && weight[1] > weight[2])
+            keep_peak(largest, found);
+    }
+}
+
+/* Thirds of a peak that hold no maximum are cut off; below the horizon nothing is claimed where y is small. */
+static double top_of(vndf_validation *v, const vndf_wedge *side, peak p)
+{
+    for (int i = 0; i < 6; i++) {
+        double low = p.from + (p.to - p.from) / 3, high = p.to - (p.to - p.from) / 3;
+        if (foreseen(v, side, low) > foreseen(v, side, high))
+            p.to = high;
+        else
+            p.from = low;
+    }
+    return (p.from + p.to) / 2;
+}
+
+/* The maxima of the foreseen weight. */
+static void add_peaks(circle *all, vndf_validation *v, const vndf_wedge *side)
+{
+    peak largest[PEAKS] = {{0, 0, 0}};
+    find_peaks(v, side, largest);
+    for (int i = 0; i < PEAKS && largest[i].weight > 0; i++)
+        add_side(all, v, side, top_of(v, side, largest[i]));
 }
 
 /* Adds directions between the two neighbours that promise the largest total variation, or weight. */
@@ -214,8 +284,10 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
         add_rows(&all, &v, &table->below);
         add_cuts(&all, &v);
         add_levels(&all, &v);
+        add_peaks(&all, &v, &table->above);
+        add_peaks(&all, &v, &table->below);
         for (int i = 0; i < BETWEEN; i++)
-            add_between(&all, &v, i % 3 == 2);
+            add_between(&all, &v, i % 11 == 10);
         *c = none;
         for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
             take(c, all.at[i].found,

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "sampler/tabulated/theory.h"
 #include "sampler/surface.h"
@@ -17,7 +18,13 @@ static const double PI = 3.14159265358979323846;
 
 /* The cells of small tables are integrated in parts, at least this many in all, so that the rule errs less than
  * the table. */
-enum { RADIAL_PARTS_LEAST = 128, AZIMUTH_PARTS_LEAST = 20, AZIMUTHS_LEAST = 512, FRONT_PANELS = 12 };
+enum {
+    RADIAL_PARTS_LEAST = 128,
+    AZIMUTH_PARTS_LEAST = 20,
+    AZIMUTHS_LEAST = 512,
+    AZIMUTHS_FORESEEN = 100,
+    FRONT_PANELS = 12
+};
 
 /* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
  * that part of the cell's mass. */
@@ -271,35 +278,79 @@ static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, u
     return at;
 }
 
-/* How much the few azimuths of add_quarter underestimate the mass of all azimuths: without the radius many more
- * azimuths cost little, and cells at the azimuth of a jump are steep. */
-static double azimuth_lack(const vndf_view *view, const quarter *turn, double taken)
+/* Adds an azimuth to the sums: its normals together, so that no radius has to be looked at. */
+static void add_sum(vndf_validation *v, const slice *at)
 {
-    uint32_t parts = parts_for(turn->cells, AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
-    double mass = 0.0;
-    for (uint32_t i = 0; i < turn->cells * parts; i++) {
-        slice at = ray_in(view, turn, i / parts, i % parts / VNDF_GAUSS_COARSE, parts / VNDF_GAUSS_COARSE,
-                          i % VNDF_GAUSS_COARSE);
-        mass += at.weight * at.drawn.azimuth;
-    }
-    return mass - taken;
+    vndf_validation_point one = {at->weight * at->drawn.mass / v->area, at->weight * at->drawn.azimuth};
+    if (v->sum_count < v->sum_capacity)
+        v->sums[v->sum_count++] = one;
 }
 
-static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
+/* Adds an azimuth to the samples. */
+static void add_slice_of(vndf_validation *v, const slice *at)
 {
-    uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST);
-    double taken = 0.0;
+    size_t first = v->count;
+    add_azimuth(v, at);
+    vndf_validation_slice made = {first, v->count - first, 0, 0};
+    if (v->slice_count < v->slice_capacity)
+        v->slices[v->slice_count++] = made;
+}
+
+typedef void add_slice(vndf_validation *v, const slice *at);
+
+/* Adds the azimuths of a quarter turn, on at least `least` cells; their drawn mass. */
+static double add_azimuths(vndf_validation *v, const vndf_view *view, const quarter *turn, uint32_t least,
+                           add_slice *add)
+{
+    uint32_t parts = parts_for(turn->cells, least);
+    double drawn = 0.0;
     for (uint32_t i = 0; i < turn->cells * parts * VNDF_GAUSS_COARSE; i++) {
         uint32_t part = i / VNDF_GAUSS_COARSE;
         slice at = ray_in(view, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
-        taken += at.weight * at.drawn.azimuth;
-        add_azimuth(v, &at);
+        drawn += at.weight * at.drawn.azimuth;
+        add(v, &at);
     }
-    v->lack += azimuth_lack(view, turn, taken);
+    return drawn;
 }
 
+/* Where a part of a cell ends that one of its Gauss points stands for. */
+static const double SHARE_ENDS[VNDF_GAUSS_COARSE] = {0.17392742256872693, 0.5, 0.82607257743127307, 1};
+
+/* Gives every slice of a quarter turn its sums: those that are nearer to it than to others. */
+static void share_sums(vndf_validation *v, const quarter *turn, size_t first_slice, size_t first_sum)
+{
+    uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST), fine = parts_for(turn->cells, AZIMUTHS_LEAST);
+    size_t n = 0, sums = v->sum_count - first_sum;
+    for (size_t i = 0; first_slice + i < v->slice_count; i++) {
+        vndf_validation_slice *part = v->slices + first_slice + i;
+        double end = ((double)(i / VNDF_GAUSS_COARSE) + SHARE_ENDS[i % VNDF_GAUSS_COARSE]) / parts;
+        part->first_sum = first_sum + n;
+        while (n < sums &&
+               ((double)(n / VNDF_GAUSS_COARSE) + vndf_gauss_coarse_node[n % VNDF_GAUSS_COARSE]) / fine < end)
+            n++;
+        part->sums = first_sum + n - part->first_sum;
+    }
+}
+
+/* The few azimuths that are looked at along the radius underestimate the mass of all: cells at the azimuth of a jump
+ * are steep. Without the radius many more cost little. */
+static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
+{
+    size_t first_slice = v->slice_count, first_sum = v->sum_count;
+    double taken = add_azimuths(v, view, turn, AZIMUTH_PARTS_LEAST, add_slice_of);
+    v->lack += add_azimuths(v, view, turn, AZIMUTHS_LEAST, add_sum) - taken;
+    share_sums(v, turn, first_slice, first_sum);
+}
+
+static void add_sums(vndf_validation *v, const vndf_view *view, const quarter *turn)
+{
+    add_azimuths(v, view, turn, AZIMUTHS_FORESEEN, add_sum);
+}
+
+typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *turn);
+
 /* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
-static void add_front(vndf_validation *v, const vndf_view *view)
+static void add_front(vndf_validation *v, const vndf_view *view, add_turn *add)
 {
     float node[FRONT_PANELS + 1];
     quarter turn = {node, FRONT_PANELS, 1, 1, 0};
@@ -307,7 +358,23 @@ static void add_front(vndf_validation *v, const vndf_view *view)
         double w = (double)i / FRONT_PANELS;
         node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
     }
-    add_quarter(v, view, &turn);
+    add(v, view, &turn);
+}
+
+/* Both quarter turns of the direction (s, 0, c), after those of the last direction are forgotten. */
+static void add_turns(vndf_validation *v, double s, double c, double area, add_turn *add)
+{
+    vndf_view view = view_of(v->table, s, c);
+    v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
+    v->count = v->slice_count = v->sum_count = 0;
+    v->lack = v->blur = 0.0;
+    if (c >= 0)
+        add_front(v, &view, add);
+    const vndf_wedge *side = vndf_wedge_of(v->table, c);
+    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.of.table.s, view.of.table.c));
+    quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
+    if (view.of.table.wedge > 0 && row.p > 0)
+        add(v, &view, &wedge);
 }
 
 static double ratio_of(vndf_validation_point a)
@@ -337,11 +404,9 @@ static double middle_of_three(double a, double b, double c)
 
 /* The largest reference/drawn, leaving out the points with the largest ratios that together hold
  * VNDF_VALIDATION_LEFT_OUT of the mass. Splits the rest until it is one value. */
-static double weight_of(vndf_validation *v)
+static double weight_of(vndf_validation_point *from, size_t count)
 {
     double left = VNDF_VALIDATION_LEFT_OUT, mass;
-    vndf_validation_point *from = v->samples;
-    size_t count = v->count;
     while (count > 0) {
         double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
         size_t larger = 0;
@@ -365,28 +430,54 @@ static double weight_of(vndf_validation *v)
     return 1.0;
 }
 
+/* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
+ * Gauss point would hold about VNDF_VALIDATION_LEFT_OUT, and chance would decide the largest weight. */
+static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part)
+{
+    const double uneven = 1.02, little = 100 * VNDF_VALIDATION_LEFT_OUT;
+    double least = HUGE_VAL, most = 0.0, mass = 0.0;
+    for (size_t i = 0; i < part->sums && mass < little; i++) {
+        vndf_validation_point sum = v->sums[part->first_sum + i];
+        least = sum.reference + sum.drawn > 0 ? fmin(least, ratio_of(sum)) : least;
+        most = fmax(most, ratio_of(sum));
+        mass += sum.reference;
+    }
+    return mass < little && most > uneven * least;
+}
+
+/* Replaces the samples of a slice by its sums: beside them the radius matters little there. */
+static void take_sums(vndf_validation *v, const vndf_validation_slice *part)
+{
+    memset(v->samples + part->first, 0, part->count * sizeof *v->samples);
+    for (size_t i = 0; i < part->sums && v->count < v->capacity; i++)
+        v->samples[v->count++] = v->sums[part->first_sum + i];
+}
+
+static double largest_weight(vndf_validation *v)
+{
+    for (size_t i = 0; i < v->slice_count; i++)
+        if (is_uneven(v, v->slices + i))
+            take_sums(v, v->slices + i);
+    return weight_of(v->samples, v->count);
+}
+
+static int is_claimed(const vndf_validation *v, double s, double c)
+{
+    return vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile) &&
+           !vndf_guard_stopped(v->profile->guard);
+}
+
 vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
 {
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
     double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
-    vndf_view view = view_of(v->table, s, c);
-    if (!(vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile)) ||
-        vndf_guard_stopped(v->profile->guard))
+    if (!is_claimed(v, s, c))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
-    v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
-    v->count = 0;
-    v->lack = v->blur = 0.0;
-    if (c >= 0)
-        add_front(v, &view);
-    const vndf_wedge *side = vndf_wedge_of(v->table, c);
-    vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.of.table.s, view.of.table.c));
-    quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
-    if (view.of.table.wedge > 0 && row.p > 0)
-        add_quarter(v, &view, &wedge);
+    add_turns(v, s, c, area, add_quarter);
     for (size_t i = 0; i < v->count; i++) {
         drawn += v->samples[i].drawn;
         reference += v->samples[i].reference;
@@ -394,20 +485,36 @@ vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
     }
     f.tv = fmin((miss + fabs(reference - 1) + v->blur) / 2, 1); /* mass that no point meets is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
-    f.max_weight = weight_of(v);
+    f.max_weight = largest_weight(v);
     return f;
+}
+
+double vndf_validation_foreseen(vndf_validation *v, double s, double c)
+{
+    s = (float)s;
+    c = (float)c;
+    if (!is_claimed(v, s, c))
+        return 0.0;
+    add_turns(v, s, c, vndf_profile_area(v->profile, s, c), add_sums);
+    vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sum_count);
+    return weight_of(v->sums, v->sum_count);
 }
 
 int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile)
 {
-    size_t parts = table->above.cell_count + table->below.cell_count + FRONT_PANELS + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_validation made = {table, profile, NULL, NULL, 0, 0, NULL, 0, 0, 0.0, 0.0, 0.0};
+    size_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS;
+    size_t parts = cells + 3 * AZIMUTH_PARTS_LEAST;
+    vndf_validation made = {.table = table, .profile = profile};
     *v = made;
     if (!add_stretches(v))
         return 0;
     v->capacity = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
     v->samples = malloc(v->capacity * sizeof *v->samples);
-    return v->samples != NULL;
+    v->sum_capacity = (cells + 3 * AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
+    v->sums = malloc(v->sum_capacity * sizeof *v->sums);
+    v->slice_capacity = parts * VNDF_GAUSS_COARSE;
+    v->slices = malloc(v->slice_capacity * sizeof *v->slices);
+    return v->samples && v->sums && v->slices;
 }
 
 void vndf_validation_free(vndf_validation *v)
@@ -415,4 +522,6 @@ void vndf_validation_free(vndf_validation *v)
     free(v->stretch);
     free(v->node);
     free(v->samples);
+    free(v->sums);
+    free(v->slices);
 }

@@ -25,6 +25,11 @@ typedef struct vndf_validation_node {
     double xi, weight, r, mass, rounding;
 } vndf_validation_node;
 
+/* An azimuth that is looked at along the radius: its samples, and the sums that it stands for. */
+typedef struct vndf_validation_slice {
+    size_t first, count, first_sum, sums;
+} vndf_validation_slice;
+
 typedef struct vndf_validation {
     const vndf_distribution *table;
     const vndf_profile *profile;
@@ -32,7 +37,9 @@ typedef struct vndf_validation {
     vndf_validation_node *node;
     size_t stretch_count, node_count;
     vndf_validation_point *samples; /* of one direction after the other */
-    size_t count, capacity;
+    vndf_validation_point *sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
+    vndf_validation_slice *slices;
+    size_t count, capacity, sum_count, sum_capacity, slice_count, slice_capacity;
     double area; /* true area of the direction, for s + |c| = 1 */
     double lack; /* the drawn mass that the samples leave out */
     double blur; /* by how much rounding of normals to float changes the drawn density, all together */
@@ -49,6 +56,9 @@ void vndf_validation_free(vndf_validation *validation);
 
 /* The direction (s, 0, c) of the unit problem. */
 vndf_finding vndf_validation_direction(vndf_validation *validation, double s, double c);
+
+/* About the largest weight there, from the sums alone: costs a fiftieth. */
+double vndf_validation_foreseen(vndf_validation *validation, double s, double c);
 
 /* Slope at part/parts of a radial cell in xi. */
 double vndf_validation_slope(const vndf_distribution *table, uint32_t cell, uint32_t part, uint32_t parts);
