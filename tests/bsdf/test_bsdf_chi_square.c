@@ -65,7 +65,7 @@ static sphere_result sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t sam
     static grid g;
     const sphere_map map = {bsdf, atan2(-(double)wi.y, -(double)wi.x)};
     sphere_place(&g, &map, state);
-    double mass = grid_expect(&g, sphere_pdf, &map, (double)samples, 1e-7), z, phi;
+    double mass = grid_expect(&g, sphere_pdf, &map, (double)samples, 0.02 / (double)samples), z, phi;
     for (size_t i = 0; i < samples; i++)
         g.observed[sphere_draw(&map, state, &z, &phi) ? grid_bin(&g, z, phi) : grid_elsewhere(&g)] += 1;
     pearson found = grid_test(&g);

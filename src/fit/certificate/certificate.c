@@ -161,20 +161,31 @@ static void keep_peak(peak *largest, peak found)
         }
 }
 
-/* At even places between all knots of a side's rows. */
+/* A place of a side, and the weight foreseen there. */
+typedef struct seen {
+    double y, weight;
+} seen;
+
+/* The i-th of even places between all knots of a side's rows; past the last one its end. */
+static seen seen_at(vndf_validation *v, const vndf_wedge *side, uint32_t i)
+{
+    uint32_t span = i / PLACES;
+    if (span == side->row_count / 2)
+        return (seen){side->row_y[span], 0.0};
+    double y0 = side->row_y[span], y = y0 + (side->row_y[span + 1] - y0) * (i % PLACES + 0.5) / PLACES;
+    return (seen){y, foreseen(v, side, y)};
+}
+
 static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest)
 {
-    double y[3] = {side->row_y[0], side->row_y[0], side->row_y[0]}, weight[3] = {0, 0, 0};
-    uint32_t places = side->row_count / 2 * PLACES;
-    for (uint32_t i = 0; i <= places; i++) {
-        uint32_t span = i / PLACES;
-        double y0 = side->row_y[span], y1 = side->row_y[i < places ? span + 1 : span];
-        double next = i < places ? y0 + (y1 - y0) * (i % PLACES + 0.5) / PLACES : y0;
-        y[0] = y[1], y[1] = y[2], y[2] = next;
-        weight[0] = weight[1], weight[1] = weight[2], weight[2] = i < places ? foreseen(v, side, next) : 0.0;
-        peak found = {y[0], y[2], weight[1]};
-        if (weight[1] >= weight[0] && weight[1] > weight[2])
+    seen before = {side->row_y[0], 0.0}, here = before;
+    for (uint32_t i = 0; i <= side->row_count / 2 * PLACES; i++) {
+        seen next = seen_at(v, side, i);
+        peak found = {before.y, next.y, here.weight};
+        if (here.weight >= before.weight && here.weight > next.weight)
             keep_peak(largest, found);
+        before = here;
+        here = next;
     }
 }
 
