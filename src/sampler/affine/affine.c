@@ -8,36 +8,35 @@
 
 /* ---- views ---- */
 
-static vndf_affine_view invalid_view(void)
-{
-    vndf_affine_view view = {.straight = 1};
-    return view;
-}
-
 /* Without a turn and a mean slope it is a surface as any other. */
 static int is_straight(const vndf_affine *a)
 {
     return vndf_affine_is_diagonal(a) && a->mean_x == 0.0f && a->mean_y == 0.0f;
 }
 
+/* Members are written one by one, and of a straight view no more than are read: a copy would be waited for. */
 vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi)
 {
+    vndf_affine_view view;
     vndf_principal p;
-    if (!vndf_principal_of(surface, &p) || !vndf_is_usable_direction(wi))
-        return invalid_view();
-    vndf_affine_view view = {.wi = wi,
-                             .straight = is_straight(surface),
-                             .cosine = p.cosine,
-                             .sine = p.sine,
-                             .mean_x = p.mean_x,
-                             .mean_y = p.mean_y,
-                             .length = 1.0};
-    if (view.straight) {
+    view.straight = 1;
+    view.principal.distribution = NULL;
+    if (!surface || !surface->distribution)
+        return view;
+    if (is_straight(surface)) {
         vndf_surface same = {surface->distribution, fabsf(surface->xx), fabsf(surface->yy)};
         vndf_view_set(&view.principal, &same, wi);
         return view;
     }
+    if (!vndf_principal_of(surface, &p) || !vndf_is_usable_direction(wi))
+        return view;
     vndf_normal to = vndf_principal_direction(&p, wi);
+    view.straight = 0;
+    view.wi = wi;
+    view.cosine = p.cosine;
+    view.sine = p.sine;
+    view.mean_x = p.mean_x;
+    view.mean_y = p.mean_y;
     view.length = vndf_normal_length(to);
     to = vndf_normal_times(to, 1.0 / view.length);
     vndf_vec3 w = {(float)to.x, (float)to.y, (float)to.z};
@@ -54,7 +53,7 @@ static vndf_principal principal_of(const vndf_affine_view *view)
 
 static int is_facing(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    return view->principal.distribution && wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
+    return wm.z >= 0.0f && vndf_exact_dot(view->wi, wm) > 0.0;
 }
 
 /* ---- normals ---- */
@@ -154,7 +153,7 @@ void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, f
         vndf_invert(&view->principal, wm, u1, u2);
         return;
     }
-    if (!view->principal.distribution || !(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
+    if (!(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return;
     vndf_normal n = seen_from(view, wm).n;
     vndf_law_invert(&view->principal, vndf_vec3_of((float)n.x, (float)n.y, (float)n.z), u1, u2);
