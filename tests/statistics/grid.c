@@ -75,20 +75,25 @@ static double adaptive(const integrand *f, const double x[2], const double y[2],
     return sum;
 }
 
-/* Where a bin beside a much narrower one is cut first: a peak that the narrow ones are there for may reach into it by
- * less than the points of a rule are apart. Returns how many parts there are. */
-enum { CUTS = 6, WIDE = 8 };
+/* Where a bin is cut first, towards neighbours that are much narrower: a peak that they are there for may reach into
+ * it by less than the points of a rule are apart. Returns how many parts there are. */
+enum { CUTS = 5, WIDE = 8 };
 
 static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, size_t count)
 {
-    static const double at[CUTS + 1] = {0, 1.0 / 512, 1.0 / 32, 0.5, 1 - 1.0 / 32, 1 - 1.0 / 512, 1};
-    double width = border[i + 1] - border[i], before = i > 0 ? border[i] - border[i - 1] : width,
-           after = i + 1 < count ? border[i + 2] - border[i + 1] : width;
-    int beside = width > WIDE * fmin(before, after);
-    for (int n = 0; n <= CUTS; n++)
-        cut[n] = border[i] + width * at[n];
-    cut[beside ? CUTS : 1] = border[i + 1];
-    return beside ? CUTS : 1;
+    double from = border[i], to = border[i + 1], width = to - from;
+    size_t parts = 0;
+    cut[parts++] = from;
+    if (i > 0 && width > WIDE * (from - border[i - 1])) {
+        cut[parts++] = from + width / 512;
+        cut[parts++] = from + width / 32;
+    }
+    if (i + 1 < count && width > WIDE * (border[i + 2] - to)) {
+        cut[parts++] = to - width / 32;
+        cut[parts++] = to - width / 512;
+    }
+    cut[parts] = to;
+    return parts;
 }
 
 static double expect_bin(const grid *g, const integrand *f, size_t row, size_t column, double allowed)
