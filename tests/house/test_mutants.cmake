@@ -3,7 +3,8 @@
 # that is no longer found exactly once is an error too: the list has to follow the sources.
 #
 # The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those whose
-# mark matches MARK, `always` unless it is said: more_mutants plants those marked `often` as well, long_mutants all.
+# mark matches MARK, `always` unless it is said: more_mutants plants those marked `often` as well, the long_mutants all;
+# with PARTS those alone whose number, modulo PARTS, is PART.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)
@@ -32,11 +33,18 @@ endfunction()
 if(NOT MARK)
     set(MARK always)
 endif()
+if(NOT PARTS)
+    set(PARTS 1)
+    set(PART 0)
+endif()
 set(chosen "")
 set(checks "")
+set(number 0)
 foreach(block IN LISTS blocks)
     member("${block}" fails check)
-    if("\n${block}\n" MATCHES "\n(${MARK})\n" OR MARK STREQUAL ".")
+    math(EXPR part "${number} % ${PARTS}")
+    math(EXPR number "${number} + 1")
+    if(part EQUAL PART AND ("\n${block}\n" MATCHES "\n(${MARK})\n" OR MARK STREQUAL "."))
         list(APPEND chosen "${block}")
         list(APPEND checks "${check}")
     endif()

@@ -75,20 +75,21 @@ static double adaptive(const integrand *f, const double x[2], const double y[2],
     return sum;
 }
 
-/* Where a bin is cut first, towards neighbours that are much narrower: a peak that they are there for may reach into
- * it by less than the points of a rule are apart. Returns how many parts there are. */
+/* Where a bin is cut first: towards neighbours that are much narrower, and where nothing was found in it towards those
+ * that hold something. What is there may reach into it by less than the points of a rule are apart. Returns how many
+ * parts there are. */
 enum { CUTS = 5, WIDE = 8 };
 
-static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, size_t count)
+static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int before, int after)
 {
     double from = border[i], to = border[i + 1], width = to - from;
     size_t parts = 0;
     cut[parts++] = from;
-    if (i > 0 && width > WIDE * (from - border[i - 1])) {
+    if (before) {
         cut[parts++] = from + width / 512;
         cut[parts++] = from + width / 32;
     }
-    if (i + 1 < count && width > WIDE * (border[i + 2] - to)) {
+    if (after) {
         cut[parts++] = to - width / 32;
         cut[parts++] = to - width / 512;
     }
@@ -96,12 +97,42 @@ static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, size
     return parts;
 }
 
-static double expect_bin(const grid *g, const integrand *f, size_t row, size_t column, double allowed)
+/* The sides of a bin that it is cut towards. */
+typedef struct sides {
+    int below, above, left, right;
+} sides;
+
+static int is_wide_before(const double *border, size_t i)
+{
+    return i > 0 && border[i + 1] - border[i] > WIDE * (border[i] - border[i - 1]);
+}
+
+static int is_wide_after(const double *border, size_t i, size_t count)
+{
+    return i + 1 < count && border[i + 1] - border[i] > WIDE * (border[i + 2] - border[i + 1]);
+}
+
+static sides narrow_sides(const grid *g, size_t row, size_t column)
+{
+    return (sides){is_wide_before(g->x, row), is_wide_after(g->x, row, g->rows), is_wide_before(g->y, column),
+                   is_wide_after(g->y, column, g->columns)};
+}
+
+static sides held_sides(const grid *g, size_t row, size_t column)
+{
+    const double *here = g->expected + row * g->columns + column;
+    return (sides){row > 0 && here[-(ptrdiff_t)g->columns] > 0, row + 1 < g->rows && here[g->columns] > 0,
+                   column > 0 && here[-1] > 0, column + 1 < g->columns && here[1] > 0};
+}
+
+static double expect_bin(const grid *g, const integrand *f, size_t i, sides towards, double allowed)
 {
     double x[CUTS + 1], y[CUTS + 1], sum = 0;
-    size_t rows = cut_bin(x, g->x, row, g->rows), columns = cut_bin(y, g->y, column, g->columns);
-    for (size_t i = 0; i < rows * columns; i++) {
-        const double *at = x + i / columns, *along = y + i % columns;
+    size_t row = i / g->columns, column = i % g->columns;
+    size_t rows = cut_bin(x, g->x, row, towards.below, towards.above),
+           columns = cut_bin(y, g->y, column, towards.left, towards.right);
+    for (size_t part = 0; part < rows * columns; part++) {
+        const double *at = x + part / columns, *along = y + part % columns;
         sum += adaptive(f, at, along, rule(f, at, along), allowed, DEPTH);
     }
     return sum;
@@ -111,13 +142,17 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
 {
     const integrand f = {density, of};
     double mass = 0;
-    for (size_t i = 0; i < grid_elsewhere(g); i++) {
-        size_t row = i / g->columns, column = i % g->columns;
-        int is_empty = !(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]);
-        double part = is_empty ? 0 : expect_bin(g, &f, row, column, allowed);
-        g->expected[i] = part * samples;
-        mass += part;
-    }
+    for (int again = 0; again < 2; again++)
+        for (size_t i = 0; i < grid_elsewhere(g); i++) {
+            size_t row = i / g->columns, column = i % g->columns;
+            sides towards = again ? held_sides(g, row, column) : narrow_sides(g, row, column);
+            int is_empty = !(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]);
+            int is_missed = again && (towards.below || towards.above || towards.left || towards.right);
+            if (!is_empty && (!again || (g->expected[i] <= 0 && is_missed)))
+                g->expected[i] = samples * expect_bin(g, &f, i, towards, allowed);
+        }
+    for (size_t i = 0; i < grid_elsewhere(g); i++)
+        mass += g->expected[i] / samples;
     g->expected[grid_elsewhere(g)] = fmax(1 - mass, 0) * samples;
     return mass;
 }
