@@ -2,6 +2,7 @@
  * slope and the turn do to normals and densities. */
 #include "math/vector.h"
 #include "sampler/affine/areas.h"
+#include "sampler/affine/densities.h"
 #include "sampler/affine/principal.h"
 #include "sampler/area.h"
 #include "sampler/query.h"
@@ -101,7 +102,7 @@ typedef struct seen {
     double length;
 } seen;
 
-static seen seen_from(const vndf_affine_view *view, vndf_vec3 wm)
+static seen seen_from(const vndf_affine_view *view, vndf_normal wm)
 {
     vndf_principal p = principal_of(view);
     vndf_normal n = vndf_principal_normal(&p, wm);
@@ -118,9 +119,25 @@ static double cube(double x)
 /* wi'.n is wi.wm, which loses no digits, over both lengths. */
 static float visible_of(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    seen s = seen_from(view, wm);
+    seen s = seen_from(view, vndf_normal_of(wm));
     double facing = vndf_exact_dot(view->wi, wm) / (view->length * s.length);
     return vndf_density_from(vndf_normal_visible(&view->principal, s.n, facing) / cube(s.length));
+}
+
+vndf_densities vndf_affine_densities(const vndf_affine_view *view, vndf_normal wm, double facing)
+{
+    const vndf_view *of = &view->principal;
+    seen s = {wm, 1.0};
+    double over = 1.0;
+    if (!view->straight) {
+        s = seen_from(view, wm);
+        facing /= view->length * s.length;
+        over = 1.0 / cube(s.length);
+    }
+    double visible = vndf_normal_visible(of, s.n, facing);
+    vndf_densities d = {(vndf_law_is_exact(of->distribution) ? visible : vndf_normal_pdf(of, s.n)) * over,
+                        visible * over};
+    return d;
 }
 
 /* Closed forms draw with Dv itself, which has no use for wi' as it was rounded. */
@@ -132,7 +149,7 @@ float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
         return 0.0f;
     if (vndf_law_is_exact(view->principal.distribution))
         return vndf_positive(visible_of(view, wm));
-    seen s = seen_from(view, wm);
+    seen s = seen_from(view, vndf_normal_of(wm));
     return vndf_positive(vndf_density_from(vndf_normal_pdf(&view->principal, s.n) / cube(s.length)));
 }
 
@@ -155,7 +172,7 @@ void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, f
     }
     if (!(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return;
-    vndf_normal n = seen_from(view, wm).n;
+    vndf_normal n = seen_from(view, vndf_normal_of(wm)).n;
     vndf_law_invert(&view->principal, vndf_vec3_of((float)n.x, (float)n.y, (float)n.z), u1, u2);
 }
 
@@ -166,7 +183,7 @@ float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm)
     vndf_principal p;
     if (!vndf_principal_of(surface, &p) || !(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return 0.0f;
-    vndf_normal n = vndf_principal_normal(&p, wm);
+    vndf_normal n = vndf_principal_normal(&p, vndf_normal_of(wm));
     double length = vndf_normal_length(n), square = length * length;
     double ndf = vndf_normal_ndf(surface->distribution, p.ax, p.ay, vndf_normal_times(n, 1.0 / length));
     return vndf_density_from(ndf / (square * square));
@@ -194,16 +211,35 @@ static vndf_direction direction_of(const vndf_affine *surface, vndf_vec3 w)
     return direction;
 }
 
+static void set_areas(const vndf_distribution *d, const vndf_direction *to, vndf_areas *areas)
+{
+    double below = vndf_law_area_below(d, to, 1);
+    areas->toward = below + doubles_positive(to->z);
+    areas->away = below + doubles_positive(-to->z);
+    areas->up = to->z;
+}
+
 int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas)
 {
     vndf_direction to = direction_of(surface, w);
     if (!vndf_direction_is_valid(&to))
         return 0;
-    double below = vndf_law_area_below(surface->distribution, &to, 1);
-    areas->toward = below + doubles_positive(to.z);
-    areas->away = below + doubles_positive(-to.z);
-    areas->up = to.z;
+    set_areas(surface->distribution, &to, areas);
     return 1;
+}
+
+void vndf_affine_view_areas(const vndf_affine_view *view, vndf_vec3 w, vndf_areas *areas)
+{
+    const vndf_view *of = &view->principal;
+    vndf_direction to = {of->alpha_x, of->alpha_y, w.x, w.y, w.z};
+    if (!view->straight) {
+        vndf_principal p = principal_of(view);
+        vndf_normal n = vndf_principal_direction(&p, w);
+        to.x = n.x;
+        to.y = n.y;
+        to.z = n.z;
+    }
+    set_areas(of->distribution, &to, areas);
 }
 
 float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w)

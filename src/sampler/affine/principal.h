@@ -64,7 +64,7 @@ VNDF_INLINE vndf_normal vndf_principal_direction(const vndf_principal *p, vndf_v
 }
 
 /* L^-1 wm. */
-VNDF_INLINE vndf_normal vndf_principal_normal(const vndf_principal *p, vndf_vec3 wm)
+VNDF_INLINE vndf_normal vndf_principal_normal(const vndf_principal *p, vndf_normal wm)
 {
     double x = p->cosine * wm.x + p->sine * wm.y, y = p->cosine * wm.y - p->sine * wm.x;
     vndf_normal to = {x + p->mean_x * wm.z, y + p->mean_y * wm.z, wm.z};
