@@ -1,6 +1,7 @@
 /* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for
  * every choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned,
- * steep and grazing, from both sides and for all index ratios; level 1e-3 for all together. With the mean weight
+ * steep and grazing, from both sides and for all index ratios, and of sheared surfaces, mean slopes, mixtures and
+ * retroreflection; level 1e-3 for all together. With the mean weight
  * it makes the estimator: the weight is f cos/pdf (test_bsdf_weight), and that pdf is the one of the samples. */
 #include <stdlib.h>
 
@@ -18,12 +19,30 @@ enum { SPHERE_PILOTS = 20001 };
 typedef struct sphere_map {
     const vndf_bsdf *bsdf;
     double centre;
+    double x[3], y[3], z[3]; /* the frame of the mean plane, where densities have an edge */
 } sphere_map;
 
 typedef struct sphere_result {
     double p, mass, lost; /* mass: the integral of the pdf; lost: part of the samples */
     size_t classes;
 } sphere_result;
+
+/* A frame about the mean normal. */
+static void sphere_turn(sphere_map *map, double mean_x, double mean_y)
+{
+    double per = 1 / sqrt(1 + mean_x * mean_x + mean_y * mean_y), along = 1 / sqrt(1 + mean_x * mean_x);
+    const double n[3] = {-mean_x * per, -mean_y * per, per}, x[3] = {along, 0, mean_x * along};
+    for (int i = 0; i < 3; i++) {
+        map->z[i] = n[i];
+        map->x[i] = x[i];
+        map->y[i] = n[(i + 1) % 3] * x[(i + 2) % 3] - n[(i + 2) % 3] * x[(i + 1) % 3];
+    }
+}
+
+static double along(const double axis[3], vndf_vec3 w)
+{
+    return axis[0] * (double)w.x + axis[1] * (double)w.y + axis[2] * (double)w.z;
+}
 
 /* 0 if the sample is lost. */
 static int sphere_draw(const sphere_map *map, unsigned long long *state, double *z, double *phi)
@@ -32,15 +51,19 @@ static int sphere_draw(const sphere_map *map, unsigned long long *state, double 
     float u[3];
     bsdf_numbers(state, u);
     vndf_bsdf_sample(map->bsdf, u, &s);
-    *z = (double)s.wo.z;
-    *phi = remainder(atan2((double)s.wo.y, (double)s.wo.x) - map->centre, 2 * PI);
+    *z = along(map->z, s.wo);
+    *phi = remainder(atan2(along(map->y, s.wo), along(map->x, s.wo)) - map->centre, 2 * PI);
     return s.lobe == VNDF_LOBE_REFLECTION || s.lobe == VNDF_LOBE_TRANSMISSION;
 }
 
 static double sphere_pdf(double z, double phi, const void *of)
 {
     const sphere_map *map = of;
-    vndf_vec3 w = oracle_toward(z, map->centre + phi);
+    double across = sqrt((1 - z) * (1 + z)), a = across * cos(map->centre + phi),
+           b = across * sin(map->centre + phi);
+    vndf_vec3 w = {(float)(a * map->x[0] + b * map->y[0] + z * map->z[0]),
+                   (float)(a * map->x[1] + b * map->y[1] + z * map->z[1]),
+                   (float)(a * map->x[2] + b * map->y[2] + z * map->z[2])};
     return (double)vndf_bsdf_pdf(map->bsdf, w);
 }
 
@@ -63,7 +86,11 @@ static void sphere_place(grid *g, const sphere_map *map, unsigned long long *sta
 static sphere_result sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t samples, unsigned long long *state)
 {
     static grid g;
-    const sphere_map map = {bsdf, atan2(-(double)wi.y, -(double)wi.x)};
+    const vndf_mixture_view *lobes = &bsdf->lobes;
+    int leans = bsdf->material->is.effects.shape >= VNDF_SHAPE_AFFINE;
+    sphere_map map = {.bsdf = bsdf};
+    sphere_turn(&map, leans ? lobes->mean_x : 0, leans ? lobes->mean_y : 0);
+    map.centre = atan2(-along(map.y, wi), -along(map.x, wi));
     sphere_place(&g, &map, state);
     double mass = grid_expect(&g, sphere_pdf, &map, (double)samples, 0.02 / (double)samples), z, phi;
     for (size_t i = 0; i < samples; i++)
@@ -83,7 +110,7 @@ static const setting SETTINGS[] = {{0.3f, 0.3f, 0.8f, 0.4f, 1.5f},    {1, 1, -0.
                                    {0.5f, 0.15f, 0.1f, 1, 2.4f},      {0.1f, 0.1f, 1, 0, 1 / 1.5f},
                                    {1, 0.4f, -0.05f, 4, 1 / 2.4f},    {0.7f, 0.7f, 0.6f, 5, 1.001f},
                                    {0.05f, 0.05f, 0.5f, 3, 1 / 1.33f}};
-enum { SETTING_COUNT = 7, KIND_COUNT = 3 };
+enum { SETTING_COUNT = 7, KIND_COUNT = 3, SHAPE_TESTS = 4 * 2 * SETTING_COUNT };
 
 /* Lobes and normals; Fresnel and masking do not change what is drawn but for the choice of the lobe. */
 static int is_tried(const vndf_effects *e)
@@ -98,6 +125,18 @@ static int is_tried(const vndf_effects *e)
            e->masking == masking && e->transport == VNDF_TRANSPORT_RADIANCE;
 }
 
+/* A sheared and mirrored matrix, a mean slope that leans towards wi, and a second lobe a tenth as wide. */
+static void shape_of(vndf_description *is, vndf_vec3 wi, vndf_mixture *lobes)
+{
+    float lean = wi.z < 0 ? 0.4f : -0.4f;
+    is->affine = (vndf_affine){is->distribution,    0.8f * is->alpha_x, 0.5f * is->alpha_y, 0.6f * is->alpha_x,
+                               -0.9f * is->alpha_y, lean * wi.x,        lean * wi.y};
+    lobes->count = 2;
+    lobes->lobe[0] = (vndf_mixture_lobe){is->affine, 0.7f};
+    lobes->lobe[1] = (vndf_mixture_lobe){{vndf_ggx(), 0.1f * is->alpha_x, 0, 0, 0.1f * is->alpha_y, 0, 0}, 0.2f};
+    is->mixture = lobes;
+}
+
 static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const setting *at,
                      unsigned long long seed, size_t samples, double level)
 {
@@ -109,10 +148,12 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
                            .rotation = 0.7f,
                            .eta = at->eta};
     vndf_vec3 wi = oracle_toward((double)at->z, (double)at->phi);
+    vndf_mixture lobes;
     vndf_material material;
     vndf_bsdf bsdf;
     if (!oracle_bsdf_two_sided(effects))
         wi.z = fabsf(wi.z);
+    shape_of(&is, wi, &lobes);
     TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK && vndf_bsdf_at(&bsdf, &material, wi));
     sphere_result r = sphere_test(&bsdf, wi, samples, &state);
     double noise = 5 * sqrt(r.lost * (1 - r.lost) / (double)samples) + 2e-4;
@@ -121,6 +162,24 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
     bsdf_describe(&is, ndf->name, wi, wi);
     fprintf(stderr, "    p %.3g, %lu classes, mass %.7g, lost %.7g\n", r.p, (unsigned long)r.classes, r.mass,
             r.lost);
+}
+
+/* What shapes are tried with: both lobes, and reflection, specular or back to where light comes from. */
+static size_t test_shapes(const oracle_ndf *ndf, size_t first, size_t every, size_t samples, double level)
+{
+    static const vndf_shape shapes[] = {VNDF_SHAPE_MATRIX, VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE,
+                                        VNDF_SHAPE_ROTATED};
+    size_t done = 0;
+    for (size_t i = 0; i < SHAPE_TESTS; i++)
+        if ((i + first) % every == 0) {
+            vndf_effects e = {.shape = shapes[i % 4]};
+            e.lobes = i / 4 % 2 ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
+            e.fresnel = i / 4 % 2 ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
+            e.reflection = i % 4 == 3 ? VNDF_REFLECTION_RETRO : VNDF_REFLECTION_SPECULAR;
+            test_one(ndf, &e, &SETTINGS[i / 8], 500 + 1000 * first + i, samples, level);
+            done++;
+        }
+    return done;
 }
 
 int main(int arguments, char **argument)
@@ -133,7 +192,7 @@ int main(int arguments, char **argument)
         vndf_effects e = oracle_effects(i);
         sets += (size_t)is_tried(&e);
     }
-    double level = statistics_sidak(1e-3, KIND_COUNT * sets * SETTING_COUNT);
+    double level = statistics_sidak(1e-3, KIND_COUNT * (sets * SETTING_COUNT + SHAPE_TESTS));
     for (size_t n = 0; n < KIND_COUNT; n++) {
         oracle_ndf ndf;
         if (!oracle_wanted(arguments, argument, n, names[n]) || !TEST(oracle_ndf_open(&ndf, names[n])))
@@ -145,8 +204,9 @@ int main(int arguments, char **argument)
                     test_one(&ndf, &effects, &SETTINGS[k], ++done + 1000 * n, samples, level);
                 }
         }
+        done += test_shapes(&ndf, n, every, samples, level);
         oracle_ndf_close(&ndf);
     }
-    printf("%lu tests, %lu sets of lobes, normals and axes\n", (unsigned long)done, (unsigned long)sets);
+    printf("%lu tests, %lu sets of lobes, normals and axes, and shapes\n", (unsigned long)done, (unsigned long)sets);
     return test_done();
 }

@@ -64,6 +64,7 @@ typedef struct effects_subject {
     const effects_set *set;
     const effects_loops *loops;
     vndf_surface surface;
+    vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
     vndf_material material;
     const vndf_roughness *roughness; /* of the hits of a block, for EFFECTS_ROUGH */
 } effects_subject;
@@ -88,6 +89,9 @@ extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
 /* VNDF_OK, or why the set cannot be made. */
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
                                  vndf_error *error);
+
+/* The cosine of w that goes with values: to the normal of the mean plane. */
+double effects_cosine(const effects_subject *subject, vndf_vec3 w);
 
 /* ---- inputs ------------------------------------------------------------------------------------- */
 

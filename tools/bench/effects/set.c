@@ -1,5 +1,6 @@
 /* The sets of effects that are measured, from bare reflection upward: the line of a set says how it differs from bare
  * reflection. */
+#include <math.h>
 #include <string.h>
 
 #include "bench/effects/effects.h"
@@ -31,6 +32,10 @@ const effects_set effects_sets[] = {
     {.name = "two roughnesses", .stretched = 1},
     {.name = "roughness per hit", .kind = EFFECTS_ROUGH},
     {.name = "rotated axes", .effects = {.shape = VNDF_SHAPE_ROTATED}, .stretched = 1},
+    {.name = "matrix", .effects = {.shape = VNDF_SHAPE_MATRIX}, .stretched = 1},
+    {.name = "matrix and mean slope", .effects = {.shape = VNDF_SHAPE_AFFINE}, .stretched = 1},
+    {.name = "two lobes", .effects = {.shape = VNDF_SHAPE_MIXTURE}},
+    {.name = "retroreflection", .effects = {.reflection = VNDF_REFLECTION_RETRO}},
     {.name = "transmission alone",
      .effects = {.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
@@ -69,6 +74,23 @@ static const effects_loops *loops_of(const effects_set *set)
     return of[set->kind];
 }
 
+/* The roughness of the surface at an angle, with a mean slope, and a second lobe three times as wide. */
+static void lobes_of(vndf_mixture *mixture, const vndf_surface *surface, int leans)
+{
+    const float c = 0.8776f, s = 0.4794f, ax = surface->alpha_x, ay = surface->alpha_y;
+    const vndf_affine core = {surface->distribution, c * ax, -s * ay, s * ax, c * ay, leans ? 0.2f : 0.0f,
+                              leans ? -0.1f : 0.0f};
+    const vndf_affine haze = {surface->distribution, 3 * ax, 0, 0, 3 * ay, 0, 0};
+    *mixture = (vndf_mixture){.count = 2, .lobe = {{core, 0.7f}, {haze, 0.3f}}};
+}
+
+double effects_cosine(const effects_subject *subject, vndf_vec3 w)
+{
+    const vndf_affine *a = &subject->mixture.lobe[0].surface;
+    double x = (double)a->mean_x, y = (double)a->mean_y;
+    return ((double)w.z - (double)w.x * x - (double)w.y * y) / sqrt(1 + x * x + y * y);
+}
+
 vndf_status effects_subject_make(effects_subject *subject, const effects_set *set, const vndf_surface *surface,
                                  vndf_error *error)
 {
@@ -82,6 +104,9 @@ vndf_status effects_subject_make(effects_subject *subject, const effects_set *se
     is.alpha_x = subject->surface.alpha_x;
     is.alpha_y = subject->surface.alpha_y;
     is.rotation = 0.5f;
+    lobes_of(&subject->mixture, &subject->surface, set->effects.shape == VNDF_SHAPE_AFFINE);
+    is.affine = subject->mixture.lobe[0].surface;
+    is.mixture = &subject->mixture;
     memcpy(is.f0, schlick_f0, sizeof schlick_f0);
     memcpy(is.conductor_eta, gold_eta, sizeof gold_eta);
     memcpy(is.conductor_k, gold_k, sizeof gold_k);

@@ -10,23 +10,24 @@ enum { SHARES = EFFECTS_BLOCK / EFFECTS_SHARE };
 
 static const double tolerance_ours = 1e-4, tolerance_by_hand = 2e-2, noise_limit = 6;
 
-static int is_sane(const vndf_scattered *s, float side_of_wi)
+static int is_sane(const effects_subject *subject, const vndf_scattered *s, float side_of_wi)
 {
     vndf_vec3 w = s->wo;
-    float length2 = w.x * w.x + w.y * w.y + w.z * w.z, side = side_of_wi * w.z;
+    float length2 = w.x * w.x + w.y * w.y + w.z * w.z;
+    double side = (double)side_of_wi * effects_cosine(subject, w);
     if (s->lobe == VNDF_LOBE_NONE)
         return s->weight[0] == 0.0f;
     for (int i = 0; i < 3; i++)
         if (!(s->weight[i] >= 0.0f && s->weight[i] < INFINITY))
             return 0;
     return fabsf(length2 - 1.0f) < 4e-6f && s->density > 0.0f && s->density < INFINITY &&
-           (s->lobe == VNDF_LOBE_REFLECTION) == (side > 0.0f);
+           (s->lobe == VNDF_LOBE_REFLECTION) == (side > 0);
 }
 
-static int are_sane(const effects_block *block, size_t first, size_t count)
+static int are_sane(const effects_subject *subject, const effects_block *block, size_t first, size_t count)
 {
     for (size_t i = first; i < first + count; i++)
-        if (!is_sane(&block->out[i], block->in[i].wi.z < 0.0f ? -1.0f : 1.0f))
+        if (!is_sane(subject, &block->out[i], block->in[i].wi.z < 0.0f ? -1.0f : 1.0f))
             return 0;
     return 1;
 }
@@ -38,9 +39,10 @@ static int is_near(double a, double b, double tolerance)
     return fabs(a - b) <= tolerance * fabs(b) + 1e-30;
 }
 
-static int agrees(const vndf_scattered *drawn, const vndf_scattered *found, double tolerance)
+static int agrees(const effects_subject *subject, const vndf_scattered *drawn, const vndf_scattered *found,
+                  double tolerance)
 {
-    double cosine = fabs((double)drawn->wo.z), density = (double)drawn->density;
+    double cosine = fabs(effects_cosine(subject, drawn->wo)), density = (double)drawn->density;
     if (drawn->lobe == VNDF_LOBE_NONE || drawn->lobe == VNDF_LOBE_STRAIGHT)
         return 1;
     for (int i = 0; i < 3; i++)
@@ -64,7 +66,7 @@ static int share_agrees(const effects_job *job, double tolerance)
     job->of->loops->eval(&again);
     job->of->loops->pdf(&again);
     for (size_t i = 0; i < EFFECTS_SHARE; i++)
-        if (!agrees(&drawn[i], &again.out[i], tolerance))
+        if (!agrees(job->of, &drawn[i], &again.out[i], tolerance))
             return 0;
     return 1;
 }
@@ -77,7 +79,7 @@ void effects_verify(effects_entry *entry, effects_block *block)
     effects_fill(block, &entry->subject, entry->theta, 500);
     effects_job job = effects_job_of(block, &entry->subject);
     entry->subject.loops->each(&job);
-    entry->row.wrong = !are_sane(block, 0, EFFECTS_BLOCK);
+    entry->row.wrong = !are_sane(&entry->subject, block, 0, EFFECTS_BLOCK);
     job.count = EFFECTS_SHARE;
     for (size_t share = 0; share < SHARES && !walks; share++) {
         job.in = block->in + share * EFFECTS_SHARE;
