@@ -207,6 +207,7 @@ int main(int arguments, char **argument)
         done += test_shapes(&ndf, n, every, samples, level);
         oracle_ndf_close(&ndf);
     }
-    printf("%lu tests, %lu sets of lobes, normals and axes, and shapes\n", (unsigned long)done, (unsigned long)sets);
+    printf("%lu tests, %lu sets of lobes, normals and axes, and shapes\n", (unsigned long)done,
+           (unsigned long)sets);
     return test_done();
 }
