@@ -13,6 +13,9 @@
 static const char MAGIC[8] = {'V', 'N', 'D', 'F', 'a', 'l', 'b', '\n'};
 enum { VERSION = 1, TEXT_MAX = 32768, HEAD = 16, LEAST = 64, MEASURED = 8 };
 
+/* Splines through values in [0, 1] have coefficients below 200, and these are at the ends of coarse grids. */
+#define COEFFICIENT_MAX 1000.0f
+
 /* ---- writing ------------------------------------------------------------------------------------- */
 
 static void measured_of(const vndf_albedo_properties *is, float measured[MEASURED])
@@ -105,7 +108,7 @@ static const char *numbers_invalid(const vndf_albedo *albedo)
         if (!within(measured[i], i == 1 ? -1.0f : 0.0f, i == 2 ? VNDF_ALBEDO_ALPHA_MAX : 2.0f))
             return "a measured error is out of range";
     for (size_t i = 0; i < albedo->is.values; i++)
-        if (!within(albedo->value[i], -4.0f, 4.0f))
+        if (!within(albedo->value[i], -COEFFICIENT_MAX, COEFFICIENT_MAX))
             return "a coefficient is out of range";
     return NULL;
 }
