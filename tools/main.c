@@ -25,6 +25,7 @@ static const subcommand subcommands[] = {
     {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
     {"masking", command_masking, "which masking functions are exact, over incident angles"},
+    {"albedo", command_albedo, "what single scattering keeps of the light, for energy compensation"},
     {"render", command_render, "a picture of a scene, with only the effects that it calls for"},
     {"compare", command_compare, "a scene by several ways of drawing normals, in equal time: a page"},
 };

@@ -1,5 +1,6 @@
 #include "core/cursor.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const unsigned char *vndf_read_bytes(vndf_reader *reader, size_t n)
@@ -42,6 +43,30 @@ double vndf_read_f64(vndf_reader *reader)
     return value;
 }
 
+static int is_printable(const unsigned char *bytes, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (bytes[i] < 32 || bytes[i] == 127)
+            return 0;
+    return 1;
+}
+
+char *vndf_read_text(vndf_reader *reader, uint32_t most)
+{
+    uint32_t n = vndf_read_u32(reader);
+    const unsigned char *bytes = n <= most ? vndf_read_bytes(reader, n) : NULL;
+    if (!bytes || !is_printable(bytes, n)) {
+        reader->failed = 1;
+        return NULL;
+    }
+    char *text = malloc((size_t)n + 1);
+    if (text) {
+        memcpy(text, bytes, n);
+        text[n] = '\0';
+    }
+    return text;
+}
+
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n)
 {
     if (n > 0 && writer->at <= writer->capacity && n <= writer->capacity - writer->at)
@@ -74,4 +99,11 @@ void vndf_write_f64(vndf_writer *writer, double value)
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     write_integer(writer, bits, 8);
+}
+
+void vndf_write_text(vndf_writer *writer, const char *text)
+{
+    size_t n = strlen(text);
+    vndf_write_u32(writer, (uint32_t)n);
+    vndf_write_bytes(writer, text, n);
 }

@@ -240,3 +240,16 @@ void vndf_replace_discard(vndf_replacement *r)
     remove(r->temporary);
     forget(r);
 }
+
+int vndf_replace_whole(const char *path, const void *bytes, size_t size)
+{
+    vndf_replacement r;
+    if (!vndf_replace_begin(&r, path))
+        return 0;
+    if (fwrite(bytes, 1, size, r.file) == size)
+        return vndf_replace_commit(&r);
+    int reason = errno;
+    vndf_replace_discard(&r);
+    errno = reason;
+    return 0;
+}

@@ -21,6 +21,9 @@ int vndf_replace_begin(vndf_replacement *r, const char *path);
 int vndf_replace_commit(vndf_replacement *r);
 void vndf_replace_discard(vndf_replacement *r);
 
+/* Both at once: the file holds these bytes. 0 and errno, with nothing left behind. */
+int vndf_replace_whole(const char *path, const void *bytes, size_t size);
+
 /* Flushes; 0 and errno, which may be 0, if that failed or any write before. */
 int vndf_replace_flush(FILE *file);
 

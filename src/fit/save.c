@@ -8,23 +8,9 @@
 #include "table/file.h"
 #include "vndf_build.h"
 
-/* 0 and errno on an error, with nothing left behind. */
-static int replace(const char *path, const unsigned char *bytes, size_t size)
-{
-    vndf_replacement r;
-    if (!vndf_replace_begin(&r, path))
-        return 0;
-    if (fwrite(bytes, 1, size, r.file) == size)
-        return vndf_replace_commit(&r);
-    int reason = errno;
-    vndf_replace_discard(&r);
-    errno = reason;
-    return 0;
-}
-
 static vndf_status write_file(const char *path, const unsigned char *bytes, size_t size, vndf_error *error)
 {
-    if (replace(path, bytes, size))
+    if (vndf_replace_whole(path, bytes, size))
         return VNDF_OK;
     if (errno == ENOMEM)
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);

@@ -38,6 +38,9 @@ static const writer writers[] = {
     {".csv", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
     {".svg", {"plot", table, "--theta", "60", "-o", OUTPUT}},
     {".csv", {"masking", table, "-o", OUTPUT}},
+    {".csv", {"albedo", "ggx", "--columns", "8", "--rows", "8", "-o", OUTPUT}},
+    {".h", {"albedo", "ggx", "--columns", "8", "--rows", "8", "--c", OUTPUT}},
+    {".albedo", {"albedo", "ggx", "--columns", "8", "--rows", "8", "--save", OUTPUT}},
     {".png", {"render", "ball.scene", "--spp", "1", "-o", OUTPUT}},
     {".md", {"bench", "--only", "ggx", "--seconds", "0.1", "--markdown", OUTPUT}},
     {".vndf", {"build", "--family", "ggx", "--max-bytes", "2048", "-o", OUTPUT}}, /* by vndf_save, and slow */

@@ -22,7 +22,7 @@ set(run_time core simd math table sampler bsdf)
 set(shared core/replace_file.h)
 
 set(subs_sampler tabulated all_normals analytic bounded batch affine)
-set(subs_bsdf terms lobes walk)
+set(subs_bsdf terms albedo lobes walk)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate)
 

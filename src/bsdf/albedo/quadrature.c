@@ -1,0 +1,243 @@
+#include "bsdf/albedo/quadrature.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "bsdf/terms/beta.h"
+#include "bsdf/terms/fresnel.h"
+#include "sampler/law.h"
+
+/* ---- rules --------------------------------------------------------------------------------------- */
+
+enum {
+    LEAST_PANELS = 64,  /* of a table with fewer cells each is cut */
+    EVEN_PANELS = 30,   /* of closed forms up to R/(1 + R) = 15/16, */
+    TAIL_PANELS = 12,   /* then by halves of the rest */
+    RADIAL_NODES = 800, /* all together, some */
+    RADIAL_LEAST = 2,   /* in a panel */
+    RADIAL_MOST = 8,
+    AZIMUTH_NODES = 16
+};
+
+/* Knots are rounded: x + z is not quite 1. */
+static double knot_of(const vndf_distribution *d, int j)
+{
+    double x = d->knots.at[j].x, z = d->knots.at[j].z;
+    return x / (x + z);
+}
+
+static int table_borders(const vndf_distribution *d, double *border)
+{
+    int cells = (int)d->radial_count, parts = (LEAST_PANELS + cells - 1) / cells, count = 0;
+    for (int j = 0; j < cells; j++)
+        for (int i = 0; i < parts; i++)
+            border[count++] = knot_of(d, j) + (knot_of(d, j + 1) - knot_of(d, j)) * i / parts;
+    border[count] = 1.0;
+    return count;
+}
+
+static int closed_borders(double *border)
+{
+    double rest = 1.0 / 16.0;
+    for (int j = 0; j <= EVEN_PANELS; j++)
+        border[j] = (1.0 - rest) * j / EVEN_PANELS;
+    for (int j = 1; j < TAIL_PANELS; j++)
+        border[EVEN_PANELS + j] = 1.0 - (rest *= 0.5);
+    border[EVEN_PANELS + TAIL_PANELS] = 1.0;
+    return EVEN_PANELS + TAIL_PANELS;
+}
+
+int vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution, int finer)
+{
+    size_t most = LEAST_PANELS + EVEN_PANELS + TAIL_PANELS + 2 * (size_t)distribution->radial_count;
+    q->distribution = distribution;
+    q->border = malloc(most * sizeof *q->border);
+    if (!q->border)
+        return 0;
+    q->panels = vndf_is_table(distribution) ? table_borders(distribution, q->border) : closed_borders(q->border);
+    int nodes = RADIAL_NODES / q->panels;
+    nodes = nodes < RADIAL_LEAST ? RADIAL_LEAST : nodes > RADIAL_MOST ? RADIAL_MOST : nodes;
+    vndf_gauss_rule_of(&q->radial, finer * nodes);
+    vndf_gauss_rule_of(&q->azimuth, finer * AZIMUTH_NODES);
+    return 1;
+}
+
+void vndf_quadrature_free(vndf_quadrature *q)
+{
+    free(q->border);
+    q->border = NULL;
+}
+
+/* ---- one direction ------------------------------------------------------------------------------- */
+
+/* wi, and all normals of one slope length r. */
+typedef struct ring {
+    const vndf_quadrature *q;
+    double cosine, sine, roughness, eta, area; /* area: A(wi) */
+    double along, square, length;              /* sin_i r, 1 + r^2 and its root: 1/wm.z */
+} ring;
+
+/* A(-wo). */
+static double area_below(const ring *g, double cos_o)
+{
+    double square = 1.0 - cos_o * cos_o;
+    return vndf_unit_area(g->q->distribution, square > 0.0 ? g->roughness * sqrt(square) : 0.0, -cos_o);
+}
+
+/* The integrands; w = wi.wm/wm.z. */
+typedef double integrand(const ring *g, double w);
+
+static double reflected_whole(const ring *g, double w)
+{
+    double cos_o = 2.0 * w / g->square - g->cosine;
+    return cos_o > 0.0 ? w * cos_o / (cos_o * g->area + g->cosine * area_below(g, cos_o)) : 0.0;
+}
+
+static double reflected_part(const ring *g, double w)
+{
+    return reflected_whole(g, w) * vndf_dielectric(w / g->length, g->eta);
+}
+
+static double transmitted_part(const ring *g, double w)
+{
+    double facing = w / g->length, square = vndf_refracted_square(facing, g->eta);
+    if (!(square > 0.0) || !(g->cosine > 0.0) || !(w > 0.0))
+        return 0.0;
+    double beyond = sqrt(square), cos_o = g->cosine / g->eta + (beyond - facing / g->eta) / g->length;
+    double i = g->area / g->cosine;
+    if (!(cos_o > 0.0))
+        return 0.0;
+    cos_o = cos_o < 1.0 ? cos_o : 1.0;
+    return w / g->cosine * (1.0 - vndf_dielectric_at(facing, beyond, g->eta)) *
+           vndf_beta(i > 1.0 ? i : 1.0, 1.0 + area_below(g, cos_o) / cos_o);
+}
+
+/* Over azimuths whose cosines run from `from` down to `to`, on one side of a right angle. */
+static double sum_side(const ring *g, double from, double to, integrand *of)
+{
+    const vndf_gauss_rule *rule = &g->q->azimuth;
+    double side = from > 0.0 ? 1.0 : -1.0, sum = 0.0;
+    double begin = sqrt((1.0 - side * from) / (1.0 + side * from)),
+           end = sqrt((1.0 - side * to) / (1.0 + side * to));
+    for (int i = 0; i < rule->count; i++) {
+        double rest = 1.0 - rule->node[i], h = end + (begin - end) * (rest * rest), square = h * h;
+        double cosine = side * (1.0 - square) / (1.0 + square);
+        sum += rule->weight[i] * rest / (1.0 + square) * of(g, g->cosine + g->along * cosine);
+    }
+    return 4.0 * fabs(end - begin) * sum;
+}
+
+static double sum_azimuths(const ring *g, double from, double to, integrand *of)
+{
+    if (!(from > to))
+        return 0.0;
+    if (from > 0.0 && to < 0.0)
+        return sum_side(g, from, 0.0, of) + sum_side(g, 0.0, to, of);
+    return sum_side(g, from, to, of);
+}
+
+/* The cosine of the azimuth where wi.wm/wm.z is w, if there is one, else 1 or -1. */
+static double azimuth_of(const ring *g, double w)
+{
+    double rise = w - g->cosine;
+    return rise >= g->along ? 1.0 : rise <= -g->along ? -1.0 : rise / g->along;
+}
+
+/* Where eta < 1 the least wi.wm that refracts to below the surface: k at total reflection; beyond it wo.z < 0 while
+ * wi.wm > (q^2 + k^2)/(2 q), q = cos_i/wm.z, if q < k. */
+static double least_refracted(const ring *g)
+{
+    double k2 = 1.0 - g->eta * g->eta, q = g->cosine * g->length;
+    if (g->eta > 1.0)
+        return 0.0;
+    return q * q < k2 ? (q * q + k2) / (2.0 * q) : sqrt(k2);
+}
+
+/* From straight ahead to where reflection becomes total, if it does; from there to the horizon, where wi.wm/wm.z is
+ * cos_i (1 + r^2)/2. */
+static void add_ring(const ring *g, double weight, vndf_parts *sum)
+{
+    double horizon = azimuth_of(g, 0.5 * g->cosine * g->square);
+    if (g->eta == 0.0) {
+        sum->reflected += weight * sum_azimuths(g, 1.0, horizon, reflected_whole);
+        return;
+    }
+    double total = g->eta < 1.0 ? azimuth_of(g, g->length * sqrt(1.0 - g->eta * g->eta)) : -1.0;
+    double cut = total > horizon ? total : horizon;
+    sum->reflected +=
+        weight * (sum_azimuths(g, 1.0, cut, reflected_part) + sum_azimuths(g, cut, horizon, reflected_whole));
+    if (g->cosine > 0.0)
+        sum->transmitted +=
+            weight * sum_azimuths(g, 1.0, azimuth_of(g, g->length * least_refracted(g)), transmitted_part);
+}
+
+/* Panels from x0 to x1 in R/(1 + R). */
+static void add_panel(ring *g, double x0, double x1, vndf_parts *sum)
+{
+    const vndf_gauss_rule *rule = &g->q->radial;
+    for (int i = 0; i < rule->count; i++) {
+        double x = x0 + (x1 - x0) * rule->node[i], z = 1.0 - x, radius = x / z, slope = g->roughness * radius;
+        double p22 = vndf_law_p22(g->q->distribution, radius * radius);
+        g->along = g->sine * slope;
+        g->square = 1.0 + slope * slope;
+        g->length = sqrt(g->square);
+        if (p22 > 0.0)
+            add_ring(g, (x1 - x0) * rule->weight[i] * p22 * radius / (z * z), sum);
+    }
+}
+
+/* Slopes where the range of azimuths begins to be limited, or is over, in R/(1 + R), ascending. */
+enum { BREAKS = 6 };
+
+static void add_break(double *breaks, int *count, double slope, double roughness)
+{
+    double x = slope / (slope + roughness);
+    int i = *count;
+    if (!(x > 0.0 && x < 1.0))
+        return;
+    for (; i > 0 && breaks[i - 1] > x; i--)
+        breaks[i] = breaks[i - 1];
+    breaks[i] = x;
+    ++*count;
+}
+
+/* tan of the half angle between wi and the horizon, and of its complement; cot of theta_i; with total reflection,
+ * tan |theta_c - theta_i| and tan(theta_c + theta_i). */
+static int find_breaks(const ring *g, double breaks[BREAKS])
+{
+    int count = 0;
+    double half = g->cosine / (1.0 + g->sine);
+    add_break(breaks, &count, half, g->roughness);
+    add_break(breaks, &count, 1.0 / half, g->roughness);
+    if (g->eta > 0.0 && g->sine > 0.0)
+        add_break(breaks, &count, g->cosine / g->sine, g->roughness);
+    if (g->eta > 0.0 && g->eta < 1.0) {
+        double cosine = sqrt(1.0 - g->eta * g->eta), sine = g->eta;
+        double less = sine * g->cosine - cosine * g->sine, more = sine * g->cosine + cosine * g->sine;
+        add_break(breaks, &count, fabs(less) / (cosine * g->cosine + sine * g->sine), g->roughness);
+        double sum = cosine * g->cosine - sine * g->sine;
+        if (sum > 0.0)
+            add_break(breaks, &count, more / sum, g->roughness);
+    }
+    return count;
+}
+
+vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
+{
+    vndf_parts sum = {0.0, 0.0};
+    double breaks[BREAKS], sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    ring g = {.q = q, .cosine = cosine, .sine = sine, .eta = eta};
+    g.roughness = alpha * vndf_unit_scale(q->distribution);
+    g.area = vndf_unit_area(q->distribution, g.roughness * sine, cosine);
+    int count = find_breaks(&g, breaks), next = 0;
+    for (int j = 0; j < q->panels; j++) {
+        double from = q->border[j], end = q->border[j + 1];
+        for (; next < count && breaks[next] < end; next++)
+            if (breaks[next] > from) {
+                add_panel(&g, from, breaks[next], &sum);
+                from = breaks[next];
+            }
+        add_panel(&g, from, end, &sum);
+    }
+    return (vndf_parts){2.0 * sum.reflected, 2.0 * sum.transmitted};
+}

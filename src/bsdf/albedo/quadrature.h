@@ -1,0 +1,42 @@
+/* Directional albedo by quadrature: the part of the light from wi that single scattering with height-correlated Smith
+ * masking sends on. With slopes r = a R of azimuth phi, counted from wi, and w = wi.wm/wm.z = cos_i + sin_i r
+ * cos(phi),
+ *
+ *     reflected      integral P22(R) R dR dphi  w F cos_o/(cos_o A(wi) + cos_i A(-wo))
+ *     transmitted    integral P22(R) R dR dphi  w (1 - F) Beta(1 + Lambda_i, 1 + Lambda_o)/cos_i
+ *
+ * over the normals whose wo leaves the surface. At cos_i = 0 the first is the integral of visible normals times F,
+ * and the second 0.
+ *
+ * The radius runs over the cells of a table, or even panels of R/(1 + R), cut where the range of azimuths begins to
+ * be limited or stops. The azimuth runs between the places where wo comes to the horizon and reflection becomes
+ * total; all of these are arccosines of numbers that the formulas give. So the integrand is smooth in each panel,
+ * and Gauss's rule serves. Nodes crowd by a square towards the end of a panel, where a root may vanish or a layer
+ * as thin as the roughness may lie. An azimuth is given by the tangent of half of it, or of half its complement to
+ * a half turn: there is no sine and no cosine, and the bits are the same everywhere. */
+#ifndef VNDF_BSDF_ALBEDO_QUADRATURE_H
+#define VNDF_BSDF_ALBEDO_QUADRATURE_H
+
+#include "math/gauss_rule.h"
+#include "table/table.h"
+
+typedef struct vndf_parts {
+    double reflected, transmitted;
+} vndf_parts;
+
+/* Rules for one distribution. */
+typedef struct vndf_quadrature {
+    const vndf_distribution *distribution;
+    double *border; /* of the panels of R/(1 + R), from 0 to 1; owned */
+    int panels;
+    vndf_gauss_rule radial, azimuth;
+} vndf_quadrature;
+
+/* `finer` times the usual nodes in a panel: 1 or 2. 0 if there is no memory. */
+int vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution, int finer);
+void vndf_quadrature_free(vndf_quadrature *q);
+
+/* cos_i in [0, 1], alpha > 0; eta is the index beyond over that on the side of wi, 0 for a mirror. */
+vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta);
+
+#endif
