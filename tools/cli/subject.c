@@ -64,19 +64,3 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
     surface->alpha_y = (float)alpha[1];
     return count != 0;
 }
-
-int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
-                    vndf_surface *surface, vndf_vec3 *wi)
-{
-    double theta = 0, phi = 0;
-    if (!aim->theta.count) {
-        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
-        return 0;
-    }
-    if (!option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||
-        !option_number(command, "--phi", &aim->phi, -360, 360, &phi))
-        return 0;
-    surface->distribution = distribution;
-    *wi = direction_from(theta, phi);
-    return roughness_from(command, only_word(&aim->alpha), surface);
-}

@@ -25,13 +25,4 @@ int sees_nothing(const vndf_surface *surface, vndf_vec3 w);
 /* "AX" or "AX,AY" into *surface; text NULL: 1, 1. Returns 1, or 0 after a complaint. */
 int roughness_from(const char *command, const char *text, vndf_surface *surface);
 
-/* The options that sample and eval share. */
-typedef struct aim_words {
-    words theta, phi, alpha;
-} aim_words;
-
-/* A view from --theta (needed), --phi and --alpha. Returns 1, or 0 after a complaint. */
-int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
-                    vndf_surface *surface, vndf_vec3 *wi);
-
 #endif
