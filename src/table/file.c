@@ -1,18 +1,17 @@
 #include "table/file.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
+#include "core/frame.h"
 #include "table/layout.h"
 #include "table/validate.h"
 
-static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
-enum { VERSION = 3, TEXT_MAX = 32768, HEAD = 16 };
+static const vndf_frame FRAME = {"VNDFtab\n", "table", 3, VNDF_LIMIT_TABLE_BYTES};
+enum { MAGIC = 8 };
 
 /* ---- writing ---- */
 
@@ -20,13 +19,6 @@ static void write_array(vndf_writer *w, const float *values, size_t count, size_
 {
     for (size_t i = 0; i < count; i++)
         vndf_write_f32(w, values[i * stride]);
-}
-
-static void write_text(vndf_writer *w, const char *text)
-{
-    size_t n = strlen(text);
-    vndf_write_u32(w, (uint32_t)n);
-    vndf_write_bytes(w, text, n);
 }
 
 static void write_radial(vndf_writer *w, const vndf_distribution *table)
@@ -62,8 +54,8 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
 {
     const vndf_certificate *c = &table->certificate;
-    vndf_write_bytes(w, MAGIC, sizeof MAGIC);
-    vndf_write_u32(w, VERSION);
+    vndf_write_bytes(w, FRAME.magic, MAGIC);
+    vndf_write_u32(w, FRAME.version);
     vndf_write_u32(w, size);
     vndf_write_f64(w, table->normalization);
     vndf_write_f64(w, table->scale);
@@ -75,8 +67,8 @@ static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t 
     vndf_write_u32(w, table->below.row_count);
     vndf_write_u32(w, table->below.knot_count);
     write_array(w, &c->tv, sizeof *c / sizeof(float), 1);
-    write_text(w, table->source);
-    write_text(w, table->tool);
+    vndf_write_text(w, table->source);
+    vndf_write_text(w, table->tool);
 }
 
 static size_t write_all(const vndf_distribution *table, unsigned char *bytes, size_t capacity, uint32_t size)
@@ -102,32 +94,6 @@ static void read_array(vndf_reader *r, float *values, size_t count, size_t strid
 {
     for (size_t i = 0; i < count; i++)
         values[i * stride] = vndf_read_f32(r);
-}
-
-/* Programs print the texts, and a control character could harm a terminal. */
-static int is_printable(const unsigned char *bytes, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++)
-        if (bytes[i] < 32 || bytes[i] == 127)
-            return 0;
-    return 1;
-}
-
-/* A terminated copy of the next length-prefixed text; NULL if there is no text (the reader fails) or no memory. */
-static char *read_text(vndf_reader *r)
-{
-    uint32_t n = vndf_read_u32(r);
-    const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
-    if (!bytes || !is_printable(bytes, n)) {
-        r->failed = 1;
-        return NULL;
-    }
-    char *text = malloc((size_t)n + 1);
-    if (!text)
-        return NULL;
-    memcpy(text, bytes, n);
-    text[n] = '\0';
-    return text;
 }
 
 static void read_radial(vndf_reader *r, vndf_distribution *table)
@@ -191,8 +157,8 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
 {
     vndf_certificate *c = &table->certificate;
     read_array(r, &c->tv, sizeof *c / sizeof(float), 1);
-    table->source = read_text(r);
-    table->tool = read_text(r);
+    table->source = vndf_read_text(r);
+    table->tool = vndf_read_text(r);
     if (!table->source || !table->tool)
         return 0;
     read_radial(r, table);
@@ -202,48 +168,15 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
     return !r->failed;
 }
 
-/* Checks the first HEAD bytes; *stated is the size of the table that they state. */
-static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t *stated, vndf_error *error)
-{
-    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
-    if (size < HEAD || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf table: it must begin with \"VNDFtab\"");
-    uint32_t version = vndf_read_u32(&r);
-    *stated = vndf_read_u32(&r);
-    if (version != VERSION)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
-                         (unsigned)version, VERSION);
-    if (*stated < 64 || *stated > VNDF_LIMIT_TABLE_BYTES)
-        return vndf_fail(error, VNDF_ERROR_TABLE,
-                         "the table says that it has %u bytes; from 64 to %d are possible", (unsigned)*stated,
-                         VNDF_LIMIT_TABLE_BYTES);
-    return VNDF_OK;
-}
-
-static vndf_status check_frame(const unsigned char *bytes, size_t size, vndf_error *error)
-{
-    uint32_t stated;
-    vndf_status status = check_head(bytes, size, &stated, error);
-    if (status != VNDF_OK)
-        return status;
-    if (stated != size)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, but %lu are here",
-                         (unsigned)stated, (unsigned long)size);
-    vndf_reader last = {bytes, size, size - 4, 0};
-    if (vndf_read_u32(&last) != vndf_crc32(0, bytes, size - 4))
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the checksum does not match: the table is damaged");
-    return VNDF_OK;
-}
-
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
     if (!bytes) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
         return NULL;
     }
-    if (check_frame(bytes, size, error) != VNDF_OK)
+    if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader r = {bytes, size, HEAD, 0};
+    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
     vndf_table_size counts = read_counts(&r);
     if (!counts_valid(counts)) {
@@ -270,54 +203,10 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     return NULL;
 }
 
-/* Reads the size that the head states and one byte more: an endless file or pipe must not be read for ever. */
-static unsigned char *read_stream(FILE *file, size_t *size, vndf_error *error)
-{
-    unsigned char head[HEAD];
-    uint32_t stated = 0;
-    size_t n = fread(head, 1, HEAD, file);
-    if (ferror(file) || check_head(head, n, &stated, error) != VNDF_OK)
-        return NULL;
-    unsigned char *bytes = malloc((size_t)stated + 1);
-    if (!bytes) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %u bytes", (unsigned)stated);
-        return NULL;
-    }
-    memcpy(bytes, head, HEAD);
-    *size = n + fread(bytes + n, 1, (size_t)stated + 1 - n, file);
-    if (!ferror(file) && *size <= stated)
-        return bytes;
-    if (!ferror(file))
-        vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, and more follow",
-                  (unsigned)stated);
-    free(bytes);
-    return NULL;
-}
-
-/* Reads the whole file into memory; NULL and an error if that fails. */
-static unsigned char *read_file(const char *path, size_t *size, vndf_error *error)
-{
-    vndf_error inner = {VNDF_OK, ""};
-    FILE *file = path ? fopen(path, "rb") : NULL;
-    if (!file) {
-        vndf_fail(error, path ? VNDF_ERROR_IO : VNDF_ERROR_ARGUMENT, "cannot open %s: %s", path ? path : "(NULL)",
-                  path ? strerror(errno) : "no path");
-        return NULL;
-    }
-    errno = 0;
-    unsigned char *bytes = read_stream(file, size, &inner);
-    if (!bytes && inner.status == VNDF_OK)
-        vndf_fail(error, VNDF_ERROR_IO, "cannot read %s: %s", path, errno ? strerror(errno) : "unknown reason");
-    else if (!bytes)
-        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
-    fclose(file);
-    return bytes;
-}
-
 vndf_distribution *vndf_load(const char *path, vndf_error *error)
 {
     size_t size = 0;
-    unsigned char *bytes = read_file(path, &size, error);
+    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
     if (!bytes)
         return NULL;
     vndf_error inner = {VNDF_OK, ""};
