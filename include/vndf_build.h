@@ -168,9 +168,9 @@ VNDF_API vndf_status vndf_save_memory(const vndf_distribution *distribution, voi
 enum { VNDF_FAMILY_PROBES = 7 };
 
 typedef struct vndf_family_options {
-    double max_distance;     /* as few knots as reach this distance; 0: 1e-3 */
-    size_t knots;            /* so many knots instead, 2 to VNDF_LIMIT_FAMILY_KNOTS, placed for the least distance */
-    size_t max_bytes;        /* of each table, as in vndf_build_options */
+    double max_distance; /* as few knots as reach this distance; 0: 1e-3 */
+    size_t knots;        /* so many knots instead, 2 to VNDF_LIMIT_FAMILY_KNOTS, placed for the least distance */
+    size_t max_bytes;    /* of each table, as in vndf_build_options */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
 } vndf_family_options;

@@ -15,6 +15,15 @@ typedef struct chosen_distribution {
 int distribution_open(chosen_distribution *chosen, const char *command, const char *name);
 void distribution_close(chosen_distribution *chosen);
 
+/* A file with the tables of a family is known by its name, FILE.vndfs, and one of the family by FILE.vndfs@P. */
+int is_family_file(const char *name);
+
+/* The parameter's text behind FILE.vndfs@, or NULL. */
+const char *family_parameter(const char *name);
+
+/* Returns the family in a file, or NULL after a complaint. */
+vndf_family *family_open(const char *command, const char *path);
+
 /* The unit direction at theta and phi in degrees; exact where either is a multiple of 90. */
 vndf_vec3 direction_from(double theta, double phi);
 

@@ -7,8 +7,8 @@
 
 enum { LOBE_LENGTH = 4096 };
 
-enum { KEY_TABLE, KEY_WEIGHT, KEY_ALPHA, KEY_MATRIX, KEY_MEAN, KEYS };
-static const char *const key_names[KEYS] = {"table", "weight", "alpha", "matrix", "mean"};
+enum { KEY_TABLE, KEY_PARAMETER, KEY_WEIGHT, KEY_ALPHA, KEY_MATRIX, KEY_MEAN, KEYS };
+static const char *const key_names[KEYS] = {"table", "parameter", "weight", "alpha", "matrix", "mean"};
 
 /* ---- the words of a lobe ---- */
 
@@ -25,7 +25,8 @@ static int refuse_key(const lobe_text *lobe, const char *word)
     if (hint)
         complain(lobe->command, "%s: there is no key '%.40s'; did you mean '%s'?", lobe->where, word, hint);
     else
-        complain(lobe->command, "%s: there is no key '%.40s'; known are table, weight, alpha, matrix, mean",
+        complain(lobe->command,
+                 "%s: there is no key '%.40s'; known are table, parameter, weight, alpha, matrix, mean",
                  lobe->where, word);
     return 0;
 }
@@ -127,7 +128,19 @@ static int is_valid(const vndf_affine *surface)
     return vndf_mixture_view_from(&alone, up).count == 1;
 }
 
-/* Reads the table of a lobe that comes next in the mixture. 1, or 0 after a complaint. */
+/* Adds a lobe of the distribution. 1, or 0 after a complaint: there are too many. */
+static int put_lobe(chosen_surface *chosen, const char *command, vndf_mixture_lobe lobe, int option)
+{
+    if (chosen->mixture.count == VNDF_MIXTURE_LOBES) {
+        complain(command, "--lobe: more than %d lobes; a family between two knots takes two", VNDF_MIXTURE_LOBES);
+        return 0;
+    }
+    chosen->option[chosen->mixture.count] = option;
+    chosen->mixture.lobe[chosen->mixture.count++] = lobe;
+    return 1;
+}
+
+/* A lobe of a table or a closed form. 1, or 0 after a complaint. */
 static int add_table(chosen_surface *chosen, const char *command, const char *name, vndf_mixture_lobe lobe,
                      int option)
 {
@@ -136,9 +149,51 @@ static int add_table(chosen_surface *chosen, const char *command, const char *na
         return 0;
     chosen->tables++;
     lobe.surface.distribution = table->distribution;
-    chosen->option[chosen->mixture.count] = option;
-    chosen->mixture.lobe[chosen->mixture.count++] = lobe;
+    return put_lobe(chosen, command, lobe, option);
+}
+
+/* A number between the first and the last knot, as floats. */
+static int read_parameter(const char *command, const vndf_family *family, const char *what, const char *text,
+                          double *p)
+{
+    vndf_family_facts facts = vndf_family_info(family);
+    if (!parse_numbers(command, what, text, -1e30, 1e30, 1, 1, p))
+        return 0;
+    if ((float)*p >= facts.low && (float)*p <= facts.high)
+        return 1;
+    complain(command, "%s '%s' is not in the range of the family, from %.7g to %.7g", what, text,
+             (double)facts.low, (double)facts.high);
+    return 0;
+}
+
+/* Lobes of a family at a parameter; `what` opens a message about that. 1, or 0 after a complaint. */
+static int add_family(chosen_surface *chosen, const char *command, const char *path, const char *what,
+                      const char *parameter, vndf_mixture_lobe lobe, int option)
+{
+    double p;
+    vndf_mixture at;
+    vndf_family *family = family_open(command, path);
+    if (!family)
+        return 0;
+    chosen->family[chosen->families++] = family;
+    if (!read_parameter(command, family, what, parameter, &p))
+        return 0;
+    vndf_family_at(family, (float)p, &lobe.surface, &at);
+    for (int i = 0; i < at.count; i++) {
+        at.lobe[i].weight *= lobe.weight;
+        if (!put_lobe(chosen, command, at.lobe[i], option))
+            return 0;
+    }
     return 1;
+}
+
+static int add_any(chosen_surface *chosen, const lobe_text *lobe, vndf_mixture_lobe next, int option)
+{
+    char what[32];
+    snprintf(what, sizeof what, "%s: parameter", lobe->where);
+    return lobe->value[KEY_PARAMETER] ? add_family(chosen, lobe->command, lobe->value[KEY_TABLE], what,
+                                                   lobe->value[KEY_PARAMETER], next, option)
+                                      : add_table(chosen, lobe->command, lobe->value[KEY_TABLE], next, option);
 }
 
 static int add_lobe(chosen_surface *chosen, const char *command, const char *given, int option)
@@ -147,7 +202,7 @@ static int add_lobe(chosen_surface *chosen, const char *command, const char *giv
     vndf_mixture_lobe next;
     snprintf(lobe.where, sizeof lobe.where, "--lobe %d", option + 1);
     if (!split_lobe(&lobe, given) || !check_keys(&lobe) || !read_numbers(&lobe, &next) ||
-        !add_table(chosen, command, lobe.value[KEY_TABLE], next, option))
+        !add_any(chosen, &lobe, next, option))
         return 0;
     if (is_valid(&chosen->mixture.lobe[chosen->mixture.count - 1].surface))
         return 1;
@@ -174,18 +229,35 @@ static int add_all_lobes(chosen_surface *chosen, const char *command, const word
     return sum > 0;
 }
 
-/* FILE with --alpha: roughnesses that are out of the range of the table draw nothing, and are no mistake here. */
+/* "FILE.vndfs@P": the file's name is copied. */
+static int add_subject_family(chosen_surface *chosen, const char *command, const char *name,
+                              vndf_mixture_lobe lobe)
+{
+    char path[LOBE_LENGTH];
+    const char *parameter = family_parameter(name);
+    size_t length = (size_t)(parameter - name) - 1;
+    if (length >= sizeof path) {
+        complain(command, "the name of the family's file has more than %d characters", LOBE_LENGTH - 1);
+        return 0;
+    }
+    memcpy(path, name, length);
+    path[length] = '\0';
+    return add_family(chosen, command, path, "the parameter", parameter, lobe, 0);
+}
+
+/* With --alpha: a roughness that is out of the range of the table draws nothing, and is no mistake here. */
 static int add_subject(chosen_surface *chosen, const char *command, const char *name, const char *alpha)
 {
     vndf_surface plain = {NULL, 1, 1};
-    vndf_mixture_lobe lobe = {{NULL, 0, 0, 0, 0, 0, 0}, 1};
-    if (!add_table(chosen, command, name, lobe, 0) || !roughness_from(command, alpha, &plain))
+    if (is_family_file(name)) {
+        complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name);
         return 0;
-    for (int i = 0; i < chosen->mixture.count; i++) {
-        chosen->mixture.lobe[i].surface.xx = plain.alpha_x;
-        chosen->mixture.lobe[i].surface.yy = plain.alpha_y;
     }
-    return 1;
+    if (!roughness_from(command, alpha, &plain))
+        return 0;
+    vndf_mixture_lobe lobe = {{NULL, plain.alpha_x, 0, 0, plain.alpha_y, 0, 0}, 1};
+    return family_parameter(name) ? add_subject_family(chosen, command, name, lobe)
+                                  : add_table(chosen, command, name, lobe, 0);
 }
 
 static int check_subject(const char *command, const aim_words *aim, const words *positional)
@@ -218,7 +290,7 @@ static int direction_of_words(const char *command, const aim_words *aim, vndf_ve
 
 int surface_open(chosen_surface *chosen, const char *command, const aim_words *aim, const words *positional)
 {
-    chosen->tables = 0;
+    chosen->tables = chosen->families = 0;
     chosen->mixture.count = 0;
     if (!check_subject(command, aim, positional))
         return 0;
@@ -234,6 +306,8 @@ void surface_close(chosen_surface *chosen)
 {
     while (chosen->tables > 0)
         distribution_close(&chosen->table[--chosen->tables]);
+    while (chosen->families > 0)
+        vndf_family_free(chosen->family[--chosen->families]);
 }
 
 /* ---- what it is ---- */
