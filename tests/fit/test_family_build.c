@@ -1,5 +1,5 @@
 /* A family that is built is as far from the mixtures between its knots as it says: another quadrature at ten times as
- * many parameters finds the same distances within a tenth; they are about the same between all knots, one knot less
+ * many parameters finds the same distances within a twentieth; they are about the same between all knots, one knot less
  * would not reach them, and the tables are those of vndf_build at the knots, so that D of the mixture is as near to
  * the family as both errors allow. What is no family is refused by name. */
 #include <stdio.h>
@@ -65,12 +65,12 @@ static void test_scan(const vndf_family *family, density *f)
             here = fmax(here, d.slopes);
             grazing = fmax(grazing, d.grazing);
         }
-        TEST_RELATIVE((double)vndf_family_distance(family, i), here, 0.1);
+        TEST_RELATIVE((double)vndf_family_distance(family, i), here, 0.05);
         TEST((double)vndf_family_distance(family, i) > 0.85 * (double)facts.distance);
         worst = fmax(worst, here);
     }
-    TEST_RELATIVE((double)facts.distance, worst, 0.1);
-    TEST_RELATIVE((double)facts.grazing, grazing, 0.1);
+    TEST_RELATIVE((double)facts.distance, worst, 0.05);
+    TEST_RELATIVE((double)facts.grazing, grazing, 0.05);
 }
 
 /* ---- tables ---- */
