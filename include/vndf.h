@@ -440,6 +440,72 @@ VNDF_API float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
 
+/* ---- families with a textured parameter --------------------------------------------------------- */
+
+/* Distributions along one parameter, p_0 < p_1 < ...: a family whose tail, say, is a texture. At p between two of
+ * these knots it is the mixture of both neighbours,
+ *
+ *     D = (1 - t) D_i + t D_i+1,    t = (p - p_i)/(p_i+1 - p_i),  or linear in 1/p where that takes fewer knots,
+ *
+ * which is a D as good as any: samples and densities are exact for it. vndf_build_family (vndf_build.h) makes the
+ * tables, and measures how far the mixture is from the family that is meant. Immutable; threads may share it. */
+typedef struct vndf_family vndf_family;
+
+enum {
+    VNDF_LIMIT_FAMILY_KNOTS = 256,
+    VNDF_LIMIT_FAMILY_BYTES = 1 << 26 /* of a file */
+};
+
+/* Reads a file of `vndf build --parameter`, or its bytes, which are copied. As for vndf_load, no bytes crash it. Free
+ * the result with vndf_family_free. */
+VNDF_API vndf_family *vndf_family_load(const char *path, vndf_error *error);
+VNDF_API vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error *error);
+
+/* A family of distributions of any kind, linear in its parameters, which are finite and ascend: 1 to
+ * VNDF_LIMIT_FAMILY_KNOTS. The arrays are copied. The distributions are not: the caller frees them, after the family
+ * and all views that were made through it. */
+VNDF_API vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const float *parameters,
+                                     size_t count, vndf_error *error);
+
+/* Frees the family, and the tables that came with its file; does nothing for NULL. */
+VNDF_API void vndf_family_free(vndf_family *family);
+
+/* What a family is. The strings belong to it. */
+typedef struct vndf_family_facts {
+    const char *source; /* "--family student-t --parameter 1.6..6"; empty without a file */
+    const char *tool;   /* version that made it */
+    size_t bytes;       /* size of the file; 0 without one */
+    size_t memory;      /* bytes that its tables take, all together */
+    size_t count;       /* knots */
+    float low, high;    /* the first and the last parameter */
+    int reciprocal;     /* 1 if mixtures are linear in 1/p, 0 if in p */
+    float distance;     /* largest total variation distance between the slopes of family and mixture that was found
+                         * between the knots; 0 without a file. Tables add at most their own (vndf_certificate) */
+    float grazing;      /* the same of the normals that are visible at grazing incidence, which weighs the tail */
+} vndf_family_facts;
+
+/* For NULL: empty texts and zeros. */
+VNDF_API vndf_family_facts vndf_family_info(const vndf_family *family);
+
+/* Of a knot, an index below `count`: its parameter, its distribution, which belongs to the family, and the distance
+ * found between it and the next. 0 and NULL for any other index; the last knot has the distance 0. */
+VNDF_API float vndf_family_parameter(const vndf_family *family, size_t index);
+VNDF_API const vndf_distribution *vndf_family_distribution(const vndf_family *family, size_t index);
+VNDF_API float vndf_family_distance(const vndf_family *family, size_t index);
+
+typedef enum vndf_family_place {
+    VNDF_FAMILY_INVALID, /* no family, no shape, or a parameter that is NaN: the mixture is invalid (count 0) */
+    VNDF_FAMILY_INSIDE,
+    VNDF_FAMILY_BELOW, /* the parameter was below the first knot, which was taken */
+    VNDF_FAMILY_ABOVE  /* above the last one, likewise */
+} vndf_family_place;
+
+/* The family at a parameter, with the matrix and the mean slope of `shape`, whose distribution is not read: a mixture
+ * of one lobe at a knot, of two between knots, valid while the family lives. Costs a binary search and a division;
+ * other lobes of *mixture are not written, so that more may be added behind. */
+VNDF_API vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_affine *shape,
+                                          vndf_mixture *mixture);
+
 #ifdef __cplusplus
 }
 #endif

@@ -159,6 +159,36 @@ VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char
 VNDF_API vndf_status vndf_save_memory(const vndf_distribution *distribution, void *bytes, size_t size,
                                       vndf_error *error);
 
+/* ---- families ---------------------------------------------------------------------------------- */
+
+/* Zeroed options are the defaults. The distance is the total variation between the slopes of the family and of the
+ * mixture of neighbouring knots (vndf_family_at), 1/2 integral |P22_mix - P22_p| dA, by quadrature of both as they are
+ * given, without tables. It is measured at VNDF_FAMILY_PROBES parameters between each two knots, not proven: where the
+ * family changes smoothly the largest distance is within a few percent of what is found. */
+enum { VNDF_FAMILY_PROBES = 7 };
+
+typedef struct vndf_family_options {
+    double max_distance; /* as few knots as reach this distance; 0: 1e-3 */
+    size_t knots;        /* so many knots instead, 2 to VNDF_LIMIT_FAMILY_KNOTS, placed for the least distance */
+    size_t max_bytes;    /* of each table, as in vndf_build_options */
+    vndf_progress *progress; /* may be NULL */
+    void *progress_user;
+} vndf_family_options;
+
+/* Builds the tables of a family along one of its numbers, from `low` to `high`. The specification is that of
+ * vndf_source_family with {p} where the number stands, "abc:{p},0.8" or "mix:({p},1,ggx)+(1,0.1,beckmann)"; the name
+ * of a family with one number may stand alone, "student-t". Mixtures are linear in p, or in 1/p where low > 0 and that
+ * makes the distance smaller by a quarter at least. Parameters of knots have seven digits, and the table of a knot is
+ * the one that vndf_build makes there. NULL and an error as for vndf_build; VNDF_ERROR_TARGET if 256 knots do not reach
+ * the distance. Takes a build for each knot, 0.5 to 0.9 s. Free the result with vndf_family_free. */
+VNDF_API vndf_family *vndf_build_family(const char *specification, double low, double high,
+                                        const vndf_family_options *options, vndf_error *error);
+
+/* Writes a family that was built or loaded, as vndf_save and vndf_save_memory do; vndf_family_info says its bytes. */
+VNDF_API vndf_status vndf_family_save(const vndf_family *family, const char *path, vndf_error *error);
+VNDF_API vndf_status vndf_family_save_memory(const vndf_family *family, void *bytes, size_t size,
+                                             vndf_error *error);
+
 #ifdef __cplusplus
 }
 #endif

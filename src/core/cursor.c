@@ -43,30 +43,6 @@ double vndf_read_f64(vndf_reader *reader)
     return value;
 }
 
-static int is_printable(const unsigned char *bytes, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++)
-        if (bytes[i] < 32 || bytes[i] == 127)
-            return 0;
-    return 1;
-}
-
-char *vndf_read_text(vndf_reader *reader, uint32_t most)
-{
-    uint32_t n = vndf_read_u32(reader);
-    const unsigned char *bytes = n <= most ? vndf_read_bytes(reader, n) : NULL;
-    if (!bytes || !is_printable(bytes, n)) {
-        reader->failed = 1;
-        return NULL;
-    }
-    char *text = malloc((size_t)n + 1);
-    if (text) {
-        memcpy(text, bytes, n);
-        text[n] = '\0';
-    }
-    return text;
-}
-
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n)
 {
     if (n > 0 && writer->at <= writer->capacity && n <= writer->capacity - writer->at)
@@ -101,9 +77,38 @@ void vndf_write_f64(vndf_writer *writer, double value)
     write_integer(writer, bits, 8);
 }
 
-void vndf_write_text(vndf_writer *writer, const char *text)
+/* ---- texts ---- */
+
+enum { TEXT_MAX = 32768 };
+
+void vndf_write_text(vndf_writer *w, const char *text)
 {
     size_t n = strlen(text);
-    vndf_write_u32(writer, (uint32_t)n);
-    vndf_write_bytes(writer, text, n);
+    vndf_write_u32(w, (uint32_t)n);
+    vndf_write_bytes(w, text, n);
+}
+
+/* Programs print the texts, and a control character could harm a terminal. */
+static int is_printable(const unsigned char *bytes, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++)
+        if (bytes[i] < 32 || bytes[i] == 127)
+            return 0;
+    return 1;
+}
+
+char *vndf_read_text(vndf_reader *r)
+{
+    uint32_t n = vndf_read_u32(r);
+    const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
+    if (!bytes || !is_printable(bytes, n)) {
+        r->failed = 1;
+        return NULL;
+    }
+    char *text = malloc((size_t)n + 1);
+    if (!text)
+        return NULL;
+    memcpy(text, bytes, n);
+    text[n] = '\0';
+    return text;
 }

@@ -23,9 +23,9 @@ uint32_t vndf_read_u32(vndf_reader *reader);
 float vndf_read_f32(vndf_reader *reader);
 double vndf_read_f64(vndf_reader *reader);
 
-/* A terminated copy, to be freed, of the next text: its length as u32, at most `most`, then its bytes. NULL if
- * there is no text without control characters, which could harm a terminal (failed), or no memory. */
-char *vndf_read_text(vndf_reader *reader, uint32_t most);
+/* A terminated copy, to be freed, of the next length-prefixed text; NULL if there is no text (the reader fails) or no
+ * memory. */
+char *vndf_read_text(vndf_reader *reader);
 
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n);
 void vndf_write_u32(vndf_writer *writer, uint32_t value);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/replace_file.h"
+#include "table/family/family.h"
 #include "table/file.h"
 #include "vndf_build.h"
 
@@ -43,5 +44,43 @@ vndf_status vndf_save_memory(const vndf_distribution *distribution, void *bytes,
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the table %lu",
                          (unsigned long)size, (unsigned long)vndf_table_encode(distribution, NULL, 0));
     vndf_table_encode(distribution, bytes, size);
+    return VNDF_OK;
+}
+
+/* ---- families ------------------------------------------------------------------------------------ */
+
+/* A family of vndf_family_of has no texts, and may hold closed forms. */
+static vndf_status check_family(const vndf_family *family, const void *to, vndf_error *error)
+{
+    if (family && to && family->owns)
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                     "a family that was built or loaded, and a place, are needed to save");
+}
+
+vndf_status vndf_family_save(const vndf_family *family, const char *path, vndf_error *error)
+{
+    vndf_status status = check_family(family, path, error);
+    if (status != VNDF_OK)
+        return status;
+    size_t size = vndf_family_encode(family, NULL, 0);
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+    vndf_family_encode(family, bytes, size);
+    status = write_file(path, bytes, size, error);
+    free(bytes);
+    return status;
+}
+
+vndf_status vndf_family_save_memory(const vndf_family *family, void *bytes, size_t size, vndf_error *error)
+{
+    vndf_status status = check_family(family, bytes, error);
+    if (status != VNDF_OK)
+        return status;
+    if (size != vndf_family_encode(family, NULL, 0))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the family %lu",
+                         (unsigned long)size, (unsigned long)vndf_family_encode(family, NULL, 0));
+    vndf_family_encode(family, bytes, size);
     return VNDF_OK;
 }

@@ -6,12 +6,12 @@
 #include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/read_file.h"
+#include "core/frame.h"
 #include "table/layout.h"
 #include "table/validate.h"
 
-static const char MAGIC[8] = {'V', 'N', 'D', 'F', 't', 'a', 'b', '\n'};
-enum { VERSION = 3, TEXT_MAX = 32768, HEAD = 16 };
+static const vndf_frame FRAME = {"VNDFtab\n", "table", 3, VNDF_LIMIT_TABLE_BYTES};
+enum { MAGIC = 8 };
 
 /* ---- writing ---- */
 
@@ -54,8 +54,8 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
 {
     const vndf_certificate *c = &table->certificate;
-    vndf_write_bytes(w, MAGIC, sizeof MAGIC);
-    vndf_write_u32(w, VERSION);
+    vndf_write_bytes(w, FRAME.magic, MAGIC);
+    vndf_write_u32(w, FRAME.version);
     vndf_write_u32(w, size);
     vndf_write_f64(w, table->normalization);
     vndf_write_f64(w, table->scale);
@@ -157,8 +157,8 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
 {
     vndf_certificate *c = &table->certificate;
     read_array(r, &c->tv, sizeof *c / sizeof(float), 1);
-    table->source = vndf_read_text(r, TEXT_MAX);
-    table->tool = vndf_read_text(r, TEXT_MAX);
+    table->source = vndf_read_text(r);
+    table->tool = vndf_read_text(r);
     if (!table->source || !table->tool)
         return 0;
     read_radial(r, table);
@@ -168,48 +168,15 @@ static int read_body(vndf_reader *r, vndf_distribution *table)
     return !r->failed;
 }
 
-/* Checks the first HEAD bytes; *stated is the size of the table that they state. */
-static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t *stated, vndf_error *error)
-{
-    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
-    if (size < HEAD || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf table: it must begin with \"VNDFtab\"");
-    uint32_t version = vndf_read_u32(&r);
-    *stated = vndf_read_u32(&r);
-    if (version != VERSION)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "table format version %u; this library reads version %d",
-                         (unsigned)version, VERSION);
-    if (*stated < 64 || *stated > VNDF_LIMIT_TABLE_BYTES)
-        return vndf_fail(error, VNDF_ERROR_TABLE,
-                         "the table says that it has %u bytes; from 64 to %d are possible", (unsigned)*stated,
-                         VNDF_LIMIT_TABLE_BYTES);
-    return VNDF_OK;
-}
-
-static vndf_status check_frame(const unsigned char *bytes, size_t size, vndf_error *error)
-{
-    uint32_t stated;
-    vndf_status status = check_head(bytes, size, &stated, error);
-    if (status != VNDF_OK)
-        return status;
-    if (stated != size)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, but %lu are here",
-                         (unsigned)stated, (unsigned long)size);
-    vndf_reader last = {bytes, size, size - 4, 0};
-    if (vndf_read_u32(&last) != vndf_crc32(0, bytes, size - 4))
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the checksum does not match: the table is damaged");
-    return VNDF_OK;
-}
-
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
     if (!bytes) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
         return NULL;
     }
-    if (check_frame(bytes, size, error) != VNDF_OK)
+    if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader r = {bytes, size, HEAD, 0};
+    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
     vndf_table_size counts = read_counts(&r);
     if (!counts_valid(counts)) {
@@ -239,7 +206,7 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
 vndf_distribution *vndf_load(const char *path, vndf_error *error)
 {
     size_t size = 0;
-    unsigned char *bytes = vndf_read_file(path, HEAD, check_head, &size, error);
+    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
     if (!bytes)
         return NULL;
     vndf_error inner = {VNDF_OK, ""};

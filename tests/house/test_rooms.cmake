@@ -21,10 +21,11 @@ set(run_time core simd math table sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
 set(shared core/replace_file.h)
 
+set(subs_table family)
 set(subs_sampler tabulated all_normals analytic bounded batch affine)
 set(subs_bsdf terms albedo lobes walk)
 set(subs_source interval csv formula family)
-set(subs_fit profile certificate)
+set(subs_fit profile certificate family)
 
 set(rooms_tools cli draw measure bench report render compare commands)
 set(below_cli "")
@@ -37,6 +38,7 @@ set(below_compare cli draw render)
 set(below_commands cli draw measure bench report render compare)
 
 set(subs_bench methods effects)
+set(subs_commands parts)
 set(subs_render image geometry scene perfect path)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign

@@ -14,7 +14,11 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
         chosen->distribution = vndf_ggx();
     else if (strcmp(name, "beckmann") == 0)
         chosen->distribution = vndf_beckmann();
-    else if (!input_named(command, name))
+    else if (is_family_file(name) || family_parameter(name)) {
+        complain(command, "'%s' is a family; a single table is needed (sample, eval and info take families)",
+                 name);
+        return 0;
+    } else if (!input_named(command, name))
         return 0;
     else
         chosen->distribution = chosen->owned = vndf_load(name, &error);
@@ -26,6 +30,32 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
 void distribution_close(chosen_distribution *chosen)
 {
     vndf_free(chosen->owned);
+}
+
+static const char family_end[] = ".vndfs";
+
+int is_family_file(const char *name)
+{
+    size_t length = strlen(name), end = sizeof family_end - 1;
+    return length > end && strcmp(name + length - end, family_end) == 0;
+}
+
+const char *family_parameter(const char *name)
+{
+    const char *at = strrchr(name, '@');
+    size_t end = sizeof family_end - 1;
+    return at && at > name + end && memcmp(at - end, family_end, end) == 0 ? at + 1 : NULL;
+}
+
+vndf_family *family_open(const char *command, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    if (!input_named(command, path))
+        return NULL;
+    vndf_family *family = vndf_family_load(path, &error);
+    if (!family)
+        complain(command, "%s", error.message);
+    return family;
 }
 
 /* Reduced to a quarter turn first, so that cos(90 degrees) is 0 and not 6e-17: a direction on the
@@ -63,20 +93,4 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
     surface->alpha_x = (float)alpha[0];
     surface->alpha_y = (float)alpha[1];
     return count != 0;
-}
-
-int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
-                    vndf_surface *surface, vndf_vec3 *wi)
-{
-    double theta = 0, phi = 0;
-    if (!aim->theta.count) {
-        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
-        return 0;
-    }
-    if (!option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||
-        !option_number(command, "--phi", &aim->phi, -360, 360, &phi))
-        return 0;
-    surface->distribution = distribution;
-    *wi = direction_from(theta, phi);
-    return roughness_from(command, only_word(&aim->alpha), surface);
 }

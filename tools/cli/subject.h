@@ -15,6 +15,15 @@ typedef struct chosen_distribution {
 int distribution_open(chosen_distribution *chosen, const char *command, const char *name);
 void distribution_close(chosen_distribution *chosen);
 
+/* A file with the tables of a family is known by its name, FILE.vndfs, and one of the family by FILE.vndfs@P. */
+int is_family_file(const char *name);
+
+/* The parameter's text behind FILE.vndfs@, or NULL. */
+const char *family_parameter(const char *name);
+
+/* Returns the family in a file, or NULL after a complaint. */
+vndf_family *family_open(const char *command, const char *path);
+
 /* The unit direction at theta and phi in degrees; exact where either is a multiple of 90. */
 vndf_vec3 direction_from(double theta, double phi);
 
@@ -24,14 +33,5 @@ int sees_nothing(const vndf_surface *surface, vndf_vec3 w);
 
 /* "AX" or "AX,AY" into *surface; text NULL: 1, 1. Returns 1, or 0 after a complaint. */
 int roughness_from(const char *command, const char *text, vndf_surface *surface);
-
-/* The options that sample and eval share. */
-typedef struct aim_words {
-    words theta, phi, alpha;
-} aim_words;
-
-/* A view from --theta (needed), --phi and --alpha. Returns 1, or 0 after a complaint. */
-int view_from_words(const char *command, const aim_words *aim, const vndf_distribution *distribution,
-                    vndf_surface *surface, vndf_vec3 *wi);
 
 #endif

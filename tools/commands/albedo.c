@@ -9,7 +9,7 @@
 #include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
-#include "commands/albedo_print.h"
+#include "commands/parts/albedo_print.h"
 
 static const char name[] = "vndf albedo";
 

@@ -5,6 +5,7 @@
 
 #include "cli/arguments.h"
 #include "command.h"
+#include "commands/parts/build_family.h"
 #include "commands/describe.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -15,6 +16,7 @@ static const char name[] = "vndf build";
 
 static const char help[] =
     "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
+    "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
     "Makes a table that samples the visible normals of an isotropic distribution of normals, and prints what it\n"
@@ -36,12 +38,23 @@ static const char help[] =
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
+    "With --parameter, tables along a number of a family, in one file: between two of these knots the family is used\n"
+    "as the mixture of both, and what is printed says how far that is from it (measured at 7 parameters between\n"
+    "each two knots, not proven; see vndf info).\n"
+    "\n"
+    "  --parameter LOW..HIGH    the range of the number; NAME has {p} in its place, as in abc:{p},0.8, or is the name\n"
+    "                  alone of a family with one number, as in student-t\n"
+    "  --max-tv X      knots enough for a distance <= X between family and mixture (default 1e-3)\n"
+    "  --knots N       2 to 256 knots, where that distance is least\n"
+    "  --max-bytes N   of each table\n"
+    "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
-    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n";
+    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
+    "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n";
 
 typedef struct build_words {
     source_words source;
-    words list, bytes, tv, breaks, finest, output;
+    words list, bytes, tv, breaks, finest, parameter, knots, output;
 } build_words;
 
 static int print_list(void)
@@ -136,9 +149,39 @@ static int check_words(const build_words *given)
     if (sources != 1)
         return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
                         sources ? "more than one" : "none");
+    if (given->parameter.count && !given->source.family.count)
+        return complain(name, "--parameter is for --family; a formula has its parameters by --set");
+    if (given->parameter.count && (given->breaks.count || given->finest.count))
+        return complain(name, "--parameter takes no %s", given->breaks.count ? "--break" : "--finest");
+    if (given->knots.count && !given->parameter.count)
+        return complain(name, "--knots is for --parameter LOW..HIGH");
+    if (given->knots.count && given->tv.count)
+        return complain(name, "--knots and --max-tv are given; with --parameter one of them is possible");
     if (set == PARSE_GO_ON && !given->output.count)
         return complain(name, "-o FILE is missing");
     return set;
+}
+
+static int build_one_family(const build_words *given)
+{
+    const family_words words_of = {given->source.family, given->parameter, given->knots, given->tv,
+                                   given->bytes,         given->output};
+    unsigned held = output_hold_signals();
+    int status = build_family(name, &words_of, held);
+    output_release_signals(held);
+    return status;
+}
+
+static int build_one_table(const build_words *given)
+{
+    vndf_source *source = source_from_words(name, &given->source);
+    if (!source)
+        return STATUS_USE;
+    unsigned held = output_hold_signals();
+    int status = build_and_save(source, given, held);
+    vndf_source_free(source);
+    output_release_signals(held);
+    return status;
 }
 
 int command_build(int argc, char **argv)
@@ -156,6 +199,8 @@ int command_build(int argc, char **argv)
         {"--max-tv", 1, 1, &given.tv},
         {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
         {"--finest", 1, 1, &given.finest},
+        {"--parameter", 1, 1, &given.parameter},
+        {"--knots", 1, 1, &given.knots},
         {"-o", 1, 1, &given.output},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
@@ -166,12 +211,5 @@ int command_build(int argc, char **argv)
         parsed = check_words(&given);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    vndf_source *source = source_from_words(name, &given.source);
-    if (!source)
-        return STATUS_USE;
-    unsigned held = output_hold_signals();
-    int status = build_and_save(source, &given, held);
-    vndf_source_free(source);
-    output_release_signals(held);
-    return status;
+    return given.parameter.count ? build_one_family(&given) : build_one_table(&given);
 }

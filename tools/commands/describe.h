@@ -6,5 +6,6 @@
 
 void describe_info(const vndf_info *info);
 void describe_certificate(const vndf_certificate *certificate);
+void describe_family(const vndf_family *family);
 
 #endif

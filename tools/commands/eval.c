@@ -6,13 +6,14 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/subject.h"
 #include "cli/output.h"
+#include "cli/surface.h"
 
 static const char name[] = "vndf eval";
 
 static const char help[] =
     "usage: vndf eval FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
+    "       vndf eval --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG]\n"
     "\n"
     "Reads one normal a line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), and prints a line for each:\n"
     "\n"
@@ -26,8 +27,13 @@ static const char help[] =
     "  --theta DEG      angle of the incident direction from the normal, 0 to 180\n"
     "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"
     "  --alpha AX[,AY]  roughness along x and y (default 1)\n"
+    "\n" SURFACE_HELP "\n"
+    "Then all four numbers are of the whole surface. Where lobes have mean slopes, the mean plane of the whole stands\n"
+    "for the horizon in lambda and g1.\n"
     "\n"
-    "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n";
+    "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n"
+    "         echo 0.6,0,0.8 | vndf eval --theta 45 --lobe 'weight=0.7 table=ggx alpha=0.1,0.2 mean=0.1,0' \\\n"
+    "                                    --lobe 'weight=0.3 table=beckmann matrix=0.5,0.2,-0.1,0.4'\n";
 
 enum { LINE_MAX_LENGTH = 256 };
 
@@ -63,16 +69,16 @@ static int read_normal(const char *line, unsigned long long number, vndf_vec3 *w
     return 1;
 }
 
-static int evaluate_lines(const vndf_surface *surface, vndf_vec3 wi)
+static int evaluate_lines(const chosen_surface *surface)
 {
     char line[LINE_MAX_LENGTH];
-    vndf_view view = vndf_view_from(surface, wi);
-    double lambda = (double)vndf_lambda(surface, wi), g1 = (double)vndf_g1(surface, wi);
+    vndf_mixture_view view = vndf_mixture_view_from(&surface->mixture, surface->wi);
+    double lambda = (double)surface_lambda(surface), g1 = (double)surface_g1(surface);
     for (unsigned long long number = 1; fgets(line, sizeof line, stdin); number++) {
         vndf_vec3 wm;
         if (!trim_line(line, number) || !read_normal(line, number, &wm))
             return STATUS_USE;
-        double ndf = (double)vndf_ndf(surface, wm), pdf = (double)vndf_pdf(&view, wm);
+        double ndf = (double)surface_ndf(surface, wm), pdf = (double)vndf_mixture_pdf(&view, wm);
         if (printf("%.9g,%.9g,%.9g,%.9g\n", ndf, pdf, lambda, g1) < 0)
             return STATUS_USE; /* main says why */
     }
@@ -85,20 +91,18 @@ int command_eval(int argc, char **argv)
 {
     aim_words aim = {0};
     words positional = {{NULL}, 0};
-    chosen_distribution chosen;
-    vndf_surface surface;
-    vndf_vec3 wi;
-    const option_form options[] = {
-        {"--theta", 1, 1, &aim.theta}, {"--phi", 1, 1, &aim.phi}, {"--alpha", 1, 1, &aim.alpha}};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    chosen_surface surface;
+    const option_form options[] = {{"--theta", 1, 1, &aim.theta},
+                                   {"--phi", 1, 1, &aim.phi},
+                                   {"--alpha", 1, 1, &aim.alpha},
+                                   {"--lobe", 1, VNDF_MIXTURE_LOBES, &aim.lobes}};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    if (!distribution_open(&chosen, name, only_word(&positional)))
+    if (!surface_open(&surface, name, &aim, &positional))
         return STATUS_USE;
-    int status = STATUS_USE;
-    if (view_from_words(name, &aim, chosen.distribution, &surface, &wi) && input_stdin(name))
-        status = evaluate_lines(&surface, wi);
-    distribution_close(&chosen);
+    int status = input_stdin(name) ? evaluate_lines(&surface) : STATUS_USE;
+    surface_close(&surface);
     return status;
 }

@@ -7,7 +7,7 @@
 #include "cli/subject.h"
 
 static const char help[] =
-    "usage: vndf info FILE|ggx|beckmann\n"
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"
     "\n"
     "Prints `key value` lines:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
@@ -29,6 +29,15 @@ static const char help[] =
     "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
     "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
+    "\n"
+    "Of a family of tables (vndf build --parameter), which is used between its knots as a mixture of neighbours:\n"
+    "  source, tool, bytes, memory    as above, memory of all tables together\n"
+    "  knots          the number of tables, from the parameter `low` to `high`\n"
+    "  linear_in      p or 1/p: what the weights of neighbours are linear in\n"
+    "  distance       largest total variation distance of slopes between family and mixture, without tables\n"
+    "  grazing        the same of the normals that are visible at grazing incidence\n"
+    "  tables_tv      the largest tv of the tables\n"
+    "  knot P bytes B tv T distance D    a line for each table, D up to the next knot\n"
     "\n"
     "example: vndf info wavy.vndf\n";
 
@@ -61,6 +70,54 @@ void describe_info(const vndf_info *info)
     printf("scale %.9g\n", info->scale);
 }
 
+static void describe_knot(const vndf_family *family, size_t i)
+{
+    vndf_info info = vndf_distribution_info(vndf_family_distribution(family, i));
+    printf("knot %.7g bytes %zu tv %.4g", (double)vndf_family_parameter(family, i), info.bytes,
+           (double)info.certificate.tv);
+    if (i + 1 < vndf_family_info(family).count)
+        printf(" distance %.4g", (double)vndf_family_distance(family, i));
+    putchar('\n');
+}
+
+static double largest_tv(const vndf_family *family, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++) {
+        double tv = (double)vndf_distribution_info(vndf_family_distribution(family, i)).certificate.tv;
+        most = tv > most ? tv : most;
+    }
+    return most;
+}
+
+void describe_family(const vndf_family *family)
+{
+    vndf_family_facts facts = vndf_family_info(family);
+    printf("source %s\n", facts.source);
+    printf("tool %s\n", facts.tool);
+    printf("bytes %zu\n", facts.bytes);
+    printf("memory %zu\n", facts.memory);
+    printf("knots %zu\n", facts.count);
+    printf("low %.7g\n", (double)facts.low);
+    printf("high %.7g\n", (double)facts.high);
+    printf("linear_in %s\n", facts.reciprocal ? "1/p" : "p");
+    printf("distance %.4g\n", (double)facts.distance);
+    printf("grazing %.4g\n", (double)facts.grazing);
+    printf("tables_tv %.4g\n", largest_tv(family, facts.count));
+    for (size_t i = 0; i < facts.count; i++)
+        describe_knot(family, i);
+}
+
+static int info_of_family(const char *command, const char *path)
+{
+    vndf_family *family = family_open(command, path);
+    if (!family)
+        return STATUS_USE;
+    describe_family(family);
+    vndf_family_free(family);
+    return STATUS_GOOD;
+}
+
 int command_info(int argc, char **argv)
 {
     const command_form form = {"vndf info", help, NULL, 0, "FILE|ggx|beckmann", 1, 1};
@@ -69,6 +126,8 @@ int command_info(int argc, char **argv)
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
+    if (is_family_file(only_word(&positional)))
+        return info_of_family(form.command, only_word(&positional));
     if (!distribution_open(&chosen, form.command, only_word(&positional)))
         return STATUS_USE;
     vndf_info info = vndf_distribution_info(chosen.distribution);

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "commands/render_explain.h"
+#include "commands/parts/render_explain.h"
 
 static const char name[] = "vndf render";
 

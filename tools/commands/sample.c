@@ -1,5 +1,6 @@
 /* vndf sample: visible normals into a file, in a format that outsiders read:
- *   .csv  header `wm.x,wm.y,wm.z,pdf`, one normal a line, 9 significant digits (they give the float back);
+ *   .csv  header `wm.x,wm.y,wm.z,pdf`, one normal a line, 9 significant digits (they give the float back); where
+ *         there are several --lobe, `lobe` is one more column: which of them was drawn, counted from 0;
  *   .f32  wm.x wm.y wm.z pdf as little-endian 32-bit floats, nothing else. */
 #include <stdint.h>
 #include <stdio.h>
@@ -7,14 +8,15 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/subject.h"
 #include "cli/output.h"
 #include "cli/random.h"
+#include "cli/surface.h"
 
 static const char name[] = "vndf sample";
 
 static const char help[] =
     "usage: vndf sample FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]] -n N -o OUT [options]\n"
+    "       vndf sample --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG] -n N -o OUT [options]\n"
     "\n"
     "Draws visible normals from one incident direction, each with its density per steradian.\n"
     "\n"
@@ -26,23 +28,35 @@ static const char help[] =
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
     "                   wm.x wm.y wm.z pdf; -: stdout\n"
     "  --format NAME    csv or f32, whatever OUT ends in (default, for -: csv)\n"
+    "\n" SURFACE_HELP "\n"
+    "Then pdf is the density of the whole surface, and a CSV has one more column, lobe: which --lobe the normal was\n"
+    "drawn from, counted from 0 (not where there is but one).\n"
     "\n"
-    "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n";
+    "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n"
+    "         vndf sample --theta 60 -n 1000 -o - --lobe 'weight=0.7 table=wavy.vndf alpha=0.1,0.3 mean=0.05,0' \\\n"
+    "                                             --lobe 'weight=0.3 table=ggx matrix=0.5,0.2,-0.1,0.4'\n";
 
 typedef struct sample_words {
     aim_words aim;
     words number, seed, format, output;
 } sample_words;
 
-typedef void write_normal(FILE *file, vndf_vec3 wm, float pdf);
+typedef void write_normal(FILE *file, vndf_vec3 wm, float pdf, int lobe);
 
-static void write_csv(FILE *file, vndf_vec3 wm, float pdf)
+static void write_csv(FILE *file, vndf_vec3 wm, float pdf, int lobe)
 {
+    (void)lobe;
     fprintf(file, "%.9g,%.9g,%.9g,%.9g\n", (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf);
 }
 
-static void write_f32(FILE *file, vndf_vec3 wm, float pdf)
+static void write_csv_with_lobe(FILE *file, vndf_vec3 wm, float pdf, int lobe)
 {
+    fprintf(file, "%.9g,%.9g,%.9g,%.9g,%d\n", (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf, lobe);
+}
+
+static void write_f32(FILE *file, vndf_vec3 wm, float pdf, int lobe)
+{
+    (void)lobe;
     const float values[4] = {wm.x, wm.y, wm.z, pdf};
     unsigned char bytes[16];
     for (size_t i = 0; i < 4; i++) {
@@ -54,24 +68,37 @@ static void write_f32(FILE *file, vndf_vec3 wm, float pdf)
     fwrite(bytes, 1, sizeof bytes, file);
 }
 
-static write_normal *writer_for(const char *path, const char *format)
+static write_normal *writer_for(const char *path, const char *format, size_t lobes)
 {
     static const char *const forms[2] = {"csv", "f32"};
     int form = output_form(name, path, format, forms);
-    return form < 0 ? NULL : form == 0 ? write_csv : write_f32;
+    return form < 0 ? NULL : form == 1 ? write_f32 : lobes > 1 ? write_csv_with_lobe : write_csv;
+}
+
+static void write_header(FILE *file, write_normal *write)
+{
+    if (write != write_f32)
+        fprintf(file, "wm.x,wm.y,wm.z,pdf%s\n", write == write_csv_with_lobe ? ",lobe" : "");
+}
+
+/* The --lobe that a lobe of the mixture belongs to; 0 where nothing is drawn. */
+static int option_of(const chosen_surface *surface, int lobe)
+{
+    return lobe < 0 ? 0 : surface->option[lobe];
 }
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
-static int write_samples(output_file *output, write_normal *write, const vndf_view *view, unsigned long long count,
-                         uint64_t seed)
+static int write_samples(output_file *output, write_normal *write, const chosen_surface *surface,
+                         unsigned long long count, uint64_t seed)
 {
     random_stream stream = random_from(seed);
-    if (write == write_csv)
-        fputs("wm.x,wm.y,wm.z,pdf\n", output->file);
+    vndf_mixture_view view = vndf_mixture_view_from(&surface->mixture, surface->wi);
+    write_header(output->file, write);
     for (unsigned long long i = 0; i < count; i++) {
         float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
-        vndf_vec3 wm = vndf_sample(view, u1, u2, &pdf);
-        write(output->file, wm, pdf);
+        int lobe;
+        vndf_vec3 wm = vndf_mixture_sample(&view, u1, u2, &pdf, &lobe);
+        write(output->file, wm, pdf, option_of(surface, lobe));
         if (i % 4096 != 0)
             continue;
         if (ferror(output->file))
@@ -82,41 +109,38 @@ static int write_samples(output_file *output, write_normal *write, const vndf_vi
     return output_commit(output);
 }
 
-static int sample_to_file(const sample_words *given, const vndf_distribution *distribution)
+static int sample_to_file(const sample_words *given, const chosen_surface *surface)
 {
-    vndf_surface surface;
-    vndf_vec3 wi;
     output_file output;
     unsigned long long count = 0, seed = 1;
     const char *path = only_word(&given->output);
-    write_normal *write = writer_for(path, only_word(&given->format));
-    if (!write || !view_from_words(name, &given->aim, distribution, &surface, &wi) ||
-        !option_count(name, "-n", &given->number, 1, 1e12, &count) ||
+    write_normal *write = writer_for(path, only_word(&given->format), given->aim.lobes.count);
+    if (!write || !option_count(name, "-n", &given->number, 1, 1e12, &count) ||
         !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed) || !output_open(&output, name, path))
         return STATUS_USE;
-    vndf_view view = vndf_view_from(&surface, wi);
-    return write_samples(&output, write, &view, count, seed);
+    return write_samples(&output, write, surface, count, seed);
 }
 
 int command_sample(int argc, char **argv)
 {
     sample_words given = {0};
     words positional = {{NULL}, 0};
-    chosen_distribution chosen;
+    chosen_surface surface;
     const option_form options[] = {
-        {"--theta", 1, 1, &given.aim.theta}, {"--phi", 1, 1, &given.aim.phi}, {"--alpha", 1, 1, &given.aim.alpha},
-        {"-n", 1, 1, &given.number},         {"--seed", 1, 1, &given.seed},   {"-o", 1, 1, &given.output},
-        {"--format", 1, 1, &given.format},
+        {"--theta", 1, 1, &given.aim.theta}, {"--phi", 1, 1, &given.aim.phi},
+        {"--alpha", 1, 1, &given.aim.alpha}, {"--lobe", 1, VNDF_MIXTURE_LOBES, &given.aim.lobes},
+        {"-n", 1, 1, &given.number},         {"--seed", 1, 1, &given.seed},
+        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
     };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
     if (!given.number.count || !given.output.count)
         return complain(name, "%s is missing", given.number.count ? "-o OUT" : "-n N");
-    if (!distribution_open(&chosen, name, only_word(&positional)))
+    if (!surface_open(&surface, name, &given.aim, &positional))
         return STATUS_USE;
-    int status = sample_to_file(&given, chosen.distribution);
-    distribution_close(&chosen);
+    int status = sample_to_file(&given, &surface);
+    surface_close(&surface);
     return status;
 }

@@ -75,6 +75,12 @@ size_t stress_failed(const stress_result *result);
 /* Notes a number for a property; returns whether it is within the limit. */
 int stress_note(stress_result *result, stress_id id, double value, const stress_point *at);
 
+/* What is noted of a sample: the length of a normal; how far it is turned away from wi, in 2^-24; whether the density
+ * is none. */
+double stress_length(vndf_vec3 w);
+double stress_turned_away(vndf_vec3 wi, vndf_vec3 wm);
+int stress_wrong_density(vndf_vec3 wi, float pdf);
+
 /* The properties of a sample; those of the direction alone, with wo as the other one of G2; and those of two unit
  * directions of one azimuth, wo farther from z. */
 void stress_measure_sample(const vndf_surface *surface, const vndf_view *view, const stress_point *at,

@@ -52,14 +52,14 @@ int stress_note(stress_result *result, stress_id id, double value, const stress_
 
 /* ---- samples ---- */
 
-static double length_of(vndf_vec3 w)
+double stress_length(vndf_vec3 w)
 {
     return sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y + (double)w.z * (double)w.z);
 }
 
 /* As far as wi.wm is below 0, against its terms: wi is rounded to unit length, component by component, and the
  * normal faces what comes out. */
-static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
+double stress_turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
     double x = (double)wi.x * (double)wm.x, y = (double)wi.y * (double)wm.y, z = (double)wi.z * (double)wm.z;
     double size = fabs(x) + fabs(y) + fabs(z);
@@ -131,7 +131,7 @@ static double lost_by_inversion(const vndf_surface *surface, const vndf_view *vi
 }
 
 /* Straight from below every normal is turned away: the one view whose samples have density 0. */
-static int is_wrong_density(vndf_vec3 wi, float pdf)
+int stress_wrong_density(vndf_vec3 wi, float pdf)
 {
     if (wi.x == 0 && wi.y == 0 && wi.z < 0)
         return pdf != 0;
@@ -144,10 +144,10 @@ void stress_measure_sample(const vndf_surface *surface, const vndf_view *view, c
     float pdf = -1;
     vndf_vec3 wm = vndf_sample(view, at->u1, at->u2, &pdf);
     result->samples++;
-    stress_note(result, STRESS_UNIT, fabs(length_of(wm) - 1) * 0x1p23, at);
+    stress_note(result, STRESS_UNIT, fabs(stress_length(wm) - 1) * 0x1p23, at);
     stress_note(result, STRESS_ABOVE, -(double)wm.z, at);
-    stress_note(result, STRESS_FACING, turned_away(at->wi, wm), at);
-    stress_note(result, STRESS_POSITIVE, is_wrong_density(at->wi, pdf), at);
+    stress_note(result, STRESS_FACING, stress_turned_away(at->wi, wm), at);
+    stress_note(result, STRESS_POSITIVE, stress_wrong_density(at->wi, pdf), at);
     stress_note(result, STRESS_REPEATED, pdf > 0 ? fabs((double)vndf_pdf(view, wm) / (double)pdf - 1) : 0, at);
     stress_note(result, STRESS_INVERTED, lost_by_inversion(surface, view, at, wm), at);
 }
@@ -192,7 +192,7 @@ static double g2_error(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo)
 void stress_measure_direction(const vndf_surface *surface, const stress_point *at, stress_result *result)
 {
     vndf_vec3 back = opposite(at->wi);
-    double cosine = (double)at->wi.z / length_of(at->wi), up = fmax(cosine, 0);
+    double cosine = (double)at->wi.z / stress_length(at->wi), up = fmax(cosine, 0);
     float a = vndf_projected_area(surface, at->wi), b = vndf_projected_area(surface, back);
     float lambda = vndf_lambda(surface, at->wi), mirrored = vndf_lambda(surface, back);
     double area = (double)a, largest = fmax(area, (double)b), miss = fabs(area - (double)b - cosine);

@@ -7,11 +7,11 @@
 #include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/read_file.h"
+#include "core/frame.h"
 #include "core/replace_file.h"
 
-static const char MAGIC[8] = {'V', 'N', 'D', 'F', 'a', 'l', 'b', '\n'};
-enum { VERSION = 1, TEXT_MAX = 32768, HEAD = 16, LEAST = 64, MEASURED = 8 };
+static const vndf_frame FRAME = {"VNDFalb\n", "table of albedos", 1, VNDF_LIMIT_ALBEDO_BYTES};
+enum { MEASURED = 8 };
 
 /* Splines through values in [0, 1] have coefficients below 200, and these are at the ends of coarse grids. */
 #define COEFFICIENT_MAX 1000.0f
@@ -30,8 +30,8 @@ static size_t write_all(const vndf_albedo *albedo, unsigned char *bytes, size_t 
     vndf_writer w = {bytes, capacity, 0};
     float measured[MEASURED];
     measured_of(&albedo->is, measured);
-    vndf_write_bytes(&w, MAGIC, sizeof MAGIC);
-    vndf_write_u32(&w, VERSION);
+    vndf_write_bytes(&w, FRAME.magic, 8);
+    vndf_write_u32(&w, FRAME.version);
     vndf_write_u32(&w, size);
     vndf_write_f32(&w, albedo->is.eta);
     vndf_write_f32(&w, albedo->is.scale);
@@ -113,39 +113,6 @@ static const char *numbers_invalid(const vndf_albedo *albedo)
     return NULL;
 }
 
-/* Checks the first HEAD bytes; *stated is the size of the table that they state. */
-static vndf_status check_head(const unsigned char *bytes, size_t size, uint32_t *stated, vndf_error *error)
-{
-    vndf_reader r = {bytes, size, sizeof MAGIC, 0};
-    if (size < HEAD || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a table of albedos: it must begin with \"VNDFalb\"");
-    uint32_t version = vndf_read_u32(&r);
-    *stated = vndf_read_u32(&r);
-    if (version != VERSION)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "version %u of tables of albedos; this library reads version %d",
-                         (unsigned)version, VERSION);
-    if (*stated < LEAST || *stated > VNDF_LIMIT_ALBEDO_BYTES)
-        return vndf_fail(error, VNDF_ERROR_TABLE,
-                         "the table says that it has %u bytes; from %d to %d are possible", (unsigned)*stated,
-                         LEAST, VNDF_LIMIT_ALBEDO_BYTES);
-    return VNDF_OK;
-}
-
-static vndf_status check_frame(const unsigned char *bytes, size_t size, vndf_error *error)
-{
-    uint32_t stated;
-    vndf_status status = check_head(bytes, size, &stated, error);
-    if (status != VNDF_OK)
-        return status;
-    if (stated != size)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the table says that it has %u bytes, but %lu are here",
-                         (unsigned)stated, (unsigned long)size);
-    vndf_reader last = {bytes, size, size - 4, 0};
-    if (vndf_read_u32(&last) != vndf_crc32(0, bytes, size - 4))
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the checksum does not match: the table is damaged");
-    return VNDF_OK;
-}
-
 /* 0 if the bytes end early (the reader fails) or memory is short. */
 static int read_body(vndf_reader *r, vndf_albedo *albedo)
 {
@@ -155,8 +122,8 @@ static int read_body(vndf_reader *r, vndf_albedo *albedo)
                                        &is->average_error, &is->quadrature_error};
     for (int i = 0; i < MEASURED; i++)
         *measured[i] = vndf_read_f32(r);
-    is->source = albedo->source = vndf_read_text(r, TEXT_MAX);
-    is->tool = albedo->tool = vndf_read_text(r, TEXT_MAX);
+    is->source = albedo->source = vndf_read_text(r);
+    is->tool = albedo->tool = vndf_read_text(r);
     if (!albedo->source || !albedo->tool)
         return 0;
     for (size_t i = 0; i < is->values; i++)
@@ -176,9 +143,9 @@ vndf_albedo *vndf_albedo_load_memory(const void *bytes, size_t size, vndf_error 
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
         return NULL;
     }
-    if (check_frame(bytes, size, error) != VNDF_OK)
+    if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader r = {bytes, size, HEAD, 0};
+    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     float eta = vndf_read_f32(&r), scale = vndf_read_f32(&r);
     uint32_t columns = vndf_read_u32(&r), rows = vndf_read_u32(&r);
     if (!count_valid(columns) || !count_valid(rows)) {
@@ -209,7 +176,7 @@ vndf_albedo *vndf_albedo_load_memory(const void *bytes, size_t size, vndf_error 
 vndf_albedo *vndf_albedo_load(const char *path, vndf_error *error)
 {
     size_t size = 0;
-    unsigned char *bytes = vndf_read_file(path, HEAD, check_head, &size, error);
+    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
     if (!bytes)
         return NULL;
     vndf_error inner = {VNDF_OK, ""};

@@ -1,4 +1,4 @@
-#include "commands/albedo_print.h"
+#include "commands/parts/albedo_print.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "commands/hard.h"
+#include "commands/parts/hard.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,6 +6,7 @@
 #include "cli/arguments.h"
 #include "command.h"
 #include "measure/stress.h"
+#include "measure/stress_affine.h"
 
 static const char point_form[] = "WIX,WIY,WIZ,AX,AY,U1,U2[,WOX,WOY,WOZ]";
 
@@ -52,6 +53,44 @@ static int print_result(const stress_result *result)
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
+/* As words of --lobe, so that sample and eval take the surface. */
+static void print_affine_point(const stress_affine_finding *at)
+{
+    const vndf_affine *m = &at->surface;
+    printf("             worst matrix=%.9g,%.9g,%.9g,%.9g mean=%.9g,%.9g wi ", (double)m->xx, (double)m->xy,
+           (double)m->yx, (double)m->yy, (double)m->mean_x, (double)m->mean_y);
+    print_vector(at->wi);
+    printf(" u %.9g,%.9g\n", (double)at->u1, (double)at->u2);
+}
+
+static int print_affine_finding(stress_id id, const stress_affine_result *result)
+{
+    const stress_property *property = stress_property_of(id);
+    const stress_affine_finding *found = &result->found[id];
+    int good = found->failed == 0;
+    printf("hard         affine %-9s worst %-9.3g of %-5.3g at %7zu points: %s ", property->name,
+           found->worst > 0 ? found->worst : 0, property->limit, result->samples, property->meaning);
+    if (!good)
+        printf("%zu ", found->failed);
+    puts(good ? "good" : "FAILED");
+    if (found->worst > 0)
+        print_affine_point(found);
+    return good;
+}
+
+static int check_affine(const vndf_distribution *distribution, unsigned long long seed)
+{
+    enum { VIEWS = 40000 };
+    stress_affine_result result = {0};
+    int good = 1;
+    stress_affine_run(distribution, VIEWS, seed, &result);
+    printf("hard         affine: %zu samples of %zu surfaces, conditions up to 1e4, mean slopes up to 2\n",
+           result.samples, result.views);
+    for (int id = 0; id < STRESS_AFFINE_COUNT; id++)
+        good &= print_affine_finding((stress_id)id, &result);
+    return good ? STATUS_GOOD : STATUS_NO;
+}
+
 int hard_check(const vndf_distribution *distribution, unsigned long long seed)
 {
     stress_result result = {0};
@@ -60,7 +99,8 @@ int hard_check(const vndf_distribution *distribution, unsigned long long seed)
     if (result.outside)
         printf("; %zu roughnesses left out: alpha times the scale must be within 1e-18 and 1e18", result.outside);
     putchar('\n');
-    return print_result(&result);
+    int plain = print_result(&result), affine = check_affine(distribution, seed);
+    return plain == STATUS_GOOD ? affine : plain;
 }
 
 static int read_point(const char *command, const char *numbers, stress_point *at)

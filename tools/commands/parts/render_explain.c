@@ -4,7 +4,7 @@
  *
  * Leaving out the microfacets makes their materials smooth, mirror or glass: what is left is the cost of finding
  * rays, and the rest of a segment is shading by this library. */
-#include "commands/render_explain.h"
+#include "commands/parts/render_explain.h"
 
 #include <stdio.h>
 #include <stdlib.h>

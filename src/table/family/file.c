@@ -1,0 +1,151 @@
+/* Families on disk (family.h). */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/checksum.h"
+#include "core/cursor.h"
+#include "core/error.h"
+#include "core/frame.h"
+#include "table/family/family.h"
+#include "table/file.h"
+
+static const vndf_frame FRAME = {"VNDFfam\n", "family", 1, VNDF_LIMIT_FAMILY_BYTES};
+enum { MAGIC = 8 };
+
+/* ---- writing ---- */
+
+/* Into the room that is left; where there is none, it counts. */
+static void write_table(vndf_writer *w, const vndf_distribution *table)
+{
+    size_t size = vndf_table_encode(table, NULL, 0);
+    vndf_write_u32(w, (uint32_t)size);
+    if (w->at <= w->capacity && size <= w->capacity - w->at)
+        vndf_table_encode(table, w->bytes + w->at, size);
+    w->at += size;
+}
+
+static size_t write_all(const vndf_family *family, unsigned char *bytes, size_t capacity, size_t size)
+{
+    vndf_writer w = {bytes, capacity, 0};
+    vndf_write_bytes(&w, FRAME.magic, MAGIC);
+    vndf_write_u32(&w, FRAME.version);
+    vndf_write_u32(&w, (uint32_t)size);
+    vndf_write_u32(&w, (uint32_t)family->count);
+    vndf_write_u32(&w, family->reciprocal != 0);
+    vndf_write_f32(&w, family->grazing);
+    vndf_write_text(&w, family->source);
+    vndf_write_text(&w, family->tool);
+    for (size_t i = 0; i < family->count; i++)
+        vndf_write_f32(&w, family->parameter[i]);
+    for (size_t i = 0; i + 1 < family->count; i++)
+        vndf_write_f32(&w, family->distance[i]);
+    for (size_t i = 0; i < family->count; i++)
+        write_table(&w, family->distribution[i]);
+    vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
+    return w.at;
+}
+
+size_t vndf_family_encode(const vndf_family *family, unsigned char *bytes, size_t capacity)
+{
+    size_t size = write_all(family, NULL, 0, 0);
+    return size > capacity ? size : write_all(family, bytes, capacity, size);
+}
+
+/* ---- reading ---- */
+
+/* 0 if the bytes end early (the reader fails) or memory is short. */
+static int read_numbers(vndf_reader *r, vndf_family *family)
+{
+    family->grazing = vndf_read_f32(r);
+    family->source = vndf_read_text(r);
+    family->tool = vndf_read_text(r);
+    if (!family->source || !family->tool)
+        return 0;
+    for (size_t i = 0; i < family->count; i++)
+        family->parameter[i] = vndf_read_f32(r);
+    for (size_t i = 0; i + 1 < family->count; i++)
+        family->distance[i] = vndf_read_f32(r);
+    return !r->failed;
+}
+
+static vndf_status read_table(vndf_reader *r, vndf_family *family, size_t index, vndf_error *error)
+{
+    vndf_error inner = {VNDF_OK, ""};
+    uint32_t size = vndf_read_u32(r);
+    const unsigned char *bytes = vndf_read_bytes(r, size);
+    if (!bytes)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: its tables do not fill the file");
+    family->distribution[index] = vndf_load_memory(bytes, size, &inner);
+    return family->distribution[index]
+               ? VNDF_OK
+               : vndf_fail(error, inner.status, "table %lu: %s", (unsigned long)index + 1, inner.message);
+}
+
+static vndf_status read_tables(vndf_reader *r, vndf_family *family, vndf_error *error)
+{
+    for (size_t i = 0; i < family->count; i++) {
+        vndf_status status = read_table(r, family, i, error);
+        if (status != VNDF_OK)
+            return status;
+    }
+    if (r->at + 4 != r->size)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: its tables do not fill the file");
+    return VNDF_OK;
+}
+
+static vndf_status no_memory(size_t size, vndf_error *error)
+{
+    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size);
+}
+
+static vndf_status read_family(vndf_reader *r, vndf_family *family, vndf_error *error)
+{
+    if (!read_numbers(r, family))
+        return r->failed ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: it ends early")
+                         : no_memory(r->size, error);
+    const char *why = vndf_family_invalid(family);
+    return why ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: %s", why)
+               : read_tables(r, family, error);
+}
+
+vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error *error)
+{
+    if (!bytes) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
+        return NULL;
+    }
+    if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
+        return NULL;
+    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
+    uint32_t count = vndf_read_u32(&r), reciprocal = vndf_read_u32(&r);
+    if (count < 1 || count > VNDF_LIMIT_FAMILY_KNOTS || reciprocal > 1) {
+        vndf_fail(error, VNDF_ERROR_TABLE, "the family's counts are outside the limits of the format");
+        return NULL;
+    }
+    vndf_family *family = vndf_family_allocate(count);
+    if (!family) {
+        no_memory(size, error);
+        return NULL;
+    }
+    family->owns = 1;
+    family->reciprocal = reciprocal != 0;
+    family->bytes = size;
+    if (read_family(&r, family, error) == VNDF_OK)
+        return family;
+    vndf_family_free(family);
+    return NULL;
+}
+
+vndf_family *vndf_family_load(const char *path, vndf_error *error)
+{
+    size_t size = 0;
+    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
+    if (!bytes)
+        return NULL;
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_family *family = vndf_family_load_memory(bytes, size, &inner);
+    if (!family)
+        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
+    free(bytes);
+    return family;
+}

@@ -1,0 +1,98 @@
+/* No bytes crash the loader of families: they are refused with a message, or they are a family whose mixture at any
+ * parameter samples and evaluates without a NaN. Each input is tried as it is, again with the size and the checksum of
+ * the whole put right, and again with those of its tables put right too. What somebody forged that way may overflow to
+ * an infinite density. */
+#include <math.h>
+
+#include "core/checksum.h"
+#include "fuzz/fuzz.h"
+#include "vndf.h"
+
+static int is_finite(vndf_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static void use_at(const vndf_family *family, float parameter)
+{
+    static const vndf_vec3 directions[] = {{0.0f, 0.0f, 1.0f}, {0.6f, 0.0f, 0.8f}, {-0.6f, 0.5f, -0.6244998f}};
+    const vndf_affine shape = {NULL, 0.5f, 0.1f, -0.1f, 0.3f, 0.2f, 0.0f};
+    vndf_mixture mixture;
+    const vndf_family_place place = vndf_family_at(family, parameter, &shape, &mixture);
+    fuzz_require(place != VNDF_FAMILY_INVALID && mixture.count >= 1 && mixture.count <= 2, "one or two lobes");
+    for (size_t i = 0; i < sizeof directions / sizeof directions[0]; i++) {
+        float pdf = -1.0f;
+        const vndf_mixture_view view = vndf_mixture_view_from(&mixture, directions[i]);
+        const vndf_vec3 wm = vndf_mixture_sample(&view, 0.3f, 0.6f, &pdf, NULL);
+        fuzz_require(is_finite(wm) && wm.z >= 0.0f, "a sample is finite and not below the surface");
+        fuzz_require(pdf >= 0.0f && vndf_mixture_ndf(&mixture, wm) >= 0.0f, "densities are not NaN");
+        fuzz_require(vndf_mixture_projected_area(&mixture, directions[i]) >= 0.0f, "the area is not NaN");
+    }
+}
+
+static void load_and_use(const uint8_t *data, size_t size)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_family *family = vndf_family_load_memory(data, size, &error);
+    fuzz_require((family == NULL) == (error.status != VNDF_OK), "NULL and an error come together");
+    fuzz_require(family != NULL || error.message[0] != '\0', "an error has a message");
+    if (family == NULL)
+        return;
+    const vndf_family_facts facts = vndf_family_info(family);
+    fuzz_require(facts.low <= facts.high && facts.source != NULL,
+                 "a family has a range and says where it came from");
+    use_at(family, facts.low);
+    use_at(family, facts.low + 0.4f * (facts.high - facts.low));
+    use_at(family, INFINITY);
+    vndf_family_free(family);
+}
+
+static uint32_t get_u32(const uint8_t *bytes)
+{
+    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static void put_u32(uint8_t *bytes, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (uint8_t)(value >> (8 * i));
+}
+
+/* Magic (8 bytes), version, size, ..., CRC-32 of all before it: of families and tables alike. */
+static void mend(uint8_t *bytes, size_t size)
+{
+    put_u32(bytes + 12, (uint32_t)size);
+    put_u32(bytes + size - 4, vndf_crc32(0, bytes, size - 4));
+}
+
+/* src/table/family/family.h: the tables stand behind count, map, distance, two texts and 2 count - 1 floats. */
+static void mend_tables(uint8_t *bytes, size_t size)
+{
+    const uint32_t count = get_u32(bytes + 16);
+    size_t at = 28;
+    for (int text = 0; text < 2 && at + 4 < size; text++)
+        at += 4 + (size_t)get_u32(bytes + at);
+    at += 4 * (2 * (size_t)count - 1);
+    for (uint32_t i = 0; i < count && at + 4 < size; i++) {
+        const size_t table = get_u32(bytes + at);
+        at += 4;
+        if (table >= 20 && table <= size - at)
+            mend(bytes + at, table);
+        at += table;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    uint8_t *mended = (uint8_t *)fuzz_text(data, size);
+    load_and_use(data, size);
+    if (size >= 36) {
+        mend(mended, size);
+        load_and_use(mended, size);
+        mend_tables(mended, size);
+        mend(mended, size);
+        load_and_use(mended, size);
+    }
+    free(mended);
+    return 0;
+}
