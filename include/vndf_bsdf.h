@@ -56,6 +56,7 @@
 #include <stdint.h>
 
 #include "vndf.h"
+#include "vndf_albedo.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -102,9 +103,18 @@ typedef enum vndf_normals_drawn {
 
 typedef enum vndf_scattering {
     VNDF_SCATTERING_SINGLE,
-    VNDF_SCATTERING_MULTIPLE /* Smith's random walk (Heitz et al., "Multiple-Scattering Microfacet BSDFs with the
-                              * Smith Model", SIGGRAPH 2016): only walks longer than order_limit lose energy
-                              * between the microfacets */
+    VNDF_SCATTERING_MULTIPLE, /* Smith's random walk (Heitz et al., "Multiple-Scattering Microfacet BSDFs with the
+                               * Smith Model", SIGGRAPH 2016): only walks longer than order_limit lose energy
+                               * between the microfacets */
+    /* Single scattering, and the energy that it loses given back from a table of albedos (vndf_albedo.h), at the cost
+     * of looking it up. With E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection
+     * is scaled by 1 + F0 (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
+    VNDF_SCATTERING_TURQUIN,
+    /* The same by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with F_ms = F_avg^2 E_avg/(1 - F_avg (1 -
+     * E_avg)) (Kulla & Conty 2017). Of both lobes, where F_ms is 1, the part b = (1 - F_avg) min/(1 - E_avg) of it is
+     * transmitted, min the smaller 1 - E_avg of the two sides, and spread by the E and E_avg of the other side. f is
+     * reciprocal. A sample takes this lobe, by the cosine of wo, as often as light does; wm is then 0. */
+    VNDF_SCATTERING_KULLA_CONTY
 } vndf_scattering;
 
 /* What a path carries along wi. */
@@ -153,8 +163,11 @@ typedef struct vndf_description {
     vndf_affine affine;          /* matrix and mean slope of hits that bring none; its distribution is not read */
     const vndf_mixture *mixture; /* of hits that bring none; NULL: all do; must outlive the material */
     int wavelengths;             /* 1 to VNDF_WAVELENGTHS; 0: 3 */
-    float eta;                   /* index on the side of -z over that on the side of z, 0.01 to 100 */
-    float f0[VNDF_WAVELENGTHS];  /* Schlick: reflectance at normal incidence, 0 to 1 */
+    /* Turquin, Kulla & Conty: of this distribution, for a mirror where the material only reflects, else for its eta;
+     * must outlive the material. Built for isotropic roughness; sqrt(alpha_x alpha_y) stands for two. */
+    const vndf_albedo *albedo;
+    float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
+    float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at normal incidence, 0 to 1 */
     float conductor_eta[VNDF_WAVELENGTHS]; /* index over that on the side of z: real part, 0 to 1000, */
     float conductor_k[VNDF_WAVELENGTHS];   /* and imaginary part, 0 to 1000; one of the two > 0 */
     /* The most scattering events of a walk; 0: 64. A walk that has not left by then is lost: up to alpha 10 none
@@ -175,11 +188,14 @@ typedef struct vndf_material {
     vndf_description is;
     const struct vndf_routines *routines; /* made for its effects */
     const struct vndf_routines *unturned; /* the same in the frame of the principal axes */
+    const struct vndf_routines *single;   /* the same without compensation */
     const struct vndf_routines *specular; /* the same without retroreflection */
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
-    double per_wavelength; /* one over their number */
+    double per_wavelength;                /* one over their number */
+    float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
+    float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
     int two_sided;
     int steep;  /* F changes faster than directions are rounded */
     float turn; /* what the roughness must exceed for the rounding of directions not to show */
@@ -191,6 +207,17 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
                                            vndf_error *error);
 
 /* ---- one hit ------------------------------------------------------------------------------------ */
+
+/* What compensation takes of a hit; private. */
+struct vndf_compensation {
+    float alpha;
+    float gain;                     /* Turquin: (1 - E)/E of reflection, 1/E of both lobes */
+    float lost;                     /* Kulla & Conty: 1 - E(wi), */
+    float per, beyond;              /* 1/(pi (1 - E_avg)) of this side and of the other, */
+    float share;                    /* the part of the samples, */
+    float reflected;                /* the part of that which stays on this side, */
+    float colour[VNDF_WAVELENGTHS]; /* F_ms */
+};
 
 /* Everything that depends on the material and wi alone: a plain value, valid while the material lives. It points
  * to the material, which must not move. Its members are private. The last makes it large; shapes that do not need it
@@ -204,6 +231,7 @@ typedef struct vndf_bsdf {
     float area;     /* projected area along wi */
     float cos_rotation, sin_rotation;
     vndf_bounds bounds; /* of bounded normals */
+    struct vndf_compensation compensation;
     vndf_mixture_view lobes;
 } vndf_bsdf;
 
@@ -241,7 +269,8 @@ typedef struct vndf_scattered {
         [VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1; 0 past the last */
     float density;          /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
     vndf_lobe lobe;
-    vndf_vec3 wm; /* the facet that was met, on the side of wi; of a lost sample and of a walk 0 */
+    vndf_vec3
+        wm; /* the facet that was met, on the side of wi; of a lost sample, a walk and Kulla & Conty's lobe 0 */
 } vndf_scattered;
 
 /* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random

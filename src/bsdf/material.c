@@ -5,6 +5,7 @@
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/masking.h"
 #include "bsdf/walk/multiple.h"
+#include "bsdf/lobes/compensated.h"
 #include "bsdf/lobes/mixture.h"
 #include "bsdf/lobes/retro.h"
 #include "bsdf/lobes/turned.h"
@@ -50,9 +51,11 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
-#define NOTHING(count)                                                                              \
-  {                                                                                                 \
-    .routines = &nothing, .unturned = &nothing, .specular = &nothing, .is = {.wavelengths = count } \
+#define NOTHING(count)                                                                            \
+  {                                                                                               \
+    .routines = &nothing, .unturned = &nothing, .single = &nothing, .specular = &nothing, .is = { \
+        .wavelengths = count                                                                      \
+    }                                                                                             \
   }
 const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {NOTHING(3), NOTHING(1), NOTHING(2),
                                                                        NOTHING(3), NOTHING(4)};
@@ -114,6 +117,17 @@ static const vndf_routines *shaped(const vndf_routines *unturned, vndf_shape sha
     return &vndf_routines_mixture;
 }
 
+static const vndf_routines *compensated(const vndf_routines *single, vndf_scattering scattering)
+{
+    switch (scattering) {
+    case VNDF_SCATTERING_SINGLE:
+    case VNDF_SCATTERING_MULTIPLE: return single;
+    case VNDF_SCATTERING_TURQUIN: return &vndf_routines_turquin;
+    case VNDF_SCATTERING_KULLA_CONTY: break;
+    }
+    return &vndf_routines_kulla_conty;
+}
+
 /* By half a turn and back, within 1e-6, made unit, and turned by the rest. */
 static void set_rotation(vndf_material *m, double angle)
 {
@@ -155,12 +169,15 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->fresnel = fresnel_of(e);
     m->masking = masking_of(e);
     m->unturned = routines_of(is);
-    m->specular = shaped(m->unturned, e->shape);
+    m->single = shaped(m->unturned, e->shape);
+    m->specular = compensated(m->single, e->scattering);
     m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;
     m->steep = is_steep(&m->is);
     m->turn = e->shape == VNDF_SHAPE_MIXTURE ? 0.0f : vndf_turn_for(vndf_law_steepness(is->distribution));
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_rotation(m, e->shape == VNDF_SHAPE_ROTATED ? is->rotation : 0.0);
+    if (vndf_compensates(e))
+        vndf_compensation_resolve(m);
     if (e->shape == VNDF_SHAPE_MATRIX)
         vndf_turned_roughness(is->distribution, &is->affine, &m->roughness);
     return VNDF_OK;

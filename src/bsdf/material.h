@@ -8,6 +8,12 @@
  * surface has it. */
 extern const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1];
 
+/* Whether single scattering is compensated. */
+VNDF_INLINE int vndf_compensates(const vndf_effects *e)
+{
+    return e->scattering == VNDF_SCATTERING_TURQUIN || e->scattering == VNDF_SCATTERING_KULLA_CONTY;
+}
+
 /* Whether the numbers and the combination of effects make sense; else an error that names what does not. */
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error);
 

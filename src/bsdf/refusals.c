@@ -1,5 +1,6 @@
 /* Combinations of effects that make no sense, and numbers out of range: each is refused by name. */
 #include <math.h>
+#include <string.h>
 
 #include "bsdf/material.h"
 #include "core/error.h"
@@ -18,7 +19,7 @@ static vndf_status check_range(const vndf_effects *e, vndf_error *error)
         {"fresnel", (unsigned)e->fresnel, VNDF_FRESNEL_CONDUCTOR},
         {"masking", (unsigned)e->masking, VNDF_MASKING_NONE},
         {"normals", (unsigned)e->normals, VNDF_NORMALS_V_CAVITY},
-        {"scattering", (unsigned)e->scattering, VNDF_SCATTERING_MULTIPLE},
+        {"scattering", (unsigned)e->scattering, VNDF_SCATTERING_KULLA_CONTY},
         {"transport", (unsigned)e->transport, VNDF_TRANSPORT_IMPORTANCE},
         {"shape", (unsigned)e->shape, VNDF_SHAPE_MIXTURE},
         {"reflection", (unsigned)e->reflection, VNDF_REFLECTION_RETRO},
@@ -55,7 +56,7 @@ static const char *masking_refused(const vndf_effects *e)
 
 static const char *walk_refused(const vndf_effects *e)
 {
-    if (e->scattering == VNDF_SCATTERING_SINGLE)
+    if (e->scattering != VNDF_SCATTERING_MULTIPLE)
         return NULL;
     if (e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
         return "scattering is VNDF_SCATTERING_MULTIPLE, whose masking is Smith's by height: masking must be "
@@ -66,6 +67,23 @@ static const char *walk_refused(const vndf_effects *e)
     if (e->lobes == VNDF_LOBES_TRANSMISSION)
         return "scattering is VNDF_SCATTERING_MULTIPLE and lobes is VNDF_LOBES_TRANSMISSION: a walk that transmits "
                "also reflects, so lobes must be VNDF_LOBES_BOTH";
+    return NULL;
+}
+
+static const char *compensation_refused(const vndf_effects *e)
+{
+    if (!vndf_compensates(e))
+        return NULL;
+    if (e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
+        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos have Smith's "
+               "masking by height: masking must be VNDF_MASKING_HEIGHT_CORRELATED";
+    if (e->lobes == VNDF_LOBES_TRANSMISSION ||
+        (e->lobes == VNDF_LOBES_BOTH && e->fresnel != VNDF_FRESNEL_DIELECTRIC))
+        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be "
+               "VNDF_LOBES_REFLECTION, or VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC";
+    if (e->shape >= VNDF_SHAPE_AFFINE)
+        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos are of one "
+               "distribution without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE";
     return NULL;
 }
 
@@ -169,6 +187,26 @@ static vndf_status check_mixture(const vndf_description *is, vndf_error *error)
         VNDF_MIXTURE_LOBES);
 }
 
+/* An albedo of something else would keep the wrong energy. */
+static vndf_status check_albedo(const vndf_description *is, vndf_error *error)
+{
+    if (!vndf_compensates(&is->effects))
+        return VNDF_OK;
+    if (!is->albedo)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "albedo is NULL: compensation needs the albedos of the distribution (vndf_albedo_build)");
+    vndf_albedo_properties has = vndf_albedo_info(is->albedo);
+    float eta = is->effects.lobes == VNDF_LOBES_BOTH ? is->eta : 0.0f;
+    if (!(fabsf(has.eta - eta) <= 1e-6f * eta))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "albedo is made for eta %g; this material needs %g (0: a mirror)", (double)has.eta,
+                         (double)eta);
+    if (strcmp(has.source, vndf_distribution_info(is->distribution).source) != 0)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "albedo is that of %.80s, the distribution is %.80s",
+                         has.source, vndf_distribution_info(is->distribution).source);
+    return VNDF_OK;
+}
+
 static vndf_status check_shape(const vndf_description *is, vndf_error *error)
 {
     if (!is->distribution && is->effects.shape != VNDF_SHAPE_MIXTURE)
@@ -190,10 +228,12 @@ vndf_status vndf_description_check(const vndf_description *is, vndf_error *error
     if (status != VNDF_OK)
         return status;
     if (!(refused = lobes_refused(&is->effects)) && !(refused = masking_refused(&is->effects)) &&
-        !(refused = shape_refused(&is->effects)))
+        !(refused = compensation_refused(&is->effects)) && !(refused = shape_refused(&is->effects)))
         refused = walk_refused(&is->effects);
     if (refused)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
     status = check_shape(is, error);
+    if (status == VNDF_OK)
+        status = check_albedo(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;
 }

@@ -1,0 +1,248 @@
+/* Both ways of compensation wrap the routines of single scattering. vndf_bsdf.h has the formulas.
+ *
+ * Kulla & Conty's lobe of both lobes. Of what is lost on side A, 1 - E_A(wi), the part b_A goes to the other side, with
+ * f = b_A (1 - E_A(wi)) (1 - E_B(wo))/(pi (1 - E_avg,B)). Energy asks for a part of 1 - b_A that stays, reciprocity for
+ * b_A (1 - E_avg,A) n_A^2 = b_B (1 - E_avg,B) n_B^2. Since (1 - F_avg) n^2 is the same seen from both sides, b =
+ * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
+#include "bsdf/lobes/compensated.h"
+
+#include "bsdf/lobes/scatter.h"
+#include "math/half_turn.h"
+
+static const float inverse_pi = 0.318309886f;
+
+/* Losses below it are within the error of the table. */
+static const float LEAST_LOSS = 1e-5f;
+
+static int has_both(const vndf_bsdf *b)
+{
+    return b->material->is.effects.lobes == VNDF_LOBES_BOTH;
+}
+
+/* ---- a material ---- */
+
+/* 2 integral_0^1 F mu dmu, by Gauss-Legendre over the root of mu: F of glass from inside has a kink. */
+enum { NODES = 64 };
+
+void vndf_compensation_resolve(vndf_material *m)
+{
+    double f[VNDF_WAVELENGTHS], sum[VNDF_WAVELENGTHS] = {0.0};
+    m->fresnel->reflectance(&m->is, 1.0, m->is.eta, f);
+    for (int i = 0; i < m->is.wavelengths; i++)
+        m->reflectance0[i] = (float)f[i];
+    for (int n = 0; n < NODES; n++) /* midpoints in mu^2, the measure 2 mu dmu */ {
+        m->fresnel->reflectance(&m->is, sqrt((n + 0.5) / NODES), m->is.eta, f);
+        for (int i = 0; i < m->is.wavelengths; i++)
+            sum[i] += f[i] / NODES;
+    }
+    for (int i = 0; i < m->is.wavelengths; i++)
+        m->reflectance[i] = (float)sum[i];
+}
+
+/* ---- a hit ---- */
+
+/* Single scattering, and what both ways need. */
+static int prepare_single(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    if (!b->material->single->prepare(b, r, wi))
+        return 0;
+    b->compensation.alpha = sqrtf(r->alpha_x) * sqrtf(r->alpha_y);
+    return 1;
+}
+
+/* 1 - E of a direction, its z that of the frame of the hit. */
+static float lost_from(const vndf_bsdf *b, float z)
+{
+    return 1.0f - vndf_albedo_directional(b->material->is.albedo, b->side * z, b->compensation.alpha);
+}
+
+/* ---- Turquin ---- */
+
+static int prepare_turquin(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    if (!prepare_single(b, r, wi))
+        return 0;
+    float kept = 1.0f - lost_from(b, wi.z);
+    kept = kept > 1e-3f ? kept : 1e-3f;
+    b->compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
+    return 1;
+}
+
+static void scale(const vndf_bsdf *b, float *value)
+{
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        value[i] =
+            vndf_finite(value[i] * (has_both(b) ? b->compensation.gain
+                                                : 1.0f + b->material->reflectance0[i] * b->compensation.gain));
+}
+
+static void sample_turquin(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    b->material->single->sample(b, u, s);
+    scale(b, s->weight);
+}
+
+static void eval_turquin(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+{
+    b->material->single->eval(b, wo, seed, value, pdf);
+    scale(b, value);
+}
+
+static float pdf_single(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    return b->material->single->pdf(b, wo);
+}
+
+const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin, pdf_single, NULL};
+
+/* ---- Kulla & Conty ---- */
+
+static float average_lost(const vndf_bsdf *b, float side)
+{
+    return 1.0f - vndf_albedo_average(b->material->is.albedo, b->compensation.alpha, side > 0.0f ? 1 : -1);
+}
+
+static float per_of(float lost)
+{
+    return lost > LEAST_LOSS ? inverse_pi / lost : 0.0f;
+}
+
+/* F_ms, and the part of the samples that it asks for: what is sent there over what is sent at all. */
+static void colour_reflection(vndf_bsdf *b, float lost_average)
+{
+    const vndf_material *m = b->material;
+    struct vndf_compensation *c = &b->compensation;
+    float sum = 0.0f, single = 0.0f;
+    for (int i = 0; i < m->is.wavelengths; i++) {
+        float f = m->reflectance[i];
+        c->colour[i] = f * f * (1.0f - lost_average) / (1.0f - f * lost_average);
+        sum += c->lost * c->colour[i];
+        single += (1.0f - c->lost) * f;
+    }
+    c->share = sum > 0.0f ? sum / (sum + single) : 0.0f;
+    c->reflected = 1.0f;
+    c->beyond = 0.0f;
+}
+
+/* 1 - F_avg of the side of wi, from that of the side of z: times n^2 they are the same. */
+static void part_lobes(vndf_bsdf *b, float lost_average)
+{
+    struct vndf_compensation *c = &b->compensation;
+    float through = 1.0f - b->material->reflectance[0], lost_beyond = average_lost(b, -b->side);
+    if (b->side < 0.0f)
+        through *= (float)(b->eta * b->eta);
+    float least = lost_beyond < lost_average ? lost_beyond : lost_average;
+    float part = lost_average > LEAST_LOSS && lost_beyond > LEAST_LOSS ? through * (least / lost_average) : 0.0f;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        c->colour[i] = 1.0f;
+    c->reflected = 1.0f - (part < 1.0f ? part : 1.0f);
+    c->beyond = per_of(lost_beyond);
+    c->share = c->lost;
+}
+
+static int prepare_kulla_conty(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    if (!prepare_single(b, r, wi))
+        return 0;
+    struct vndf_compensation *c = &b->compensation;
+    float lost_average = average_lost(b, b->side), lost = lost_from(b, wi.z);
+    c->lost = lost > 0.0f ? lost : 0.0f;
+    c->per = per_of(lost_average);
+    if (has_both(b))
+        part_lobes(b, lost_average);
+    else
+        colour_reflection(b, lost_average);
+    if (!(c->per > 0.0f))
+        c->share = c->lost = 0.0f;
+    return 1;
+}
+
+/* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. */
+typedef struct added {
+    float value, density;
+} added;
+
+static added added_towards(const vndf_bsdf *b, float z)
+{
+    const struct vndf_compensation *c = &b->compensation;
+    added none = {0.0f, 0.0f};
+    int stays = z > 0.0f;
+    float part = stays ? c->reflected : 1.0f - c->reflected;
+    if (!(c->share > 0.0f) || !(part > 0.0f) || !(z != 0.0f))
+        return none;
+    float lost = lost_from(b, z), per = stays ? c->per : c->beyond * (float)b->carried;
+    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per, part * fabsf(z) * inverse_pi};
+    return a;
+}
+
+static float density_of(const vndf_bsdf *b, float single, const added *a)
+{
+    return (1.0f - b->compensation.share) * single + b->compensation.share * a->density;
+}
+
+/* By the cosine, on the side that is drawn. */
+static vndf_vec3 draw_added(const vndf_bsdf *b, const float u[3])
+{
+    const struct vndf_compensation *c = &b->compensation;
+    float u1 = vndf_clamp_unit(u[0]), across = sqrtf(u1), up = sqrtf(1.0f - u1);
+    vndf_turn half = vndf_half_turn(vndf_clamp_unit(u[1]));
+    float cosine = half.cosine * half.cosine - half.sine * half.sine, sine = 2.0f * half.cosine * half.sine;
+    float side = u[2] < c->share * c->reflected ? b->side : -b->side;
+    return vndf_vec3_of(across * cosine, across * sine, side * up);
+}
+
+static void sample_added(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    float f[VNDF_WAVELENGTHS], single;
+    vndf_vec3 wo = draw_added(b, u);
+    float z = b->side * wo.z;
+    added a = added_towards(b, z);
+    vndf_scatter_nothing(s);
+    b->material->single->eval(b, wo, 0, f, &single);
+    float density = density_of(b, single, &a);
+    if (!(density > 0.0f))
+        return;
+    s->wo = wo;
+    s->density = density;
+    s->lobe = z > 0.0f ? VNDF_LOBE_REFLECTION : VNDF_LOBE_TRANSMISSION;
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        s->weight[i] = vndf_finite((f[i] + b->compensation.colour[i] * a.value) * (fabsf(wo.z) / density));
+}
+
+static void sample_kulla_conty(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    float share = b->compensation.share;
+    if (u[2] < share) {
+        sample_added(b, u, s);
+        return;
+    }
+    const float rest[3] = {u[0], u[1], share > 0.0f ? (u[2] - share) / (1.0f - share) : u[2]};
+    b->material->single->sample(b, rest, s);
+    if (s->lobe == VNDF_LOBE_NONE || !(share > 0.0f))
+        return;
+    added a = added_towards(b, b->side * s->wo.z);
+    float single = s->density, density = density_of(b, single, &a), cosine = fabsf(s->wo.z);
+    s->density = vndf_finite(vndf_positive(density));
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        s->weight[i] = vndf_finite(s->weight[i] * (single / density) +
+                                   b->compensation.colour[i] * a.value * (cosine / density));
+}
+
+static void eval_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+{
+    added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
+    b->material->single->eval(b, wo, seed, value, pdf);
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        value[i] = vndf_finite(value[i] + b->compensation.colour[i] * a.value);
+    if (pdf)
+        *pdf = vndf_finite(density_of(b, *pdf, &a));
+}
+
+static float pdf_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
+    return vndf_finite(density_of(b, b->material->single->pdf(b, wo), &a));
+}
+
+const vndf_routines vndf_routines_kulla_conty = {prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty,
+                                                 pdf_kulla_conty, NULL};
