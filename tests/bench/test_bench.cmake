@@ -58,7 +58,7 @@ list(REMOVE_AT rows 0)
 set(numbers "(,(-?[0-9.e+-]+|inf)?)+")
 set(sets "scalar|portable|avx2|avx512")
 foreach(row IN LISTS rows)
-    expect("shape of ${row}" row MATCHES "^\"[^\"]+\",\"ggx\",(${sets}),(published|closed),0,0,0${numbers}$")
+    expect("shape of ${row}" row MATCHES "^\"[^\"]+\",\"ggx\",(${sets}),(published|closed|call),0,0,0${numbers}$")
     string(REGEX REPLACE "\"[^\"]*\"" "text" plain "${row}")
     string(REGEX MATCHALL "," commas "${plain}")
     list(LENGTH commas comma_count)
@@ -76,7 +76,8 @@ foreach(line IN LISTS lines)
 endforeach()
 foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"
         "GGX disc (2018) | scalar" "all normals (2007) | scalar"
-        "closed form | scalar" "closed form, batch | portable")
+        "closed form | scalar" "closed form, batch | portable" "closed form: diagonal | scalar"
+        "closed form: affine | scalar" "closed form: two lobes | scalar")
     has(output "| ggx | ${method} |")
 endforeach()
 
@@ -89,6 +90,12 @@ foreach(instructions scalar portable) # bytes in memory, then of the file, which
         "--slope 'exp.-a.r.' --set a=3.,${instructions},table,[0-9][0-9][0-9][0-9][0-9],20[0-9][0-9],0,")
 endforeach()
 expect("rows that were not asked for: ${output}" NOT output MATCHES "16 KiB|caps|all normals")
+run(0 --slope "exp(-r)" --only "two lobes" --seconds 0.1 --csv -)
+foreach(row "closed form: two lobes\",\"ggx\",scalar,call,0,0,0"
+        "closed form: two lobes\",\"beckmann\",scalar,call,0,0,0"
+        "table 16 KiB: two lobes\",\"--slope 'exp(-r)'\",scalar,call,")
+    has(output "${row}")
+endforeach()
 run(0 --only beckmann --seconds 0.1)
 has(output "Newton on erf (2014)")
 has(output "latency")

@@ -205,6 +205,44 @@ static int reference(const subject *of, vndf_error *error)
     return made != NULL;
 }
 
+static const char family_file[] = VNDF_SOURCE_DIR "/tests/corpus/family/two.vndfs";
+
+static int load_family(const subject *of, vndf_error *error)
+{
+    vndf_family *family = vndf_family_load(of->name, error);
+    vndf_family_free(family);
+    return family != NULL;
+}
+
+static int save_family(const subject *of, vndf_error *error)
+{
+    long after = left;
+    left = -1;
+    vndf_family *family = vndf_family_load(of->name, error);
+    left = after;
+    vndf_status status = family ? vndf_family_save(family, saved, error) : VNDF_ERROR_IO;
+    vndf_family_free(family);
+    return status == VNDF_OK;
+}
+
+static int family_of(const subject *of, vndf_error *error)
+{
+    const vndf_distribution *closed[] = {vndf_ggx(), vndf_beckmann()};
+    const float parameters[] = {1, 2};
+    vndf_family *family = vndf_family_of(closed, parameters, 2, error);
+    (void)of;
+    vndf_family_free(family);
+    return family != NULL;
+}
+
+static int build_family(const subject *of, vndf_error *error)
+{
+    const vndf_family_options options = {.knots = 2, .max_bytes = 2048};
+    vndf_family *family = vndf_build_family(of->name, 2, 3, &options, error);
+    vndf_family_free(family);
+    return family != NULL;
+}
+
 /* ---- the trial ---- */
 
 static int try_with(operation *run, const subject *of, long after)
@@ -257,6 +295,11 @@ int main(void)
     try_all("load_memory", load_memory, &table, 1000, 1);
     try_all("save", save, &table, 1000, 1);
     try_all("certify", remake_and_certify, &table, 1000, 1);
+    const subject file = {family_file, NULL, 0}, family = {"student-t", NULL, 0};
+    try_all("load_family", load_family, &file, 1000, 1);
+    try_all("save_family", save_family, &file, 1000, 1);
+    try_all("family_of", family_of, &file, 1000, 1);
+    try_all("build_family", build_family, &family, all ? 1000 : 25, 5 * step);
     remove(saved);
     return test_done();
 }

@@ -68,6 +68,13 @@ static void add_ours(bench_list *list, const bench_plan *plan, bench_subject sub
         add(list, plan, subject, method_ours(d, name, sets[i]), 0);
 }
 
+static void add_surfaces(bench_list *list, const bench_plan *plan, bench_subject subject,
+                         const vndf_distribution *d, const char *name)
+{
+    for (method_surface surface = 0; surface < METHOD_SURFACES; surface++)
+        add(list, plan, subject, method_ours_surface(d, name, surface), 0);
+}
+
 /* The published ways for any D. All three makers are asked alike: the CDF has no side. */
 static method any_all_normals(const method_reference *reference, size_t side)
 {
@@ -94,6 +101,7 @@ static void add_ggx(bench_list *list, const bench_plan *plan)
     add(list, plan, BENCH_GGX, method_ggx_2018(), 0);
     add(list, plan, BENCH_GGX, method_ggx_all_normals(), 1);
     add_ours(list, plan, BENCH_GGX, vndf_ggx(), closed_name);
+    add_surfaces(list, plan, BENCH_GGX, vndf_ggx(), closed_name);
     for (size_t i = 1; i < SETS; i++)
         add(list, plan, BENCH_GGX, method_move(sets[i]), 0);
 }
@@ -103,6 +111,7 @@ static void add_beckmann(bench_list *list, const bench_plan *plan)
     add(list, plan, BENCH_BECKMANN, method_beckmann_newton(), 0);
     add(list, plan, BENCH_BECKMANN, method_beckmann_all_normals(), 1);
     add_ours(list, plan, BENCH_BECKMANN, vndf_beckmann(), closed_name);
+    add_surfaces(list, plan, BENCH_BECKMANN, vndf_beckmann(), closed_name);
 }
 
 static void add_any(bench_list *list, const bench_plan *plan)
@@ -138,9 +147,9 @@ static vndf_distribution *build(const bench_clock *at, size_t bytes, vndf_error 
 static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i)
 {
     const char *instructions = "scalar portable avx2 avx512";
-    char name[64];
+    char name[96];
     snprintf(name, sizeof name, "%s, batch%s", tables[i].name,
-             i == DEFAULT_TABLE ? ": pdf: invert: ndf: lambda" : "");
+             i == DEFAULT_TABLE ? ": pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 
@@ -176,8 +185,10 @@ static void keep(bench_list *list, const bench_plan *plan, const vndf_distributi
     }
     list->table[list->table_count++] = table;
     add_ours(list, plan, BENCH_USER, table, tables[i].name);
-    if (i == DEFAULT_TABLE)
+    if (i == DEFAULT_TABLE) {
         add_calls(list, plan, table);
+        add_surfaces(list, plan, BENCH_USER, table, tables[i].name);
+    }
 }
 
 /* The tables that are wanted, and the one that becomes the reference. */
