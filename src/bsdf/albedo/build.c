@@ -276,18 +276,15 @@ static void measure_reflected(const builder *b, uint32_t side, double x, double 
     raise(&is->split_error, &is->split_usual, fabs((double)got.reflected - reflected), alpha);
 }
 
-/* In the middle of a cell and of two of its edges, and at more places in the first and last cells of a row. */
+/* In the middle of a cell and of an edge, and at more places in the first and last cells of a row. */
 static void measure_cell(const builder *b, uint32_t side, int row, int column)
 {
     int columns = b->is.columns - 1;
     double dx = 1.0 / columns, dy = 1.0 / (b->is.rows - 1), x = column * dx, y = row * dy;
     measure_at(b, side, x + 0.5 * dx, y);
-    measure_at(b, side, x, y + 0.5 * dy);
     measure_at(b, side, x + 0.5 * dx, y + 0.5 * dy);
-    if (b->albedo->layers > 1) {
-        measure_reflected(b, side, x + 0.5 * dx, y);
+    if (b->albedo->layers > 1)
         measure_reflected(b, side, x + 0.5 * dx, y + 0.5 * dy);
-    }
     if (column == 0 || column == columns - 1) {
         measure_at(b, side, x + 0.2 * dx, y + 0.5 * dy);
         measure_at(b, side, x + 0.8 * dx, y + 0.5 * dy);

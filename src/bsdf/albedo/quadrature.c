@@ -13,10 +13,10 @@ enum {
     LEAST_PANELS = 64,  /* of a table with fewer cells each is cut */
     EVEN_PANELS = 30,   /* of closed forms up to R/(1 + R) = 15/16, */
     TAIL_PANELS = 12,   /* then by halves of the rest */
-    RADIAL_NODES = 800, /* all together, some */
+    RADIAL_NODES = 450, /* all together, some */
     RADIAL_LEAST = 2,   /* in a panel */
-    RADIAL_MOST = 8,
-    AZIMUTH_NODES = 16
+    RADIAL_MOST = 5,
+    AZIMUTH_NODES = 12
 };
 
 /* Knots are rounded: x + z is not quite 1. */
