@@ -239,7 +239,7 @@ static int fit_averages(const builder *b)
 /* ---- errors -------------------------------------------------------------------------------------- */
 
 /* Raises *worst, and *usual where alpha is usual. */
-static void raise(float *worst, float *usual, double off, float alpha)
+static void note_error(float *worst, float *usual, double off, float alpha)
 {
     if (off > (double)*worst)
         *worst = (float)off;
@@ -260,9 +260,9 @@ static void measure_at(const builder *b, uint32_t side, double x, double y)
         is->error_cosine = from;
         is->error_alpha = alpha;
     }
-    raise(&is->error, &is->error_usual, off, alpha);
-    raise(&is->split_error, &is->split_usual, fabs((double)got.reflected - p.reflected), alpha);
-    raise(&is->split_error, &is->split_usual, fabs((double)got.transmitted - p.transmitted), alpha);
+    note_error(&is->error, &is->error_usual, off, alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.reflected - p.reflected), alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.transmitted - p.transmitted), alpha);
 }
 
 /* The same of what is reflected, in the grid of its own. */
@@ -273,7 +273,7 @@ static void measure_reflected(const builder *b, uint32_t side, double x, double 
     float alpha = (float)at.alpha, cosine = (float)at.cosine;
     double reflected = vndf_quadrature_reflected(&b->usual, (double)cosine, (double)alpha, eta_from(b, side));
     vndf_albedo_parts got = vndf_albedo_split(b->albedo, side ? -cosine : cosine, alpha);
-    raise(&is->split_error, &is->split_usual, fabs((double)got.reflected - reflected), alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.reflected - reflected), alpha);
 }
 
 /* In the middle of a cell and of an edge, and at more places in the first and last cells of a row. */
