@@ -72,8 +72,8 @@ VNDF_API void vndf_albedo_free(vndf_albedo *albedo);
  * VNDF_ALBEDO_ALPHA_MAX], and NaN counts as 0. For NULL E is 1, as if nothing were lost.
  *
  * At cosine 0 a mirror has E = 1. For a dielectric the transmitted part tends to 0 there, but as a power of the
- * cosine that may be as low as 0.001, which no grid resolves; below a cosine of some 1e-5 alpha the value at that
- * cosine stands. */
+ * cosine that may be as low as 0.001, which no grid resolves; below a cosine of 5e-5 times the median
+ * slope the value at that cosine stands. */
 VNDF_API float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alpha);
 
 /* The two parts of E, for a mirror E and 0; their sum is vndf_albedo_directional within rounding. */
@@ -91,7 +91,7 @@ VNDF_API vndf_albedo_parts vndf_albedo_average_split(const vndf_albedo *albedo, 
 /* ---- what it is --------------------------------------------------------------------------------- */
 
 /* Errors are absolute, as they were found between the points of the grid, for all cosines (of a dielectric: above
- * 1e-5 alpha). */
+ * 5e-5 times the median slope). */
 typedef struct vndf_albedo_properties {
     const char *source; /* of the distribution, as vndf_info has it; the texts belong to the albedo */
     const char *tool;   /* version that made the distribution */
@@ -101,12 +101,12 @@ typedef struct vndf_albedo_properties {
     size_t values;      /* floats in the table */
     size_t bytes;       /* of the file */
     float error;        /* largest |vndf_albedo_directional - E|, alpha from 0 to VNDF_ALBEDO_ALPHA_MAX, */
-    float error_cosine; /* where it was found; negative: from the other side */
-    float error_alpha;  /* */
-    float error_usual;  /* the same, alpha from 0.05 to 1 */
-    float split_error;  /* largest error of a part in vndf_albedo_split; beside the critical angle F of a smooth */
-    float split_usual;  /* surface is a step, where only E is smooth. For all alpha, and from 0.05 to 1 */
-    float average_error;    /* largest |vndf_albedo_average - the integral that it stands for| */
+    float error_cosine; /* and where it was found; cosine < 0: from the other side */
+    float error_alpha;
+    float error_usual;   /* the same, alpha from 0.05 to 1 */
+    float split_error;   /* largest error of a part in vndf_albedo_split: F of a smooth surface is a step at the */
+    float split_usual;   /* critical angle, which E is not. For all alpha, and from 0.05 to 1 */
+    float average_error; /* largest |vndf_albedo_average - the integral that it stands for| */
     float quadrature_error; /* largest change of the quadrature by twice as many nodes */
 } vndf_albedo_properties;
 

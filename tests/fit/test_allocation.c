@@ -9,6 +9,7 @@
 #include "oracle/oracle.h"
 #include "table/file.h"
 #include "harness/test.h"
+#include "vndf_albedo.h"
 
 #ifdef VNDF_TEST_WRAP
 
@@ -243,6 +244,19 @@ static int build_family(const subject *of, vndf_error *error)
     return family != NULL;
 }
 
+/* A table of albedos, from the building to what was saved and loaded again. */
+static int albedo(const subject *of, vndf_error *error)
+{
+    vndf_albedo_options options = {.columns = 8, .rows = 8};
+    (void)of;
+    vndf_albedo *built = vndf_albedo_build(vndf_ggx(), &options, error);
+    int good = built && vndf_albedo_save(built, saved, error) == VNDF_OK;
+    vndf_albedo *loaded = good ? vndf_albedo_load(saved, error) : NULL;
+    vndf_albedo_free(loaded);
+    vndf_albedo_free(built);
+    return loaded != NULL;
+}
+
 /* ---- the trial ---- */
 
 static int try_with(operation *run, const subject *of, long after)
@@ -300,6 +314,7 @@ int main(void)
     try_all("save_family", save_family, &file, 1000, 1);
     try_all("family_of", family_of, &file, 1000, 1);
     try_all("build_family", build_family, &family, all ? 1000 : 25, 5 * step);
+    try_all("albedo", albedo, &table, 1000, 1);
     remove(saved);
     return test_done();
 }

@@ -41,29 +41,19 @@ void vndf_albedo_free(vndf_albedo *albedo)
 
 /* ---- looking up ---------------------------------------------------------------------------------- */
 
-/* A direction's place in the grid. */
-typedef struct place {
-    vndf_albedo_place x, y;
-    uint32_t layer;
-} place;
-
-VNDF_INLINE place place_of(const vndf_albedo *albedo, float cosine, float alpha)
+/* One layer for a direction. */
+VNDF_INLINE float look_up(const vndf_albedo *albedo, uint32_t layer, float cosine, float alpha)
 {
     float slope = vndf_albedo_slope(albedo, alpha), up = vndf_albedo_clamp(fabsf(cosine), 1.0f);
-    place at = {
-        vndf_albedo_place_of(vndf_albedo_x(albedo, up, slope), (uint32_t)albedo->is.columns),
-        vndf_albedo_place_of(vndf_albedo_y(albedo, slope), (uint32_t)albedo->is.rows),
-        vndf_albedo_side(albedo, cosine < 0.0f),
-    };
-    return at;
+    vndf_albedo_place x =
+        vndf_albedo_place_of(vndf_albedo_x(albedo, layer, up, slope), (uint32_t)albedo->is.columns);
+    vndf_albedo_place y = vndf_albedo_place_of(vndf_albedo_y(albedo, slope), (uint32_t)albedo->is.rows);
+    return vndf_albedo_value(albedo, layer, &x, &y);
 }
 
 float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alpha)
 {
-    if (!albedo)
-        return 1.0f;
-    place at = place_of(albedo, cosine, alpha);
-    return vndf_albedo_value(albedo, at.layer, &at.x, &at.y);
+    return albedo ? look_up(albedo, vndf_albedo_side(albedo, cosine < 0.0f), cosine, alpha) : 1.0f;
 }
 
 /* What is reflected is a part of the whole. */
@@ -76,11 +66,10 @@ VNDF_INLINE vndf_albedo_parts parts_of(float whole, float reflected)
 
 vndf_albedo_parts vndf_albedo_split(const vndf_albedo *albedo, float cosine, float alpha)
 {
-    if (!albedo)
-        return parts_of(1.0f, 1.0f);
-    place at = place_of(albedo, cosine, alpha);
-    float whole = vndf_albedo_value(albedo, at.layer, &at.x, &at.y);
-    return parts_of(whole, albedo->layers > 1 ? vndf_albedo_value(albedo, at.layer + 1, &at.x, &at.y) : whole);
+    float whole = vndf_albedo_directional(albedo, cosine, alpha);
+    if (!albedo || albedo->layers == 1)
+        return parts_of(whole, whole);
+    return parts_of(whole, look_up(albedo, vndf_albedo_side(albedo, cosine < 0.0f) + 1, cosine, alpha));
 }
 
 VNDF_INLINE vndf_albedo_place average_place(const vndf_albedo *albedo, float alpha)

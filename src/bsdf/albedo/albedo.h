@@ -10,6 +10,8 @@
  * elsewhere x is nearly even in c. What a dielectric transmits falls by a power so low that no root helps: there
  * the grid begins at X > 0.
  *
+ * What is reflected of E changes with the cosine at any roughness, as F does: its coordinate is x for t = c.
+ *
  * On the grid E is a tensor product of uniform cubic B-splines that meets the quadrature in the nodes: each look-up
  * is a sum over 4 x 4 coefficients. The result is clamped to [0, 1]. */
 #ifndef VNDF_BSDF_ALBEDO_ALBEDO_H
@@ -83,11 +85,11 @@ VNDF_INLINE float vndf_albedo_from(const vndf_albedo *albedo)
     return albedo->layers > 1 ? vndf_albedo_least : 0.0f;
 }
 
-/* Of a cosine in [0, 1]. */
-VNDF_INLINE float vndf_albedo_x(const vndf_albedo *albedo, float cosine, float slope)
+/* Of a cosine in [0, 1], for one layer: those of E have even numbers. */
+VNDF_INLINE float vndf_albedo_x(const vndf_albedo *albedo, uint32_t layer, float cosine, float slope)
 {
     float bend = vndf_albedo_knee * slope, sum = cosine + bend;
-    float t = sum > 0.0f ? cosine * (1.0f + bend) / sum : 0.0f;
+    float t = layer % 2 == 1 ? cosine : sum > 0.0f ? cosine * (1.0f + bend) / sum : 0.0f;
     float x = 0.5f * (t + sqrtf(sqrtf(t))), least = vndf_albedo_from(albedo);
     return vndf_albedo_clamp((x - least) / (1.0f - least), 1.0f);
 }

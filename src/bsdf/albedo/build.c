@@ -52,26 +52,34 @@ static double root_at(const builder *b, double x)
 }
 
 /* The inverse of vndf_albedo_x. */
-static double cosine_at(const builder *b, double x, double alpha)
+static double cosine_at(const builder *b, uint32_t layer, double x, double alpha)
 {
     double knee = (double)vndf_albedo_knee * (double)b->albedo->is.scale * alpha, root = root_at(b, x);
-    double t = (root * root) * (root * root), cosine = t * knee / (knee + (1.0 - t));
+    double t = (root * root) * (root * root), cosine = layer % 2 == 1 ? t : t * knee / (knee + (1.0 - t));
     return cosine < 1.0 ? cosine : 1.0;
 }
 
-/* The quadrature from a side, for a roughness that may be 0. */
-static vndf_parts integrate(const builder *b, const vndf_quadrature *q, uint32_t side, double cosine, double alpha)
+/* The roughness that stands for 0. */
+static double least_alpha(const builder *b)
 {
-    double eta = (double)b->is.eta, least = b->least_slope / (double)b->albedo->is.scale;
-    return vndf_quadrature_albedo(q, cosine, alpha > least ? alpha : least, side ? 1.0 / eta : eta);
+    return b->least_slope / (double)b->albedo->is.scale;
 }
 
-/* At a place of the grid. */
-static vndf_parts integrate_at(const builder *b, const vndf_quadrature *q, uint32_t side, double x, double y)
+static double eta_from(const builder *b, uint32_t side)
 {
-    double alpha = alpha_at(b, y), least = b->least_slope / (double)b->albedo->is.scale;
+    return side ? 1.0 / (double)b->is.eta : (double)b->is.eta;
+}
+
+/* A direction for a place in the grid of a layer. */
+typedef struct spot {
+    double cosine, alpha;
+} spot;
+
+static spot spot_at(const builder *b, uint32_t layer, double x, double y)
+{
+    double alpha = alpha_at(b, y), least = least_alpha(b);
     alpha = alpha > least ? alpha : least;
-    return integrate(b, q, side, cosine_at(b, x, alpha), alpha);
+    return (spot){cosine_at(b, layer, x, alpha), alpha};
 }
 
 /* 0 if the build is to stop. */
@@ -86,18 +94,25 @@ static double *node_at(const builder *b, uint32_t layer, int row, int column)
     return b->node + ((size_t)layer * (size_t)b->is.rows + (size_t)row) * (size_t)b->is.columns + column;
 }
 
+/* The quadrature in a node of a layer. */
+static double integrate_node(const builder *b, uint32_t layer, int row, int column)
+{
+    spot at = spot_at(b, layer, column / (b->is.columns - 1.0), row / (b->is.rows - 1.0));
+    double eta = eta_from(b, layer / 2);
+    if (layer % 2 == 1)
+        return vndf_quadrature_reflected(&b->usual, at.cosine, at.alpha, eta);
+    vndf_parts p = vndf_quadrature_albedo(&b->usual, at.cosine, at.alpha, eta);
+    return p.reflected + p.transmitted;
+}
+
 static int fill_nodes(builder *b)
 {
     for (int i = 0; i < b->is.rows; i++)
-        for (uint32_t side = 0; side < sides_of(b); side++) {
+        for (uint32_t layer = 0; layer < b->albedo->layers; layer++) {
             if (!goes_on(b, "quadrature"))
                 return 0;
-            for (int j = 0; j < b->is.columns; j++) {
-                vndf_parts p = integrate_at(b, &b->usual, side, j / (b->is.columns - 1.0), i / (b->is.rows - 1.0));
-                *node_at(b, 2 * side, i, j) = p.reflected + p.transmitted;
-                if (b->albedo->layers > 1)
-                    *node_at(b, 2 * side + 1, i, j) = p.reflected;
-            }
+            for (int j = 0; j < b->is.columns; j++)
+                *node_at(b, layer, i, j) = integrate_node(b, layer, i, j);
         }
     return 1;
 }
@@ -136,27 +151,24 @@ static double integrate_cell(const builder *b, const vndf_gauss_rule *rule, uint
         end = 2.0 * from < to ? 2.0 * from : to;
         for (int i = 0; i < rule->count; i++) {
             double cosine = from + (end - from) * rule->node[i];
-            vndf_albedo_place x =
-                vndf_albedo_place_of(vndf_albedo_x(b->albedo, (float)cosine, slope), (uint32_t)b->is.columns);
+            vndf_albedo_place x = vndf_albedo_place_of(vndf_albedo_x(b->albedo, layer, (float)cosine, slope),
+                                                       (uint32_t)b->is.columns);
             sum += (end - from) * rule->weight[i] * cosine * (double)vndf_albedo_value(b->albedo, layer, &x, y);
         }
     }
     return 2.0 * sum;
 }
 
-/* Below the second node it is one panel. */
+/* Below the second node from a thousandth of it on: what is left is below 1e-9. */
 static double integral_of(const builder *b, const vndf_gauss_rule *rule, uint32_t layer, double alpha)
 {
     int cells = b->is.columns - 1;
-    double sum = 0.0, from = 0.0, least = b->least_slope / (double)b->albedo->is.scale;
-    float slope = vndf_albedo_slope(b->albedo, (float)(alpha > least ? alpha : least));
+    double bent = alpha > least_alpha(b) ? alpha : least_alpha(b), sum = 0.0, from = 0.0;
+    float slope = vndf_albedo_slope(b->albedo, (float)bent);
     vndf_albedo_place y = vndf_albedo_place_of(vndf_albedo_y(b->albedo, slope), (uint32_t)b->is.rows);
     for (int j = 1; j <= cells; j++) {
-        double to = cosine_at(b, (double)j / cells, alpha > least ? alpha : least);
-        double first = j == 1 ? 0.5 * to : from;
-        if (j == 1)
-            sum += integrate_cell(b, rule, layer, &y, slope, 1e-3 * to, first);
-        sum += integrate_cell(b, rule, layer, &y, slope, first, to);
+        double to = cosine_at(b, layer, (double)j / cells, bent);
+        sum += integrate_cell(b, rule, layer, &y, slope, j == 1 ? 1e-3 * to : from, to);
         from = to;
     }
     return sum;
@@ -227,7 +239,7 @@ static int fit_averages(const builder *b)
 /* ---- errors -------------------------------------------------------------------------------------- */
 
 /* Raises *worst, and *usual where alpha is usual. */
-static void raise(float *worst, float *usual, double off, float alpha)
+static void note_error(float *worst, float *usual, double off, float alpha)
 {
     if (off > (double)*worst)
         *worst = (float)off;
@@ -239,28 +251,40 @@ static void raise(float *worst, float *usual, double off, float alpha)
 static void measure_at(const builder *b, uint32_t side, double x, double y)
 {
     vndf_albedo_properties *is = &b->albedo->is;
-    float alpha = (float)alpha_at(b, y), cosine = (float)cosine_at(b, x, (double)alpha);
-    vndf_parts p = integrate(b, &b->usual, side, (double)cosine, (double)alpha);
-    float from = side ? -cosine : cosine;
+    spot at = spot_at(b, 2 * side, x, y);
+    float alpha = (float)at.alpha, cosine = (float)at.cosine, from = side ? -cosine : cosine;
+    vndf_parts p = vndf_quadrature_albedo(&b->usual, (double)cosine, (double)alpha, eta_from(b, side));
     vndf_albedo_parts got = vndf_albedo_split(b->albedo, from, alpha);
     double off = fabs((double)vndf_albedo_directional(b->albedo, from, alpha) - p.reflected - p.transmitted);
     if (off > (double)is->error) {
         is->error_cosine = from;
         is->error_alpha = alpha;
     }
-    raise(&is->error, &is->error_usual, off, alpha);
-    raise(&is->split_error, &is->split_usual, fabs((double)got.reflected - p.reflected), alpha);
-    raise(&is->split_error, &is->split_usual, fabs((double)got.transmitted - p.transmitted), alpha);
+    note_error(&is->error, &is->error_usual, off, alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.reflected - p.reflected), alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.transmitted - p.transmitted), alpha);
 }
 
-/* In the middle of a cell and of two of its edges, and at more places in the first and last cells of a row. */
+/* The same of what is reflected, in the grid of its own. */
+static void measure_reflected(const builder *b, uint32_t side, double x, double y)
+{
+    vndf_albedo_properties *is = &b->albedo->is;
+    spot at = spot_at(b, 2 * side + 1, x, y);
+    float alpha = (float)at.alpha, cosine = (float)at.cosine;
+    double reflected = vndf_quadrature_reflected(&b->usual, (double)cosine, (double)alpha, eta_from(b, side));
+    vndf_albedo_parts got = vndf_albedo_split(b->albedo, side ? -cosine : cosine, alpha);
+    note_error(&is->split_error, &is->split_usual, fabs((double)got.reflected - reflected), alpha);
+}
+
+/* In the middle of a cell and of an edge, and at more places in the first and last cells of a row. */
 static void measure_cell(const builder *b, uint32_t side, int row, int column)
 {
     int columns = b->is.columns - 1;
     double dx = 1.0 / columns, dy = 1.0 / (b->is.rows - 1), x = column * dx, y = row * dy;
     measure_at(b, side, x + 0.5 * dx, y);
-    measure_at(b, side, x, y + 0.5 * dy);
     measure_at(b, side, x + 0.5 * dx, y + 0.5 * dy);
+    if (b->albedo->layers > 1)
+        measure_reflected(b, side, x + 0.5 * dx, y + 0.5 * dy);
     if (column == 0 || column == columns - 1) {
         measure_at(b, side, x + 0.2 * dx, y + 0.5 * dy);
         measure_at(b, side, x + 0.8 * dx, y + 0.5 * dy);
@@ -280,7 +304,7 @@ static int measure_errors(builder *b)
     return 1;
 }
 
-/* Every fifth node of the grid, with the places off the grid that 7 and 11 are prime to. */
+/* At 8 x 12 places, most of them off the grid. */
 static int measure_quadrature(builder *b)
 {
     double worst = 0.0;
@@ -289,8 +313,9 @@ static int measure_quadrature(builder *b)
             if (!goes_on(b, "measuring"))
                 return 0;
             for (int j = 0; j <= 11; j++) {
-                double x = j / 11.0, y = i / 7.0;
-                vndf_parts p = integrate_at(b, &b->usual, side, x, y), q = integrate_at(b, &b->finer, side, x, y);
+                spot at = spot_at(b, 2 * side, j / 11.0, i / 7.0);
+                vndf_parts p = vndf_quadrature_albedo(&b->usual, at.cosine, at.alpha, eta_from(b, side));
+                vndf_parts q = vndf_quadrature_albedo(&b->finer, at.cosine, at.alpha, eta_from(b, side));
                 double r = fabs(p.reflected - q.reflected), t = fabs(p.transmitted - q.transmitted);
                 worst = r > worst ? r : worst;
                 worst = t > worst ? t : worst;
@@ -349,7 +374,8 @@ static int begin(builder *b, const vndf_distribution *d)
     b->row = malloc((nodes + 2 * (size_t)b->is.rows) * sizeof *b->row);
     double most = (double)VNDF_ALBEDO_ALPHA_MAX * info.scale;
     b->least_slope = 1e-6 * most / (1.0 + most);
-    b->all = (int)sides_of(b) * (b->is.rows + (b->is.rows - 1) * ((b->is.columns + 6) / 8) + 8);
+    b->all = (int)b->albedo->layers * b->is.rows +
+             (int)sides_of(b) * ((b->is.rows - 1) * ((b->is.columns + 6) / 8) + 8);
     return a->source && a->tool && b->node && b->row && vndf_quadrature_of(&b->usual, d, 1) &&
            vndf_quadrature_of(&b->finer, d, 2);
 }

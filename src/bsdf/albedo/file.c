@@ -65,8 +65,9 @@ vndf_status vndf_albedo_save(const vndf_albedo *albedo, const char *path, vndf_e
     free(bytes);
     if (good)
         return VNDF_OK;
-    return vndf_fail(error, reason == ENOMEM ? VNDF_ERROR_MEMORY : VNDF_ERROR_IO, "cannot write %s: %s", path,
-                     strerror(reason));
+    if (reason == ENOMEM)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+    return vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
 }
 
 vndf_status vndf_albedo_save_memory(const vndf_albedo *albedo, void *bytes, size_t size, vndf_error *error)

@@ -13,10 +13,10 @@ enum {
     LEAST_PANELS = 64,  /* of a table with fewer cells each is cut */
     EVEN_PANELS = 30,   /* of closed forms up to R/(1 + R) = 15/16, */
     TAIL_PANELS = 12,   /* then by halves of the rest */
-    RADIAL_NODES = 800, /* all together, some */
+    RADIAL_NODES = 450, /* all together, some */
     RADIAL_LEAST = 2,   /* in a panel */
-    RADIAL_MOST = 8,
-    AZIMUTH_NODES = 16
+    RADIAL_MOST = 5,
+    AZIMUTH_NODES = 12
 };
 
 /* Knots are rounded: x + z is not quite 1. */
@@ -73,6 +73,7 @@ void vndf_quadrature_free(vndf_quadrature *q)
 /* wi, and all normals of one slope length r. */
 typedef struct ring {
     const vndf_quadrature *q;
+    int reflects;                              /* and what is transmitted is not asked for */
     double cosine, sine, roughness, eta, area; /* area: A(wi) */
     double along, square, length;              /* sin_i r, 1 + r^2 and its root: 1/wm.z */
 } ring;
@@ -166,7 +167,7 @@ static void add_ring(const ring *g, double weight, vndf_parts *sum)
     double cut = total > horizon ? total : horizon;
     sum->reflected +=
         weight * (sum_azimuths(g, 1.0, cut, reflected_part) + sum_azimuths(g, cut, horizon, reflected_whole));
-    if (g->cosine > 0.0)
+    if (g->cosine > 0.0 && !g->reflects)
         sum->transmitted +=
             weight * sum_azimuths(g, 1.0, azimuth_of(g, g->length * least_refracted(g)), transmitted_part);
 }
@@ -222,11 +223,11 @@ static int find_breaks(const ring *g, double breaks[BREAKS])
     return count;
 }
 
-vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
+static vndf_parts integrate(const vndf_quadrature *q, double cosine, double alpha, double eta, int reflects)
 {
     vndf_parts sum = {0.0, 0.0};
     double breaks[BREAKS], sine = sqrt((1.0 - cosine) * (1.0 + cosine));
-    ring g = {.q = q, .cosine = cosine, .sine = sine, .eta = eta};
+    ring g = {.q = q, .reflects = reflects, .cosine = cosine, .sine = sine, .eta = eta};
     g.roughness = alpha * vndf_unit_scale(q->distribution);
     g.area = vndf_unit_area(q->distribution, g.roughness * sine, cosine);
     int count = find_breaks(&g, breaks), next = 0;
@@ -240,4 +241,14 @@ vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, doubl
         add_panel(&g, from, end, &sum);
     }
     return (vndf_parts){2.0 * sum.reflected, 2.0 * sum.transmitted};
+}
+
+vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
+{
+    return integrate(q, cosine, alpha, eta, 0);
+}
+
+double vndf_quadrature_reflected(const vndf_quadrature *q, double cosine, double alpha, double eta)
+{
+    return integrate(q, cosine, alpha, eta, 1).reflected;
 }

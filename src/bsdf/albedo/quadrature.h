@@ -39,4 +39,7 @@ void vndf_quadrature_free(vndf_quadrature *q);
 /* cos_i in [0, 1], alpha > 0; eta is the index beyond over that on the side of wi, 0 for a mirror. */
 vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta);
 
+/* The reflected part alone, which takes a fraction of the time. */
+double vndf_quadrature_reflected(const vndf_quadrature *q, double cosine, double alpha, double eta);
+
 #endif
