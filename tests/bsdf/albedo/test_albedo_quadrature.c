@@ -46,7 +46,7 @@ static double transmitted_weight(const incidence *at, const double wm[3], double
 
 static vndf_parts by_midpoints(const oracle_ndf *ndf, double cosine, double alpha, double eta)
 {
-    int slopes = (int)test_amount(300, 500, 1500), turns = (int)test_amount(200, 300, 800);
+    int slopes = (int)test_amount(300, 500, 1000), turns = (int)test_amount(200, 300, 500);
     double median = vndf_distribution_info(ndf->distribution).scale * alpha, sine = sqrt(1 - cosine * cosine);
     incidence at = {ndf, {alpha, alpha}, {sine, 0, cosine}, eta, 0};
     vndf_parts sum = {0, 0};
