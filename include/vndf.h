@@ -367,7 +367,7 @@ typedef struct vndf_affine_view {
     int straight;          /* `principal` is all there is */
     double cosine, sine;   /* of the first principal axis */
     double mean_x, mean_y; /* along the axes */
-    double length;         /* of wi' */
+    double factor;         /* of wi': a power of two, 1 for wi of ordinary length */
 } vndf_affine_view;
 
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit

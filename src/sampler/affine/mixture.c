@@ -40,16 +40,17 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
     for (int i = 0; per > 0.0 && i < mixture->count; i++) {
         const vndf_mixture_lobe *lobe = &mixture->lobe[i];
         vndf_areas areas;
+        int valid;
         if (lobe->weight == 0.0f)
             continue;
-        if (!vndf_affine_areas(&lobe->surface, wi, &areas)) {
+        view.lobe[view.count] = vndf_affine_lobe(&lobe->surface, wi, &areas, &valid); /* in place, not copied */
+        if (!valid) {
             view.count = 0;
             return view;
         }
         area[view.count] = lobe->weight * per * areas.toward;
         weight[view.count] = lobe->weight * per;
-        view.index[view.count] = i;
-        view.lobe[view.count++] = vndf_affine_view_from(&lobe->surface, wi);
+        view.index[view.count++] = i;
     }
     if (view.count > 0)
         share(&view, area, weight);
