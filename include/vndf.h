@@ -410,6 +410,8 @@ typedef struct vndf_mixture {
 typedef struct vndf_mixture_view {
     int count;                                 /* 0 marks an invalid view */
     int index[VNDF_MIXTURE_LOBES];             /* which lobe of the mixture it is */
+    double weight[VNDF_MIXTURE_LOBES];         /* over the sum of all */
+    double area, mean_x, mean_y;               /* A(wi) times the length of wi, and the mean slope, of the whole */
     double begin[VNDF_MIXTURE_LOBES + 1];      /* of u1, where lobe i is drawn: sums of w_i A_i/A */
     vndf_affine_view lobe[VNDF_MIXTURE_LOBES]; /* those of weight 0 are left out */
 } vndf_mixture_view;

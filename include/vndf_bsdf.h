@@ -30,16 +30,23 @@
  * Lambda belong to the given distribution (vndf_ndf, vndf_lambda), not to the density that a table draws with: the
  * weight holds the small ratio, so estimators are exact for a table of any size.
  *
- * A call carries three wavelengths at once: red, green and blue, or any other three. Numbers that do not depend on
- * the wavelength are the same three times. Dispersion and absorption belong to the renderer.
+ * A call carries one to four wavelengths at once, as the material says: three, red, green and blue, unless it says
+ * another number. Numbers that do not depend on the wavelength are the same for all. Dispersion and absorption belong
+ * to the renderer.
  *
- * Errors and invalid input. vndf_material_resolve refuses sets that make no sense, and names the reason: a
- * conductor that transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit,
- * V-cavity normals without V-cavity masking, a walk with masking or normals other than its own or with
- * transmission alone. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and invalid
- * roughness scatter nothing (lobe 0; weights, values and densities 0). For lengths between these that are not 1,
- * and for a cosine and a sine of different angles, only finite numbers are promised. The material must have been
- * resolved. No state, no NaN, and the same bits everywhere, as vndf.h says.
+ * Mean slopes (VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
+ * z = 0, as it does in masking (vndf.h): it divides reflection from transmission, and with its unit normal n all
+ * cosines above are those to n, cos_i = n.wi, cos_o = n.wo; f has D n.z, the density per area of that plane. So f
+ * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z.
+ *
+ * Errors and invalid input. vndf_material_resolve refuses sets that make no sense, and names the reason: a conductor
+ * that transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit, V-cavity normals
+ * without V-cavity masking, a walk with masking or normals other than its own or with transmission alone, mean
+ * slopes and mixtures with a walk, with V-cavities or with normals that are not visible ones, retroreflection of
+ * them or of transmission alone. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and
+ * invalid roughness scatter nothing (lobe 0; weights, values and densities 0). For lengths between these that are
+ * not 1, and for a cosine and a sine of different angles, only finite numbers are promised. The material must have
+ * been resolved. No state, no NaN, and the same bits everywhere, as vndf.h says.
  *
  * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
  * nothing set but distribution and roughness is a rough white mirror: it has no Fresnel term. */
@@ -54,7 +61,8 @@
 extern "C" {
 #endif
 
-enum { VNDF_WAVELENGTHS = 3 };
+/* The most wavelengths of a material. */
+enum { VNDF_WAVELENGTHS = 4 };
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
@@ -105,10 +113,22 @@ typedef enum vndf_transport {
     VNDF_TRANSPORT_IMPORTANCE /* paths from the light */
 } vndf_transport;
 
-typedef enum vndf_axes {
-    VNDF_AXES_FIXED,  /* alpha_x is along x */
-    VNDF_AXES_ROTATED /* at the angle of each hit */
-} vndf_axes;
+/* How the distribution is stretched at a hit, and which call brings what a texture says of it. */
+typedef enum vndf_shape {
+    VNDF_SHAPE_ALIGNED, /* alpha_x along x, alpha_y along y: vndf_bsdf_rough */
+    VNDF_SHAPE_ROTATED, /* alpha_x at an angle: vndf_bsdf_rough */
+    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes, without mean slope: vndf_bsdf_affine */
+    VNDF_SHAPE_AFFINE,  /* a matrix and a mean slope, as filtered normal maps have it: vndf_bsdf_affine */
+    VNDF_SHAPE_MIXTURE  /* several lobes, each with its distribution and matrix: vndf_bsdf_mixture */
+} vndf_shape;
+
+/* Where reflected light goes. */
+typedef enum vndf_reflection {
+    VNDF_REFLECTION_SPECULAR, /* to where facets mirror it */
+    /* Back to where it came from: f of wi and (-wo.x, -wo.y, wo.z), samples and densities likewise (Portsmouth et al.,
+     * JCGT 15(1), 2026). Transmission is not changed. */
+    VNDF_REFLECTION_RETRO
+} vndf_reflection;
 
 /* All zero: bare reflection with height-correlated masking. */
 typedef struct vndf_effects {
@@ -118,19 +138,23 @@ typedef struct vndf_effects {
     vndf_normals_drawn normals;
     vndf_scattering scattering;
     vndf_transport transport;
-    vndf_axes axes;
+    vndf_shape shape;
+    vndf_reflection reflection;
 } vndf_effects;
 
 /* ---- materials ---------------------------------------------------------------------------------- */
 
 /* The parts of a material. A member that the effects do not need is not read. */
 typedef struct vndf_description {
-    const vndf_distribution *distribution; /* not owned; must outlive the material */
+    const vndf_distribution *distribution; /* not owned; must outlive the material; a mixture has its own */
     vndf_effects effects;
-    float alpha_x, alpha_y;                /* roughness of hits that bring none, > 0 */
-    float rotation;                        /* angle from x to the axis of alpha_x, radians, within 1e4 */
-    float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
-    float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at normal incidence, 0 to 1 */
+    float alpha_x, alpha_y;      /* roughness of hits that bring none, > 0 */
+    float rotation;              /* angle from x to the axis of alpha_x, radians, within 1e4 */
+    vndf_affine affine;          /* matrix and mean slope of hits that bring none; its distribution is not read */
+    const vndf_mixture *mixture; /* of hits that bring none; NULL: all do; must outlive the material */
+    int wavelengths;             /* 1 to VNDF_WAVELENGTHS; 0: 3 */
+    float eta;                   /* index on the side of -z over that on the side of z, 0.01 to 100 */
+    float f0[VNDF_WAVELENGTHS];  /* Schlick: reflectance at normal incidence, 0 to 1 */
     float conductor_eta[VNDF_WAVELENGTHS]; /* index over that on the side of z: real part, 0 to 1000, */
     float conductor_k[VNDF_WAVELENGTHS];   /* and imaginary part, 0 to 1000; one of the two > 0 */
     /* The most scattering events of a walk; 0: 64. A walk that has not left by then is lost: up to alpha 10 none
@@ -139,7 +163,7 @@ typedef struct vndf_description {
     unsigned order_limit;
 } vndf_description;
 
-/* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if axes are rotated;
+/* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if the shape is rotated;
  * they must be unit within rounding. */
 typedef struct vndf_roughness {
     float alpha_x, alpha_y;
@@ -149,11 +173,13 @@ typedef struct vndf_roughness {
 /* A resolved material: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
-    const struct vndf_routines *routines;  /* made for its effects */
-    const struct vndf_routines *unrotated; /* the same in the frame of the roughness */
+    const struct vndf_routines *routines; /* made for its effects */
+    const struct vndf_routines *unturned; /* the same in the frame of the principal axes */
+    const struct vndf_routines *specular; /* the same without retroreflection */
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
+    double per_wavelength; /* one over their number */
     int two_sided;
     int steep;  /* F changes faster than directions are rounded */
     float turn; /* what the roughness must exceed for the rounding of directions not to show */
@@ -167,27 +193,37 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 /* ---- one hit ------------------------------------------------------------------------------------ */
 
 /* Everything that depends on the material and wi alone: a plain value, valid while the material lives. It points
- * to the material, which must not move. Its members are private. */
+ * to the material, which must not move. Its members are private. The last makes it large; shapes that do not need it
+ * never touch it. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    vndf_view view; /* of wi in the frame of the roughness, turned up */
+    vndf_view view; /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
     double eta;     /* index on the other side over that on the side of wi */
     double carried; /* what transmission has more than for importance: 1/eta^2 for radiance */
     float side;     /* -1 where wi is on the side of -z, 1 else */
     float area;     /* projected area along wi */
     float cos_rotation, sin_rotation;
     vndf_bounds bounds; /* of bounded normals */
+    vndf_mixture_view lobes;
 } vndf_bsdf;
 
-/* Prepares a hit with the roughness of the material. wi is unit within 2e-6. A material that does not transmit and
- * has no Fresnel term for a dielectric is seen from z > 0 only, any other from both sides. Returns 0 if the
- * material scatters nothing from there. (The result goes through a pointer: a returned struct would be copied, and
- * reading it back would stall on store forwarding.) */
+/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
+ * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
+ * from both sides. Returns 0 if the material scatters nothing from there. (The result goes through a pointer: a
+ * returned struct would be copied, and reading it back would stall on store forwarding.) */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* The same with the roughness of the hit; NULL: the roughness of the material. */
 VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness,
                              vndf_vec3 wi);
+
+/* The same with the matrix and mean slope of the hit (its distribution is not read), and with its mixture; neither is
+ * kept. A mean slope needs VNDF_SHAPE_AFFINE: VNDF_SHAPE_MATRIX does not read it. A call for another shape than the
+ * material's scatters nothing and returns 0, as invalid matrices and mixtures do. */
+VNDF_API int vndf_bsdf_affine(vndf_bsdf *bsdf, const vndf_material *material, const vndf_affine *affine,
+                              vndf_vec3 wi);
+VNDF_API int vndf_bsdf_mixture(vndf_bsdf *bsdf, const vndf_material *material, const vndf_mixture *mixture,
+                               vndf_vec3 wi);
 
 /* Which way the light went. */
 typedef enum vndf_lobe {
@@ -200,10 +236,12 @@ typedef enum vndf_lobe {
 } vndf_lobe;
 
 typedef struct vndf_scattered {
-    vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23 */
-    float weight[VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1 */
-    float density;                  /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
+    vndf_vec3 wo; /* unit within 10 ulps of 2^-23 */
+    float weight
+        [VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1; 0 past the last */
+    float density;          /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
     vndf_lobe lobe;
+    vndf_vec3 wm; /* the facet that was met, on the side of wi; of a lost sample and of a walk 0 */
 } vndf_scattered;
 
 /* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random
@@ -211,21 +249,27 @@ typedef struct vndf_scattered {
  * The weight of a walk is its throughput, and its density an estimate (vndf_bsdf_pdf). */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
-/* f of each wavelength, without the cosine; 0 where wo.z = 0. Only random walks read `seed`: their f is a random
- * number with the right mean. */
-VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
+/* f of each wavelength of the material, without the cosine; 0 where wo.z = 0. Only random walks read `seed`: their f is
+ * a random number with the right mean. */
+VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value);
 
 /* The density per steradian with which vndf_bsdf_sample draws wo. For random walks it is a density near that one:
  * positive wherever f is, with integral 1 over the directions above the horizon, so multiple importance sampling
  * may use it. */
 VNDF_API float vndf_bsdf_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
+/* Both at once, with the same bits. */
+VNDF_API void vndf_bsdf_eval_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
+
+/* The cosine of wo that goes with f: wo.z, and n.wo where mean slopes tilt the surface. */
+VNDF_API float vndf_bsdf_cosine(const vndf_bsdf *bsdf, vndf_vec3 wo);
+
 /* ---- many at once ------------------------------------------------------------------------------- */
 
-/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. alpha_x and
- * alpha_y may both be NULL: every hit then has the roughness of the material. cos_rotation and sin_rotation are
- * read if axes are rotated, and shared if VNDF_SHARED_ALPHA is set; both may be NULL: the rotation of the
- * material. */
+/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. Arrays of the shape
+ * are shared if VNDF_SHARED_ALPHA is set, and NULL where every hit has what the material has: alpha_x and alpha_y
+ * together, cos_rotation and sin_rotation together, `affine` (its distribution is not read), `mixture`. Those of
+ * another shape than the material's are not read. */
 typedef struct vndf_bsdf_batch {
     const vndf_material *material;
     size_t count;
@@ -233,15 +277,19 @@ typedef struct vndf_bsdf_batch {
     vndf_instructions limit;
     const float *alpha_x, *alpha_y;
     const float *cos_rotation, *sin_rotation;
+    const vndf_affine *affine;
+    const vndf_mixture *mixture;
     const float *wi_x, *wi_y, *wi_z;
 } vndf_bsdf_batch;
 
-/* Results of sampling: arrays of `count` elements. */
+/* Results of sampling: arrays of `count` elements, and a weight for each wavelength of the material. All arrays of wm
+ * may be NULL. */
 typedef struct vndf_scattered_n {
     vndf_normals wo;
     float *weight[VNDF_WAVELENGTHS];
     float *density;
     uint8_t *lobe; /* vndf_lobe */
+    vndf_normals wm;
 } vndf_scattered_n;
 
 /* Element i equals, to the bit, the result of the call for one element. No array of results may overlap an array
@@ -249,8 +297,10 @@ typedef struct vndf_scattered_n {
 VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3],
                                  vndf_scattered_n scattered);
 VNDF_API void vndf_bsdf_eval_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
-                               float *const value[VNDF_WAVELENGTHS]);
+                               float *const *value);
 VNDF_API void vndf_bsdf_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, float *pdf);
+VNDF_API void vndf_bsdf_eval_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
+                                   float *const *value, float *pdf);
 
 /* ---- Fresnel ------------------------------------------------------------------------------------ */
 

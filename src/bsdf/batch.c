@@ -33,20 +33,33 @@ VNDF_INLINE vndf_roughness roughness_at(const vndf_bsdf_batch *b, size_t i)
     return r;
 }
 
-VNDF_INLINE int is_one_roughness(const vndf_bsdf_batch *b)
+VNDF_INLINE int is_one_shape(const vndf_bsdf_batch *b)
 {
-    return (b->shared & VNDF_SHARED_ALPHA) || (!b->alpha_x && !b->cos_rotation);
+    return (b->shared & VNDF_SHARED_ALPHA) || (!b->alpha_x && !b->cos_rotation && !b->affine && !b->mixture);
 }
 
 /* Whether all elements are one hit. */
 static int is_one_hit(const vndf_bsdf_batch *b)
 {
-    return (b->shared & VNDF_SHARED_WI) && is_one_roughness(b);
+    return (b->shared & VNDF_SHARED_WI) && is_one_shape(b);
 }
 
 VNDF_INLINE void hit_at(vndf_bsdf *hit, const vndf_bsdf_batch *b, size_t i)
 {
-    vndf_roughness r = roughness_at(b, i);
+    size_t at = at_of(b, i, VNDF_SHARED_ALPHA);
+    vndf_roughness r;
+    switch (b->material->is.effects.shape) {
+    case VNDF_SHAPE_ALIGNED:
+    case VNDF_SHAPE_ROTATED: break;
+    case VNDF_SHAPE_MATRIX:
+    case VNDF_SHAPE_AFFINE:
+        vndf_bsdf_affine(hit, b->material, b->affine ? b->affine + at : NULL, wi_at(b, i));
+        return;
+    case VNDF_SHAPE_MIXTURE:
+        vndf_bsdf_mixture(hit, b->material, b->mixture ? b->mixture + at : NULL, wi_at(b, i));
+        return;
+    }
+    r = roughness_at(b, i);
     vndf_bsdf_hit(hit, b->material, &r, wi_at(b, i));
 }
 
@@ -57,12 +70,17 @@ VNDF_INLINE vndf_vec3 direction_at(vndf_normals w, size_t i)
 
 /* ---- sample ---- */
 
-VNDF_INLINE void put(const vndf_scattered_n *to, size_t i, const vndf_scattered *s)
+VNDF_INLINE void put(const vndf_scattered_n *to, size_t i, const vndf_scattered *s, int wavelengths)
 {
     to->wo.x[i] = s->wo.x;
     to->wo.y[i] = s->wo.y;
     to->wo.z[i] = s->wo.z;
-    for (int n = 0; n < VNDF_WAVELENGTHS; n++)
+    if (to->wm.x) {
+        to->wm.x[i] = s->wm.x;
+        to->wm.y[i] = s->wm.y;
+        to->wm.z[i] = s->wm.z;
+    }
+    for (int n = 0; n < wavelengths; n++)
         to->weight[n][i] = s->weight[n];
     to->density[i] = s->density;
     to->lobe[i] = (uint8_t)s->lobe;
@@ -78,7 +96,7 @@ static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3],
         if (i == 0 || !one)
             hit_at(&hit, b, i);
         vndf_bsdf_sample(&hit, numbers, &s);
-        put(to, i, &s);
+        put(to, i, &s, b->material->is.wavelengths);
     }
 }
 
@@ -124,7 +142,7 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
                 scatter(&hit, direction_at(wm, i), drawn.density[i], u[2][first + i], &s);
             else
                 vndf_bsdf_sample(&hit, u[0], &s); /* of nothing */
-            put(to, first + i, &s);
+            put(to, first + i, &s, b->material->is.wavelengths);
         }
     }
 }
@@ -139,8 +157,8 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
 
 /* ---- eval, pdf ---- */
 
-void vndf_bsdf_eval_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed,
-                      float *const value[VNDF_WAVELENGTHS])
+static void look_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value,
+                   float *pdf)
 {
     int one = is_one_hit(b);
     vndf_bsdf hit;
@@ -148,10 +166,21 @@ void vndf_bsdf_eval_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t 
         float f[VNDF_WAVELENGTHS];
         if (i == 0 || !one)
             hit_at(&hit, b, i);
-        vndf_bsdf_eval(&hit, direction_at(wo, i), seed ? seed[i] : 0, f);
-        for (int n = 0; n < VNDF_WAVELENGTHS; n++)
+        hit.material->routines->eval(&hit, direction_at(wo, i), seed ? seed[i] : 0, f, pdf ? pdf + i : NULL);
+        for (int n = 0; n < b->material->is.wavelengths; n++)
             value[n][i] = f[n];
     }
+}
+
+void vndf_bsdf_eval_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value)
+{
+    look_n(b, wo, seed, value, NULL);
+}
+
+void vndf_bsdf_eval_pdf_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value,
+                          float *pdf)
+{
+    look_n(b, wo, seed, value, pdf);
 }
 
 void vndf_bsdf_pdf_n(const vndf_bsdf_batch *b, vndf_normals wo, float *pdf)

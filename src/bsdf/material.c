@@ -5,7 +5,9 @@
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/masking.h"
 #include "bsdf/walk/multiple.h"
-#include "bsdf/lobes/rotated.h"
+#include "bsdf/lobes/mixture.h"
+#include "bsdf/lobes/retro.h"
+#include "bsdf/lobes/turned.h"
 #include "bsdf/trust.h"
 #include "core/error.h"
 #include "math/elementary.h"
@@ -24,19 +26,20 @@ static int prepare_nothing(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 
 static void sample_nothing(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE};
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
     (void)b;
     (void)u;
     *s = none;
 }
 
-static void eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+static void eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    (void)b;
     (void)wo;
     (void)seed;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = 0.0f;
+    if (pdf)
+        *pdf = 0.0f;
 }
 
 static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
@@ -47,7 +50,12 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
-const vndf_material vndf_material_of_nothing = {.routines = &nothing, .unrotated = &nothing};
+#define NOTHING(count)                                                                              \
+  {                                                                                                 \
+    .routines = &nothing, .unturned = &nothing, .specular = &nothing, .is = {.wavelengths = count } \
+  }
+const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {NOTHING(3), NOTHING(1), NOTHING(2),
+                                                                       NOTHING(3), NOTHING(4)};
 
 /* ---- effects to routines ---- */
 
@@ -93,6 +101,19 @@ static const vndf_routines *routines_of(const vndf_description *is)
     return &vndf_routines_reflection[e->normals];
 }
 
+/* In the frame of the hit, which a shape has beside the effects. */
+static const vndf_routines *shaped(const vndf_routines *unturned, vndf_shape shape)
+{
+    switch (shape) {
+    case VNDF_SHAPE_ALIGNED: return unturned;
+    case VNDF_SHAPE_ROTATED:
+    case VNDF_SHAPE_MATRIX: return &vndf_routines_turned;
+    case VNDF_SHAPE_AFFINE:
+    case VNDF_SHAPE_MIXTURE: break;
+    }
+    return &vndf_routines_mixture;
+}
+
 /* By half a turn and back, within 1e-6, made unit, and turned by the rest. */
 static void set_rotation(vndf_material *m, double angle)
 {
@@ -110,14 +131,15 @@ static void set_rotation(vndf_material *m, double angle)
 static int is_steep(const vndf_description *is)
 {
     int steep = 0;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < is->wavelengths; i++)
         steep |= is->conductor_eta[i] < 1.0f && is->conductor_k[i] < VNDF_TRUST_CONDUCTOR_K;
     return steep && is->effects.fresnel == VNDF_FRESNEL_CONDUCTOR;
 }
 
 vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, vndf_error *error)
 {
-    *m = vndf_material_of_nothing;
+    int wavelengths = is && is->wavelengths >= 0 && is->wavelengths <= VNDF_WAVELENGTHS ? is->wavelengths : 0;
+    *m = vndf_materials_of_nothing[wavelengths];
     if (!is)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the description is NULL");
     vndf_status status = vndf_description_check(is, error);
@@ -128,13 +150,18 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->roughness.alpha_x = is->alpha_x;
     m->roughness.alpha_y = is->alpha_y;
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
+    m->is.wavelengths = is->wavelengths ? is->wavelengths : 3;
+    m->per_wavelength = 1.0 / m->is.wavelengths;
     m->fresnel = fresnel_of(e);
     m->masking = masking_of(e);
-    m->unrotated = routines_of(is);
-    m->routines = e->axes == VNDF_AXES_ROTATED ? &vndf_routines_rotated : m->unrotated;
-    m->steep = is_steep(is);
-    m->turn = vndf_turn_for(vndf_law_steepness(is->distribution));
+    m->unturned = routines_of(is);
+    m->specular = shaped(m->unturned, e->shape);
+    m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;
+    m->steep = is_steep(&m->is);
+    m->turn = e->shape == VNDF_SHAPE_MIXTURE ? 0.0f : vndf_turn_for(vndf_law_steepness(is->distribution));
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
-    set_rotation(m, e->axes == VNDF_AXES_ROTATED ? is->rotation : 0.0);
+    set_rotation(m, e->shape == VNDF_SHAPE_ROTATED ? is->rotation : 0.0);
+    if (e->shape == VNDF_SHAPE_MATRIX)
+        vndf_turned_roughness(is->distribution, &is->affine, &m->roughness);
     return VNDF_OK;
 }

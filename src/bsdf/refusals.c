@@ -20,7 +20,8 @@ static vndf_status check_range(const vndf_effects *e, vndf_error *error)
         {"normals", (unsigned)e->normals, VNDF_NORMALS_V_CAVITY},
         {"scattering", (unsigned)e->scattering, VNDF_SCATTERING_MULTIPLE},
         {"transport", (unsigned)e->transport, VNDF_TRANSPORT_IMPORTANCE},
-        {"axes", (unsigned)e->axes, VNDF_AXES_ROTATED},
+        {"shape", (unsigned)e->shape, VNDF_SHAPE_MIXTURE},
+        {"reflection", (unsigned)e->reflection, VNDF_REFLECTION_RETRO},
     };
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
         if (ranges[i].value > ranges[i].last)
@@ -68,6 +69,28 @@ static const char *walk_refused(const vndf_effects *e)
     return NULL;
 }
 
+/* Of mean slopes and mixtures. */
+static const char *shape_refused(const vndf_effects *e)
+{
+    int is_plain = e->shape < VNDF_SHAPE_AFFINE;
+    if (e->reflection == VNDF_REFLECTION_RETRO && e->lobes == VNDF_LOBES_TRANSMISSION)
+        return "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected";
+    if (e->reflection == VNDF_REFLECTION_RETRO && !is_plain)
+        return "reflection is VNDF_REFLECTION_RETRO, which is not reciprocal with mean slopes: shape must be "
+               "VNDF_SHAPE_ALIGNED, VNDF_SHAPE_ROTATED or VNDF_SHAPE_MATRIX";
+    if (is_plain)
+        return NULL;
+    if (e->normals != VNDF_NORMALS_VISIBLE)
+        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, so normals must be VNDF_NORMALS_VISIBLE";
+    if (e->masking == VNDF_MASKING_V_CAVITIES)
+        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, whose masking is Smith's: masking must not be "
+               "VNDF_MASKING_V_CAVITIES";
+    if (e->scattering == VNDF_SCATTERING_MULTIPLE)
+        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, which no walk knows: scattering must be "
+               "VNDF_SCATTERING_SINGLE";
+    return NULL;
+}
+
 /* ---- numbers ---- */
 
 static vndf_status check_number(const char *name, double x, double least, double most, vndf_error *error)
@@ -79,7 +102,7 @@ static vndf_status check_number(const char *name, double x, double least, double
 
 static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 {
-    static const char *const names[VNDF_WAVELENGTHS] = {"f0[0]", "f0[1]", "f0[2]"};
+    static const char *const names[VNDF_WAVELENGTHS] = {"f0[0]", "f0[1]", "f0[2]", "f0[3]"};
     vndf_status status = VNDF_OK;
     if (is->effects.lobes != VNDF_LOBES_REFLECTION || is->effects.fresnel == VNDF_FRESNEL_DIELECTRIC)
         status = check_number("eta", is->eta, 0.01f, 100.0, error);
@@ -88,7 +111,9 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
         status = vndf_fail(error, VNDF_ERROR_ARGUMENT,
                            "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
                            "since light that goes straight on has no density");
-    for (int i = 0; i < VNDF_WAVELENGTHS && status == VNDF_OK; i++) {
+    if (status == VNDF_OK)
+        status = check_number("wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS, error);
+    for (int i = 0; i < (is->wavelengths ? is->wavelengths : 3) && status == VNDF_OK; i++) {
         if (is->effects.fresnel == VNDF_FRESNEL_SCHLICK)
             status = check_number(names[i], is->f0[i], 0.0, 1.0, error);
         if (is->effects.fresnel != VNDF_FRESNEL_CONDUCTOR)
@@ -107,16 +132,55 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
 {
     vndf_surface surface = {is->distribution, is->alpha_x, is->alpha_y};
     vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    if (!is->distribution)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "distribution is NULL");
     if (!vndf_view_from(&surface, up).distribution)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
                          "distribution within [1e-18, 1e18]",
                          (double)is->alpha_x, (double)is->alpha_y);
-    if (is->effects.axes == VNDF_AXES_ROTATED)
+    if (is->effects.shape == VNDF_SHAPE_ROTATED)
         return check_number("rotation", is->rotation, -1e4, 1e4, error);
     return VNDF_OK;
+}
+
+/* Of the material; hits bring others, whose errors have a result. */
+static vndf_status check_affine(const vndf_description *is, vndf_error *error)
+{
+    vndf_affine a = is->affine;
+    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    a.distribution = is->distribution;
+    if (vndf_affine_view_from(&a, up).principal.distribution)
+        return VNDF_OK;
+    return vndf_fail(
+        error, VNDF_ERROR_ARGUMENT,
+        "affine is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "
+        "scale of the distribution, must be within [1e-18, 1e18], the mean slope within 1e6",
+        (double)a.xx, (double)a.xy, (double)a.yx, (double)a.yy, (double)a.mean_x, (double)a.mean_y);
+}
+
+static vndf_status check_mixture(const vndf_description *is, vndf_error *error)
+{
+    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    if (!is->mixture || vndf_mixture_view_from(is->mixture, up).count > 0)
+        return VNDF_OK;
+    return vndf_fail(
+        error, VNDF_ERROR_ARGUMENT,
+        "mixture is invalid: it needs 1 to %d lobes, weights of at least 0 that are not all 0, and for "
+        "each weight above 0 a distribution with a matrix that is not singular",
+        VNDF_MIXTURE_LOBES);
+}
+
+static vndf_status check_shape(const vndf_description *is, vndf_error *error)
+{
+    if (!is->distribution && is->effects.shape != VNDF_SHAPE_MIXTURE)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "distribution is NULL");
+    switch (is->effects.shape) {
+    case VNDF_SHAPE_ALIGNED:
+    case VNDF_SHAPE_ROTATED: break;
+    case VNDF_SHAPE_MATRIX:
+    case VNDF_SHAPE_AFFINE: return check_affine(is, error);
+    case VNDF_SHAPE_MIXTURE: return check_mixture(is, error);
+    }
+    return check_roughness(is, error);
 }
 
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error)
@@ -125,10 +189,11 @@ vndf_status vndf_description_check(const vndf_description *is, vndf_error *error
     const char *refused = NULL;
     if (status != VNDF_OK)
         return status;
-    if (!(refused = lobes_refused(&is->effects)) && !(refused = masking_refused(&is->effects)))
+    if (!(refused = lobes_refused(&is->effects)) && !(refused = masking_refused(&is->effects)) &&
+        !(refused = shape_refused(&is->effects)))
         refused = walk_refused(&is->effects);
     if (refused)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
-    status = check_roughness(is, error);
+    status = check_shape(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;
 }

@@ -1,9 +1,9 @@
 /* A material is resolved to functions made for its set of effects, called through pointers. At a hit no code asks
  * whether an effect is wanted.
  *
- * All of it works in the frame of the hit: turned by the rotation of the axes, and mirrored at the surface if wi
- * came from below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is
- * reflection, wo.z < 0 transmission. */
+ * All of it works in the frame of the hit: turned to the principal axes, and mirrored at the surface if wi came from
+ * below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is reflection, wo.z < 0
+ * transmission. Mixtures have a frame of their own (lobes/mixture.c). */
 #ifndef VNDF_BSDF_ROUTINES_H
 #define VNDF_BSDF_ROUTINES_H
 
@@ -16,7 +16,8 @@
 typedef struct vndf_routines {
     int (*prepare)(vndf_bsdf *bsdf, const vndf_roughness *roughness, vndf_vec3 wi);
     void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
-    void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS]);
+    /* the value of each wavelength, and, unless `pdf` is NULL, the density */
+    void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
     float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
     /* `sample` after vndf_sample drew wm with `density`; NULL if it draws otherwise */
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
@@ -29,7 +30,7 @@ VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
     return square > 0.25f && square < 4.0f;
 }
 
-/* The first three calls of vndf_bsdf.h call it; 0 if nothing is scattered from there. */
+/* Of shapes with a roughness; 0 if nothing is scattered from there. */
 int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
 
 /* Reflectances at a microfacet, `cosine` = wi.wm; in double, so that 1 - f keeps its digits. */

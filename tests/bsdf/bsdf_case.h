@@ -20,6 +20,7 @@ static inline float bsdf_pick(const float *from, size_t count, unsigned long lon
 static inline void bsdf_optics(vndf_description *is, unsigned long long *state)
 {
     is->eta = bsdf_pick(bsdf_etas, BSDF_ETA_COUNT, state);
+    is->wavelengths = VNDF_WAVELENGTHS;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++) {
         is->f0[i] = test_uniform(state);
         is->conductor_eta[i] = 0.1f + 3 * test_uniform(state);

@@ -48,7 +48,7 @@ static size_t compare(const vndf_material *m, const inputs *in, size_t *differin
                                    .wi_y = in->wi[1],
                                    .wi_z = in->wi[2]};
     const float *const u[3] = {in->u[0], in->u[1], in->u[2]};
-    vndf_scattered_n out = {{x, y, z}, {weight[0], weight[1], weight[2]}, density, lobe};
+    vndf_scattered_n out = {{x, y, z}, {weight[0], weight[1], weight[2]}, density, lobe, {0}};
     size_t kept = 0;
     vndf_bsdf_sample_n(&batch, u, out);
     for (size_t i = 0; i < COUNT; i++) {

@@ -88,7 +88,7 @@ enum { SETTING_COUNT = 7, KIND_COUNT = 3 };
 /* Lobes and normals; Fresnel and masking do not change what is drawn but for the choice of the lobe. */
 static int is_tried(const vndf_effects *e)
 {
-    int turned = e->axes == VNDF_AXES_ROTATED;
+    int turned = e->shape == VNDF_SHAPE_ROTATED;
     vndf_fresnel fresnel = e->lobes == VNDF_LOBES_BOTH || (e->lobes == VNDF_LOBES_REFLECTION && turned)
                                ? VNDF_FRESNEL_DIELECTRIC
                                : VNDF_FRESNEL_NONE;

@@ -49,7 +49,7 @@ static void read_formulas(oracle_bsdf *o, double wi[3], double wo[3], reading wa
     other = oracle_bsdf_eval(o, wi, wo);
     widen(&other, want);
     widen(&other, want);
-    for (int i = 0; i < 4 && o->is.effects.axes == VNDF_AXES_ROTATED; i++) {
+    for (int i = 0; i < 4 && o->is.effects.shape == VNDF_SHAPE_ROTATED; i++) {
         double *at = i < 2 ? &wi[i] : &wo[i - 2], given = *at;
         *at += 0x1p-22;
         other = oracle_bsdf_eval(o, wi, wo);

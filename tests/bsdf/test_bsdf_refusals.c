@@ -87,6 +87,14 @@ static void test_names(void)
          {"SCATTERING_MULTIPLE", "NORMALS_VISIBLE"}},
         {{.scattering = VNDF_SCATTERING_MULTIPLE, .lobes = VNDF_LOBES_TRANSMISSION},
          {"SCATTERING_MULTIPLE", "LOBES_BOTH"}},
+        {{.shape = VNDF_SHAPE_AFFINE, .normals = VNDF_NORMALS_ALL}, {"SHAPE_AFFINE", "NORMALS_VISIBLE"}},
+        {{.shape = VNDF_SHAPE_MIXTURE, .normals = VNDF_NORMALS_BOUNDED}, {"SHAPE_MIXTURE", "NORMALS_VISIBLE"}},
+        {{.shape = VNDF_SHAPE_MIXTURE, .masking = VNDF_MASKING_V_CAVITIES}, {"SHAPE_MIXTURE", "V_CAVITIES"}},
+        {{.shape = VNDF_SHAPE_AFFINE, .scattering = VNDF_SCATTERING_MULTIPLE},
+         {"SHAPE_AFFINE", "SCATTERING_SINGLE"}},
+        {{.shape = VNDF_SHAPE_AFFINE, .reflection = VNDF_REFLECTION_RETRO}, {"REFLECTION_RETRO", "SHAPE_ALIGNED"}},
+        {{.reflection = VNDF_REFLECTION_RETRO, .lobes = VNDF_LOBES_TRANSMISSION},
+         {"REFLECTION_RETRO", "LOBES_TRANSMISSION"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         vndf_description is = good(cases[i].effects);
@@ -97,8 +105,9 @@ static void test_names(void)
 
 static void test_choices(void)
 {
-    const char *names[] = {"lobes", "fresnel", "masking", "normals", "scattering", "transport", "axes"};
-    for (int i = 0; i < 7; i++)
+    const char *names[] = {"lobes",      "fresnel",   "masking", "normals",
+                           "scattering", "transport", "shape",   "reflection"};
+    for (int i = 0; i < 8; i++)
         for (int wrong = -1; wrong < 100; wrong += 50) {
             vndf_effects e = {.lobes = VNDF_LOBES_REFLECTION};
             e.lobes = (vndf_lobes)(i == 0 ? wrong : 0);
@@ -107,7 +116,8 @@ static void test_choices(void)
             e.normals = (vndf_normals_drawn)(i == 3 ? wrong : 0);
             e.scattering = (vndf_scattering)(i == 4 ? wrong : 0);
             e.transport = (vndf_transport)(i == 5 ? wrong : 0);
-            e.axes = (vndf_axes)(i == 6 ? wrong : 0);
+            e.shape = (vndf_shape)(i == 6 ? wrong : 0);
+            e.reflection = (vndf_reflection)(i == 7 ? wrong : 0);
             vndf_description is = good(e);
             refuse(&is, names[i]);
         }
@@ -124,7 +134,7 @@ typedef struct number {
 } number;
 
 static const number NUMBERS[] = {
-    {"rotation", offsetof(vndf_description, rotation), {.axes = VNDF_AXES_ROTATED}, -1e4, 1e4},
+    {"rotation", offsetof(vndf_description, rotation), {.shape = VNDF_SHAPE_ROTATED}, -1e4, 1e4},
     {"eta", offsetof(vndf_description, eta), {.fresnel = VNDF_FRESNEL_DIELECTRIC}, 0.01, 100},
     {"eta", offsetof(vndf_description, eta), {.lobes = VNDF_LOBES_TRANSMISSION}, 0.01, 100},
     {"eta",

@@ -33,7 +33,7 @@ double oracle_bsdf_ratio(const oracle_bsdf *o, const double wi[3])
 
 static void to_frame(const oracle_bsdf *o, double side, const double given[3], double w[3])
 {
-    double angle = o->is.effects.axes == VNDF_AXES_ROTATED ? (double)o->is.rotation : 0;
+    double angle = o->is.effects.shape == VNDF_SHAPE_ROTATED ? (double)o->is.rotation : 0;
     w[0] = cos(angle) * given[0] + sin(angle) * given[1];
     w[1] = cos(angle) * given[1] - sin(angle) * given[0];
     w[2] = side * given[2];
@@ -115,9 +115,13 @@ void oracle_bsdf_fresnel(const oracle_bsdf *o, double cosine, double ratio, doub
     }
 }
 
-static double mean(const double f[VNDF_WAVELENGTHS])
+static double mean(const oracle_bsdf *o, const double f[VNDF_WAVELENGTHS])
 {
-    return (f[0] + f[1] + f[2]) / 3;
+    int count = o->is.wavelengths ? o->is.wavelengths : 3;
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += f[i];
+    return sum / count;
 }
 
 /* ---- f and its density ---- */
@@ -153,7 +157,7 @@ static void reflect(const oracle_bsdf *o, const double alpha[2], double wi[3], d
         value->f[i] = value->fresnel[i] * shape / (4 * wi[2] * wo[2]);
     value->pdf = normal_density(o, alpha, wi, wm, facing) / (4 * facing);
     if (o->is.effects.lobes == VNDF_LOBES_BOTH)
-        value->pdf *= mean(value->fresnel);
+        value->pdf *= mean(o, value->fresnel);
 }
 
 static void transmit(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wo[3],
@@ -176,12 +180,12 @@ static void transmit(const oracle_bsdf *o, const double alpha[2], const double w
         value->f[i] = (1 - value->fresnel[i]) * shape / per;
     value->pdf = normal_density(o, alpha, wi, wm, facing) * jacobian;
     if (o->is.effects.lobes == VNDF_LOBES_BOTH)
-        value->pdf *= 1 - mean(value->fresnel);
+        value->pdf *= 1 - mean(o, value->fresnel);
 }
 
 oracle_value oracle_bsdf_eval(const oracle_bsdf *o, const double wi_given[3], const double wo_given[3])
 {
-    oracle_value value = {{0, 0, 0}, 0, {0, 0, 0}};
+    oracle_value value = {{0}, 0, {0}};
     double side = oracle_bsdf_two_sided(&o->is.effects) && wi_given[2] < 0 ? -1 : 1;
     double wi[3], wo[3], alpha[2] = {(double)o->is.alpha_x, (double)o->is.alpha_y};
     double ratio = oracle_bsdf_ratio(o, wi_given);
@@ -204,7 +208,7 @@ vndf_effects oracle_effects(size_t index)
     e.masking = (vndf_masking)(index / 12 % 4);
     e.normals = (vndf_normals_drawn)(index / 48 % 4);
     e.transport = (vndf_transport)(index / 192 % 2);
-    e.axes = (vndf_axes)(index / 384 % 2);
+    e.shape = (vndf_shape)(index / 384 % 2);
     e.scattering = (vndf_scattering)(index / 768 % 2);
     return e;
 }
@@ -234,7 +238,7 @@ void oracle_effects_name(const vndf_effects *e, char text[ORACLE_EFFECTS_TEXT])
                            masking[e->masking],
                            normals[e->normals],
                            transport[e->transport],
-                           axes[e->axes],
+                           axes[e->shape],
                            e->scattering ? "multiple" : "single"};
     text[0] = '\0';
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {

@@ -46,7 +46,7 @@ static vndf_description describe(const subject *s, const vndf_distribution *tabl
                            .conductor_k = {3.9f, 2.3f, 1.7f}};
     is.effects.lobes = s->transmits ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
     is.effects.fresnel = s->transmits ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_CONDUCTOR;
-    is.effects.axes = VNDF_AXES_ROTATED;
+    is.effects.shape = VNDF_SHAPE_ROTATED;
     return is;
 }
 

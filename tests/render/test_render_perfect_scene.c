@@ -10,7 +10,7 @@ static void scene_begin(render_case *c, int glass, float rotation)
 {
     vndf_description metal = {.f0 = {0.9f, 0.7f, 0.4f}, .rotation = rotation}, is = {.eta = 1.5f};
     metal.effects.fresnel = VNDF_FRESNEL_SCHLICK;
-    metal.effects.axes = VNDF_AXES_ROTATED;
+    metal.effects.shape = VNDF_SHAPE_ROTATED;
     is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
     is.effects.lobes = VNDF_LOBES_BOTH;
     case_begin(c, vec(0.5f, -3.0f, 1.5f), glass ? vec(0.2f, -1.0f, 0.6f) : vec(0.0f, 0.5f, 0.0f));

@@ -75,7 +75,7 @@ static void check_optics(const scene *s)
          m->is.order_limit == 9);
     m = material_of(s, "d");
     TEST(m && m->is.effects.fresnel == VNDF_FRESNEL_SCHLICK && m->is.f0[2] == 0.3f && m->colour[0] == 0.5f);
-    TEST(m && m->is.effects.axes == VNDF_AXES_ROTATED && m->is.effects.normals == VNDF_NORMALS_ALL);
+    TEST(m && m->is.effects.shape == VNDF_SHAPE_ROTATED && m->is.effects.normals == VNDF_NORMALS_ALL);
     TEST_NEAR(m ? (double)m->is.rotation : 0.0, 0.78539816339, 1e-6);
     m = material_of(s, "e");
     TEST(m && m->is.effects.fresnel == VNDF_FRESNEL_NONE && m->is.effects.masking == VNDF_MASKING_SEPARABLE);

@@ -25,7 +25,8 @@ static vndf_effects effects_of(unsigned long i)
                       (vndf_normals_drawn)(i / 48 % 4),
                       (vndf_scattering)(i / 192 % 2),
                       (vndf_transport)(i / 384 % 2),
-                      (vndf_axes)(i / 768 % 2)};
+                      (vndf_shape)(i / 768 % 2),
+                      VNDF_REFLECTION_SPECULAR};
     return e;
 }
 
@@ -45,7 +46,7 @@ static unsigned long long hash_material(unsigned long long hash, const vndf_surf
     vndf_material material;
     vndf_bsdf bsdf;
     vndf_scattered s;
-    float f[VNDF_WAVELENGTHS], per = 1.0f / sqrtf(wi.x * wi.x + wi.y * wi.y + wi.z * wi.z);
+    float f[3], per = 1.0f / sqrtf(wi.x * wi.x + wi.y * wi.y + wi.z * wi.z);
     vndf_vec3 unit = {wi.x * per, wi.y * per, wi.z * per};
     if (vndf_material_resolve(&is, &material, NULL) != VNDF_OK)
         return hash_float(hash, 1.0f);

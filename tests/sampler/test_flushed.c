@@ -228,7 +228,8 @@ static void test_bsdf(const vndf_distribution *d, unsigned long long *state)
                           (vndf_normals_drawn)(i / 48 % 4),
                           (vndf_scattering)(i / 192 % 2),
                           VNDF_TRANSPORT_RADIANCE,
-                          (vndf_axes)(i / 384 % 2)};
+                          (vndf_shape)(i / 384 % 2),
+                          VNDF_REFLECTION_SPECULAR};
         vndf_description is = bsdf_material(&ndf, &e, alphas, 8, state);
         vndf_material material;
         vndf_bsdf bsdf;

@@ -3,32 +3,30 @@
 
 #include "bsdf/lobes/scatter.h"
 
-/* The part of the samples that is reflected. */
-VNDF_INLINE double part_of(const double f[VNDF_WAVELENGTHS])
-{
-    return (f[0] + f[1] + f[2]) * (1.0 / VNDF_WAVELENGTHS);
-}
-
 /* A reflection that `part` of the samples take. */
-VNDF_INLINE void set_reflected(const vndf_bsdf *b, const vndf_outcome *out, const double *f, double part,
-                               vndf_scattered *s)
+VNDF_INLINE void set_reflected(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_outcome *out,
+                               const double *f, double part, vndf_scattered *s)
 {
     s->wo = vndf_mirrored(out->wo, b->side);
+    s->wm = vndf_mirrored(n->wm, b->side);
     s->density = vndf_positive(out->density * (float)part);
     s->lobe = VNDF_LOBE_REFLECTION;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = vndf_finite(out->weight * (float)(f[i] / part));
+        s->weight[i] = i < b->material->is.wavelengths ? vndf_finite(out->weight * (float)(f[i] / part)) : 0.0f;
 }
 
-VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_outcome *out, const double *f, double part,
-                               vndf_scattered *s)
+VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_outcome *out,
+                               const double *f, double part, vndf_scattered *s)
 {
     int straight = b->eta == 1.0;
     s->wo = vndf_mirrored(out->wo, b->side);
+    s->wm = vndf_mirrored(n->wm, b->side);
     s->density = straight ? 1.0f : vndf_positive(out->density * (float)part);
     s->lobe = straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = vndf_finite(out->weight * (float)(b->carried * ((1.0 - f[i]) / part)));
+        s->weight[i] = i < b->material->is.wavelengths
+                           ? vndf_finite(out->weight * (float)(b->carried * ((1.0 - f[i]) / part)))
+                           : 0.0f;
 }
 
 VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)
@@ -41,7 +39,7 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
         return;
     }
     vndf_reflectance(b, out.facing, f);
-    set_refracted(b, &out, f, 1.0, s);
+    set_refracted(b, n, &out, f, 1.0, s);
 }
 
 /* The drawn normal chooses the lobe. Density and weight then take F at the same cosine as the outcome. */
@@ -54,7 +52,7 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
     double f[VNDF_WAVELENGTHS];
     vndf_reflectance(b, at.facing, f);
     double square = vndf_refracted_square(at.facing, b->eta);
-    double part = part_of(f); /* numbers outside [0, 1] do not choose what never happens */
+    double part = vndf_mean_of(b, f); /* numbers outside [0, 1] do not choose what never happens */
     int reflects = (part > 0.0 && u3 < part) || !(part < 1.0 && square > 0.0);
     int settled = vndf_keeps_reflectance(b, at.facing);
     if (!(reflects ? vndf_reflect(b, n, choice, settled, &out) : vndf_refract(b, n, &at, sqrt(square), &out))) {
@@ -63,12 +61,12 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
     }
     if (!out.settled) {
         vndf_reflectance(b, out.facing, f);
-        part = part_of(f);
+        part = vndf_mean_of(b, f);
     }
     if (reflects)
-        set_reflected(b, &out, f, part, s);
+        set_reflected(b, n, &out, f, part, s);
     else if (part < 1.0)
-        set_refracted(b, &out, f, 1.0 - part, s);
+        set_refracted(b, n, &out, f, 1.0 - part, s);
     else
         vndf_scatter_nothing(s);
 }
@@ -86,68 +84,75 @@ VNDF_INLINE void sample_both(const vndf_bsdf *b, const float u[3], vndf_scattere
     scatter_both(b, &n, u[2], s, normals);
 }
 
-/* ---- values ---- */
+/* ---- values and densities ---- */
 
-VNDF_INLINE void eval_transmission(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS])
+VNDF_INLINE void eval_transmission(const vndf_bsdf *b, const vndf_half *half, const double f[VNDF_WAVELENGTHS],
+                                   float *value)
+{
+    double shape = vndf_bsdf_ndf(b, half->wm) * half->event.facing_i * half->jacobian * b->carried *
+                   b->material->masking->transmission(b, &half->event);
+    vndf_set_values(b, value, shape, f, 1);
+}
+
+VNDF_INLINE void look_through(const vndf_bsdf *b, vndf_vec3 wo, float *value, float *pdf,
+                              vndf_normals_drawn normals)
 {
     double f[VNDF_WAVELENGTHS];
+    wo.z *= b->side;
     vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
-    if (!vndf_is_refraction(&half)) {
-        vndf_set_value(value, 0.0);
+    if (!(wo.z < 0.0f) || !vndf_is_refraction(&half)) {
+        vndf_see_nothing(b, value, pdf);
         return;
     }
-    double shape = vndf_bsdf_ndf(b, half.wm) * half.event.facing_i * half.jacobian * b->carried *
-                   b->material->masking->transmission(b, &half.event);
-    vndf_reflectance(b, half.event.facing_i, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value[i] = vndf_density_from(shape * (1.0 - f[i]));
+    if (value) {
+        vndf_reflectance(b, half.event.facing_i, f);
+        eval_transmission(b, &half, f, value);
+    }
+    if (pdf)
+        *pdf = vndf_density_from(vndf_half_density(b, &half, normals));
 }
 
-static void eval_through(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
-{
-    (void)seed;
-    wo.z *= b->side;
-    if (wo.z < 0.0f)
-        eval_transmission(b, wo, value);
-    else
-        vndf_set_value(value, 0.0);
-}
-
-static void eval_both(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
-{
-    (void)seed;
-    wo.z *= b->side;
-    if (wo.z > 0.0f)
-        vndf_eval_reflection(b, wo, value, 0);
-    else if (wo.z < 0.0f)
-        eval_transmission(b, wo, value);
-    else
-        vndf_set_value(value, 0.0);
-}
-
-/* ---- densities ---- */
-
-VNDF_INLINE float pdf_through(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn normals)
-{
-    wo.z *= b->side;
-    vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
-    return wo.z < 0.0f && vndf_is_refraction(&half) ? vndf_density_from(vndf_half_density(b, &half, normals))
-                                                    : 0.0f;
-}
-
-/* Times the part of the samples that go this way. */
-VNDF_INLINE float pdf_both(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn normals)
+/* The density is that of the lobe times the part of the samples that go this way. */
+VNDF_INLINE void look_both(const vndf_bsdf *b, vndf_vec3 wo, float *value, float *pdf, vndf_normals_drawn normals)
 {
     double f[VNDF_WAVELENGTHS];
     wo.z *= b->side;
     int reflects = wo.z > 0.0f;
     vndf_half half = reflects ? vndf_half_reflected(b->view.wi, wo) : vndf_half_refracted(b->view.wi, wo, b->eta);
-    if (!(wo.z != 0.0f) || !vndf_is_refraction(&half)) /* or reflection: both cosines are the same there */
-        return 0.0f;
+    if (!(wo.z != 0.0f) || !vndf_is_refraction(&half)) { /* or reflection: both cosines are the same there */
+        vndf_see_nothing(b, value, pdf);
+        return;
+    }
     vndf_reflectance(b, half.event.facing_i, f);
-    double part = reflects ? part_of(f) : 1.0 - part_of(f);
-    return vndf_density_from(part * vndf_half_density(b, &half, normals));
+    if (value && reflects)
+        vndf_set_values(b, value, vndf_reflection_shape(b, &half), f, 0);
+    else if (value)
+        eval_transmission(b, &half, f, value);
+    double part = reflects ? vndf_mean_of(b, f) : 1.0 - vndf_mean_of(b, f);
+    if (pdf)
+        *pdf = vndf_density_from(part * vndf_half_density(b, &half, normals));
 }
+
+/* A routine's name, and the normals that it draws. */
+#define LOOKS(lobes, name, normals)                                                                            \
+  static void eval_##lobes##_##name(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf) \
+  {                                                                                                            \
+    (void)seed;                                                                                                \
+    look_##lobes(b, wo, value, pdf, normals);                                                                  \
+  }                                                                                                            \
+  static float pdf_##lobes##_##name(const vndf_bsdf *b, vndf_vec3 wo)                                          \
+  {                                                                                                            \
+    float pdf;                                                                                                 \
+    look_##lobes(b, wo, NULL, &pdf, normals);                                                                  \
+    return pdf;                                                                                                \
+  }
+
+LOOKS(through, visible, VNDF_NORMALS_VISIBLE)
+LOOKS(through, all, VNDF_NORMALS_ALL)
+LOOKS(through, v_cavity, VNDF_NORMALS_V_CAVITY)
+LOOKS(both, visible, VNDF_NORMALS_VISIBLE)
+LOOKS(both, all, VNDF_NORMALS_ALL)
+LOOKS(both, v_cavity, VNDF_NORMALS_V_CAVITY)
 
 /* ---- routines ---- */
 
@@ -173,21 +178,6 @@ static void through_v_cavity(const vndf_bsdf *b, const float u[3], vndf_scattere
     sample_through(b, u, s, VNDF_NORMALS_V_CAVITY);
 }
 
-static float pdf_through_visible(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_through(b, wo, VNDF_NORMALS_VISIBLE);
-}
-
-static float pdf_through_all(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_through(b, wo, VNDF_NORMALS_ALL);
-}
-
-static float pdf_through_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_through(b, wo, VNDF_NORMALS_V_CAVITY);
-}
-
 static void both_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     sample_both(b, u, s, VNDF_NORMALS_VISIBLE);
@@ -209,30 +199,16 @@ static void both_v_cavity(const vndf_bsdf *b, const float u[3], vndf_scattered *
     sample_both(b, u, s, VNDF_NORMALS_V_CAVITY);
 }
 
-static float pdf_both_visible(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_both(b, wo, VNDF_NORMALS_VISIBLE);
-}
-
-static float pdf_both_all(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_both(b, wo, VNDF_NORMALS_ALL);
-}
-
-static float pdf_both_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf_both(b, wo, VNDF_NORMALS_V_CAVITY);
-}
-
 const vndf_routines vndf_routines_transmission[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through, pdf_through_visible,
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through_visible, pdf_through_visible,
                               through_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through, pdf_through_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through, pdf_through_v_cavity, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through_all, pdf_through_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through_v_cavity, pdf_through_v_cavity,
+                               NULL},
 };
 
 const vndf_routines vndf_routines_both[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both, pdf_both_visible, both_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both, pdf_both_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both, pdf_both_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both_visible, pdf_both_visible, both_drawn},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both_all, pdf_both_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both_v_cavity, pdf_both_v_cavity, NULL},
 };

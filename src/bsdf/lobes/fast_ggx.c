@@ -33,7 +33,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
-    vndf_set_bare(s, wo, weight,
+    vndf_set_bare(b, s, wo, wm, weight,
                   vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
 }
 
@@ -46,14 +46,18 @@ VNDF_INLINE int is_trusted(const vndf_bsdf *b, vndf_vec3 wo)
            square > 4.0f * VNDF_TRUST_GGX_FACING * VNDF_TRUST_GGX_FACING;
 }
 
-static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     if (!is_trusted(b, wo)) {
-        vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value);
+        vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value, pdf);
         return;
     }
-    value[0] = value[1] = value[2] =
-        vndf_finite(vndf_ggx_density_of(b, wo) * (b->area / vndf_fast_ggx_unmasked(b, wo)));
+    float density = vndf_ggx_density_of(b, wo);
+    float f = vndf_finite(density * (b->area / vndf_fast_ggx_unmasked(b, wo)));
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        value[i] = f;
+    if (pdf)
+        *pdf = vndf_positive(density);
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)

@@ -15,12 +15,15 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
         return;
     }
     s->wo = choice.bare ? out.wo : vndf_mirrored(out.wo, b->side);
+    s->wm = choice.bare ? n->wm : vndf_mirrored(n->wm, b->side);
     s->density = vndf_positive(out.density);
     s->lobe = VNDF_LOBE_REFLECTION;
     if (!choice.bare)
         vndf_reflectance(b, out.facing, f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
+        s->weight[i] = i < b->material->is.wavelengths
+                           ? vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i])
+                           : 0.0f;
 }
 
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
@@ -33,12 +36,19 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
             choice);
 }
 
-VNDF_INLINE float pdf(const vndf_bsdf *b, vndf_vec3 wo, vndf_normals_drawn normals)
+/* f and its density, where they are asked for. */
+VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 wo, float *value, float *pdf, vndf_choice choice)
 {
-    wo.z *= b->side;
+    wo.z *= choice.bare ? 1.0f : b->side;
     vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    return wo.z > 0.0f && half.event.facing_i > 0.0 ? vndf_density_from(vndf_half_density(b, &half, normals))
-                                                    : 0.0f;
+    if (!(wo.z > 0.0f) || !(half.event.facing_i > 0.0)) {
+        vndf_see_nothing(b, value, pdf);
+        return;
+    }
+    if (value)
+        vndf_eval_reflection(b, &half, value, choice.bare);
+    if (pdf)
+        *pdf = vndf_density_from(vndf_half_density(b, &half, choice.normals));
 }
 
 /* ---- bare ---- */
@@ -67,12 +77,6 @@ static void bare_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     const vndf_choice choice = {VNDF_NORMALS_ALL, 1};
     sample(b, u, s, choice);
-}
-
-static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
-{
-    (void)seed;
-    vndf_eval_reflection(b, wo, value, 1);
 }
 
 /* ---- with Fresnel and masking ---- */
@@ -109,45 +113,43 @@ static void sample_v_cavity(const vndf_bsdf *b, const float u[3], vndf_scattered
     sample(b, u, s, choice);
 }
 
-static void eval_any(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
-{
-    (void)seed;
-    wo.z *= b->side;
-    vndf_eval_reflection(b, wo, value, 0);
-}
+/* ---- values and densities ---- */
 
-/* ---- densities ---- */
+/* A routine's name, its choice, and which of f and density it is for. */
+#define LOOKS(name, normals, bare)                                                                   \
+  static void eval_##name(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf) \
+  {                                                                                                  \
+    const vndf_choice choice = {normals, bare};                                                      \
+    (void)seed;                                                                                      \
+    look(b, wo, value, pdf, choice);                                                                 \
+  }                                                                                                  \
+  static float pdf_##name(const vndf_bsdf *b, vndf_vec3 wo)                                          \
+  {                                                                                                  \
+    const vndf_choice choice = {normals, bare};                                                      \
+    float pdf;                                                                                       \
+    look(b, wo, NULL, &pdf, choice);                                                                 \
+    return pdf;                                                                                      \
+  }
 
-static float pdf_visible(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf(b, wo, VNDF_NORMALS_VISIBLE);
-}
-
-static float pdf_bounded(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf(b, wo, VNDF_NORMALS_BOUNDED);
-}
-
-static float pdf_all(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf(b, wo, VNDF_NORMALS_ALL);
-}
-
-static float pdf_v_cavity(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return pdf(b, wo, VNDF_NORMALS_V_CAVITY);
-}
+LOOKS(bare_visible, VNDF_NORMALS_VISIBLE, 1)
+LOOKS(bare_bounded, VNDF_NORMALS_BOUNDED, 1)
+LOOKS(bare_all, VNDF_NORMALS_ALL, 1)
+LOOKS(visible, VNDF_NORMALS_VISIBLE, 0)
+LOOKS(bounded, VNDF_NORMALS_BOUNDED, 0)
+LOOKS(all, VNDF_NORMALS_ALL, 0)
+LOOKS(v_cavity, VNDF_NORMALS_V_CAVITY, 0)
 
 const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare, pdf_visible, scatter_bare},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare, pdf_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare, pdf_all, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare_visible, pdf_bare_visible,
+                              scatter_bare},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare_bounded, pdf_bare_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare_all, pdf_bare_all, NULL},
     /* V-cavities have a masking of their own */
 };
 
 const vndf_routines vndf_routines_reflection[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_any, pdf_visible, scatter_visible},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_any, pdf_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_any, pdf_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_any, pdf_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_visible, pdf_visible, scatter_visible},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_bounded, pdf_bounded, NULL},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_all, pdf_all, NULL},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_v_cavity, pdf_v_cavity, NULL},
 };

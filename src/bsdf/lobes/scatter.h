@@ -27,14 +27,30 @@ VNDF_INLINE vndf_vec3 vndf_mirrored(vndf_vec3 w, float side)
 
 VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
 {
-    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE};
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
     *s = none;
 }
 
-VNDF_INLINE void vndf_set_value(float value[VNDF_WAVELENGTHS], double f)
+VNDF_INLINE void vndf_set_value(const vndf_bsdf *b, float *value, double f)
 {
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = vndf_density_from(f);
+}
+
+/* Each wavelength has its part of `shape`: f, or what f leaves of 1. */
+VNDF_INLINE void vndf_set_values(const vndf_bsdf *b, float *value, double shape, const double f[VNDF_WAVELENGTHS],
+                                 int transmits)
+{
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        value[i] = vndf_density_from(shape * (transmits ? 1.0 - f[i] : f[i]));
+}
+
+VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
+{
+    if (value)
+        vndf_set_value(b, value, 0.0);
+    if (pdf)
+        *pdf = 0.0f;
 }
 
 /* ---- a normal and a direction give the other direction ---- */
@@ -269,23 +285,32 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
 
 /* ---- values ---- */
 
-/* f of a reflection, wo in the frame of the hit; `bare` as above. */
-VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, vndf_vec3 wo, float value[VNDF_WAVELENGTHS], int bare)
+/* f of a reflection where F is 1. */
+VNDF_INLINE double vndf_reflection_shape(const vndf_bsdf *b, const vndf_half *half)
 {
-    double f[VNDF_WAVELENGTHS];
-    vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    if (!(wo.z > 0.0f) || !(half.event.facing_i > 0.0)) {
-        vndf_set_value(value, 0.0);
-        return;
-    }
-    double shape = 0.25 * vndf_bsdf_ndf(b, half.wm) * b->material->masking->reflection(b, &half.event);
+    return 0.25 * vndf_bsdf_ndf(b, half->wm) * b->material->masking->reflection(b, &half->event);
+}
+
+/* f of a reflection; `bare` as above. */
+VNDF_INLINE void vndf_eval_reflection(const vndf_bsdf *b, const vndf_half *half, float *value, int bare)
+{
+    double f[VNDF_WAVELENGTHS], shape = vndf_reflection_shape(b, half);
     if (bare) {
-        vndf_set_value(value, shape);
+        vndf_set_value(b, value, shape);
         return;
     }
-    vndf_reflectance(b, half.event.facing_i, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value[i] = vndf_density_from(shape * f[i]);
+    vndf_reflectance(b, half->event.facing_i, f);
+    vndf_set_values(b, value, shape, f, 0);
+}
+
+/* The part of the samples that is reflected: the mean over the wavelengths. */
+VNDF_INLINE double vndf_mean_of(const vndf_bsdf *b, const double f[VNDF_WAVELENGTHS])
+{
+    int count = b->material->is.wavelengths;
+    double sum = f[0];
+    for (int i = 1; i < count; i++)
+        sum += f[i];
+    return sum * b->material->per_wavelength;
 }
 
 #endif

@@ -21,14 +21,14 @@ double vndf_conductor(double cosine, double n, double k)
 
 static void set_all(double f[VNDF_WAVELENGTHS], double value)
 {
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++) /* all: no count is waited for */
         f[i] = value;
 }
 
 static void reflect_schlick(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
 {
     (void)eta;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < is->wavelengths; i++)
         f[i] = vndf_schlick(cosine, is->f0[i]);
 }
 
@@ -36,7 +36,7 @@ static void reflect_schlick(const vndf_description *is, double cosine, double et
 static void reflect_schlick_thin(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
 {
     double square = eta < 1.0 ? vndf_refracted_square(cosine, eta) : cosine * cosine;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < is->wavelengths; i++)
         f[i] = square > 0.0 ? vndf_schlick(sqrt(square), is->f0[i]) : 1.0;
 }
 
@@ -50,7 +50,7 @@ static void reflect_dielectric(const vndf_description *is, double cosine, double
 static void reflect_conductor(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS])
 {
     (void)eta;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < is->wavelengths; i++)
         f[i] = vndf_conductor(cosine, is->conductor_eta[i], is->conductor_k[i]);
 }
 

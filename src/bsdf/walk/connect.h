@@ -82,7 +82,7 @@ VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, 
     if (!(density > 0.0))
         return 0;
     double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, half.cosine, eta, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < walk->wavelengths; i++)
         s->value[i] = density * (across ? 1.0 - f[i] : f[i]);
     s->drawn = density * (!walk->transmits ? 1.0 : across ? 1.0 - mean : mean);
     return s->drawn > 0.0;

@@ -52,13 +52,13 @@ static double leaving_once(const end *from, const end *to)
     return to->target.beyond ? a * vndf_beta(a, 1.0 + to->target.lambda) : a / (a + to->target.lambda);
 }
 
-static void add_single(const end *from, const end *to, double value[VNDF_WAVELENGTHS])
+static void add_single(const end *from, const end *to, double *value)
 {
     vndf_walk_scattered s;
     if (!vndf_walk_scatter(&from->walk, &from->view, from->walk.eta, to->target.wo, to->target.beyond, &s))
         return;
     double leaving = leaving_once(from, to);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < from->walk.wavelengths; i++)
         value[i] += s.value[i] * leaving;
 }
 
@@ -71,7 +71,7 @@ static int step(const vndf_walk *walk, vndf_walk_path *path, vndf_vec3 *along)
     double lobe = vndf_walk_numbers(walk, path, u);
     vndf_vec3 back = vndf_walk_bounce(walk, path, vndf_walk_meet(path, u[0], u[1]), lobe);
     *along = vndf_vec3_of(-back.x, -back.y, -back.z);
-    return !vndf_walk_is_dark(path) && vndf_walk_travel(path, back);
+    return !vndf_walk_is_dark(walk, path) && vndf_walk_travel(path, back);
 }
 
 /* E at the beginning, from the first event's depth and the way that was taken from there. */
@@ -86,7 +86,7 @@ static double begin_factor(const end *from, const vndf_walk_path *path, vndf_vec
 
 /* Connects an event to the other end; `begin` holds the square of the index ratio, which reciprocity needs. */
 static void connect(const end *from, const end *to, const vndf_walk_path *path, double begin, double scale,
-                    double value[VNDF_WAVELENGTHS])
+                    double *value)
 {
     vndf_walk_scattered s;
     int across = path->turned != to->target.beyond;
@@ -94,12 +94,12 @@ static void connect(const end *from, const end *to, const vndf_walk_path *path, 
         return;
     double leaving = vndf_walk_leaving(path->depth, across, &to->target), factor = s.drawn * leaving / to->cosine;
     double weight = begin > 0.0 ? leaving * scale * (begin / (begin + factor)) : 0.0;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < from->walk.wavelengths; i++)
         value[i] += path->weight[i] * s.value[i] * weight;
 }
 
 /* A walk from one end, its part of f |cosine at the other end| times `scale`. */
-static void add_walk(const end *from, const end *to, uint64_t seed, double scale, double value[VNDF_WAVELENGTHS])
+static void add_walk(const end *from, const end *to, uint64_t seed, double scale, double *value)
 {
     vndf_walk_path path = vndf_walk_enter(&from->walk, &from->view, seed);
     vndf_vec3 along;
@@ -114,10 +114,10 @@ static void add_walk(const end *from, const end *to, uint64_t seed, double scale
     }
 }
 
-void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed,
-                    double value[VNDF_WAVELENGTHS])
+void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed, double *value)
 {
-    value[0] = value[1] = value[2] = 0.0;
+    for (int i = 0; i < walk->wavelengths; i++)
+        value[i] = 0.0;
     if (wo.z == 0.0f || (wo.z < 0.0f && !walk->transmits))
         return;
     end far = far_end(walk, view, wo), near = end_at(walk, view, far.target.beyond);
@@ -126,6 +126,6 @@ void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, 
     add_single(&near, &far, value);
     add_walk(&near, &far, seed, 1.0, value);
     add_walk(&far, &near, ~seed, index * far.cosine / near.cosine, value);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < walk->wavelengths; i++)
         value[i] = value[i] * factor < DBL_MAX ? value[i] * factor : DBL_MAX;
 }

@@ -8,6 +8,7 @@ static vndf_walk walk_of(const vndf_bsdf *b)
     const vndf_description *is = &b->material->is;
     vndf_walk walk = {b->material->fresnel->reflectance,
                       is,
+                      is->wavelengths,
                       b->eta,
                       is->effects.lobes != VNDF_LOBES_REFLECTION,
                       is->effects.transport,
@@ -27,22 +28,9 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     s->wo = vndf_mirrored(walked.wo, b->side);
     s->density = vndf_positive(vndf_walk_pdf(&walk, &b->view, walked.wo));
     s->lobe = walked.lobe;
+    s->wm = vndf_vec3_of(0.0f, 0.0f, 0.0f);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++)
         s->weight[i] = walked.weight[i];
-}
-
-static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
-{
-    vndf_walk walk = walk_of(b);
-    double f[VNDF_WAVELENGTHS];
-    wo.z *= b->side;
-    if (!vndf_is_near_unit(wo) || wo.z == 0.0f || (wo.z < 0.0f && !walk.transmits)) {
-        vndf_set_value(value, 0.0);
-        return;
-    }
-    vndf_walk_eval(&walk, &b->view, wo, seed, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value[i] = vndf_density_from(f[i] / fabs(wo.z));
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
@@ -54,6 +42,22 @@ static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
     return vndf_walk_pdf(&walk, &b->view, wo);
 }
 
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *density)
+{
+    vndf_walk walk = walk_of(b);
+    double f[VNDF_WAVELENGTHS];
+    if (density)
+        *density = pdf(b, wo);
+    wo.z *= b->side;
+    if (!vndf_is_near_unit(wo) || wo.z == 0.0f || (wo.z < 0.0f && !walk.transmits)) {
+        vndf_set_value(b, value, 0.0);
+        return;
+    }
+    vndf_walk_eval(&walk, &b->view, wo, seed, f);
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        value[i] = vndf_density_from(f[i] / fabs(wo.z));
+}
+
 const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval, pdf, NULL};
 
 /* ---- eta = 1 ---- */
@@ -61,18 +65,20 @@ const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval
 static void sample_unbent(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_vec3 wi = b->view.wi;
-    const vndf_scattered straight = {
-        {-wi.x, -wi.y, -b->side * wi.z}, {1.0f, 1.0f, 1.0f}, 1.0f, VNDF_LOBE_STRAIGHT};
     (void)u;
-    *s = straight;
+    vndf_scatter_nothing(s);
+    s->wo = vndf_vec3_of(-wi.x, -wi.y, -b->side * wi.z);
+    s->density = 1.0f;
+    s->lobe = VNDF_LOBE_STRAIGHT;
+    for (int i = 0; i < b->material->is.wavelengths; i++)
+        s->weight[i] = 1.0f;
 }
 
-static void eval_unbent(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+static void eval_unbent(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    (void)b;
     (void)wo;
     (void)seed;
-    vndf_set_value(value, 0.0);
+    vndf_see_nothing(b, value, pdf);
 }
 
 static float pdf_unbent(const vndf_bsdf *b, vndf_vec3 wo)

@@ -59,8 +59,8 @@ VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
 /* A ray that enters from far above. */
 VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, uint64_t seed)
 {
-    vndf_walk_path path = {
-        *view, 0.0, {1.0, 1.0, 1.0}, walk->eta, 1.0 / walk->eta, 0, vndf_walk_random_from(seed)};
+    vndf_walk_path path = {*view,           0.0, {1.0, 1.0, 1.0, 1.0},       walk->eta,
+                           1.0 / walk->eta, 0,   vndf_walk_random_from(seed)};
     path.depth = vndf_walk_exponential(&path.random) / vndf_law_view_slant(view);
     return path;
 }
@@ -76,11 +76,15 @@ VNDF_INLINE double vndf_walk_reflectances(const vndf_walk *walk, double cosine, 
                                           double f[VNDF_WAVELENGTHS])
 {
     if (walk->transmits && !(vndf_walk_beyond(cosine, eta) > 0.0)) {
-        f[0] = f[1] = f[2] = 1.0;
+        for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+            f[i] = 1.0;
         return 1.0;
     }
     walk->reflectance(walk->is, cosine, eta, f);
-    return (f[0] + f[1] + f[2]) / 3.0;
+    double sum = f[0];
+    for (int i = 1; i < walk->wavelengths; i++)
+        sum += f[i];
+    return sum / walk->wavelengths;
 }
 
 /* A drawn normal and its cosine to where the ray came from. */
@@ -116,10 +120,10 @@ VNDF_INLINE void vndf_walk_turn(vndf_walk_path *path)
     path->depth = vndf_walk_other_depth(path->depth);
 }
 
-VNDF_INLINE void vndf_walk_weigh(vndf_walk_path *path, const double f[VNDF_WAVELENGTHS], double mean,
-                                 int reflected)
+VNDF_INLINE void vndf_walk_weigh(const vndf_walk *walk, vndf_walk_path *path, const double f[VNDF_WAVELENGTHS],
+                                 double mean, int reflected)
 {
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < walk->wavelengths; i++)
         path->weight[i] *= reflected ? f[i] / mean : (1.0 - f[i]) / (1.0 - mean);
 }
 
@@ -128,7 +132,7 @@ VNDF_INLINE vndf_vec3 vndf_walk_bounce(const vndf_walk *walk, vndf_walk_path *pa
 {
     double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, m.cosine, path->eta, f), eta = path->eta;
     int reflected = !walk->transmits || u < mean || !(mean < 1.0);
-    vndf_walk_weigh(path, f, walk->transmits ? mean : 1.0, reflected);
+    vndf_walk_weigh(walk, path, f, walk->transmits ? mean : 1.0, reflected);
     if (reflected)
         return vndf_walk_reflected(path->view.wi, m);
     vndf_walk_turn(path);
@@ -165,9 +169,12 @@ VNDF_INLINE double vndf_walk_transport(const vndf_walk *walk, int turned)
 }
 
 /* Nothing is carried on. */
-VNDF_INLINE int vndf_walk_is_dark(const vndf_walk_path *path)
+VNDF_INLINE int vndf_walk_is_dark(const vndf_walk *walk, const vndf_walk_path *path)
 {
-    return !(path->weight[0] + path->weight[1] + path->weight[2] > 0.0);
+    double sum = path->weight[0];
+    for (int i = 1; i < walk->wavelengths; i++)
+        sum += path->weight[i];
+    return !(sum > 0.0);
 }
 
 #endif

@@ -35,6 +35,7 @@ typedef void vndf_walk_reflectance(const vndf_description *is, double cosine, do
 typedef struct vndf_walk {
     vndf_walk_reflectance *reflectance;
     const vndf_description *is; /* handed to it */
+    int wavelengths;            /* 1 to VNDF_WAVELENGTHS; of values and weights the first so many are written */
     double eta;                 /* index on the other side over that on the side of wi; not 1 if it transmits */
     int transmits;              /* else light that is not reflected is lost */
     vndf_transport transport;
@@ -55,8 +56,7 @@ void vndf_walk_sample(const vndf_walk *walk, const vndf_view *view, const float 
 /* f |cos_o|: a random number of that mean. The first order is exact, the model of single scattering with
  * height-correlated masking; the others are those of two walks, one from either end (eval.c). For any function
  * g of directions the mean of weight g(wo) over what vndf_walk_sample draws is the integral of eval(wo) g(wo). */
-void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed,
-                    double value[VNDF_WAVELENGTHS]);
+void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed, double *value);
 
 /* A density near that of vndf_walk_sample's directions, closed and of integral 1: over the upper half of the
  * sphere, or over all of it if the walk transmits. Positive everywhere there but where wo.z = 0. */

@@ -2,6 +2,7 @@
  * mean slope and the turn do to normals and densities. */
 #include "math/vector.h"
 #include "sampler/affine/areas.h"
+#include "sampler/affine/densities.h"
 #include "sampler/area.h"
 
 /* ---- the plain surface ---- */
@@ -136,11 +137,11 @@ vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, f
 
 /* ---- densities ---- */
 
-static vndf_query query_of(const vndf_affine_view *view, vndf_vec3 wm)
+static vndf_query query_of(const vndf_affine_view *view, vndf_normal wm)
 {
     const vndf_view *of = &view->principal;
     vndf_principal p = axes_of(view);
-    vndf_normal n = vndf_principal_normal(&p, vndf_normal_of(wm));
+    vndf_normal n = vndf_principal_normal(&p, wm);
     vndf_query g = {{of->alpha_x, of->alpha_y, of->wi.x, of->wi.y, of->wi.z}, n.x, n.y, n.z};
     return g;
 }
@@ -148,9 +149,20 @@ static vndf_query query_of(const vndf_affine_view *view, vndf_vec3 wm)
 /* wi'.n is wi.wm, which loses no digits. */
 static double visible_of(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    vndf_query g = query_of(view, wm);
+    vndf_query g = query_of(view, vndf_normal_of(wm));
     double facing = vndf_exact_dot(view->wi, wm) * view->factor;
     return vndf_law_visible(view->principal.distribution, &g, facing);
+}
+
+vndf_densities vndf_affine_densities(const vndf_affine_view *view, vndf_normal wm, double facing)
+{
+    const vndf_view *of = &view->principal;
+    vndf_query g = {{of->alpha_x, of->alpha_y, of->wi.x, of->wi.y, of->wi.z}, wm.x, wm.y, wm.z};
+    if (!view->straight)
+        g = query_of(view, wm);
+    double visible = vndf_law_visible(of->distribution, &g, view->straight ? facing : facing * view->factor);
+    vndf_densities d = {vndf_law_is_exact(of->distribution) ? visible : vndf_law_density(of, &g), visible};
+    return d;
 }
 
 /* Closed forms draw with Dv itself, which has no use for wi' as it was rounded. */
@@ -162,7 +174,7 @@ float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
         return 0.0f;
     if (vndf_law_is_exact(view->principal.distribution))
         return vndf_positive(vndf_density_from(visible_of(view, wm)));
-    vndf_query g = query_of(view, wm);
+    vndf_query g = query_of(view, vndf_normal_of(wm));
     return vndf_positive(vndf_density_from(vndf_law_density(&view->principal, &g)));
 }
 
@@ -185,7 +197,7 @@ void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, f
     }
     if (!(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return;
-    vndf_query g = query_of(view, wm);
+    vndf_query g = query_of(view, vndf_normal_of(wm));
     double per = 1.0 / sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
     vndf_vec3 n = {(float)(g.x * per), (float)(g.y * per), (float)(g.z * per)};
     vndf_law_invert(&view->principal, n, u1, u2);
@@ -195,10 +207,10 @@ void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, f
 
 static int areas_of(const plain *of, vndf_areas *areas)
 {
-    vndf_direction w = {0.0, 0.0, of->to.x, of->to.y, of->to.z};
-    if (!vndf_surface_scaled(&of->surface, &w.ax, &w.ay) || !vndf_is_usable_direction(of->wi))
+    double ax, ay;
+    if (!vndf_surface_scaled(&of->surface, &ax, &ay) || !vndf_is_usable_direction(of->wi))
         return 0;
-    *areas = vndf_areas_of(of->surface.distribution, &w, 1);
+    *areas = vndf_areas_of(of->surface.distribution, ax, ay, &of->to, 1);
     return 1;
 }
 
@@ -237,7 +249,7 @@ float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w)
 {
     plain of = plain_of(surface, w);
     vndf_areas areas;
-    return areas_of(&of, &areas) ? vndf_unit_area_of(areas.toward, vndf_normal_of(w), of.to.factor, 1) : 0.0f;
+    return areas_of(&of, &areas) ? vndf_unit_area_of(areas.toward, vndf_normal_of(w), 1) : 0.0f;
 }
 
 float vndf_affine_lambda(const vndf_affine *surface, vndf_vec3 w)
@@ -259,6 +271,17 @@ float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec3 wo, vnd
 
 /* ---- parts of a mixture ---- */
 
+void vndf_affine_view_areas(const vndf_affine_view *view, vndf_vec3 w, vndf_areas *areas)
+{
+    const vndf_view *of = &view->principal;
+    vndf_toward to = {w.x, w.y, w.z, 1.0};
+    if (!view->straight) {
+        vndf_principal p = axes_of(view);
+        to = vndf_principal_toward(&p, w.x, w.y, w.z);
+    }
+    *areas = vndf_areas_of(of->distribution, of->alpha_x, of->alpha_y, &to, 1);
+}
+
 int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas)
 {
     plain of = plain_of(surface, w);
@@ -271,10 +294,11 @@ vndf_affine_view vndf_affine_lobe(const vndf_affine *surface, vndf_vec3 wi, vndf
     view.straight = 1;
     if (is_straight(surface)) { /* it is asked for its area as it is */
         vndf_surface same = {surface->distribution, fabsf(surface->xx), fabsf(surface->yy)};
-        vndf_direction w = {0.0, 0.0, wi.x, wi.y, wi.z};
-        *valid = vndf_surface_scaled(&same, &w.ax, &w.ay) && vndf_is_usable_direction(wi);
+        vndf_toward to = {wi.x, wi.y, wi.z, 1.0};
+        double ax, ay;
+        *valid = vndf_surface_scaled(&same, &ax, &ay) && vndf_is_usable_direction(wi);
         if (*valid) {
-            *areas = vndf_areas_of(surface->distribution, &w, 1);
+            *areas = vndf_areas_of(surface->distribution, ax, ay, &to, 1);
             vndf_view_set(&view.principal, &same, wi);
         }
         return view;

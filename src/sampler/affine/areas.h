@@ -4,24 +4,27 @@
 
 #include "sampler/affine/principal.h"
 
-/* A(w) and A(-w), and their difference, the projection of the mean plane; all times the length of w, and `factor`. */
+/* A(w) and A(-w), and their difference, the projection of the mean plane; all times the length of w. */
 typedef struct vndf_areas {
     doubles toward, away, up;
 } vndf_areas;
 
-/* For the roughness of the plain surface and wi' before it is rounded. */
-VNDF_INLINE vndf_areas vndf_areas_of(const vndf_distribution *d, const vndf_direction *w, doubles_m valid)
+/* Roughness is times the distribution's scale; wi' counts before it is rounded. */
+VNDF_INLINE vndf_areas vndf_areas_of(const vndf_distribution *d, doubles ax, doubles ay, const vndf_toward *to,
+                                     doubles_m valid)
 {
-    doubles below = vndf_law_area_below(d, w, valid);
-    vndf_areas areas = {below + doubles_positive(w->z), below + doubles_positive(doubles_set(0.0) - w->z), w->z};
+    vndf_direction w = {ax, ay, to->x, to->y, to->z};
+    doubles below = vndf_law_area_below(d, &w, valid), per = 1.0 / to->factor;
+    vndf_areas areas = {(below + doubles_positive(w.z)) * per,
+                        (below + doubles_positive(doubles_set(0.0) - w.z)) * per, w.z * per};
     return areas;
 }
 
-/* The area for a unit w from that along w. */
-VNDF_INLINE doubles_f vndf_unit_area_of(doubles toward, vndf_normal w, doubles factor, doubles_m valid)
+/* The area for a unit w from the area along w. */
+VNDF_INLINE doubles_f vndf_unit_area_of(doubles toward, vndf_normal w, doubles_m valid)
 {
     doubles length = doubles_root(w.x * w.x + w.y * w.y + w.z * w.z);
-    return doubles_narrow(doubles_pick(valid, toward / (length * factor), doubles_set(0.0)));
+    return doubles_narrow(doubles_pick(valid, toward / length, doubles_set(0.0)));
 }
 
 #if VNDF_LANES == 1

@@ -2,6 +2,7 @@
  * there is. */
 #include "math/vector.h"
 #include "sampler/affine/areas.h"
+#include "sampler/affine/densities.h"
 #include "sampler/surface.h"
 
 /* One over the sum of the weights; 0 if a weight or the count is invalid. */
@@ -21,22 +22,20 @@ static double per_weight(const vndf_mixture *m)
 /* ---- views ---- */
 
 /* Shares of u1: those of the areas, or of the weights where all areas vanish, far below the horizon. */
-static void share(vndf_mixture_view *view, const double *area, const double *weight)
+static void share(vndf_mixture_view *view, const double *area)
 {
-    double sum = 0.0;
-    for (int i = 0; i < view->count; i++)
-        sum += area[i];
     view->begin[0] = 0.0;
     for (int i = 0; i < view->count; i++)
-        view->begin[i + 1] = view->begin[i] + (sum > 0.0 ? area[i] / sum : weight[i]);
+        view->begin[i + 1] = view->begin[i] + (view->area > 0.0 ? area[i] / view->area : view->weight[i]);
     view->begin[view->count] = 1.0;
 }
 
 vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
 {
     vndf_mixture_view view;
-    double area[VNDF_MIXTURE_LOBES], weight[VNDF_MIXTURE_LOBES], per = per_weight(mixture);
+    double area[VNDF_MIXTURE_LOBES], per = per_weight(mixture);
     view.count = 0;
+    view.area = view.mean_x = view.mean_y = 0.0;
     for (int i = 0; per > 0.0 && i < mixture->count; i++) {
         const vndf_mixture_lobe *lobe = &mixture->lobe[i];
         vndf_areas areas;
@@ -49,11 +48,14 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
             return view;
         }
         area[view.count] = lobe->weight * per * areas.toward;
-        weight[view.count] = lobe->weight * per;
+        view.weight[view.count] = lobe->weight * per;
+        view.area += area[view.count];
+        view.mean_x += lobe->weight * per * lobe->surface.mean_x;
+        view.mean_y += lobe->weight * per * lobe->surface.mean_y;
         view.index[view.count++] = i;
     }
     if (view.count > 0)
-        share(&view, area, weight);
+        share(&view, area);
     return view;
 }
 
@@ -86,6 +88,17 @@ float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
     for (int i = 0; i < view->count; i++)
         visible += share_of(view, i) * vndf_affine_visible(&view->lobe[i], wm);
     return vndf_density_from(visible);
+}
+
+vndf_densities vndf_mixture_densities(const vndf_mixture_view *view, vndf_normal wm, double facing)
+{
+    vndf_densities sum = {0.0, 0.0};
+    for (int i = 0; i < view->count; i++) {
+        vndf_densities d = vndf_affine_densities(&view->lobe[i], wm, facing);
+        sum.pdf += share_of(view, i) * d.pdf;
+        sum.visible += share_of(view, i) * d.visible;
+    }
+    return sum;
 }
 
 /* ---- samples ---- */
@@ -179,6 +192,23 @@ float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y)
     return vndf_density_from(sum);
 }
 
+VNDF_INLINE void add_areas(vndf_areas *whole, double weight, const vndf_areas *part)
+{
+    whole->toward += weight * part->toward;
+    whole->away += weight * part->away;
+    whole->up += weight * part->up;
+}
+
+void vndf_mixture_view_areas(const vndf_mixture_view *view, vndf_vec3 w, vndf_areas *areas)
+{
+    *areas = (vndf_areas){0.0, 0.0, 0.0};
+    for (int i = 0; i < view->count; i++) {
+        vndf_areas part;
+        vndf_affine_view_areas(&view->lobe[i], w, &part);
+        add_areas(areas, view->weight[i], &part);
+    }
+}
+
 /* Of the whole; 0 where it or the direction is invalid. */
 static int areas_of(const vndf_mixture *mixture, vndf_vec3 w, vndf_areas *whole)
 {
@@ -191,9 +221,7 @@ static int areas_of(const vndf_mixture *mixture, vndf_vec3 w, vndf_areas *whole)
             continue;
         if (!vndf_affine_areas(&mixture->lobe[i].surface, w, &areas))
             return 0;
-        whole->toward += weight * areas.toward;
-        whole->away += weight * areas.away;
-        whole->up += weight * areas.up;
+        add_areas(whole, weight, &areas);
     }
     return per > 0.0;
 }

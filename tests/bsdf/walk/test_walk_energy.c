@@ -61,7 +61,7 @@ static void test_subject(int subject)
 /* Reflectances of (0.95, 0.6, 0.25): their powers by the order. A limit cuts the same walk short. */
 static void test_orders(void)
 {
-    vndf_walk walk = {walk_constant, &walk_gold, 1.0f, 0, VNDF_TRANSPORT_RADIANCE, 64}, shorter = walk;
+    vndf_walk walk = {walk_constant, &walk_gold, 3, 1.0f, 0, VNDF_TRANSPORT_RADIANCE, 64}, shorter = walk;
     vndf_view view = walk_view(vndf_ggx(), 1.0f, 1.0f, 0.7, 0.0);
     unsigned long long state = 4;
     shorter.order_limit = 3;

@@ -152,7 +152,7 @@ static void test_reciprocity(int subject)
 /* Order k of a constant reflectance f has the factor f^k: up to order 2 value/f is linear in f, and not beyond. */
 static void test_orders(void)
 {
-    vndf_walk walk = {walk_constant, &walk_gold, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 2};
+    vndf_walk walk = {walk_constant, &walk_gold, 3, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 2};
     vndf_view view = walk_view(vndf_ggx(), 1.0f, 1.0f, 0.8, 0.3);
     const float *f = walk_gold.f0;
     double steepest = 0.0;

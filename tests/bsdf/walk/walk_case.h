@@ -82,13 +82,13 @@ static const vndf_description walk_gold = {.f0 = {0.95f, 0.6f, 0.25f}};
 
 static inline vndf_walk walk_of_mirror(void)
 {
-    vndf_walk walk = {walk_mirror, &walk_gold, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 64};
+    vndf_walk walk = {walk_mirror, &walk_gold, 3, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 64};
     return walk;
 }
 
 static inline vndf_walk walk_of_glass(float eta)
 {
-    vndf_walk walk = {walk_dielectric, &walk_gold, eta, 1, VNDF_TRANSPORT_IMPORTANCE, 64};
+    vndf_walk walk = {walk_dielectric, &walk_gold, 3, eta, 1, VNDF_TRANSPORT_IMPORTANCE, 64};
     return walk;
 }
 

@@ -64,7 +64,7 @@ static inline void sample(const caps_hit *hit, const float u[3], vndf_scattered 
     }
     float weight = hit->area * wo.z * masking(hit, wo);
     float density = ndf(hit, wm) / (4.0f * hit->area);
-    *out = (vndf_scattered){wo, {weight, weight, weight}, density, VNDF_LOBE_REFLECTION};
+    *out = (vndf_scattered){wo, {weight, weight, weight}, density, VNDF_LOBE_REFLECTION, wm};
 }
 
 static inline vndf_vec3 half_of(vndf_vec3 wi, vndf_vec3 wo)
@@ -95,7 +95,7 @@ static void eval(const effects_job *job)
     for (size_t i = 0; i < job->count; i++) {
         vndf_vec3 wo = job->in[i].wo;
         float f = 0.25f * ndf(&hit, half_of(hit.wi, wo)) * masking(&hit, wo);
-        for (int k = 0; k < VNDF_WAVELENGTHS; k++)
+        for (int k = 0; k < 3; k++)
             job->out[i].weight[k] = f;
     }
 }

@@ -43,7 +43,7 @@ static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec
     if (kind == HAND_TABLE)
         quotient = vndf_ndf(s, wm) * facing / pdf;
     float weight = quotient * wo.z * masking(s, wi, area, wo, kind);
-    *out = (vndf_scattered){wo, {weight, weight, weight}, pdf / (4.0f * facing), VNDF_LOBE_REFLECTION};
+    *out = (vndf_scattered){wo, {weight, weight, weight}, pdf / (4.0f * facing), VNDF_LOBE_REFLECTION, wm};
 }
 
 static inline vndf_vec3 half_of(vndf_vec3 wi, vndf_vec3 wo)
@@ -81,7 +81,7 @@ static inline void eval_of(const effects_job *job, hand_kind kind)
     for (size_t i = 0; i < job->count; i++) {
         vndf_vec3 wo = job->in[i].wo;
         float f = 0.25f * vndf_ndf(s, half_of(wi, wo)) * masking(s, wi, area, wo, kind);
-        for (int k = 0; k < VNDF_WAVELENGTHS; k++)
+        for (int k = 0; k < 3; k++)
             job->out[i].weight[k] = f;
     }
 }

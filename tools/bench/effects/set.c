@@ -9,9 +9,9 @@ static const float index_ratio = 1.5f; /* of surfaces that transmit */
 static const char bare[] = "bare reflection";
 
 /* Fresnel terms: gold at 650, 550 and 450 nm, and a dielectric under Schlick's approximation. */
-static const float gold_eta[VNDF_WAVELENGTHS] = {0.16f, 0.42f, 1.35f};
-static const float gold_k[VNDF_WAVELENGTHS] = {3.5f, 2.35f, 1.9f};
-static const float schlick_f0[VNDF_WAVELENGTHS] = {0.04f, 0.04f, 0.04f};
+static const float gold_eta[3] = {0.16f, 0.42f, 1.35f};
+static const float gold_k[3] = {3.5f, 2.35f, 1.9f};
+static const float schlick_f0[3] = {0.04f, 0.04f, 0.04f};
 
 const effects_set effects_sets[] = {
     {.name = "by hand, without the library", .kind = EFFECTS_BY_CAPS},
@@ -30,7 +30,7 @@ const effects_set effects_sets[] = {
      .visible = "V-cavity masking"},
     {.name = "two roughnesses", .stretched = 1},
     {.name = "roughness per hit", .kind = EFFECTS_ROUGH},
-    {.name = "rotated axes", .effects = {.axes = VNDF_AXES_ROTATED}, .stretched = 1},
+    {.name = "rotated axes", .effects = {.shape = VNDF_SHAPE_ROTATED}, .stretched = 1},
     {.name = "transmission alone",
      .effects = {.lobes = VNDF_LOBES_TRANSMISSION, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},

@@ -16,7 +16,7 @@ static int is_sane(const vndf_scattered *s, float side_of_wi)
     float length2 = w.x * w.x + w.y * w.y + w.z * w.z, side = side_of_wi * w.z;
     if (s->lobe == VNDF_LOBE_NONE)
         return s->weight[0] == 0.0f;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < 3; i++)
         if (!(s->weight[i] >= 0.0f && s->weight[i] < INFINITY))
             return 0;
     return fabsf(length2 - 1.0f) < 4e-6f && s->density > 0.0f && s->density < INFINITY &&
@@ -43,7 +43,7 @@ static int agrees(const vndf_scattered *drawn, const vndf_scattered *found, doub
     double cosine = fabs((double)drawn->wo.z), density = (double)drawn->density;
     if (drawn->lobe == VNDF_LOBE_NONE || drawn->lobe == VNDF_LOBE_STRAIGHT)
         return 1;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < 3; i++)
         if (!is_near((double)found->weight[i] * cosine / density, (double)drawn->weight[i], tolerance))
             return 0;
     return is_near((double)found->density, density, tolerance);

@@ -152,7 +152,7 @@ static vndf_description describe(const path_material *m, const path_choice *choi
     if (choice->without & EFFECT_MULTIPLE)
         is.effects.scattering = VNDF_SCATTERING_SINGLE;
     if (choice->without & EFFECT_ROTATED_AXES)
-        is.effects.axes = VNDF_AXES_FIXED;
+        is.effects.shape = VNDF_SHAPE_ALIGNED;
     return is;
 }
 
@@ -177,7 +177,7 @@ int path_rough_make(path_material *m, const path_choice *choice, char *message, 
     vndf_description is = describe(m, choice);
     vndf_error error = {VNDF_OK, ""};
     int maps = m->is->is_textured && !(choice->without & EFFECT_TEXTURED_ALPHA);
-    float angle = is.effects.axes == VNDF_AXES_ROTATED ? is.rotation : 0.0f;
+    float angle = is.effects.shape == VNDF_SHAPE_ROTATED ? is.rotation : 0.0f;
     if (vndf_material_resolve(&is, &m->bsdf, &error) != VNDF_OK)
         return refuse(m, error.message, message, size);
     m->roughness = (vndf_roughness){is.alpha_x, is.alpha_y, cosf(angle), sinf(angle)};

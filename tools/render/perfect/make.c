@@ -150,7 +150,7 @@ path_perfect *path_perfect_make(const vndf_description *is, vndf_error *error)
     if (p) {
         p->is = *is;
         p->is.effects.normals = VNDF_NORMALS_VISIBLE;
-        p->is.effects.axes = VNDF_AXES_FIXED;
+        p->is.effects.shape = VNDF_SHAPE_ALIGNED;
     }
     if (p && vndf_material_resolve(&p->is, &p->material, error) != VNDF_OK) {
         free(p);

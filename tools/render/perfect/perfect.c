@@ -105,10 +105,10 @@ static lobe_choice choose_lobe(const perfect_hit *h, vndf_vec3 wm, float share)
 static void scale_sample(vndf_scattered *s, float more)
 {
     s->density *= more;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    for (int i = 0; i < 3; i++)
         s->weight[i] /= more;
     if (!(more > 0.0f)) /* beside total reflection rounding took a lobe that is not there */
-        *s = (vndf_scattered){s->wo, {0.0f, 0.0f, 0.0f}, 0.0f, VNDF_LOBE_NONE};
+        *s = (vndf_scattered){.wo = s->wo, .lobe = VNDF_LOBE_NONE};
 }
 
 void path_perfect_sample(const perfect_hit *h, const float u[3], vndf_scattered *s)
@@ -127,7 +127,7 @@ void path_perfect_sample(const perfect_hit *h, const float u[3], vndf_scattered 
 
 /* ---- a given direction ---- */
 
-void path_perfect_eval(const perfect_hit *h, vndf_vec3 wo, float value[VNDF_WAVELENGTHS])
+void path_perfect_eval(const perfect_hit *h, vndf_vec3 wo, float value[3])
 {
     vndf_bsdf_eval(&h->bsdf, into_frame(h, wo), 0, value);
 }

@@ -44,7 +44,7 @@ size_t path_perfect_bytes(const path_perfect *p);
  * `turned` is not read). begin: 0 if nothing is scattered; sample: u in [0, 1); eval: f. */
 int path_perfect_begin(perfect_hit *h, const path_perfect *p, const vndf_roughness *turned, vndf_vec3 wi);
 void path_perfect_sample(const perfect_hit *h, const float u[3], vndf_scattered *s);
-void path_perfect_eval(const perfect_hit *h, vndf_vec3 wo, float value[VNDF_WAVELENGTHS]);
+void path_perfect_eval(const perfect_hit *h, vndf_vec3 wo, float value[3]);
 float path_perfect_pdf(const perfect_hit *h, vndf_vec3 wo);
 
 #endif

@@ -158,7 +158,7 @@ static int read_roughness(scene_reader *r, const clause c[CLAUSES], material *m)
         return 1;
     if (!reader_number(r, &c[ROTATION], 0, -360, 360, &degrees))
         return 0;
-    m->is.effects.axes = degrees != 0.0f ? VNDF_AXES_ROTATED : VNDF_AXES_FIXED;
+    m->is.effects.shape = degrees != 0.0f ? VNDF_SHAPE_ROTATED : VNDF_SHAPE_ALIGNED;
     m->is.rotation = degrees * 0.0174532925f;
     return 1;
 }

@@ -1,7 +1,8 @@
-#include "bsdf/lobes/rotated.h"
+#include "bsdf/lobes/turned.h"
 
 #include "bsdf/lobes/scatter.h"
 #include "math/vector.h"
+#include "sampler/affine/principal.h"
 
 static vndf_vec3 to_axes(const vndf_bsdf *b, vndf_vec3 w)
 {
@@ -15,11 +16,26 @@ static vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
     return vndf_vec3_of(c * w.x - s * w.y, c * w.y + s * w.x, w.z);
 }
 
+int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine, vndf_roughness *r)
+{
+    const vndf_slope_map centred = {affine->xx, affine->xy, affine->yx, affine->yy, 0.0, 0.0};
+    vndf_principal p = vndf_principal_of(&centred);
+    const vndf_surface surface = {d, p.ax, p.ay};
+    double ax, ay;
+    if (!vndf_surface_scaled(&surface, &ax, &ay))
+        return 0;
+    r->alpha_x = p.ax;
+    r->alpha_y = p.ay;
+    r->cos_rotation = (float)p.cosine;
+    r->sin_rotation = (float)p.sine;
+    return 1;
+}
+
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     b->cos_rotation = r->cos_rotation;
     b->sin_rotation = r->sin_rotation;
-    return b->material->unrotated->prepare(b, r, to_axes(b, wi));
+    return b->material->unturned->prepare(b, r, to_axes(b, wi));
 }
 
 /* Whether the slope of wo is the drawn one (vndf_is_settled), though two turns have rounded wo three times more. */
@@ -38,7 +54,7 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
 static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 {
     const vndf_material *m = b->material;
-    float f[VNDF_WAVELENGTHS], density = m->unrotated->pdf(b, wo);
+    float f[VNDF_WAVELENGTHS], density = m->unturned->pdf(b, wo);
     if (!(density > 0.0f)) {
         vndf_scatter_nothing(s);
         return;
@@ -47,29 +63,30 @@ static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
     if (m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE ||
         !(density > VNDF_TRUST_DIVISOR && density < VNDF_TRUST_VALUE))
         return;
-    m->unrotated->eval(b, wo, 0, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+    m->unturned->eval(b, wo, 0, f, NULL);
+    for (int i = 0; i < m->is.wavelengths; i++)
         if (f[i] < VNDF_TRUST_VALUE)
             s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    b->material->unrotated->sample(b, u, s);
+    b->material->unturned->sample(b, u, s);
     s->wo = from_axes(b, s->wo);
+    s->wm = from_axes(b, s->wm);
     vndf_vec3 wo = to_axes(b, s->wo);
     if ((s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION) && !is_settled(b, s, wo))
         evaluate(b, wo, s);
 }
 
-static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float value[VNDF_WAVELENGTHS])
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    b->material->unrotated->eval(b, to_axes(b, wo), seed, value);
+    b->material->unturned->eval(b, to_axes(b, wo), seed, value, pdf);
 }
 
-static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
+static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return b->material->unrotated->pdf(b, to_axes(b, wo));
+    return b->material->unturned->pdf(b, to_axes(b, wo));
 }
 
-const vndf_routines vndf_routines_rotated = {prepare, sample, eval, pdf, NULL};
+const vndf_routines vndf_routines_turned = {prepare, sample, eval, pdf_of, NULL};

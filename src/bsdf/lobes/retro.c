@@ -1,0 +1,33 @@
+/* Samples, values and densities are those of the same material without retroreflection, with wo turned by half a turn
+ * where it is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
+#include "bsdf/lobes/retro.h"
+
+static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    vndf_vec3 back = {-wo.x, -wo.y, wo.z};
+    return wo.z * b->side > 0.0f ? back : wo;
+}
+
+static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return b->material->specular->prepare(b, r, wi);
+}
+
+static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    b->material->specular->sample(b, u, s);
+    if (s->lobe == VNDF_LOBE_REFLECTION)
+        s->wo = turned_about(b, s->wo);
+}
+
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+{
+    b->material->specular->eval(b, turned_about(b, wo), seed, value, pdf);
+}
+
+static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    return b->material->specular->pdf(b, turned_about(b, wo));
+}
+
+const vndf_routines vndf_routines_retro = {prepare, sample, eval, pdf_of, NULL};

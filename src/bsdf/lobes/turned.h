@@ -1,0 +1,13 @@
+/* Roughness with principal axes at an angle: directions are turned to the axes, and sampled ones back. */
+#ifndef VNDF_BSDF_LOBES_TURNED_H
+#define VNDF_BSDF_LOBES_TURNED_H
+
+#include "bsdf/routines.h"
+
+extern const vndf_routines vndf_routines_turned;
+
+/* The roughness and the axes of a matrix of slopes; 0 if it is invalid. */
+int vndf_turned_roughness(const vndf_distribution *distribution, const vndf_affine *affine,
+                          vndf_roughness *roughness);
+
+#endif
