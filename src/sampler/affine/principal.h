@@ -33,6 +33,11 @@ VNDF_INLINE doubles_m vndf_are_zero(doubles a, doubles b)
     return doubles_at_most(doubles_abs(a) + doubles_abs(b), doubles_set(0.0));
 }
 
+VNDF_INLINE doubles_m vndf_principal_is_straight(const vndf_principal *p)
+{
+    return doubles_both(vndf_are_zero(p->sine, p->mean_x), vndf_are_zero(p->mean_y, p->mean_y));
+}
+
 /* Axes and singular values of M from M M^T = (a b; b c): half the difference and half the sum of its eigenvalues.
  * Squares of floats are exact in double, and so are the products in the determinant. A diagonal M has the axes x and
  * y, whichever is rougher. */
@@ -51,7 +56,6 @@ VNDF_INLINE vndf_principal vndf_principal_axes(const vndf_slope_map *m)
     at.ay = doubles_narrow(doubles_pick(diagonal, doubles_abs(yy), least));
     at.cosine = doubles_pick(turned, cosine, one);
     at.sine = doubles_pick(turned, sine, nothing);
-    at.straight = doubles_both(diagonal, vndf_are_zero(m->mean_x, m->mean_y));
     return at;
 }
 
@@ -65,6 +69,7 @@ VNDF_INLINE vndf_principal vndf_principal_of(const vndf_slope_map *m)
     at.ax = doubles_narrow(doubles_pick(near, doubles_widen(at.ax), doubles_set(0.0)));
     at.mean_x = at.cosine * m->mean_x + at.sine * m->mean_y;
     at.mean_y = at.cosine * m->mean_y - at.sine * m->mean_x;
+    at.straight = vndf_principal_is_straight(&at);
     return at;
 }
 
