@@ -29,6 +29,19 @@ VNDF_INLINE doubles_f vndf_unit_area_of(doubles toward, vndf_normal w, doubles_m
 
 #if VNDF_LANES == 1
 
+/* A(-w)/up above the mean plane, so that nothing cancels; below it -1 - Lambda(-w). */
+VNDF_INLINE float vndf_areas_lambda(const vndf_areas *areas)
+{
+    double lambda = areas->up < 0.0 ? -1.0 - areas->toward / -areas->up : areas->away / areas->up;
+    return lambda < (double)FLT_MAX ? (lambda > -(double)FLT_MAX ? (float)lambda : -FLT_MAX) : FLT_MAX;
+}
+
+VNDF_INLINE float vndf_areas_g1(const vndf_areas *areas)
+{
+    double g1 = areas->up > 0.0 ? areas->up / areas->toward : 0.0;
+    return g1 < 1.0 ? (float)g1 : 1.0f;
+}
+
 /* 0 where the surface or the direction is invalid. */
 int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas);
 

@@ -9,7 +9,7 @@
 #include "sampler/batch/lanes_eval.h"
 #include "sampler/batch/lanes_sample.h"
 
-enum { VNDF_AXES_BLOCK = 256 };
+enum { VNDF_AXES_BLOCK = 128 };
 
 /* The inputs of a block. */
 enum {
