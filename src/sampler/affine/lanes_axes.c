@@ -1,5 +1,5 @@
-/* See lanes_axes.h. The scalar calls (affine.c) use the same sources. Lanes past the end of a block work on numbers that
- * are in memory, and nobody reads what they make of them. */
+/* See lanes_axes.h. The scalar calls (affine.c) use the same sources. Lanes past the end of a block work on numbers
+ * that are in memory, and nobody reads what they make of them. */
 #include "sampler/affine/lanes_axes.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1

@@ -1,5 +1,6 @@
-/* Batches of mixtures: in blocks, where the processor has lanes (blocks.h), else one after the other. Samples are sorted
- * by lobe, each lobe draws its own, and all other lobes evaluate them. The inverse always takes one after the other. */
+/* Batches of mixtures: in blocks, where the processor has lanes (blocks.h), else one after the other. Samples are
+ * sorted by lobe, each lobe draws its own, and all other lobes evaluate them. The inverse always takes one after the
+ * other. */
 #include <string.h>
 
 #include "sampler/affine/areas.h"

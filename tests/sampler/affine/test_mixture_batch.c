@@ -1,5 +1,5 @@
-/* A batch of mixtures gives to the bit what the calls of one give, samples with their lobes and answers alike, for every
- * instruction set there is, distribution and count, shared or not, in place or not: one to eight lobes of several
+/* A batch of mixtures gives to the bit what the calls of one give, samples with their lobes and answers alike, for
+ * every instruction set there is, distribution and count, shared or not, in place or not: one to eight lobes of several
  * distributions, some without a matrix of their own or of weight 0, directions of the whole sphere, and invalid
  * numbers. With the argument avx2 or avx512 that instruction set alone. */
 #include <float.h>
