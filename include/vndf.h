@@ -367,7 +367,7 @@ typedef struct vndf_affine_view {
     int straight;          /* `principal` is all there is */
     double cosine, sine;   /* of the first principal axis */
     double mean_x, mean_y; /* along the axes */
-    double length;         /* of wi' */
+    double factor;         /* of wi': a power of two, 1 for wi of ordinary length */
 } vndf_affine_view;
 
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
@@ -439,6 +439,62 @@ VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec
 VNDF_API float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
+
+/* ---- many affine surfaces and mixtures at once ---------------------------------------------------- */
+
+/* `count` affine surfaces and incident directions as a structure of arrays, as vndf_batch. xy, yx, mean_x and mean_y
+ * may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the mean slope. */
+typedef struct vndf_affine_batch {
+    const vndf_distribution *distribution;
+    size_t count;
+    unsigned shared;
+    vndf_instructions limit;
+    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y;
+    const float *wi_x, *wi_y, *wi_z;
+} vndf_affine_batch;
+
+/* Element i equals, to the bit, the call for one element; what stands at vndf_sample_n holds here too. With xy, yx,
+ * mean_x and mean_y of 0, or NULL, these are the bits of vndf_sample_n and the others. */
+VNDF_API void vndf_affine_sample_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
+                                   vndf_normals wm, float *pdf);
+VNDF_API void vndf_affine_pdf_n(const vndf_affine_batch *batch, vndf_normals wm, float *pdf);
+VNDF_API void vndf_affine_visible_n(const vndf_affine_batch *batch, vndf_normals wm, float *visible);
+VNDF_API void vndf_affine_invert_n(const vndf_affine_batch *batch, vndf_normals wm, float *u1, float *u2);
+VNDF_API void vndf_affine_ndf_n(const vndf_affine_batch *batch, vndf_normals wm, float *ndf);
+VNDF_API void vndf_affine_projected_area_n(const vndf_affine_batch *batch, float *area);
+VNDF_API void vndf_affine_lambda_n(const vndf_affine_batch *batch, float *lambda);
+VNDF_API void vndf_affine_g1_n(const vndf_affine_batch *batch, float *g1);
+
+/* A lobe of `count` mixtures: arrays as those of vndf_affine_batch, and the weights. */
+typedef struct vndf_lobe_batch {
+    const vndf_distribution *distribution;
+    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y, *weight;
+} vndf_lobe_batch;
+
+/* VNDF_SHARED_ALPHA is for the matrices and mean slopes of all lobes, VNDF_SHARED_WEIGHT for all weights. */
+enum { VNDF_SHARED_WEIGHT = 4 };
+
+typedef struct vndf_mixture_batch {
+    size_t count;
+    unsigned shared;
+    vndf_instructions limit;
+    const float *wi_x, *wi_y, *wi_z;
+    int lobes; /* 1 to VNDF_MIXTURE_LOBES */
+    vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
+} vndf_mixture_batch;
+
+/* As above. Results `pdf` and `lobe` may be NULL; `asked`, the argument `lobe` of vndf_mixture_invert, may be NULL for
+ * -1 everywhere, and `lobe` receives what that call returns. */
+VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
+                                    vndf_normals wm, float *pdf, int *lobe);
+VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
+VNDF_API void vndf_mixture_visible_n(const vndf_mixture_batch *batch, vndf_normals wm, float *visible);
+VNDF_API void vndf_mixture_invert_n(const vndf_mixture_batch *batch, vndf_normals wm, const int *asked, float *u1,
+                                    float *u2, int *lobe);
+VNDF_API void vndf_mixture_ndf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *ndf);
+VNDF_API void vndf_mixture_projected_area_n(const vndf_mixture_batch *batch, float *area);
+VNDF_API void vndf_mixture_lambda_n(const vndf_mixture_batch *batch, float *lambda);
+VNDF_API void vndf_mixture_g1_n(const vndf_mixture_batch *batch, float *g1);
 
 /* ---- families with a textured parameter --------------------------------------------------------- */
 

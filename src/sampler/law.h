@@ -94,6 +94,21 @@ VNDF_INLINE doubles vndf_law_visible(const vndf_distribution *d, const vndf_quer
     VNDF_NO_OTHER_KIND();
 }
 
+/* Whether the density of a sample of an affine surface survives the rounding of its normal (trust.h). P22 changes by
+ * 4 u/(1 + u^2) and by 2 u over u; that of a table by two bounds, the lesser of which counts. */
+VNDF_INLINE doubles_m vndf_law_trusts_rounding(const vndf_distribution *d, const vndf_rounding *r)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_trusts_rounding(d, r);
+    case VNDF_KIND_GGX: {
+        doubles sum = r->up + r->across;
+        return vndf_trusts_affine_change(16.0 * r->across * r->up * r->slope, sum * sum * r->least);
+    }
+    case VNDF_KIND_BECKMANN: return vndf_trusts_affine_change(4.0 * r->across * r->slope, r->up * r->least);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
 #if VNDF_LANES == 1
 
 /* ---- views and their samples ---- */
@@ -150,6 +165,18 @@ VNDF_INLINE vndf_vec3 vndf_law_sample(const vndf_view *view, float u1, float u2,
 {
     switch (view->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_engine_sample(view, u1, u2, pdf);
+    case VNDF_KIND_GGX: return vndf_ggx_view_sample(view, u1, u2, pdf);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample(view, u1, u2, pdf);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The same; *fast becomes 0, without a density, where the sample may lie in a place that is too steep for float. */
+VNDF_INLINE vndf_vec3 vndf_law_sample_telling(const vndf_view *view, float u1, float u2, float *pdf, int *fast)
+{
+    *fast = 1;
+    switch (view->distribution->kind) {
+    case VNDF_KIND_TABLE: return vndf_engine_sample_telling(view, u1, u2, pdf, fast);
     case VNDF_KIND_GGX: return vndf_ggx_view_sample(view, u1, u2, pdf);
     case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample(view, u1, u2, pdf);
     }
@@ -290,7 +317,7 @@ VNDF_INLINE double vndf_law_view_slant(const vndf_view *view)
 VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
 {
     switch (d->kind) {
-    case VNDF_KIND_TABLE: return vndf_table_steepness(d);
+    case VNDF_KIND_TABLE: return d->steepness;
     case VNDF_KIND_GGX: return 2.0;
     case VNDF_KIND_BECKMANN: return 3.0; /* 2 R; R exceeds 1.5 in 10% of samples */
     }

@@ -9,6 +9,7 @@
 #define VNDF_SAMPLER_TRUST_H
 
 #include "math/rational_cell.h"
+#include "simd/doubles.h"
 #include "table/steep.h"
 #include "table/table.h"
 
@@ -27,7 +28,9 @@ enum {
     VNDF_SHARE_AZIMUTH = 40,   /* a steep cell of the azimuth: VNDF_TRUST_AZIMUTH_STEEP */
     VNDF_SHARE_DIRECTION = 60, /* wedges and rows by the rounding of wi: VNDF_TRUST_WEDGE_MASS and below */
     VNDF_SHARE_GGX = 700,      /* all of GGX: within 7e-6 (sampler/analytic/ggx_draw.h) */
-    VNDF_SHARE_BECKMANN = 800  /* all of Beckmann (sampler/analytic/beckmann_draw.h) */
+    VNDF_SHARE_BECKMANN = 800, /* all of Beckmann (sampler/analytic/beckmann_draw.h) */
+    VNDF_WORST_TABLE = 730,    /* the worst that a search found of all shares of tables together */
+    VNDF_SHARE_AFFINE = 200    /* the rounding of the real normal of an affine surface: VNDF_TRUST_AFFINE */
 };
 
 _Static_assert(VNDF_SHARE_ROUNDING + VNDF_SHARE_RADIUS + VNDF_SHARE_FACING + VNDF_SHARE_CUT + VNDF_SHARE_AZIMUTH +
@@ -35,6 +38,10 @@ _Static_assert(VNDF_SHARE_ROUNDING + VNDF_SHARE_RADIUS + VNDF_SHARE_FACING + VND
                    VNDF_PROMISE,
                "what can meet in one sample of a table");
 _Static_assert(VNDF_SHARE_GGX <= VNDF_PROMISE && VNDF_SHARE_BECKMANN <= VNDF_PROMISE, "closed forms");
+_Static_assert(VNDF_WORST_TABLE + VNDF_SHARE_AFFINE <= VNDF_PROMISE &&
+                   VNDF_SHARE_GGX + VNDF_SHARE_AFFINE <= VNDF_PROMISE &&
+                   VNDF_SHARE_BECKMANN + VNDF_SHARE_AFFINE <= VNDF_PROMISE,
+               "a sample of an affine surface");
 
 /* ---- range: nothing underflows, overflows or loses digits on the way; these thresholds have no share ---- */
 
@@ -234,6 +241,52 @@ VNDF_INLINE lanes_m vndf_trusts_beckmann_facing(lanes_f terms, lanes_f d)
 
 /* R^2: the rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */
 static const double VNDF_TRUST_ALL_BECKMANN = 4.0;
+
+/* ---- affine surfaces: an ordinary sample, turned, sheared and rounded once more ---- */
+
+/* Rounding moves the slope s of the real normal by 2^-23 |s|, and its unit slope u, on which P22 depends, by that over
+ * the lesser roughness m. Squares, each times whatever keeps them free of divisions: u^2 = across/up, and (|s|/m)^2 =
+ * slope/least. The azimuth's cosine to wi is along/reach, squared, and times z^2. */
+typedef struct vndf_rounding {
+    doubles across, up, slope, least, along, reach;
+} vndf_rounding;
+
+/* The change of log P22 over u, times |s|/m: in units of 2^-23. */
+static const double VNDF_TRUST_AFFINE = 12.0;
+
+/* P22 may change at this rate at least, so that the rounding stays far from a knot that no rounding of float reached,
+ * and by no more over an e-fold of u where it is drawn in float (VNDF_STEEP_RADIUS). */
+static const double VNDF_TRUST_AFFINE_STEEP = 4.0;
+
+/* The cosine to wi's azimuth at its side, over |s|/(m u): as VNDF_TRUST_SIDE. */
+static const double VNDF_TRUST_AFFINE_SIDE = 1e-6;
+
+VNDF_INLINE doubles_m vndf_trusts_affine_side(const vndf_rounding *r)
+{
+    const double side = VNDF_TRUST_AFFINE_SIDE * VNDF_TRUST_AFFINE_SIDE;
+    return doubles_less(side * r->reach * r->slope, r->along * r->least);
+}
+
+/* (steepness |s|/m)^2 = above/below. */
+VNDF_INLINE doubles_m vndf_trusts_affine_change(doubles above, doubles below)
+{
+    return doubles_less(above, VNDF_TRUST_AFFINE * VNDF_TRUST_AFFINE * below);
+}
+
+/* wi.wm over the sum of its terms, each of which is rounded. */
+static const double VNDF_TRUST_AFFINE_FACING = 0.1;
+
+VNDF_INLINE doubles_m vndf_trusts_affine_facing(doubles terms, doubles facing)
+{
+    return doubles_less(VNDF_TRUST_AFFINE_FACING * terms, facing);
+}
+
+/* The density as it was drawn: a least and a largest one stand for others. */
+VNDF_INLINE doubles_m vndf_trusts_affine_density(doubles density)
+{
+    return doubles_both(doubles_less(doubles_set((double)VNDF_TRUST_DENSITY_LEAST), density),
+                        doubles_less(density, doubles_set((double)VNDF_TRUST_DENSITY_MOST)));
+}
 
 /* ---- bounded normals: errors by `inside_mass`, the part of the law inside the horizon's disc ---- */
 

@@ -40,6 +40,16 @@ VNDF_INLINE doubles doubles_load(const float *from)
     return doubles_widen(_mm_loadu_ps(from));
 }
 
+VNDF_INLINE doubles doubles_load_long(const double *from)
+{
+    return _mm256_loadu_pd(from);
+}
+
+VNDF_INLINE void doubles_store_long(double *to, doubles x)
+{
+    _mm256_storeu_pd(to, x);
+}
+
 VNDF_INLINE void doubles_store_f(float *to, doubles_f x)
 {
     _mm_storeu_ps(to, x);

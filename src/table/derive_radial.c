@@ -1,5 +1,5 @@
-/* Makes the sums up to each knot, the cubics of the cells, whether cells are smooth, the blocks, the windows and the
- * guide of slopes. */
+/* Makes the sums up to each knot, the cubics of the cells, whether cells are smooth, the blocks, how steep P22 is,
+ * the windows and the guide of slopes. */
 #include "table/derive.h"
 
 #include <math.h>
@@ -142,6 +142,33 @@ static int derive_slopes(vndf_distribution *table)
     return made;
 }
 
+enum { STEEP_PLACES = 4 };
+
+/* In cell j, at xi: P22 = f Z^4/(X width), dR = width/Z^2 dxi, and the mass is f Z dxi. */
+static void add_steepness(vndf_distribution *d, uint32_t j, double xi)
+{
+    const vndf_radial_cell *cell = &d->cells[j];
+    const vndf_knot *from = &d->knots.at[j], *to = from + 1;
+    double eta = 1.0 - xi, w = xi * eta, bend = d->bends[j].a + (double)d->bends[j].b * xi;
+    double f = cell->f0 * eta + cell->f1 * xi + w * bend;
+    double rise = ((double)cell->f1 - cell->f0) + (eta - xi) * bend + w * d->bends[j].b;
+    double x = from->x * eta + to->x * xi, z = from->z * eta + to->z * xi;
+    if (!(f * z > 1e-8 * d->f0_total))
+        return;
+    double fall = rise / f + 4.0 * ((double)to->z - from->z) / z - ((double)to->x - from->x) / x;
+    double steepness = fabs(fall) * (z * z) / cell->width, fold = steepness * x / z;
+    d->steepness = steepness > d->steepness ? steepness : d->steepness;
+    d->fold_steepness = fold > d->fold_steepness ? fold : d->fold_steepness;
+}
+
+static void derive_steepness(vndf_distribution *table)
+{
+    table->steepness = table->fold_steepness = 0.0;
+    for (uint32_t j = 0; j < table->radial_count; j++)
+        for (int i = 0; i < STEEP_PLACES; i++)
+            add_steepness(table, j, (i + 0.5) / STEEP_PLACES);
+}
+
 int vndf_derive_radial(vndf_distribution *table)
 {
     derive_cells(table);
@@ -151,5 +178,6 @@ int vndf_derive_radial(vndf_distribution *table)
     derive_copies(table);
     pad_knots(&table->knots, table->radial_count + 1);
     derive_blocks(table);
+    derive_steepness(table);
     return vndf_windows_make(table) && derive_slopes(table);
 }

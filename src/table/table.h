@@ -198,6 +198,9 @@ struct vndf_distribution {
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
+    /* The largest change of log P22 over the slope length in units of `scale`, and over an e-fold of it, within cells
+     * that hold more than 1e-8 of the mass. */
+    double steepness, fold_steepness;
 };
 
 /* Whether the members above are filled: what is loaded, saved and freed. */

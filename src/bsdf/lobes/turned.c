@@ -18,13 +18,14 @@ static vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
 
 int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine, vndf_roughness *r)
 {
-    const vndf_affine centred = {d, affine->xx, affine->xy, affine->yx, affine->yy, 0.0f, 0.0f};
-    vndf_principal p;
-    if (!vndf_principal_of(&centred, &p))
+    const vndf_slope_map centred = {affine->xx, affine->xy, affine->yx, affine->yy, 0.0, 0.0};
+    vndf_principal p = vndf_principal_of(&centred);
+    const vndf_surface surface = {d, p.ax, p.ay};
+    double ax, ay;
+    if (!vndf_surface_scaled(&surface, &ax, &ay))
         return 0;
-    double scale = vndf_unit_scale(d);
-    r->alpha_x = (float)(p.ax / scale);
-    r->alpha_y = (float)(p.ay / scale);
+    r->alpha_x = p.ax;
+    r->alpha_y = p.ay;
     r->cos_rotation = (float)p.cosine;
     r->sin_rotation = (float)p.sine;
     return 1;

@@ -1,25 +1,66 @@
-/* The public calls on affine surfaces (principal.h): those of the surface along its principal axes, and what the mean
- * slope and the turn do to normals and densities. */
+/* The public calls on affine surfaces (principal.h): those of the plain surface along the principal axes, and what the
+ * mean slope and the turn do to normals and densities. */
 #include "math/vector.h"
 #include "sampler/affine/areas.h"
 #include "sampler/affine/densities.h"
-#include "sampler/affine/principal.h"
 #include "sampler/area.h"
-#include "sampler/query.h"
 
-/* ---- views ---- */
+/* ---- the plain surface ---- */
 
 /* Without a turn and a mean slope it is a surface as any other. */
 static int is_straight(const vndf_affine *a)
 {
-    return vndf_affine_is_diagonal(a) && a->mean_x == 0.0f && a->mean_y == 0.0f;
+    return a->xy == 0.0f && a->yx == 0.0f && a->mean_x == 0.0f && a->mean_y == 0.0f;
 }
 
+VNDF_INLINE vndf_principal principal_of(const vndf_affine *a)
+{
+    vndf_slope_map map = {a->xx, a->xy, a->yx, a->yy, a->mean_x, a->mean_y};
+    return vndf_principal_of(&map);
+}
+
+/* The plain surface and direction of an affine surface, which may be invalid, and a direction. */
+typedef struct plain {
+    vndf_principal axes;
+    vndf_surface surface;
+    vndf_toward to;
+    vndf_vec3 wi; /* `to`, rounded */
+} plain;
+
+VNDF_INLINE plain plain_of(const vndf_affine *a, vndf_vec3 wi)
+{
+    plain of = {.surface = {NULL, 0.0f, 0.0f}};
+    if (!a)
+        return of;
+    of.axes = principal_of(a);
+    of.to = vndf_principal_toward(&of.axes, wi.x, wi.y, wi.z);
+    of.surface.distribution = a->distribution;
+    of.surface.alpha_x = of.axes.ax;
+    of.surface.alpha_y = of.axes.ay;
+    of.wi.x = (float)of.to.x;
+    of.wi.y = (float)of.to.y;
+    of.wi.z = (float)of.to.z;
+    return of;
+}
+
+/* ---- views ---- */
+
 /* Members are written one by one, and of a straight view no more than are read: a copy would be waited for. */
+VNDF_INLINE void set_from_plain(vndf_affine_view *view, const plain *from, vndf_vec3 wi)
+{
+    vndf_view_set(&view->principal, &from->surface, from->wi);
+    view->straight = from->axes.straight || !view->principal.distribution;
+    view->wi = wi;
+    view->cosine = from->axes.cosine;
+    view->sine = from->axes.sine;
+    view->mean_x = from->axes.mean_x;
+    view->mean_y = from->axes.mean_y;
+    view->factor = from->to.factor;
+}
+
 vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi)
 {
     vndf_affine_view view;
-    vndf_principal p;
     view.straight = 1;
     view.principal.distribution = NULL;
     if (!surface || !surface->distribution)
@@ -29,26 +70,15 @@ vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi)
         vndf_view_set(&view.principal, &same, wi);
         return view;
     }
-    if (!vndf_principal_of(surface, &p) || !vndf_is_usable_direction(wi))
-        return view;
-    vndf_normal to = vndf_principal_direction(&p, wi);
-    view.straight = 0;
-    view.wi = wi;
-    view.cosine = p.cosine;
-    view.sine = p.sine;
-    view.mean_x = p.mean_x;
-    view.mean_y = p.mean_y;
-    view.length = vndf_normal_length(to);
-    to = vndf_normal_times(to, 1.0 / view.length);
-    vndf_vec3 w = {(float)to.x, (float)to.y, (float)to.z};
-    view.principal = vndf_view_scaled(surface->distribution, p.ax, p.ay, w);
+    plain of = plain_of(surface, wi);
+    set_from_plain(&view, &of, wi);
     return view;
 }
 
-static vndf_principal principal_of(const vndf_affine_view *view)
+static vndf_principal axes_of(const vndf_affine_view *view)
 {
     const vndf_view *of = &view->principal;
-    vndf_principal p = {of->alpha_x, of->alpha_y, view->cosine, view->sine, view->mean_x, view->mean_y};
+    vndf_principal p = {of->ax, of->ay, view->cosine, view->sine, view->mean_x, view->mean_y, 0};
     return p;
 }
 
@@ -59,84 +89,79 @@ static int is_facing(const vndf_affine_view *view, vndf_vec3 wm)
 
 /* ---- normals ---- */
 
-/* The normal of one that was drawn. */
-static vndf_vec3 normal_from(const vndf_affine_view *view, vndf_normal n)
+static vndf_vec3 normal_of(const vndf_affine_drawn *at)
 {
-    vndf_principal p = principal_of(view);
-    vndf_normal to = vndf_principal_back(&p, n);
-    double per = 1.0 / vndf_normal_length(to);
-    return vndf_vec3_of((float)(to.x * per), (float)(to.y * per), (float)(to.z * per));
+    return vndf_vec3_of(at->x, at->y, at->z);
+}
+
+VNDF_INLINE vndf_affine_drawn drawn_of(const vndf_affine_view *view, const vndf_principal *p, vndf_normal n,
+                                       float density)
+{
+    const vndf_view *of = &view->principal;
+    vndf_direction w = {of->alpha_x, of->alpha_y, of->wi.x, of->wi.y, of->wi.z};
+    return vndf_principal_drawn(of->distribution, p, &w, vndf_normal_of(view->wi), n, density);
 }
 
 /* One that rounding has turned away from wi, moved towards wi' by as little as turns it back. Where that fails, wi is
  * within rounding of straight down, or looks along the surface: the horizontal normal towards it is taken. */
-static vndf_vec3 turned_back(const vndf_affine_view *view, vndf_vec3 drawn, vndf_vec3 wm)
+VNDF_RARE vndf_vec3 turned_back(const vndf_affine_view *view, const vndf_principal *p, vndf_vec3 drawn,
+                                vndf_vec3 wm)
 {
-    vndf_vec3 to = view->principal.wi, level = {view->wi.x, view->wi.y, 0.0f};
+    vndf_vec3 to = vndf_normalize(view->principal.wi), level = {view->wi.x, view->wi.y, 0.0f};
     for (double step = 0x1p-24; step < 1e-4 && !is_facing(view, wm); step *= 2.0) {
         double z = drawn.z + step * to.z;
         vndf_normal moved = {drawn.x + step * to.x, drawn.y + step * to.y, z > 0.0 ? z : 0.0};
-        wm = normal_from(view, moved);
+        vndf_affine_drawn at = drawn_of(view, p, moved, 0.0f);
+        wm = normal_of(&at);
     }
     return is_facing(view, wm) || (level.x == 0.0f && level.y == 0.0f) ? wm : vndf_normalize(level);
 }
 
 vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf)
 {
+    float density = 0.0f;
+    int fast;
     if (view->straight)
         return vndf_sample(&view->principal, u1, u2, pdf);
-    vndf_vec3 drawn = vndf_law_sample(&view->principal, vndf_clamp_unit(u1), vndf_clamp_unit(u2), NULL);
-    vndf_vec3 wm = normal_from(view, vndf_normal_of(drawn));
-    if (!is_facing(view, wm))
-        wm = turned_back(view, drawn, wm);
+    vndf_principal p = axes_of(view);
+    vndf_vec3 drawn =
+        vndf_law_sample_telling(&view->principal, vndf_clamp_unit(u1), vndf_clamp_unit(u2), &density, &fast);
+    vndf_affine_drawn at = drawn_of(view, &p, vndf_normal_of(drawn), density);
+    vndf_vec3 wm = normal_of(&at);
+    if (!(at.facing > 0.0))
+        wm = turned_back(view, &p, drawn, wm);
     if (pdf)
-        *pdf = vndf_affine_pdf(view, wm);
+        *pdf = fast & at.trusted ? vndf_positive(vndf_density_from(at.density)) : vndf_affine_pdf(view, wm);
     return wm;
 }
 
 /* ---- densities ---- */
 
-/* n/|n|, and |n|. */
-typedef struct seen {
-    vndf_normal n;
-    double length;
-} seen;
-
-static seen seen_from(const vndf_affine_view *view, vndf_normal wm)
+static vndf_query query_of(const vndf_affine_view *view, vndf_normal wm)
 {
-    vndf_principal p = principal_of(view);
+    const vndf_view *of = &view->principal;
+    vndf_principal p = axes_of(view);
     vndf_normal n = vndf_principal_normal(&p, wm);
-    double length = vndf_normal_length(n);
-    seen s = {vndf_normal_times(n, 1.0 / length), length};
-    return s;
+    vndf_query g = {{of->alpha_x, of->alpha_y, of->wi.x, of->wi.y, of->wi.z}, n.x, n.y, n.z};
+    return g;
 }
 
-static double cube(double x)
+/* wi'.n is wi.wm, which loses no digits. */
+static double visible_of(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    return x * x * x;
-}
-
-/* wi'.n is wi.wm, which loses no digits, over both lengths. */
-static float visible_of(const vndf_affine_view *view, vndf_vec3 wm)
-{
-    seen s = seen_from(view, vndf_normal_of(wm));
-    double facing = vndf_exact_dot(view->wi, wm) / (view->length * s.length);
-    return vndf_density_from(vndf_normal_visible(&view->principal, s.n, facing) / cube(s.length));
+    vndf_query g = query_of(view, vndf_normal_of(wm));
+    double facing = vndf_exact_dot(view->wi, wm) * view->factor;
+    return vndf_law_visible(view->principal.distribution, &g, facing);
 }
 
 vndf_densities vndf_affine_densities(const vndf_affine_view *view, vndf_normal wm, double facing)
 {
     const vndf_view *of = &view->principal;
-    seen s = {wm, 1.0};
-    double over = 1.0;
-    if (!view->straight) {
-        s = seen_from(view, wm);
-        facing /= view->length * s.length;
-        over = 1.0 / cube(s.length);
-    }
-    double visible = vndf_normal_visible(of, s.n, facing);
-    vndf_densities d = {(vndf_law_is_exact(of->distribution) ? visible : vndf_normal_pdf(of, s.n)) * over,
-                        visible * over};
+    vndf_query g = {{of->alpha_x, of->alpha_y, of->wi.x, of->wi.y, of->wi.z}, wm.x, wm.y, wm.z};
+    if (!view->straight)
+        g = query_of(view, wm);
+    double visible = vndf_law_visible(of->distribution, &g, view->straight ? facing : facing * view->factor);
+    vndf_densities d = {vndf_law_is_exact(of->distribution) ? visible : vndf_law_density(of, &g), visible};
     return d;
 }
 
@@ -148,9 +173,9 @@ float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
     if (!is_facing(view, wm))
         return 0.0f;
     if (vndf_law_is_exact(view->principal.distribution))
-        return vndf_positive(visible_of(view, wm));
-    seen s = seen_from(view, vndf_normal_of(wm));
-    return vndf_positive(vndf_density_from(vndf_normal_pdf(&view->principal, s.n) / cube(s.length)));
+        return vndf_positive(vndf_density_from(visible_of(view, wm)));
+    vndf_query g = query_of(view, vndf_normal_of(wm));
+    return vndf_positive(vndf_density_from(vndf_law_density(&view->principal, &g)));
 }
 
 float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
@@ -159,7 +184,7 @@ float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
         return vndf_visible(&view->principal, wm);
     if (!is_facing(view, wm))
         return 0.0f;
-    float visible = visible_of(view, wm);
+    float visible = vndf_density_from(visible_of(view, wm));
     return vndf_law_is_exact(view->principal.distribution) ? vndf_positive(visible) : visible;
 }
 
@@ -172,96 +197,115 @@ void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, f
     }
     if (!(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
         return;
-    vndf_normal n = seen_from(view, vndf_normal_of(wm)).n;
-    vndf_law_invert(&view->principal, vndf_vec3_of((float)n.x, (float)n.y, (float)n.z), u1, u2);
+    vndf_query g = query_of(view, vndf_normal_of(wm));
+    double per = 1.0 / sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
+    vndf_vec3 n = {(float)(g.x * per), (float)(g.y * per), (float)(g.z * per)};
+    vndf_law_invert(&view->principal, n, u1, u2);
 }
 
 /* ---- surfaces ---- */
 
+static int areas_of(const plain *of, vndf_areas *areas)
+{
+    double ax, ay;
+    if (!vndf_surface_scaled(&of->surface, &ax, &ay) || !vndf_is_usable_direction(of->wi))
+        return 0;
+    *areas = vndf_areas_of(of->surface.distribution, ax, ay, &of->to, 1);
+    return 1;
+}
+
 float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm)
 {
-    vndf_principal p;
-    if (!vndf_principal_of(surface, &p) || !(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
+    vndf_query g = {{0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
+    if (!surface)
         return 0.0f;
+    vndf_principal p = principal_of(surface);
+    vndf_surface same = {surface->distribution, p.ax, p.ay};
     vndf_normal n = vndf_principal_normal(&p, vndf_normal_of(wm));
-    double length = vndf_normal_length(n), square = length * length;
-    double ndf = vndf_normal_ndf(surface->distribution, p.ax, p.ay, vndf_normal_times(n, 1.0 / length));
-    return vndf_density_from(ndf / (square * square));
+    if (!vndf_surface_scaled(&same, &g.wi.ax, &g.wi.ay))
+        return 0.0f;
+    g.x = n.x;
+    g.y = n.y;
+    g.z = n.z;
+    return vndf_normal_is_valid(&g) ? vndf_density_from(vndf_law_ndf(surface->distribution, &g)) : 0.0f;
 }
 
 float vndf_affine_p22(const vndf_affine *surface, float x, float y)
 {
-    vndf_principal p;
-    if (!vndf_principal_of(surface, &p) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
+    if (!surface)
         return 0.0f;
-    double along = (p.cosine * x + p.sine * y - p.mean_x) / p.ax,
-           aside = (p.cosine * y - p.sine * x - p.mean_y) / p.ay;
+    vndf_principal p = principal_of(surface);
+    vndf_surface same = {surface->distribution, p.ax, p.ay};
+    double ax, ay;
+    if (!vndf_surface_scaled(&same, &ax, &ay) || !(fabsf(x) < HUGE_VALF) || !(fabsf(y) < HUGE_VALF))
+        return 0.0f;
+    double along = (p.cosine * x + p.sine * y - p.mean_x) / ax,
+           aside = (p.cosine * y - p.sine * x - p.mean_y) / ay;
     double p22 = vndf_law_p22(surface->distribution, along * along + aside * aside);
-    return vndf_density_from(p22 / p.ax / p.ay);
-}
-
-/* w' with the roughness; of an invalid surface or direction invalid. */
-static vndf_direction direction_of(const vndf_affine *surface, vndf_vec3 w)
-{
-    vndf_principal p;
-    if (!vndf_principal_of(surface, &p) || !vndf_is_usable_direction(w))
-        return (vndf_direction){0};
-    vndf_normal to = vndf_principal_direction(&p, w);
-    vndf_direction direction = {p.ax, p.ay, to.x, to.y, to.z};
-    return direction;
-}
-
-static void set_areas(const vndf_distribution *d, const vndf_direction *to, vndf_areas *areas)
-{
-    double below = vndf_law_area_below(d, to, 1);
-    areas->toward = below + doubles_positive(to->z);
-    areas->away = below + doubles_positive(-to->z);
-    areas->up = to->z;
-}
-
-int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas)
-{
-    vndf_direction to = direction_of(surface, w);
-    if (!vndf_direction_is_valid(&to))
-        return 0;
-    set_areas(surface->distribution, &to, areas);
-    return 1;
-}
-
-void vndf_affine_view_areas(const vndf_affine_view *view, vndf_vec3 w, vndf_areas *areas)
-{
-    const vndf_view *of = &view->principal;
-    vndf_direction to = {of->alpha_x, of->alpha_y, w.x, w.y, w.z};
-    if (!view->straight) {
-        vndf_principal p = principal_of(view);
-        vndf_normal n = vndf_principal_direction(&p, w);
-        to.x = n.x;
-        to.y = n.y;
-        to.z = n.z;
-    }
-    set_areas(of->distribution, &to, areas);
+    return vndf_density_from(p22 / ax / ay);
 }
 
 float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w)
 {
+    plain of = plain_of(surface, w);
     vndf_areas areas;
-    return vndf_affine_areas(surface, w, &areas) ? (float)(areas.toward / vndf_normal_length(vndf_normal_of(w)))
-                                                 : 0.0f;
+    return areas_of(&of, &areas) ? vndf_unit_area_of(areas.toward, vndf_normal_of(w), 1) : 0.0f;
 }
 
 float vndf_affine_lambda(const vndf_affine *surface, vndf_vec3 w)
 {
-    vndf_direction to = direction_of(surface, w);
-    return vndf_direction_is_valid(&to) ? vndf_lambda_of(surface->distribution, &to) : 0.0f;
+    plain of = plain_of(surface, w);
+    return vndf_lambda(&of.surface, of.wi);
 }
 
 float vndf_affine_g1(const vndf_affine *surface, vndf_vec3 w)
 {
-    vndf_direction to = direction_of(surface, w);
-    return vndf_direction_is_valid(&to) ? vndf_g1_of(surface->distribution, &to) : 0.0f;
+    plain of = plain_of(surface, w);
+    return vndf_g1(&of.surface, of.wi);
 }
 
 float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
 {
     return vndf_g2_of(vndf_affine_g1(surface, wi), vndf_affine_g1(surface, wo), model);
+}
+
+/* ---- parts of a mixture ---- */
+
+void vndf_affine_view_areas(const vndf_affine_view *view, vndf_vec3 w, vndf_areas *areas)
+{
+    const vndf_view *of = &view->principal;
+    vndf_toward to = {w.x, w.y, w.z, 1.0};
+    if (!view->straight) {
+        vndf_principal p = axes_of(view);
+        to = vndf_principal_toward(&p, w.x, w.y, w.z);
+    }
+    *areas = vndf_areas_of(of->distribution, of->alpha_x, of->alpha_y, &to, 1);
+}
+
+int vndf_affine_areas(const vndf_affine *surface, vndf_vec3 w, vndf_areas *areas)
+{
+    plain of = plain_of(surface, w);
+    return areas_of(&of, areas);
+}
+
+vndf_affine_view vndf_affine_lobe(const vndf_affine *surface, vndf_vec3 wi, vndf_areas *areas, int *valid)
+{
+    vndf_affine_view view;
+    view.straight = 1;
+    if (is_straight(surface)) { /* it is asked for its area as it is */
+        vndf_surface same = {surface->distribution, fabsf(surface->xx), fabsf(surface->yy)};
+        vndf_toward to = {wi.x, wi.y, wi.z, 1.0};
+        double ax, ay;
+        *valid = vndf_surface_scaled(&same, &ax, &ay) && vndf_is_usable_direction(wi);
+        if (*valid) {
+            *areas = vndf_areas_of(surface->distribution, ax, ay, &to, 1);
+            vndf_view_set(&view.principal, &same, wi);
+        }
+        return view;
+    }
+    plain of = plain_of(surface, wi);
+    *valid = areas_of(&of, areas);
+    if (*valid)
+        set_from_plain(&view, &of, wi);
+    return view;
 }

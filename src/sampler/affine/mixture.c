@@ -39,9 +39,11 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
     for (int i = 0; per > 0.0 && i < mixture->count; i++) {
         const vndf_mixture_lobe *lobe = &mixture->lobe[i];
         vndf_areas areas;
+        int valid;
         if (lobe->weight == 0.0f)
             continue;
-        if (!vndf_affine_areas(&lobe->surface, wi, &areas)) {
+        view.lobe[view.count] = vndf_affine_lobe(&lobe->surface, wi, &areas, &valid); /* in place, not copied */
+        if (!valid) {
             view.count = 0;
             return view;
         }
@@ -50,8 +52,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         view.area += area[view.count];
         view.mean_x += lobe->weight * per * lobe->surface.mean_x;
         view.mean_y += lobe->weight * per * lobe->surface.mean_y;
-        view.index[view.count] = i;
-        view.lobe[view.count++] = vndf_affine_view_from(&lobe->surface, wi);
+        view.index[view.count++] = i;
     }
     if (view.count > 0)
         share(&view, area);
@@ -228,27 +229,21 @@ static int areas_of(const vndf_mixture *mixture, vndf_vec3 w, vndf_areas *whole)
 float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w)
 {
     vndf_areas areas;
-    double square = (double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z;
-    return areas_of(mixture, w, &areas) ? (float)(areas.toward / sqrt(square)) : 0.0f;
+    return areas_of(mixture, w, &areas) ? vndf_unit_area_of(areas.toward, vndf_normal_of(w), 1) : 0.0f;
 }
 
-/* A(-w)/up above the mean plane, so that nothing cancels; below it -1 - Lambda(-w). */
 float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w)
 {
     vndf_areas areas;
     if (!areas_of(mixture, w, &areas))
         return 0.0f;
-    double lambda = areas.up < 0.0 ? -1.0 - areas.toward / -areas.up : areas.away / areas.up;
-    return lambda < (double)FLT_MAX ? (lambda > -(double)FLT_MAX ? (float)lambda : -FLT_MAX) : FLT_MAX;
+    return vndf_areas_lambda(&areas);
 }
 
 float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w)
 {
     vndf_areas areas;
-    if (!areas_of(mixture, w, &areas) || !(areas.up > 0.0))
-        return 0.0f;
-    double g1 = areas.up / areas.toward;
-    return g1 < 1.0 ? (float)g1 : 1.0f;
+    return areas_of(mixture, w, &areas) ? vndf_areas_g1(&areas) : 0.0f;
 }
 
 float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)

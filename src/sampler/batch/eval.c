@@ -67,6 +67,7 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
 
 static void read_block(vndf_eval_block *block, const call *c, size_t first, copies *own)
 {
+    block->in.normal[0] = block->in.facing = NULL;
     const vndf_batch *b = c->batch;
     const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
                                            b->wi_z,    c->wm.x,    c->wm.y, c->wm.z};

@@ -7,6 +7,7 @@
 
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/area.h"
+#include "sampler/batch/density_of.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
@@ -24,11 +25,25 @@ VNDF_INLINE vndf_direction direction_at(const vndf_eval_inputs *in, uint32_t i, 
     return w;
 }
 
+VNDF_INLINE vndf_normal normal_at(const vndf_eval_inputs *in, uint32_t i)
+{
+    vndf_normal n;
+    n.x = in->normal[0] ? doubles_load_long(in->normal[0] + i) : input(in, VNDF_EVAL_X, i);
+    n.y = in->normal[0] ? doubles_load_long(in->normal[1] + i) : input(in, VNDF_EVAL_Y, i);
+    n.z = in->normal[0] ? doubles_load_long(in->normal[2] + i) : input(in, VNDF_EVAL_Z, i);
+    return n;
+}
+
 VNDF_INLINE vndf_query given_at(const vndf_eval_inputs *in, uint32_t i, double scale)
 {
-    vndf_query g = {direction_at(in, i, scale), input(in, VNDF_EVAL_X, i), input(in, VNDF_EVAL_Y, i),
-                    input(in, VNDF_EVAL_Z, i)};
+    vndf_normal n = normal_at(in, i);
+    vndf_query g = {direction_at(in, i, scale), n.x, n.y, n.z};
     return g;
+}
+
+VNDF_INLINE doubles facing_at(const vndf_eval_inputs *in, uint32_t i, const vndf_query *g)
+{
+    return in->facing ? doubles_load_long(in->facing + i) : vndf_query_facing(g);
 }
 
 /* The query, with numbers that can be looked up in lanes outside `m`. */
@@ -42,20 +57,6 @@ VNDF_INLINE vndf_query picked_given(doubles_m m, const vndf_query *g)
                        doubles_pick(m, g->y, nothing),
                        doubles_pick(m, g->z, one)};
     return safe;
-}
-
-/* vndf_density_from. */
-VNDF_INLINE doubles_f density_of(doubles density)
-{
-    return doubles_narrow(doubles_between(doubles_positive(density), 0.0, FLT_MAX));
-}
-
-/* vndf_positive of density_of. */
-VNDF_INLINE doubles_f positive_of(doubles density)
-{
-    const doubles least = doubles_set(FLT_MIN);
-    doubles rounded = doubles_widen(density_of(density));
-    return doubles_narrow(doubles_pick(doubles_less(least, rounded), rounded, least));
 }
 
 /* ---- answers for a direction ---- */
@@ -96,13 +97,11 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         doubles ax = input(in, VNDF_EVAL_ALPHA_X, i) * scale, ay = input(in, VNDF_EVAL_ALPHA_Y, i) * scale;
-        vndf_query g = {{ax, ay, one, one, one},
-                        input(in, VNDF_EVAL_X, i),
-                        input(in, VNDF_EVAL_Y, i),
-                        input(in, VNDF_EVAL_Z, i)};
+        vndf_normal n = normal_at(in, i);
+        vndf_query g = {{ax, ay, one, one, one}, n.x, n.y, n.z};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
-        doubles_store_f(b->value + i, density_of(doubles_pick(valid, vndf_law_ndf(d, &g), nothing)));
+        doubles_store_f(b->value + i, vndf_density_of(doubles_pick(valid, vndf_law_ndf(d, &g), nothing)));
     }
 }
 
@@ -121,11 +120,12 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         vndf_query g = given_at(&b->in, i, scale);
-        doubles facing = vndf_query_facing(&g);
+        doubles facing = facing_at(&b->in, i, &g);
         doubles_m seen = is_seen(&g, facing);
         g = picked_given(seen, &g);
         doubles visible = vndf_law_visible(d, &g, facing);
-        doubles rounded = doubles_widen(vndf_law_is_exact(d) ? positive_of(visible) : density_of(visible));
+        doubles rounded =
+            doubles_widen(vndf_law_is_exact(d) ? vndf_positive_of(visible) : vndf_density_of(visible));
         doubles_store_f(b->value + i, doubles_narrow(doubles_pick(seen, rounded, nothing)));
     }
 }
@@ -142,6 +142,7 @@ typedef struct sorted {
 /* The inputs of the normals of one way, side by side, with room for the last group. */
 typedef struct gathered {
     float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK + VNDF_DOUBLES];
+    double normal[3][VNDF_EVAL_BLOCK + VNDF_DOUBLES];
 } gathered;
 
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
@@ -161,7 +162,7 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
     double scale = vndf_unit_scale(d);
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         vndf_query g = given_at(&b->in, i, scale);
-        doubles_m seen = is_seen(&g, vndf_query_facing(&g)), below = doubles_less(g.wi.z, nothing);
+        doubles_m seen = is_seen(&g, facing_at(&b->in, i, &g)), below = doubles_less(g.wi.z, nothing);
         doubles_m above = doubles_without(seen, below), front = doubles_at_most(nothing, vndf_query_along(&g));
         append(s, IN_FRONT, doubles_both(above, front), i, b->count);
         append(s, BEHIND, doubles_without(above, front), i, b->count);
@@ -170,16 +171,30 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
     }
 }
 
+VNDF_INLINE void gather_normals(const vndf_eval_inputs *in, const uint32_t *index, uint32_t count, gathered *own,
+                                vndf_eval_inputs *made)
+{
+    for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++)
+        for (int n = 0; n < 3; n++)
+            own->normal[n][i] = in->normal[n][index[i < count ? i : 0]];
+    for (int n = 0; n < 3; n++)
+        made->normal[n] = own->normal[n];
+}
+
 /* Copies the inputs of one way into `own`, one after the other: gathers cost more. */
 VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t *index, uint32_t count,
                                         gathered *own)
 {
     vndf_eval_inputs made;
+    const int inputs = b->in.normal[0] ? VNDF_EVAL_X : VNDF_EVAL_INPUTS;
     for (uint32_t i = 0; i < count + VNDF_DOUBLES; i++) {
         uint32_t from = index[i < count ? i : 0]; /* spare lanes repeat the first normal */
-        for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+        for (int n = 0; n < inputs; n++)
             own->of[n][i] = b->in.of[n][from];
     }
+    made.normal[0] = made.facing = NULL;
+    if (b->in.normal[0])
+        gather_normals(&b->in, index, count, own, &made);
     for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
         made.of[n] = own->of[n];
     return made;
@@ -191,7 +206,7 @@ VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t cou
 {
     float value[VNDF_DOUBLES];
     uint32_t bits = doubles_mask_bits(trusted);
-    doubles_store_f(value, positive_of(density));
+    doubles_store_f(value, vndf_positive_of(density));
     for (uint32_t i = 0; i < VNDF_DOUBLES && i < count; i++) {
         b->value[index[i]] = value[i];
         b->left[b->left_count] = index[i];

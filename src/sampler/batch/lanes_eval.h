@@ -32,9 +32,11 @@ enum {
     VNDF_EVAL_INPUTS
 };
 
-/* The arrays that the question needs; lanes may read each to the end of the last group. */
+/* The arrays that the question needs; lanes may read each to the end of the last group. Where there are normals in
+ * double, of any length, those of `of` are not read, and `facing` holds wi.wm. */
 typedef struct vndf_eval_inputs {
     const float *of[VNDF_EVAL_INPUTS];
+    const double *normal[3], *facing; /* or NULL */
 } vndf_eval_inputs;
 
 typedef struct vndf_eval_block {

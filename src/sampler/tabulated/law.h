@@ -25,6 +25,16 @@ VNDF_INLINE doubles vndf_table_visible(const vndf_distribution *d, const vndf_qu
     return doubles_pick(doubles_less(nothing, area), vndf_table_ndf(d, g) / area * facing, nothing);
 }
 
+/* Whether the density survives the rounding of an affine surface's normal. */
+VNDF_INLINE doubles_m vndf_table_trusts_rounding(const vndf_distribution *d, const vndf_rounding *r)
+{
+    double s = d->steepness > VNDF_TRUST_AFFINE_STEEP ? d->steepness : VNDF_TRUST_AFFINE_STEEP;
+    double fold = d->fold_steepness > VNDF_TRUST_AFFINE_STEEP ? d->fold_steepness : VNDF_TRUST_AFFINE_STEEP;
+    double most = fold < (double)VNDF_STEEP_RADIUS ? fold : (double)VNDF_STEEP_RADIUS, ratio = s / most;
+    doubles below = (r->up + ratio * ratio * r->across) * r->least;
+    return doubles_both(vndf_trusts_affine_change(s * s * r->slope * r->up, below), vndf_trusts_affine_side(r));
+}
+
 #if VNDF_LANES == 1
 
 /* P22 at the squared slope length r2. */
@@ -53,9 +63,6 @@ VNDF_INLINE float vndf_table_view_area(const vndf_view *view)
     float x = view->ax * view->wi.x, y = view->ay * view->wi.y;
     return view->of.table.area * (sqrtf(x * x + y * y) + view->wi.z);
 }
-
-/* The largest |d log P22/dR| within cells that hold more than 1e-8 of the mass; steepness.c. */
-double vndf_table_steepness(const vndf_distribution *d);
 
 /* vndf_invert of a valid view, wm.z >= 0; view.c. */
 void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);

@@ -29,22 +29,40 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     return vndf_drawn_at(&b.level, &at, trusted);
 }
 
-vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
+/* Draws in float, for a trusted view. Clears *trusted where that does not do. */
+VNDF_INLINE vndf_drawn draw(const vndf_view *view, float u1, float u2, lanes_m *trusted)
 {
-    if (!view->trusted)
-        return vndf_engine_sample_exactly(view, u1, u2, pdf);
     const vndf_distribution *d = view->distribution;
     float half = 2.0f * u1 - 1.0f;
     vndf_incidence w = vndf_incidence_of(view);
     vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
-    lanes_m trusted = vndf_trusts_wedge_mass(view->of.table.front, range.mass);
-    if (!trusted)
+    *trusted = vndf_trusts_wedge_mass(view->of.table.front, range.mass);
+    if (!*trusted)
+        return (vndf_drawn){0};
+    return range.in_front ? draw_in_front(d, &w, &range, u2, trusted) : draw_in_wedge(d, &w, &range, u2, trusted);
+}
+
+vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf)
+{
+    lanes_m trusted;
+    if (!view->trusted)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
-    vndf_drawn n =
-        range.in_front ? draw_in_front(d, &w, &range, u2, &trusted) : draw_in_wedge(d, &w, &range, u2, &trusted);
+    vndf_drawn n = draw(view, u1, u2, &trusted);
     if (!trusted)
         return vndf_engine_sample_exactly(view, u1, u2, pdf);
     if (pdf)
         *pdf = n.density;
+    return vndf_vec3_of(n.x, n.y, n.z);
+}
+
+vndf_vec3 vndf_engine_sample_telling(const vndf_view *view, float u1, float u2, float *pdf, int *fast)
+{
+    vndf_drawn n;
+    *fast = view->trusted;
+    if (*fast)
+        n = draw(view, u1, u2, fast);
+    if (!*fast)
+        return vndf_engine_sample_exactly(view, u1, u2, NULL);
+    *pdf = n.density;
     return vndf_vec3_of(n.x, n.y, n.z);
 }

@@ -55,6 +55,9 @@
 /* vndf_sample and vndf_pdf; u1 and u2 are in [0, 1], wm is unit, wm.z >= 0 and faces wi. */
 vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
+/* The same, which tells in *fast whether float drew the normal; elsewhere the density is not wanted. */
+vndf_vec3 vndf_engine_sample_telling(const vndf_view *view, float u1, float u2, float *pdf, int *fast);
+
 /* The same by the exact tier (exact.h), for samples that float may not draw. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
