@@ -1,8 +1,8 @@
 /* An affine surface is what its slopes say: D, P22, area, Lambda, G1, G2 and the visible density equal closed forms
  * of GGX for random matrices (condition up to 1e7, determinants of either sign) and mean slopes up to 2, and
  * integrals over slopes for Beckmann and tables; samples are unit normals that face wi, and come with the density of
- * vndf_affine_pdf, to 1e-5; the inverse leads back; a diagonal matrix without a mean slope gives the bits of vndf_surface, and
- * M R of a rotation R the densities of M; what is invalid has one result. */
+ * vndf_affine_pdf, to 1e-5; the inverse leads back; a diagonal matrix without a mean slope gives the bits of
+ * vndf_surface, and M R of a rotation R the densities of M; what is invalid has one result. */
 #include <float.h>
 
 #include "harness/constants.h"
