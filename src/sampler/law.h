@@ -102,9 +102,14 @@ VNDF_INLINE doubles_m vndf_law_trusts_rounding(const vndf_distribution *d, const
     case VNDF_KIND_TABLE: return vndf_table_trusts_rounding(d, r);
     case VNDF_KIND_GGX: {
         doubles sum = r->up + r->across;
-        return vndf_trusts_affine_change(16.0 * r->across * r->up * r->slope, sum * sum * r->least);
+        return doubles_both(vndf_trusts_affine_flat(r),
+                            vndf_trusts_affine_change(16.0 * r->across * r->up * r->slope, sum * sum * r->least));
     }
-    case VNDF_KIND_BECKMANN: return vndf_trusts_affine_change(4.0 * r->across * r->slope, r->up * r->least);
+    case VNDF_KIND_BECKMANN: {
+        doubles_m near = doubles_less(r->across, VNDF_TRUST_AFFINE_BECKMANN * r->up);
+        return doubles_both(doubles_both(near, vndf_trusts_affine_flat(r)),
+                            vndf_trusts_affine_change(4.0 * r->across * r->slope, r->up * r->least));
+    }
     }
     VNDF_NO_OTHER_KIND();
 }

@@ -273,6 +273,17 @@ VNDF_INLINE doubles_m vndf_trusts_affine_change(doubles above, doubles below)
     return doubles_less(above, VNDF_TRUST_AFFINE * VNDF_TRUST_AFFINE * below);
 }
 
+/* |s|/m where P22 is flat, and its bend counts: rounding moves u by less than 1.2e-4. */
+static const double VNDF_TRUST_AFFINE_FLAT = 1000.0;
+
+VNDF_INLINE doubles_m vndf_trusts_affine_flat(const vndf_rounding *r)
+{
+    return doubles_less(r->slope, VNDF_TRUST_AFFINE_FLAT * VNDF_TRUST_AFFINE_FLAT * r->least);
+}
+
+/* u^2 of Beckmann: beyond it float draws nothing, and P22 falls too fast. */
+static const double VNDF_TRUST_AFFINE_BECKMANN = 15.0;
+
 /* wi.wm over the sum of its terms, each of which is rounded. */
 static const double VNDF_TRUST_AFFINE_FACING = 0.1;
 

@@ -155,6 +155,8 @@ static void add_steepness(vndf_distribution *d, uint32_t j, double xi)
     double x = from->x * eta + to->x * xi, z = from->z * eta + to->z * xi;
     if (!(f * z > 1e-8 * d->f0_total))
         return;
+    if (!(d->steep_from > 0.0))
+        d->steep_from = x / z;
     double fall = rise / f + 4.0 * ((double)to->z - from->z) / z - ((double)to->x - from->x) / x;
     double steepness = fabs(fall) * (z * z) / cell->width, fold = steepness * x / z;
     d->steepness = steepness > d->steepness ? steepness : d->steepness;
@@ -163,7 +165,7 @@ static void add_steepness(vndf_distribution *d, uint32_t j, double xi)
 
 static void derive_steepness(vndf_distribution *table)
 {
-    table->steepness = table->fold_steepness = 0.0;
+    table->steepness = table->fold_steepness = table->steep_from = 0.0;
     for (uint32_t j = 0; j < table->radial_count; j++)
         for (int i = 0; i < STEEP_PLACES; i++)
             add_steepness(table, j, (i + 0.5) / STEEP_PLACES);

@@ -199,8 +199,8 @@ struct vndf_distribution {
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
     /* The largest change of log P22 over the slope length in units of `scale`, and over an e-fold of it, within cells
-     * that hold more than 1e-8 of the mass. */
-    double steepness, fold_steepness;
+     * that hold more than 1e-8 of the mass; from this slope on, as P22 may grow without bound towards 0. */
+    double steepness, fold_steepness, steep_from;
 };
 
 /* Whether the members above are filled: what is loaded, saved and freed. */

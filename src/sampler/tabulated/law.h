@@ -31,7 +31,9 @@ VNDF_INLINE doubles_m vndf_table_trusts_rounding(const vndf_distribution *d, con
     double s = d->steepness > VNDF_TRUST_AFFINE_STEEP ? d->steepness : VNDF_TRUST_AFFINE_STEEP;
     double fold = d->fold_steepness > VNDF_TRUST_AFFINE_STEEP ? d->fold_steepness : VNDF_TRUST_AFFINE_STEEP;
     double most = fold < (double)VNDF_STEEP_RADIUS ? fold : (double)VNDF_STEEP_RADIUS, ratio = s / most;
-    doubles below = (r->up + ratio * ratio * r->across) * r->least;
+    doubles_m away = doubles_less(d->steep_from * d->steep_from * r->up, r->across);
+    doubles up = doubles_pick(away, r->up, doubles_set(0.0));
+    doubles below = (up + ratio * ratio * r->across) * r->least;
     return doubles_both(vndf_trusts_affine_change(s * s * r->slope * r->up, below), vndf_trusts_affine_side(r));
 }
 
