@@ -267,6 +267,15 @@ VNDF_INLINE doubles_m vndf_trusts_affine_side(const vndf_rounding *r)
     return doubles_less(side * r->reach * r->slope, r->along * r->least);
 }
 
+/* |s|/(m u): rounding turns the azimuth by 2^-23 of it, and what a table draws beside the pole changes with that. */
+static const double VNDF_TRUST_AFFINE_POLE = 80.0;
+
+VNDF_INLINE doubles_m vndf_trusts_affine_pole(const vndf_rounding *r)
+{
+    const double most = VNDF_TRUST_AFFINE_POLE * VNDF_TRUST_AFFINE_POLE;
+    return doubles_less(r->slope * r->up, most * r->across * r->least);
+}
+
 /* (steepness |s|/m)^2 = above/below. */
 VNDF_INLINE doubles_m vndf_trusts_affine_change(doubles above, doubles below)
 {

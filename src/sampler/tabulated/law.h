@@ -34,7 +34,8 @@ VNDF_INLINE doubles_m vndf_table_trusts_rounding(const vndf_distribution *d, con
     doubles_m away = doubles_less(d->steep_from * d->steep_from * r->up, r->across);
     doubles up = doubles_pick(away, r->up, doubles_set(0.0));
     doubles below = (up + ratio * ratio * r->across) * r->least;
-    return doubles_both(vndf_trusts_affine_change(s * s * r->slope * r->up, below), vndf_trusts_affine_side(r));
+    doubles_m turns = doubles_both(vndf_trusts_affine_side(r), vndf_trusts_affine_pole(r));
+    return doubles_both(vndf_trusts_affine_change(s * s * r->slope * r->up, below), turns);
 }
 
 #if VNDF_LANES == 1
