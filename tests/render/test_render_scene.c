@@ -262,13 +262,15 @@ static void test_shipped_spheres(void)
 static void test_grammar(void)
 {
     static const char *const known[] = {
-        "title",     "film",       "camera",  "integrator",  "environment", "image",     "material",   "sphere",
-        "rectangle", "box",        "mesh",    "conductor",   "dielectric",  "reflector", "shape",      "matte",
-        "mirror",    "glass",      "light",   "alpha-x-map", "alpha-y-map", "alpha-map", "colour-map", "absorb",
-        "order",     "scattering", "masking", "rotation",    "bytes"};
+        "title",     "film",       "camera", "integrator", "environment", "image",       "material",
+        "sphere",    "rectangle",  "box",    "mesh",       "conductor",   "dielectric",  "reflector",
+        "shape",     "matte",      "mirror", "glass",      "light",       "alpha-x-map", "alpha-y-map",
+        "alpha-map", "colour-map", "absorb", "order",      "scattering",  "masking",     "rotation",
+        "bytes",     "matrix",     "mean",   "height-map", "filtered",    "normal-map",  "scale",
+        "mix",       "lobe",       "weight", "weight-map", "heights",     "height",      "retroreflective"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (!strstr(scene_grammar[0], known[i]))
-            TEST_HAS(scene_grammar[1], known[i]);
+        if (!strstr(scene_grammar[0], known[i]) && !strstr(scene_grammar[1], known[i]))
+            TEST_HAS(scene_grammar[2], known[i]);
 }
 
 /* Its lines stand two columns to the right there, in one piece. */
