@@ -327,6 +327,33 @@ static void test_retroreflection(void)
 
 /* ---- effects ---- */
 
+/* What is left out is not there: the heaviest lobe is alone, and lies as its alpha says. */
+static void test_left_out(void)
+{
+    const unsigned all =
+        EFFECT_MIXTURES | EFFECT_MEAN_SLOPES | EFFECT_RELIEFS | EFFECT_MATRICES | EFFECT_RETROREFLECTION;
+    render_case c;
+    scene_lobe l[2] = {lobe_of(2.0f, 0.0f, 0.0f, 2.0f), lobe_of(0.0f, 0.3f, -0.3f, 0.0f)};
+    vndf_description is = metal;
+    relief none = {.steepest = 0.0f};
+    l[0].weight.value = 0.4f;
+    l[1].mean_x = 0.7f;
+    l[1].relief = &none; /* has no image, which nobody looks at */
+    case_begin(&c, vec(0.5f, -3.0f, 1.5f), origin);
+    case_constant(&c, 0.1f);
+    is.effects.reflection = VNDF_REFLECTION_RETRO;
+    lay(&c, is, l, 2);
+    add_lamp(&c, vec(-0.3f, 2.0f, 1.2f), 0.4f);
+    end(&c);
+    case_mean left = case_render(&c, SAMPLER_MATERIAL, all, 256, 111);
+    c.materials[0].lobe_count = 0;
+    c.materials[0].is = metal;
+    c.materials[0].is.distribution = vndf_ggx();
+    c.materials[0].is.alpha_x = c.materials[0].is.alpha_y = 0.3f;
+    case_agree("all left out", left, case_render(&c, SAMPLER_MATERIAL, 0, 256, 112));
+    case_free(&c);
+}
+
 static void test_effects(void)
 {
     material m = {.kind = MATERIAL_MICROFACET};
@@ -358,6 +385,7 @@ int main(void)
     test_moments_of_mesh();
     test_heights();
     test_retroreflection();
+    test_left_out();
     test_effects();
     return test_done();
 }
