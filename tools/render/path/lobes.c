@@ -41,11 +41,16 @@ static vndf_affine affine_at(const scene_lobe *l, const hit *h)
     return a;
 }
 
+static void add_lobe(const scene_lobe *l, const hit *h, vndf_mixture *made)
+{
+    made->lobe[made->count++] = (vndf_mixture_lobe){affine_at(l, h), path_textured(&l->weight, h)};
+}
+
 static void mixture_at(const path_material *m, const hit *h, vndf_mixture *made)
 {
-    made->count = m->lobe_count;
+    made->count = 0;
     for (int i = 0; i < m->lobe_count; i++)
-        made->lobe[i] = (vndf_mixture_lobe){affine_at(&m->lobes[i], h), path_textured(&m->lobes[i].weight, h)};
+        add_lobe(&m->lobes[i], h, made);
 }
 
 /* Whether the mean plane and the shape agree about the side of w. */
