@@ -1,18 +1,19 @@
 /* No bytes crash the reader of scenes: they are refused with the place, or make a scene whose parts point at each
- * other. Left out are texts that could ask for what only takes long: large images, and tables that are built. */
+ * other. Left out are texts that could ask for what only takes long: large images, meshes made of them, and
+ * tables that are built. */
 #include <ctype.h>
 
 #include "fuzz/fuzz.h"
 #include "render/scene/scene.h"
 
-/* Images of more than three digits a side, or forms of distribution that are built. */
+/* Images of more than three digits a side, meshes of heights, or forms of distribution that are built. */
 static int takes_long(const char *text)
 {
     int digits = 0;
     for (; *text; text++) {
         digits = isdigit((unsigned char)*text) || *text == 'e' || *text == 'E' ? digits + 1 : 0;
         if (digits > 3 || strncmp(text, "family", 6) == 0 || strncmp(text, "slope", 5) == 0 ||
-            strncmp(text, "ndf", 3) == 0)
+            strncmp(text, "ndf", 3) == 0 || strncmp(text, "heights", 7) == 0)
             return 1;
     }
     return 0;
@@ -32,6 +33,10 @@ static void check_scene(const scene *s)
         vndf_material resolved;
         fuzz_require(m->name && is_of(s, m->colour_map), "maps of a colour are images of the scene");
         fuzz_require(is_of(s, m->alpha_x.map) && is_of(s, m->alpha_y.map), "maps of roughness are, too");
+        for (int k = 0; k < m->lobe_count; k++)
+            fuzz_require(is_of(s, m->lobes[k].alpha_x.map) && is_of(s, m->lobes[k].weight.map) &&
+                             m->lobes[k].distribution,
+                         "lobes have a distribution, and maps of the scene");
         if (m->kind == MATERIAL_MICROFACET)
             fuzz_require(vndf_material_resolve(&m->is, &resolved, NULL) == VNDF_OK, "the library takes it");
     }

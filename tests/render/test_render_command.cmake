@@ -16,6 +16,11 @@ file(WRITE ${mapped} "camera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
     "image blots pattern blots width 8 height 8\n"
     "material rough conductor of gold distribution ggx alpha 0.2 alpha-map blots\n"
     "sphere centre 0 0 0 radius 0.5 material rough\n")
+set(lobes ${OUT}/lobes.scene)
+file(WRITE ${lobes} "film width 24 height 16\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "image blots pattern blots width 8 height 8\nlobe core distribution ggx alpha 0.1\n"
+    "lobe haze distribution ggx matrix 0.4 0.1 0 0.3 weight-map blots height-map blots scale 0.1 mean 0.1 0\n"
+    "material rough conductor of gold mix core haze\nsphere centre 0 0 0 radius 0.5 material rough\n")
 
 answers(0 "24 x 16 pixels, 3 samples each" render ${scene} -o one.pfm --threads 1)
 answers(0 "24 x 16 pixels, 3 samples each" render ${scene} -o three.pfm --threads 3)
@@ -23,6 +28,14 @@ answers(0 "12 x 8 pixels, 2 samples each" render ${scene} -o small.png --width 1
 answers(0 "pixels" render ${scene} -o other.pfm --seed 5)
 answers(0 "perfect sampling: 2 BSDFs precomputed" render ${scene} -o perfect.pfm --sampler perfect --spp 1)
 answers(0 "microfacets" render ${scene} --explain)
+answers(0 "of the time of a path, over the heaviest lobe" render ${lobes} --explain)
+answers(0 "textured weights" render ${lobes} --explain)
+answers(0 "beside one.pfm pixels differ by 0.00% of its mean luminance" render ${scene} -o again.pfm
+    --against one.pfm)
+answers(2 "one.pfm has 24 x 16 pixels, this picture has 12 x 8" render ${scene} -o no.pfm --width 12
+    --against one.pfm)
+answers(2 "--against: " render ${scene} -o no.pfm --against none.pfm)
+answers(2 "give -o a file" render ${scene} --explain --against one.pfm)
 answers(0 "example:" render --help)
 answers(0 "stripes  64 upright stripes" render --grammar)
 file(SHA256 ${OUT}/one.pfm one)

@@ -84,6 +84,12 @@ static void test_refusals(void)
     c.materials[0].is.eta = 1.5f;
     c.materials[0].is.effects.fresnel = VNDF_FRESNEL_SCHLICK;
     refused(&c, "for dielectrics alone");
+    c.materials[0].is.effects.lobes = VNDF_LOBES_REFLECTION;
+    c.materials[0].is.effects.reflection = VNDF_REFLECTION_RETRO;
+    refused(&c, "for mirrored light, this one is 'retroreflective'");
+    c.materials[0].is.affine = (vndf_affine){.xx = 0.1f, .yy = 0.2f};
+    c.materials[0].is.effects.shape = VNDF_SHAPE_MATRIX;
+    refused(&c, "for alpha, this one has a matrix, slopes or lobes");
     case_free(&c);
 }
 

@@ -114,6 +114,79 @@ static void test_rough_materials(void)
     scene_free(&s);
 }
 
+/* ---- lobes ---- */
+
+static void check_slopes(const scene *s)
+{
+    const material *m = material_of(s, "a"), *b = material_of(s, "b"), *c = material_of(s, "c");
+    TEST(m && m->lobe_count == 1 && m->is.effects.shape == VNDF_SHAPE_MATRIX && m->lobes[0].is_matrix);
+    TEST(m && m->is.affine.xx == 0.3f && m->is.affine.xy == 0.1f && m->is.affine.yx == -0.1f &&
+         m->is.affine.yy == 0.2f && m->is.effects.reflection == VNDF_REFLECTION_RETRO);
+    TEST(b && b->lobe_count == 1 && b->is.effects.shape == VNDF_SHAPE_AFFINE && b->is.affine.mean_x == -0.5f &&
+         b->is.affine.mean_y == 0.25f);
+    TEST_NEAR(b ? (double)b->is.affine.xy : 0.0, -0.4, 1e-6); /* a quarter of a turn: y to -x */
+    TEST_NEAR(b ? (double)b->is.affine.yx : 0.0, 0.2, 1e-6);
+    TEST(b && b->lobes[0].alpha_y.map == &s->images[0] && b->is.distribution == vndf_beckmann());
+    TEST(c && c->is.effects.shape == VNDF_SHAPE_AFFINE && c->lobes[0].relief == s->reliefs[0]);
+    TEST(s->reliefs[0]->first.width == 4 && s->reliefs[0]->second.width == 4);
+    c = material_of(s, "d");
+    TEST(c && c->lobes[0].relief == s->reliefs[1] && !s->reliefs[1]->second.rgb && c->lobe_count == 1);
+    TEST(s->reliefs[1]->first.width == 8 && s->reliefs[1]->steepest == 0.0f);
+}
+
+static void check_mixtures(const scene *s)
+{
+    const material *m = material_of(s, "e");
+    TEST(m && m->lobe_count == 3 && m->is.effects.shape == VNDF_SHAPE_MIXTURE && m->is.distribution == vndf_ggx());
+    TEST(m && m->lobes[0].weight.value == 1.0f && m->lobes[1].weight.value == 0.3f &&
+         m->lobes[1].weight.map == &s->images[0] && m->lobes[1].distribution == s->tables[0]);
+    TEST(m && m->lobes[2].alpha_x.value == m->lobes[0].alpha_x.value && m->lobes[1].mean_x == 0.1f);
+    m = material_of(s, "f"); /* one lobe that does not lean: a matrix */
+    TEST(m && m->lobe_count == 1 && m->is.effects.shape == VNDF_SHAPE_MATRIX);
+}
+
+static void test_lobes(void)
+{
+    scene s;
+    char message[MESSAGE];
+    if (!TEST(read_text(
+            &s,
+            LIT "image m pattern ramp width 8 height 8\nimage n file corpus/pfm/upright\n"
+                "material a conductor of gold distribution ggx matrix 0.3 0.1 -0.1 0.2 retroreflective\n"
+                "material b dielectric index 1.5 distribution beckmann alpha 0.2 0.4 alpha-y-map m\n"
+                "  rotation 90 mean -0.5 0.25\n"
+                "material c shape height-map m scale 0.1 0.2 filtered 2 distribution ggx alpha 0.1\n"
+                "material d shape normal-map n distribution ggx matrix 1 0 0 1\n"
+                "lobe core distribution ggx alpha 0.1\n"
+                "lobe haze distribution table ../tables/hazy.vndf alpha 0.4 weight 0.3 weight-map m mean 0.1 0\n"
+                "material e conductor of gold mix core haze core masking separable\n"
+                "material f conductor of gold mix core\n",
+            message))) {
+        fprintf(stderr, "%s\n", message);
+        return;
+    }
+    check_slopes(&s);
+    check_mixtures(&s);
+    for (size_t i = 0; i < s.material_count; i++) {
+        vndf_material made;
+        TEST(vndf_material_resolve(&s.materials[i].is, &made, NULL) == VNDF_OK);
+    }
+    scene_free(&s);
+}
+
+static void test_heights(void)
+{
+    scene s;
+    char message[MESSAGE];
+    if (!TEST(read_text(&s,
+                        LIT "image m pattern ramp width 8 height 4\nmaterial a mirror\nrectangle corner -1 -1 0 "
+                            "edge-u 2 0 0 edge-v 0 2 0 material a heights m height 0.5\n",
+                        message)))
+        return;
+    TEST(s.geometry.triangle_count == 2 * 8 * 4 && s.geometry.rectangle_count == 0);
+    scene_free(&s);
+}
+
 static void test_plain_materials(void)
 {
     scene s;
@@ -189,7 +262,8 @@ static void check_shipped(int good, scene *s, const char *message)
 /* The table of rings is built as small as it can be, in half of the time. */
 static void test_shipped(void)
 {
-    static const char *const names[] = {"plate", "glass", "metal", "textured", "rings", "furnace"};
+    static const char *const names[] = {"plate", "glass",   "metal", "textured",
+                                        "rings", "furnace", "haze",  "relief"};
     const scene_tables small = {.bytes = 2048};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         scene s;
@@ -262,13 +336,15 @@ static void test_shipped_spheres(void)
 static void test_grammar(void)
 {
     static const char *const known[] = {
-        "title",     "film",       "camera",  "integrator",  "environment", "image",     "material",   "sphere",
-        "rectangle", "box",        "mesh",    "conductor",   "dielectric",  "reflector", "shape",      "matte",
-        "mirror",    "glass",      "light",   "alpha-x-map", "alpha-y-map", "alpha-map", "colour-map", "absorb",
-        "order",     "scattering", "masking", "rotation",    "bytes"};
+        "title",     "film",       "camera", "integrator", "environment", "image",       "material",
+        "sphere",    "rectangle",  "box",    "mesh",       "conductor",   "dielectric",  "reflector",
+        "shape",     "matte",      "mirror", "glass",      "light",       "alpha-x-map", "alpha-y-map",
+        "alpha-map", "colour-map", "absorb", "order",      "scattering",  "masking",     "rotation",
+        "bytes",     "matrix",     "mean",   "height-map", "filtered",    "normal-map",  "scale",
+        "mix",       "lobe",       "weight", "weight-map", "heights",     "height",      "retroreflective"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (!strstr(scene_grammar[0], known[i]))
-            TEST_HAS(scene_grammar[1], known[i]);
+        if (!strstr(scene_grammar[0], known[i]) && !strstr(scene_grammar[1], known[i]))
+            TEST_HAS(scene_grammar[2], known[i]);
 }
 
 /* Its lines stand two columns to the right there, in one piece. */
@@ -299,6 +375,8 @@ int main(void)
     test_settings();
     test_defaults();
     test_rough_materials();
+    test_lobes();
+    test_heights();
     test_plain_materials();
     test_shapes();
     test_resize();

@@ -10,6 +10,7 @@
 #include "command.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "commands/parts/render_against.h"
 #include "commands/parts/render_explain.h"
 
 static const char name[] = "vndf render";
@@ -33,6 +34,7 @@ static const char help[] =
     "                  default). With perfect they draw directions, from tables made for the whole of each BSDF\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, in place of the exposure of the scene\n"
+    "  --against F     prints how far the picture is from F, a PFM of the same size\n"
     "  --explain       lists the effects that the scene calls for and the cost of each, measured in some seconds on\n"
     "                  one thread\n"
     "  --grammar       prints the language of scene files\n"
@@ -41,13 +43,15 @@ static const char help[] =
     "         vndf render tools/scenes/glass.scene -o glass.pfm --seconds 20 --sampler visible --explain\n";
 
 typedef struct render_words {
-    words output, format, spp, seconds, threads, seed, sampler, width, exposure, explain, grammar;
+    words output, format, spp, seconds, threads, seed, sampler, width, exposure, against, explain, grammar;
 } render_words;
 
 typedef struct render_choice {
     unsigned long long spp, threads, seed, width;
     double seconds, exposure;
     path_sampler sampler;
+    const char *against; /* NULL: nothing */
+    image other;         /* the picture of that name */
 } render_choice;
 
 /* ---- words ---- */
@@ -71,6 +75,7 @@ static int read_sampler(const words *given, path_sampler *sampler)
 static int read_choice(const render_words *given, render_choice *c)
 {
     *c = (render_choice){.threads = film_processors(), .sampler = SAMPLER_MATERIAL};
+    c->against = only_word(&given->against);
     return option_count(name, "--spp", &given->spp, 1, 1e9, &c->spp) &&
            option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &c->seconds) &&
            option_count(name, "--threads", &given->threads, 1, 256, &c->threads) &&
@@ -159,6 +164,8 @@ static int render_film(output_file *output, image_writer *write, const path_plan
     if (f.samples) {
         if (output->path)
             print_summary(&f, c, whole);
+        if (output->path && c->against)
+            render_against_print(&f, &c->other, c->against);
         status = save(output, write, &f, c->exposure > 0 ? (float)c->exposure : s->integrator.exposure);
     } else {
         status = output_give_up(output, output_interrupted(output) ? "interrupted before every pixel had a sample"
@@ -208,6 +215,8 @@ static int is_output_usable(const render_words *given)
     const char *path = only_word(&given->output);
     if (path && given->explain.count && output_is_stdout(path))
         return complain(name, "--explain prints to stdout, where -o - puts the picture; give one of them"), 0;
+    if (given->against.count && (!path || output_is_stdout(path)))
+        return complain(name, "--against prints to stdout how far the picture in -o OUT is; give -o a file"), 0;
     return !path || (writer_of(path, only_word(&given->format)) && output_replaceable(name, path));
 }
 
@@ -220,8 +229,12 @@ static int read_and_render(const render_words *given, const char *path)
         return STATUS_USE;
     if (!scene_read(&s, path, message, sizeof message))
         return complain(name, "%s", message);
-    int fits = !c.width || scene_resize(&s, (int)c.width, message, sizeof message);
-    int status = fits ? render_scene(given, &s, &c) : complain(name, "--width: %s", message);
+    int fits = !c.width || scene_resize(&s, (int)c.width, message, sizeof message), status = STATUS_USE;
+    if (!fits)
+        complain(name, "--width: %s", message);
+    else if (!c.against || render_against_read(name, c.against, s.width, s.height, &c.other))
+        status = render_scene(given, &s, &c);
+    image_free(&c.other);
     scene_free(&s);
     return status;
 }
@@ -236,7 +249,7 @@ int command_render(int argc, char **argv)
         {"--threads", 1, 1, &given.threads},   {"--seed", 1, 1, &given.seed},
         {"--sampler", 1, 1, &given.sampler},   {"--width", 1, 1, &given.width},
         {"--exposure", 1, 1, &given.exposure}, {"--explain", 0, 1, &given.explain},
-        {"--grammar", 0, 1, &given.grammar},
+        {"--against", 1, 1, &given.against},   {"--grammar", 0, 1, &given.grammar},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);

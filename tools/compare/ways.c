@@ -96,13 +96,19 @@ static int add_table_way(under_way *run, unsigned bytes)
                                     run->choice->scene);
 }
 
+static int has_table(const material *m)
+{
+    for (int i = 0; i < m->lobe_count; i++)
+        if (vndf_distribution_info(m->lobes[i].distribution).bytes > 0)
+            return 1;
+    return m->kind == MATERIAL_MICROFACET && vndf_distribution_info(m->is.distribution).bytes > 0;
+}
+
 static int is_closed(const scene *s)
 {
-    for (size_t i = 0; i < s->material_count; i++) {
-        const material *m = &s->materials[i];
-        if (m->kind == MATERIAL_MICROFACET && vndf_distribution_info(m->is.distribution).bytes > 0)
+    for (size_t i = 0; i < s->material_count; i++)
+        if (has_table(&s->materials[i]))
             return 0;
-    }
     return 1;
 }
 

@@ -17,7 +17,7 @@
 #include "measure/turns.h"
 #include "render/path/parts.h"
 
-enum { TURNS = 15, VARIANTS_MAX = 16 };
+enum { TURNS = 15, VARIANTS_MAX = 24 };
 
 /* What is timed: nanoseconds for a path, for a segment of it, for a ray of either kind; and the part that a variant
  * saves of the time of a path with all effects. */
@@ -37,6 +37,12 @@ static const effect_word effect_words[] = {
     {EFFECT_MULTIPLE, 1, "multiple scattering", "single scattering"},
     {EFFECT_TEXTURED_ALPHA, 1, "textured roughness", "the roughness beside the map"},
     {EFFECT_ROTATED_AXES, 1, "rotated axes", "axes as the shape has them"},
+    {EFFECT_MATRICES, 1, "matrices of slopes", "round lobes of the same determinant"},
+    {EFFECT_MEAN_SLOPES, 1, "mean slopes", "means of 0"},
+    {EFFECT_RELIEFS, 1, "maps of slopes", "the roughness beside the map"},
+    {EFFECT_MIXTURES, 1, "several lobes", "the heaviest lobe"},
+    {EFFECT_TEXTURED_WEIGHTS, 1, "textured weights", "the weights beside the maps"},
+    {EFFECT_RETROREFLECTION, 1, "retroreflection", "light that is mirrored"},
     {EFFECT_COLOUR_MAPS, 1, "maps of colour", "the colour beside the map"},
     {EFFECT_MATTE, 0, "matte surfaces", NULL},
     {EFFECT_SPECULAR, 0, "smooth surfaces", NULL},

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "render/image/image.h"
 #include "render/vector.h"
 
 typedef struct ray {
@@ -76,6 +77,10 @@ int geometry_add_sphere(geometry *g, sphere s, int material);
 int geometry_add_rectangle(geometry *g, rectangle r, int material);
 int geometry_add_box(geometry *g, vndf_vec3 low, vndf_vec3 high, int material);
 int geometry_add_triangle(geometry *g, const triangle *t, int material);
+
+/* The rectangle as a mesh of two triangles a pixel, whose corners, the upper left ones of pixels, stand over it by the
+ * red of the image times `height`. */
+int geometry_add_displaced(geometry *g, rectangle plate, const image *heights, float height, int material);
 
 /* Adds the triangles of an OBJ file (v, vt, vn, f with convex polygons and negative indices; other lines are
  * ignored), scaled, then turned about y by `turn` degrees (z towards x), then moved. The vt lines count v from the

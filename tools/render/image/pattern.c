@@ -96,6 +96,38 @@ static void shade_blots(float u, float v, float rgb[3])
     grey(0.1f + 0.9f * smooth(0.52f, 0.54f, cloud(u, v, 8, 8)), rgb);
 }
 
+/* ---- heights: within [0, 1] ---- */
+
+static float wave(float u, float v, float across, float down, float phase)
+{
+    return cosf(2.0f * pi * (across * u + down * v + phase));
+}
+
+/* Fine waves, 300 to 400 of them along a side: of all directions, or nearly all along u. */
+static float fine(float u, float v, int brushed)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < 16; i++) {
+        float turn = pi * ((float)i + lattice(i, 0, 11)) / 16.0f, count = 300.0f + 100.0f * lattice(i, 1, 11);
+        turn = brushed ? 0.12f * (turn - 0.5f * pi) : turn;
+        sum += wave(u, v, floorf(count * cosf(turn)), floorf(count * sinf(turn)), lattice(i, 2, 11));
+    }
+    return sum;
+}
+
+/* Fine waves over slow ones: hammered, polished, and brushed. */
+static void shade_hammered(float u, float v, float rgb[3])
+{
+    float slow = 0.6f * wave(u, v, 3.0f, 1.0f, 0.1f) + 0.4f * wave(u, v, 1.0f, -2.0f, 0.6f);
+    float part = cloud(u, v, 6, 6), hammered = smooth(0.5f, 0.56f, part), brushed = smooth(0.46f, 0.4f, part);
+    float detail = 0.0f;
+    if (hammered > 0.0f)
+        detail += hammered * fine(u, v, 0);
+    if (brushed > 0.0f)
+        detail += brushed * fine(u, v, 1);
+    grey(0.5f + 0.4f * slow + 0.0012f * detail, rgb);
+}
+
 /* ---- fine detail ---- */
 
 static void shade_checks(float u, float v, float rgb[3])
@@ -206,10 +238,10 @@ typedef struct pattern {
 } pattern;
 
 static const pattern patterns[] = {
-    {"checks", shade_checks, 32, 16}, {"tiles", shade_tiles, 8, 8},   {"stripes", shade_stripes, 64, 1},
-    {"grid", shade_grid, 16, 8},      {"studio", shade_studio, 1, 1}, {"stars", shade_night, 1, 1},
-    {"noise", shade_noise, 1, 1},     {"blots", shade_blots, 1, 1},   {"brushed", shade_brushed, 1, 1},
-    {"ramp", shade_ramp, 1, 1},
+    {"checks", shade_checks, 32, 16}, {"tiles", shade_tiles, 8, 8},       {"stripes", shade_stripes, 64, 1},
+    {"grid", shade_grid, 16, 8},      {"studio", shade_studio, 1, 1},     {"stars", shade_night, 1, 1},
+    {"noise", shade_noise, 1, 1},     {"blots", shade_blots, 1, 1},       {"brushed", shade_brushed, 1, 1},
+    {"ramp", shade_ramp, 1, 1},       {"hammered", shade_hammered, 1, 1},
 };
 enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
 
@@ -261,8 +293,9 @@ static const pattern *find_pattern(const char *name, image_error *error)
     if (near)
         snprintf(error->message + length, sizeof error->message - (size_t)length, "; did you mean '%s'?", near);
     else
-        snprintf(error->message + length, sizeof error->message - (size_t)length,
-                 "; there are checks, tiles, stripes, grid, studio, stars, noise, blots, brushed and ramp");
+        snprintf(
+            error->message + length, sizeof error->message - (size_t)length,
+            "; there are checks, tiles, stripes, grid, studio, stars, noise, blots, brushed, ramp and hammered");
     return NULL;
 }
 

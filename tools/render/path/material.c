@@ -27,11 +27,12 @@ static int matte_sample(const path_point *p, const float u[3], bounce *b)
     return b->wo.z > 0.0f;
 }
 
-static void matte_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
+static float matte_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
 {
     (void)seed;
     for (int i = 0; i < 3; i++)
         value[i] = wo.z > 0.0f ? p->colour[i] / pi : 0.0f;
+    return wo.z;
 }
 
 static float matte_pdf(const path_point *p, vndf_vec3 wo)
@@ -113,7 +114,9 @@ unsigned path_material_effects(const material *is)
     if (is->kind == MATERIAL_MICROFACET)
         effects |= EFFECT_MICROFACETS | (is->is_textured ? EFFECT_TEXTURED_ALPHA : 0u) |
                    (is->is.effects.scattering == VNDF_SCATTERING_MULTIPLE ? EFFECT_MULTIPLE : 0u) |
-                   (is->is.effects.shape == VNDF_SHAPE_ROTATED ? EFFECT_ROTATED_AXES : 0u);
+                   (is->is.effects.shape == VNDF_SHAPE_ROTATED ? EFFECT_ROTATED_AXES : 0u) |
+                   (is->is.effects.reflection == VNDF_REFLECTION_RETRO ? EFFECT_RETROREFLECTION : 0u) |
+                   path_lobes_effects(is);
     return effects;
 }
 

@@ -3,6 +3,7 @@
  *   plan.c         finds which effects a scene calls for; puts the parts below together
  *   material.c     a material as routines made for its kind: no test of a kind at a hit
  *   rough.c        rough materials: the routines of the library
+ *   lobes.c        those with matrices, mean slopes, maps of slopes and several lobes
  *   perfect.c      or sampling precomputed for the whole BSDF
  *   lights.c       emitting shapes: drawing a point, and the density of a point that a ray meets
  *   environment.c  light from far away: its radiance, drawing a direction of its image
@@ -49,7 +50,8 @@ typedef struct path_routines {
     int (*begin)(path_point *p);       /* fills the rest of a point; 0: nothing is scattered */
     int (*begin_plain)(path_point *p); /* the same if the point has its colour already */
     int (*sample)(const path_point *p, const float u[3], bounce *b);
-    void (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]); /* f; NULL: a Dirac */
+    /* f; returns the cosine that goes with it, at least 0 where wo.z > 0. NULL: a Dirac */
+    float (*eval)(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]);
     float (*pdf)(const path_point *p, vndf_vec3 wo);
 } path_routines;
 
@@ -57,9 +59,12 @@ struct path_material {
     const material *is;
     vndf_material bsdf;
     float colour[3];
-    float eta;                   /* of smooth dielectrics */
-    vndf_roughness roughness;    /* its rotation, and alpha unless a map changes it */
-    const path_perfect *perfect; /* for perfectly sampled rough materials; else NULL */
+    float eta;                            /* of smooth dielectrics */
+    vndf_roughness roughness;             /* its rotation, and alpha unless a map changes it */
+    const path_perfect *perfect;          /* for perfectly sampled rough materials; else NULL */
+    scene_lobe lobes[VNDF_MIXTURE_LOBES]; /* of materials that have some */
+    int lobe_count;
+    vndf_mixture mixture; /* of them, without maps */
     int emits, absorbs;
     path_routines run, once; /* once: see repeat.c */
 };
@@ -84,6 +89,16 @@ typedef struct path_choice {
 int path_material_prepare(path_material *made, const material *is, const path_choice *choice, char *message,
                           size_t size);
 int path_rough_make(path_material *m, const path_choice *choice, char *message, size_t size);
+
+/* Routines of rough materials that others build on; and a number at a hit. */
+int path_rough_sample(const path_point *p, const float u[3], bounce *b);
+float path_rough_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3]);
+float path_textured(const textured *t, const hit *h);
+
+/* Of a material with lobes: their effects; what the library is told of them; then, resolved, its routines. */
+unsigned path_lobes_effects(const material *is);
+void path_lobes_describe(path_material *m, unsigned without, vndf_description *is);
+void path_lobes_make(path_material *m);
 
 /* The effects that a material calls for, as bits. */
 unsigned path_material_effects(const material *is);

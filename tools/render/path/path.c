@@ -141,12 +141,12 @@ static inline void reach_light(path_walk *w, const path_point *p, int absorbing)
     vndf_vec3 wo = unit(to_frame(&p->frame, s.direction));
     if (!(wo.z > 0.0f))
         return;
-    p->material->run.eval(p, wo, random_bits(&w->random), value);
-    if (!(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
+    float cosine = p->material->run.eval(p, wo, random_bits(&w->random), value);
+    if (!(cosine > 0.0f) || !(value[0] + value[1] + value[2] > 0.0f) || is_barred(w, p, &s))
         return;
     if (absorbing) /* the light is outside of the surface, the path may be inside */
         media_absorb(&w->media, p->wi.z < 0.0f ? p->material : NULL, s.distance, value);
-    add_light(w, &s, value, wo.z / s.density * share(s.density, p->material->run.pdf(p, wo)));
+    add_light(w, &s, value, cosine / s.density * share(s.density, p->material->run.pdf(p, wo)));
 }
 
 /* ---- going on ---- */

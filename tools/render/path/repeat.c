@@ -18,11 +18,11 @@ static int sample_twice(const path_point *p, const float u[3], bounce *b)
     return p->material->once.sample(p, u, b);
 }
 
-static void eval_twice(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
+static float eval_twice(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
 {
     float for_nothing[3];
     p->material->once.eval(p, wo, seed, for_nothing);
-    p->material->once.eval(p, wo, seed, value);
+    return p->material->once.eval(p, wo, seed, value);
 }
 
 static float pdf_twice(const path_point *p, vndf_vec3 wo)

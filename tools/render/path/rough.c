@@ -1,5 +1,6 @@
 /* Rough materials: the routines of the library, with the given sampler of normals and the roughness of the
- * material or of a map; or perfect sampling (perfect.h), prepared once for all materials with the same BSDF. */
+ * material or of a map; those with lobes (lobes.c); or perfect sampling (perfect.h), prepared once for all
+ * materials with the same BSDF. */
 #include "render/path/parts.h"
 
 #include <stdio.h>
@@ -14,7 +15,7 @@ static int rough_begin(path_point *p)
     return vndf_bsdf_at(&p->bsdf, &p->material->bsdf, p->wi);
 }
 
-static float at_hit(const textured *t, const hit *h)
+float path_textured(const textured *t, const hit *h)
 {
     float rgb[3];
     if (!t->map)
@@ -26,8 +27,8 @@ static float at_hit(const textured *t, const hit *h)
 static int textured_begin(path_point *p)
 {
     vndf_roughness roughness = p->material->roughness;
-    roughness.alpha_x = at_hit(&p->material->is->alpha_x, p->hit);
-    roughness.alpha_y = at_hit(&p->material->is->alpha_y, p->hit);
+    roughness.alpha_x = path_textured(&p->material->is->alpha_x, p->hit);
+    roughness.alpha_y = path_textured(&p->material->is->alpha_y, p->hit);
     return vndf_bsdf_rough(&p->bsdf, &p->material->bsdf, &roughness, p->wi);
 }
 
@@ -50,18 +51,19 @@ static int bounce_of(const path_point *p, const vndf_scattered *s, bounce *b)
     return 1;
 }
 
-static int rough_sample(const path_point *p, const float u[3], bounce *b)
+int path_rough_sample(const path_point *p, const float u[3], bounce *b)
 {
     vndf_scattered s;
     vndf_bsdf_sample(&p->bsdf, u, &s);
     return bounce_of(p, &s, b);
 }
 
-static void rough_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
+float path_rough_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
 {
     vndf_bsdf_eval(&p->bsdf, wo, seed, value);
     for (int i = 0; i < 3; i++)
         value[i] *= p->colour[i];
+    return wo.z;
 }
 
 static float rough_pdf(const path_point *p, vndf_vec3 wo)
@@ -83,12 +85,13 @@ static int perfect_sample(const path_point *p, const float u[3], bounce *b)
     return bounce_of(p, &s, b);
 }
 
-static void perfect_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
+static float perfect_eval(const path_point *p, vndf_vec3 wo, uint64_t seed, float value[3])
 {
     (void)seed;
     path_perfect_eval(&p->perfect, wo, value);
     for (int i = 0; i < 3; i++)
         value[i] *= p->colour[i];
+    return wo.z;
 }
 
 static float perfect_pdf(const path_point *p, vndf_vec3 wo)
@@ -145,7 +148,7 @@ static void choose_normals(vndf_effects *e, path_sampler sampler)
         e->normals = VNDF_NORMALS_BOUNDED;
 }
 
-static vndf_description describe(const path_material *m, const path_choice *choice)
+static vndf_description describe(path_material *m, const path_choice *choice)
 {
     vndf_description is = m->is->is;
     choose_normals(&is.effects, choice->sampler);
@@ -153,6 +156,10 @@ static vndf_description describe(const path_material *m, const path_choice *choi
         is.effects.scattering = VNDF_SCATTERING_SINGLE;
     if (choice->without & EFFECT_ROTATED_AXES)
         is.effects.shape = VNDF_SHAPE_ALIGNED;
+    if (choice->without & EFFECT_RETROREFLECTION)
+        is.effects.reflection = VNDF_REFLECTION_SPECULAR;
+    if (m->is->lobe_count)
+        path_lobes_describe(m, choice->without, &is);
     return is;
 }
 
@@ -181,6 +188,9 @@ int path_rough_make(path_material *m, const path_choice *choice, char *message, 
     if (vndf_material_resolve(&is, &m->bsdf, &error) != VNDF_OK)
         return refuse(m, error.message, message, size);
     m->roughness = (vndf_roughness){is.alpha_x, is.alpha_y, cosf(angle), sinf(angle)};
-    m->run = (path_routines){maps ? textured_begin : rough_begin, NULL, rough_sample, rough_eval, rough_pdf};
+    m->run =
+        (path_routines){maps ? textured_begin : rough_begin, NULL, path_rough_sample, path_rough_eval, rough_pdf};
+    if (m->lobe_count)
+        path_lobes_make(m);
     return choice->sampler != SAMPLER_PERFECT || make_perfect(m, &is, choice->perfects, message, size);
 }

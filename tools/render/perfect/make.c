@@ -22,6 +22,10 @@ const char *path_perfect_refuses(const vndf_description *is)
         return "perfect sampling is precomputed for light that is bent, this one has 'index 1'";
     if (e->masking == VNDF_MASKING_NONE)
         return "perfect sampling is precomputed for weights that have a bound, this one has 'masking none'";
+    if (e->shape > VNDF_SHAPE_ROTATED)
+        return "perfect sampling is precomputed for alpha, this one has a matrix, slopes or lobes";
+    if (e->reflection == VNDF_REFLECTION_RETRO)
+        return "perfect sampling is precomputed for mirrored light, this one is 'retroreflective'";
     return NULL;
 }
 

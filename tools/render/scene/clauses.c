@@ -20,7 +20,7 @@ static clause *find_clause(const word *w, clause *clauses, size_t count)
 
 static int unknown_clause(scene_reader *r, const statement *s, const word *at, const clause *clauses, size_t count)
 {
-    const char *names[32];
+    const char *names[48];
     char what[64];
     for (size_t i = 0; i < count; i++)
         names[i] = clauses[i].keyword;
@@ -142,7 +142,9 @@ int reader_name(scene_reader *r, const statement *s, const char *what, const wor
 {
     if (s->count < 2)
         return reader_refuse(r, &s->words[0], "'%s' needs a name, as in '%s %s'", what, what,
-                             strcmp(what, "image") ? "wall matte colour 0.5 0.5 0.5" : "sky file sky.pfm");
+                             strcmp(what, "image") == 0  ? "sky file sky.pfm"
+                             : strcmp(what, "lobe") == 0 ? "haze distribution ggx alpha 0.4"
+                                                         : "wall matte colour 0.5 0.5 0.5");
     *name = &s->words[1];
     size_t length = strlen((*name)->text);
     if (length > 0 && length <= SCENE_NAME_MAX)

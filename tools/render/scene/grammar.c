@@ -1,5 +1,5 @@
-/* The language of scene files, for people. Two parts, since a string may have 4095 letters: statements that stand
- * once and images, then materials and shapes. */
+/* The language of scene files, for people. Three parts, since a string may have 4095 letters: statements that
+ * stand once and images, then materials, then lobes and shapes. */
 #include "render/scene/scene.h"
 
 const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
@@ -38,6 +38,7 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "      stars    an environment: 1500 points in the night\n"
     "      noise, blots, brushed, ramp   for roughness, 0.1 to 1: clouds; polished with rough blots;\n"
     "                                    streaks along u; up along u and down again\n"
+    "      hammered   heights: fine waves over slow ones, of all directions here, brushed there\n"
     "\n",
     "Materials, `material NAME KIND ...`:\n"
     "  conductor    of gold|silver|copper|aluminium; or, without `of`: eta R G B k R G B (over that outside)\n"
@@ -57,12 +58,25 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "  [alpha-map IMAGE] or [alpha-x-map IMAGE] [alpha-y-map IMAGE]\n"
     "                             alpha times the image's red, which is above 0\n"
     "  [rotation DEGREES]         of the axis of AX, about the normal (0)\n"
+    "  [matrix XX XY YX YY]       of slopes, in the place of alpha and rotation\n"
+    "  [mean X Y]                 mean slope, along u and up (0 0)\n"
+    "  [height-map IMAGE | normal-map IMAGE]      adds the slopes of heights, the image's red, or of normals, its\n"
+    "                             colour times 2 minus 1: x along u, y up, z outwards and above 0\n"
+    "  [scale S | scale SX SY]    of those slopes: a height of 1 over the length of the image (1)\n"
+    "  [filtered TEXELS]          a pixel sees squares of so many texels a side: the map adds the mean slope of each,\n"
+    "                             and 2 covariances of its slopes to the square of the matrix\n"
     "  [masking height-correlated|separable|v-cavities|none] (height-correlated)\n"
     "  [normals visible|bounded|all|v-cavity]     how they are drawn (visible)\n"
     "  [scattering single|multiple] [order COUNT]\n"
     "                             multiple: light goes on between microfacets, COUNT times (single, 64)\n"
+    "  [retroreflective]          what is reflected goes back to where it came from\n"
     "  [colour R G B] [colour-map IMAGE]          multiply (1 1 1)\n"
     "  [absorb R G B]             per unit of length inside, where light passes (0 0 0)\n"
+    "  [mix LOBE ...]             1 to 8 lobes on one surface, in the place of distribution to filtered\n"
+    "\n",
+    "Lobes to mix, by their weights over the sum of all:\n"
+    "  lobe NAME distribution ... [weight W] [weight-map IMAGE]    takes what stands from distribution to filtered;\n"
+    "                             the weight is W times the image's red (1)\n"
     "\n"
     "Shapes. Those of materials that light passes are to be closed; of others, lights too, the back is black. An\n"
     "image stands upright on sides of boxes and on rectangles, along edge-u and edge-v; goes around spheres from\n"
@@ -70,10 +84,12 @@ const char *const scene_grammar[SCENE_GRAMMAR_PARTS] = {
     "  sphere centre X Y Z radius R material NAME\n"
     "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
     "                             edges at right angles; from the front, edge-v is left of edge-u\n"
+    "            [heights IMAGE height LENGTH]    as a mesh: two triangles a pixel, by its red times LENGTH above\n"
     "  box from X Y Z to X Y Z material NAME\n"
     "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
     "                             scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
     "\n"
     "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to 1, maps\n"
-    "of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576.\n",
+    "of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes 2048 to 1048576;\n"
+    "slopes up to 1000; weights 0 to 1e6.\n",
 };

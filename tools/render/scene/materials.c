@@ -1,27 +1,20 @@
 /* material NAME KIND ...: which clauses go with which kind, and the material that they make. */
-#include "render/scene/reader.h"
+#include "render/scene/material_clauses.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- clauses ---- */
 
-enum { CONDUCTOR, DIELECTRIC, REFLECTOR, SHAPE, MATTE, MIRROR, GLASS, LIGHT, KINDS };
-static const char *const kinds[KINDS] = {"conductor", "dielectric", "reflector", "shape",
-                                         "matte",     "mirror",     "glass",     "light"};
-/* clang-format off */
-enum {
-    OF, ETA, K, F0, INDEX, LOBES, DISTRIBUTION, BYTES, ALPHA, ALPHA_MAP, ALPHA_X_MAP, ALPHA_Y_MAP, ROTATION,
-    MASKING, NORMALS, SCATTERING, ORDER, ABSORB, COLOUR, COLOUR_MAP, RADIANCE, CLAUSES
-};
-/* clang-format on */
+static const char *const kinds[KINDS + 1] = {"conductor", "dielectric", "reflector", "shape", "matte",
+                                             "mirror",    "glass",      "light",     "lobe"};
 
 /* A bit for each kind. */
 enum {
     ROUGH = 1 << CONDUCTOR | 1 << DIELECTRIC | 1 << REFLECTOR | 1 << SHAPE,
     THROUGH = 1 << DIELECTRIC | 1 << REFLECTOR | 1 << SHAPE,
-    COLOURED = ROUGH | 1 << MATTE | 1 << MIRROR
+    COLOURED = ROUGH | 1 << MATTE | 1 << MIRROR,
+    LAID = ROUGH | 1 << LOBE
 };
 
 typedef struct rule {
@@ -37,18 +30,28 @@ static const rule rules[CLAUSES] = {
     [F0] = {"f0", "R G B", 3, 3, 1 << REFLECTOR, 1 << REFLECTOR},
     [INDEX] = {"index", "N", 1, 1, THROUGH | 1 << GLASS, 1 << DIELECTRIC | 1 << GLASS},
     [LOBES] = {"lobes", "reflection|transmission|both", 1, 1, THROUGH, 0},
-    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2, ROUGH,
-                      ROUGH},
-    [BYTES] = {"bytes", "COUNT", 1, 1, ROUGH, 0},
-    [ALPHA] = {"alpha", "A or AX AY", 1, 2, ROUGH, 0},
-    [ALPHA_MAP] = {"alpha-map", "IMAGE", 1, 1, ROUGH, 0},
-    [ALPHA_X_MAP] = {"alpha-x-map", "IMAGE", 1, 1, ROUGH, 0},
-    [ALPHA_Y_MAP] = {"alpha-y-map", "IMAGE", 1, 1, ROUGH, 0},
-    [ROTATION] = {"rotation", "DEGREES", 1, 1, ROUGH, 0},
+    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2, LAID,
+                      LAID},
+    [BYTES] = {"bytes", "COUNT", 1, 1, LAID, 0},
+    [ALPHA] = {"alpha", "A or AX AY", 1, 2, LAID, 0},
+    [ALPHA_MAP] = {"alpha-map", "IMAGE", 1, 1, LAID, 0},
+    [ALPHA_X_MAP] = {"alpha-x-map", "IMAGE", 1, 1, LAID, 0},
+    [ALPHA_Y_MAP] = {"alpha-y-map", "IMAGE", 1, 1, LAID, 0},
+    [ROTATION] = {"rotation", "DEGREES", 1, 1, LAID, 0},
+    [MATRIX] = {"matrix", "XX XY YX YY", 4, 4, LAID, 0},
+    [MEAN] = {"mean", "X Y", 2, 2, LAID, 0},
+    [HEIGHT_MAP] = {"height-map", "IMAGE", 1, 1, LAID, 0},
+    [NORMAL_MAP] = {"normal-map", "IMAGE", 1, 1, LAID, 0},
+    [SCALE] = {"scale", "S or SX SY", 1, 2, LAID, 0},
+    [FILTERED] = {"filtered", "TEXELS", 1, 1, LAID, 0},
+    [WEIGHT] = {"weight", "W", 1, 1, 1 << LOBE, 0},
+    [WEIGHT_MAP] = {"weight-map", "IMAGE", 1, 1, 1 << LOBE, 0},
+    [MIX] = {"mix", "LOBE ...", 1, VNDF_MIXTURE_LOBES, ROUGH, 0},
     [MASKING] = {"masking", "height-correlated|separable|v-cavities|none", 1, 1, ROUGH, 0},
     [NORMALS] = {"normals", "visible|bounded|all|v-cavity", 1, 1, ROUGH, 0},
     [SCATTERING] = {"scattering", "single|multiple", 1, 1, ROUGH, 0},
     [ORDER] = {"order", "COUNT", 1, 1, ROUGH, 0},
+    [RETRO] = {"retroreflective", "nothing", 0, 0, ROUGH, 0},
     [ABSORB] = {"absorb", "R G B", 3, 3, THROUGH | 1 << GLASS, 0},
     [COLOUR] = {"colour", "R G B", 3, 3, COLOURED, 1 << MATTE},
     [COLOUR_MAP] = {"colour-map", "IMAGE", 1, 1, COLOURED, 0},
@@ -58,26 +61,33 @@ static const rule rules[CLAUSES] = {
 static int refuse_clause(scene_reader *r, const clause *c, unsigned kind, unsigned fits)
 {
     char list[128] = "";
-    for (unsigned i = 0; i < KINDS; i++)
+    for (unsigned i = 0; i <= LOBE; i++)
         if (fits >> i & 1u) {
-            strcat(list, list[0] ? ", " : ""); /* all kinds together have 70 letters */
+            strcat(list, list[0] ? ", " : ""); /* all kinds together have 76 letters */
             strcat(list, kinds[i]);
         }
     return reader_refuse(r, c->at, "'%s' does not go with '%s'; it goes with: %s", c->keyword, kinds[kind], list);
 }
 
-static int find_clauses(scene_reader *r, const statement *s, unsigned kind, clause c[CLAUSES])
+/* A material that mixes lobes needs no distribution. */
+static int is_missing(const clause c[CLAUSES], size_t i, unsigned kind)
+{
+    return !c[i].at && rules[i].needed >> kind & 1u && !(i == DISTRIBUTION && c[MIX].at);
+}
+
+int material_clauses(scene_reader *r, const statement *s, size_t from, unsigned kind, clause c[CLAUSES])
 {
     for (size_t i = 0; i < CLAUSES; i++)
         c[i] = (clause){
             .keyword = rules[i].keyword, .takes = rules[i].takes, .least = rules[i].least, .most = rules[i].most};
-    if (!reader_clauses(r, s, 3, c, CLAUSES))
+    if (!reader_clauses(r, s, from, c, CLAUSES))
         return 0;
     for (size_t i = 0; i < CLAUSES; i++) {
         if (c[i].at && !(rules[i].kinds >> kind & 1u))
             return refuse_clause(r, &c[i], kind, rules[i].kinds);
-        if (!c[i].at && rules[i].needed >> kind & 1u)
-            return reader_refuse(r, &s->words[2], "'%s' needs '%s %s'", kinds[kind], c[i].keyword, c[i].takes);
+        if (is_missing(c, i, kind))
+            return reader_refuse(r, &s->words[from - 1], "'%s' needs '%s %s'", kinds[kind], c[i].keyword,
+                                 c[i].takes);
     }
     return 1;
 }
@@ -121,59 +131,38 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
                         .fresnel = fresnel[kind],
                         .masking = (vndf_masking)masking,
                         .normals = (vndf_normals_drawn)normals,
-                        .scattering = (vndf_scattering)scattering};
+                        .scattering = (vndf_scattering)scattering,
+                        .reflection = c[RETRO].at ? VNDF_REFLECTION_RETRO : VNDF_REFLECTION_SPECULAR};
     return 1;
 }
 
 /* ---- roughness ---- */
 
-/* The first channel of a map, times alpha, is the roughness: the product must be a valid alpha. */
-static int read_map(scene_reader *r, const clause *both, const clause *one, textured *made)
+/* Alpha and axes alone, which need no lobe. */
+static void set_roughness(material *m, const scene_lobe *l)
 {
-    const clause *c = one->at ? one : both;
-    const image_range rough = {"roughness", 1, 1e-6 / (double)made->value, 1e3 / (double)made->value};
-    return !c->at || (reader_image(r, c, &made->map) && reader_within(r, c->values, made->map, &rough));
+    m->alpha_x = l->alpha_x;
+    m->alpha_y = l->alpha_y;
+    m->is_textured = m->alpha_x.map || m->alpha_y.map;
+    m->is.distribution = l->distribution;
+    m->is.alpha_x = m->alpha_x.value;
+    m->is.alpha_y = m->alpha_y.value;
+    m->is.rotation = l->rotation;
+    m->is.effects.shape = l->rotation != 0.0f ? VNDF_SHAPE_ROTATED : VNDF_SHAPE_ALIGNED;
 }
 
 static int read_roughness(scene_reader *r, const clause c[CLAUSES], material *m)
 {
-    const clause *alpha = &c[ALPHA], *both = &c[ALPHA_MAP];
-    float degrees;
+    scene_lobe one;
     m->alpha_x.value = m->alpha_y.value = 1.0f;
-    if (alpha->at && !reader_number(r, alpha, 0, 1e-6, 1e3, &m->alpha_x.value))
+    if (c[MIX].at)
+        return read_mix(r, c, m);
+    if (!read_slopes(r, c, &one))
         return 0;
-    m->alpha_y = m->alpha_x;
-    if (alpha->count == 2 && !reader_number(r, alpha, 1, 1e-6, 1e3, &m->alpha_y.value))
-        return 0;
-    if (both->at && (c[ALPHA_X_MAP].at || c[ALPHA_Y_MAP].at))
-        return reader_refuse(r, both->at,
-                             "'alpha-map' is of x and y; leave it out beside 'alpha-x-map' or "
-                             "'alpha-y-map'");
-    if (!read_map(r, both, &c[ALPHA_X_MAP], &m->alpha_x) || !read_map(r, both, &c[ALPHA_Y_MAP], &m->alpha_y))
-        return 0;
-    m->is_textured = m->alpha_x.map || m->alpha_y.map;
-    m->is.alpha_x = m->alpha_x.value;
-    m->is.alpha_y = m->alpha_y.value;
-    if (!c[ROTATION].at)
-        return 1;
-    if (!reader_number(r, &c[ROTATION], 0, -360, 360, &degrees))
-        return 0;
-    m->is.effects.shape = degrees != 0.0f ? VNDF_SHAPE_ROTATED : VNDF_SHAPE_ALIGNED;
-    m->is.rotation = degrees * 0.0174532925f;
+    if (one.is_matrix || c[MEAN].at || one.relief)
+        return set_lobes(r, c[DISTRIBUTION].at, m, &one, 1);
+    set_roughness(m, &one);
     return 1;
-}
-
-static int read_table(scene_reader *r, const clause c[CLAUSES], material *m)
-{
-    const char *form = c[DISTRIBUTION].values->text;
-    int closed = strcmp(form, "ggx") == 0 || strcmp(form, "beckmann") == 0;
-    unsigned bytes = 4096;
-    if (closed && !c[ALPHA].at)
-        return reader_refuse(r, c[DISTRIBUTION].at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", form);
-    if (c[BYTES].at && (closed || strcmp(form, "table") == 0))
-        return reader_refuse(r, c[BYTES].at, "'bytes' is of tables that are made here: family, slope or ndf");
-    return (!c[BYTES].at || reader_whole(r, &c[BYTES], 0, 2048, 1 << 20, &bytes)) &&
-           read_distribution(r, &c[DISTRIBUTION], bytes, &m->is.distribution);
 }
 
 /* ---- resolving ---- */
@@ -196,7 +185,7 @@ static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSE
     if (!read_effects(r, c, kind, &m->is.effects) ||
         (kind == CONDUCTOR && !read_metal(r, &s->words[2], &c[OF], &c[ETA], &c[K], &m->is)) ||
         (c[F0].at && !reader_three(r, &c[F0], 0, 1, m->is.f0)) || !read_roughness(r, c, m) ||
-        !read_table(r, c, m) || (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)))
+        (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)))
         return 0;
     return resolve(r, s, m);
 }
@@ -228,7 +217,8 @@ static int read_kind(scene_reader *r, const statement *s, material *m)
     const clause all = {.keyword = "material", .at = &s->words[0], .values = &s->words[2], .count = 1};
     clause c[CLAUSES];
     unsigned kind;
-    if (!reader_choice(r, &all, kinds, KINDS, &kind) || !find_clauses(r, s, kind, c) || !read_colours(r, c, m))
+    if (!reader_choice(r, &all, kinds, KINDS, &kind) || !material_clauses(r, s, 3, kind, c) ||
+        !read_colours(r, c, m))
         return 0;
     m->kind = made[kind];
     return m->kind != MATERIAL_MICROFACET || read_rough(r, s, c, kind, m);
@@ -258,8 +248,10 @@ int read_material(scene_reader *r, const statement *s)
         to->materials = calloc(SCENE_MATERIALS_MAX, sizeof *to->materials);
     if (!to->materials)
         return reader_refuse(r, name, "there is no memory for materials");
-    if (!read_kind(r, s, &made) || !(made.name = reader_copy(r, name)))
+    if (!read_kind(r, s, &made) || !(made.name = reader_copy(r, name))) {
+        free(made.lobes);
         return 0;
+    }
     to->materials[to->material_count++] = made;
     return 1;
 }

@@ -3,8 +3,8 @@
  *
  * words.c splits a file into words. A word in the first column begins a statement. clauses.c splits a statement
  * into clauses: a keyword and its values. Each statement then has a function of its own, in settings.c, images.c,
- * shapes.c, or materials.c with metals.c and tables.c. All of them return 1, or 0 after a refusal that names the
- * place. */
+ * shapes.c, or materials.c and lobes.c with slopes.c, metals.c and tables.c. All of them return 1, or 0 after a
+ * refusal that names the place. */
 #ifndef TOOLS_RENDER_SCENE_READER_H
 #define TOOLS_RENDER_SCENE_READER_H
 
@@ -17,11 +17,15 @@ enum {
     SCENE_MATERIALS_MAX = 4096,
     SCENE_IMAGES_MAX = 64,
     SCENE_TABLES_MAX = 64,
+    SCENE_RELIEFS_MAX = 64,
+    SCENE_LOBES_MAX = 256,
+    SCENE_DISPLACED_MAX = 1 << 20,          /* pixels of heights that become triangles */
     SCENE_NAME_MAX = 64,                    /* letters of a name */
     SCENE_PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
 #define SCENE_FAR 1e6   /* the largest coordinate or size */
 #define SCENE_NEAR 1e-6 /* the smallest size */
+#define SCENE_STEEP 1e3 /* the largest slope */
 
 typedef struct word {
     char *text;                 /* without its quotes; into the text of the file */
@@ -37,10 +41,13 @@ typedef struct scene_reader {
     word *words; /* owned */
     size_t count, room;
     scene *made;
-    unsigned seen;       /* a bit for each statement that may stand once */
-    size_t pixels;       /* of all images so far */
-    int gives_light;     /* a shape has a light for its material */
-    scene_tables tables; /* they replace the distributions of materials */
+    unsigned seen;            /* a bit for each statement that may stand once */
+    size_t pixels;            /* of all images and maps of slopes so far */
+    size_t displaced;         /* pixels of heights so far */
+    int gives_light;          /* a shape has a light for its material */
+    scene_tables tables;      /* they replace the distributions of materials */
+    struct named_lobe *lobes; /* owned; those that 'mix' may name */
+    size_t lobe_count;
 } scene_reader;
 
 /* words[0] names the statement. */
@@ -106,6 +113,7 @@ int read_camera(scene_reader *r, const statement *s);
 int read_integrator(scene_reader *r, const statement *s);
 int read_environment(scene_reader *r, const statement *s);
 int read_image(scene_reader *r, const statement *s);
+int read_lobe(scene_reader *r, const statement *s);
 int read_material(scene_reader *r, const statement *s);
 int read_sphere(scene_reader *r, const statement *s);
 int read_rectangle(scene_reader *r, const statement *s);

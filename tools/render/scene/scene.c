@@ -21,6 +21,7 @@ static const statement_kind statements[] = {
     {"integrator", read_integrator, 1},
     {"environment", read_environment, 1},
     {"image", read_image, 0},
+    {"lobe", read_lobe, 0},
     {"material", read_material, 0},
     {"sphere", read_sphere, 0},
     {"rectangle", read_rectangle, 0},
@@ -93,6 +94,7 @@ static int read_text(scene *made, const char *name, const scene_tables *tables, 
                     .environment = {.scale = 1.0f}};
     int good = reader_split(&r, text, length) && read_statements(&r) && check_whole(&r);
     free(r.words);
+    free(r.lobes);
     if (!good)
         scene_free(made);
     return good;
@@ -142,8 +144,14 @@ int scene_resize(scene *s, int width, char *message, size_t size)
 
 void scene_free(scene *s)
 {
-    for (size_t i = 0; i < s->material_count; i++)
+    for (size_t i = 0; i < s->material_count; i++) {
         free(s->materials[i].name);
+        free(s->materials[i].lobes);
+    }
+    for (size_t i = 0; i < s->relief_count; i++) {
+        relief_free(s->reliefs[i]);
+        free(s->reliefs[i]);
+    }
     for (size_t i = 0; i < s->image_count; i++) {
         image_free(&s->images[i]);
         free(s->image_names[i]);
@@ -154,6 +162,7 @@ void scene_free(scene *s)
     }
     free(s->title);
     free(s->materials);
+    free(s->reliefs);
     free(s->images);
     free(s->image_names);
     free(s->tables);

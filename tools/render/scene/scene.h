@@ -3,7 +3,7 @@
 #define TOOLS_RENDER_SCENE_SCENE_H
 
 #include "render/geometry/geometry.h"
-#include "render/image/image.h"
+#include "render/image/relief.h"
 #include "vndf_bsdf.h"
 
 typedef struct camera {
@@ -24,6 +24,18 @@ typedef struct textured {
     const image *map; /* an image of the scene; NULL: constant */
 } textured;
 
+/* A lobe of a surface that more than alpha along two axes describes: its matrix of slopes is `axes` (xx xy yx yy), with
+ * columns times alpha_x and alpha_y; the slopes of a map add to its mean slope and, filtered, to M M^T. */
+typedef struct scene_lobe {
+    const vndf_distribution *distribution;
+    textured alpha_x, alpha_y;
+    float rotation, axes[4];
+    int is_matrix; /* `axes` is a matrix that was said, and alpha is 1 */
+    float mean_x, mean_y;
+    const relief *relief; /* one of the scene; NULL: none */
+    textured weight;      /* in a mixture */
+} scene_lobe;
+
 typedef enum material_kind {
     MATERIAL_MICROFACET, /* conductor, dielectric, ...: vndf_bsdf.h */
     MATERIAL_MATTE,      /* Lambert */
@@ -37,8 +49,10 @@ typedef struct material {
     material_kind kind;
     vndf_description is; /* MICROFACET: the library takes it; GLASS: eta */
     textured alpha_x, alpha_y;
-    int is_textured; /* either has a map: vndf_bsdf_rough at each hit */
-    float colour[3]; /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
+    int is_textured;   /* either has a map: vndf_bsdf_rough at each hit */
+    scene_lobe *lobes; /* owned; they take the place of alpha and rotation; NULL: they say it all */
+    int lobe_count;    /* 0, or 1 to VNDF_MIXTURE_LOBES */
+    float colour[3];   /* MATTE, MIRROR: reflectance; LIGHT: radiance; MICROFACET: multiplies */
     const image *colour_map;
     float absorb[3]; /* inside, per unit of length; all 0: none */
 } material;
@@ -60,6 +74,8 @@ typedef struct scene {
     image *images;
     char **image_names;
     size_t image_count;
+    relief **reliefs; /* owned */
+    size_t relief_count;
     vndf_distribution **tables; /* owned */
     char **table_names;
     size_t table_count;
@@ -87,11 +103,16 @@ int scene_resize(scene *s, int width, char *message, size_t size);
 
 void scene_free(scene *s);
 
+/* The shape that lobes call for, and the first of them, or all, without maps. */
+vndf_shape scene_shape_of(const scene_lobe *lobes, int count);
+vndf_affine scene_affine_of(const scene_lobe *l);
+void scene_mixture_of(const scene_lobe *lobes, int count, vndf_mixture *made);
+
 /* Turns a message of the library about a material into the words of the language. */
 void scene_wording(const char *said, char *message, size_t size);
 
 /* The language, for --grammar, in parts. */
-enum { SCENE_GRAMMAR_PARTS = 2 };
+enum { SCENE_GRAMMAR_PARTS = 3 };
 extern const char *const scene_grammar[SCENE_GRAMMAR_PARTS];
 
 #endif

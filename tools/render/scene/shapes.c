@@ -62,18 +62,40 @@ static int square_edges(scene_reader *r, const clause c[2], rectangle *made)
     return 1;
 }
 
+/* A map of heights and what 1 is in it. */
+static int add_displaced(scene_reader *r, const statement *s, const clause c[2], rectangle plate, int of)
+{
+    const image_range height = {"height", 1, -1, 1};
+    const image *map;
+    float by;
+    if (!reader_image(r, &c[0], &map) || !reader_within(r, c[0].values, map, &height) ||
+        !reader_number(r, &c[1], 0, -SCENE_FAR, SCENE_FAR, &by))
+        return 0;
+    r->displaced += (size_t)map->width * (size_t)map->height;
+    if (r->displaced > SCENE_DISPLACED_MAX)
+        return reader_refuse(r, c[0].values, "these are more than %d pixels of heights to make triangles of",
+                             SCENE_DISPLACED_MAX);
+    return added(r, s, geometry_add_displaced(&r->made->geometry, plate, map, by, of));
+}
+
 int read_rectangle(scene_reader *r, const statement *s)
 {
     clause c[] = {{.keyword = "edge-u", .takes = "X Y Z", .least = 3, .most = 3, .needed = 1},
                   {.keyword = "edge-v", .takes = "X Y Z", .least = 3, .most = 3, .needed = 1},
                   {.keyword = "corner", .takes = "X Y Z", .least = 3, .most = 3, .needed = 1},
-                  {.keyword = "material", .takes = "NAME", .least = 1, .most = 1, .needed = 1}};
+                  {.keyword = "material", .takes = "NAME", .least = 1, .most = 1, .needed = 1},
+                  {.keyword = "heights", .takes = "IMAGE", .least = 1, .most = 1},
+                  {.keyword = "height", .takes = "LENGTH", .least = 1, .most = 1}};
     rectangle made;
     int of;
-    if (!reader_clauses(r, s, 1, c, 4) || !reader_vector(r, &c[0], &made.edge_u) ||
+    if (!reader_clauses(r, s, 1, c, 6) || !reader_vector(r, &c[0], &made.edge_u) ||
         !reader_vector(r, &c[1], &made.edge_v) || !reader_vector(r, &c[2], &made.corner) ||
         !square_edges(r, c, &made) || !find_material(r, &c[3], &of))
         return 0;
+    if (!c[4].at != !c[5].at)
+        return reader_refuse(r, c[4].at ? c[4].at : c[5].at, "'heights IMAGE' and 'height LENGTH' go together");
+    if (c[4].at)
+        return add_displaced(r, s, &c[4], made, of);
     return added(r, s, geometry_add_rectangle(&r->made->geometry, made, of));
 }
 

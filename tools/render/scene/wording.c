@@ -20,6 +20,11 @@ static const wording wordings[] = {
     {"lobes is ", "lobes "},
     {"normals is ", "normals "},
     {"scattering is ", "scattering "},
+    {"reflection is VNDF_REFLECTION_RETRO", "the material is retroreflective"},
+    {"which is not reciprocal with mean slopes: shape must be VNDF_SHAPE_ALIGNED, VNDF_SHAPE_ROTATED or "
+     "VNDF_SHAPE_MATRIX",
+     "which is not reciprocal with mean slopes: leave out mean, its maps and mix"},
+    {"shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE", "the surface has mean slopes or several lobes"},
 };
 
 static const wording *wording_of(const char *said)
