@@ -8,7 +8,18 @@
 #include "oracle/oracle.h"
 #include "harness/test.h"
 
-enum { SLOPES = 16000, SCANS = 70, BYTES = 2048 };
+enum { SLOPES = 16000, BYTES = 2048 };
+
+/* Steps of an integral, and parameters between two knots. */
+static int slopes(void)
+{
+    return (int)test_amount(4000, 4000, SLOPES);
+}
+
+static int scans(void)
+{
+    return (int)test_amount(20, 20, 70);
+}
 
 /* ---- the families, once more ---- */
 
@@ -31,17 +42,18 @@ typedef struct distances {
 
 static distances distance_at(density *f, double a, double b, double t, double p)
 {
-    double first = log(1e-7), step = (log(1e28) - first) / SLOPES, mixed_area = 0, area = 0;
+    int count = slopes();
+    double first = log(1e-7), step = (log(1e28) - first) / count, mixed_area = 0, area = 0;
     static double mixed[SLOPES + 1], own[SLOPES + 1], slope[SLOPES + 1];
     distances d = {0, 0};
-    for (int i = 0; i <= SLOPES; i++) {
+    for (int i = 0; i <= count; i++) {
         double r = slope[i] = exp(first + step * i);
         mixed[i] = ((1 - t) * f(a, r) + t * f(b, r)) * r * r * step;
         own[i] = f(p, r) * r * r * step;
         mixed_area += mixed[i] * r;
         area += own[i] * r;
     }
-    for (int i = 0; i <= SLOPES; i++) {
+    for (int i = 0; i <= count; i++) {
         d.slopes += PI * fabs(mixed[i] - own[i]);
         d.grazing += 0.5 * fabs(mixed[i] / mixed_area - own[i] / area) * slope[i];
     }
@@ -59,8 +71,8 @@ static void test_scan(const vndf_family *family, density *f)
     double worst = 0, grazing = 0;
     for (size_t i = 0; i + 1 < facts.count; i++) {
         double a = vndf_family_parameter(family, i), b = vndf_family_parameter(family, i + 1), here = 0;
-        for (int k = 1; k < SCANS; k++) {
-            double p = a + (b - a) * k / SCANS;
+        for (int k = 1, last = scans(); k < last; k++) {
+            double p = a + (b - a) * k / scans();
             distances d = distance_at(f, a, b, weight_of(a, b, p, facts.reciprocal), p);
             here = fmax(here, d.slopes);
             grazing = fmax(grazing, d.grazing);
@@ -85,13 +97,14 @@ static void test_between(const vndf_family *family, density *f)
 {
     const vndf_affine shape = {NULL, 1, 0, 0, 1, 0, 0};
     vndf_family_facts facts = vndf_family_info(family);
-    double first = log(1e-7), step = (log(1e28) - first) / SLOPES;
+    int count = slopes();
+    double first = log(1e-7), step = (log(1e28) - first) / count;
     for (size_t i = 0; i + 1 < facts.count; i++) {
         vndf_mixture m;
         float p = 0.5f * (vndf_family_parameter(family, i) + vndf_family_parameter(family, i + 1));
         double sum = 0;
         TEST(vndf_family_at(family, p, &shape, &m) == VNDF_FAMILY_INSIDE);
-        for (int k = 0; k <= SLOPES; k++) {
+        for (int k = 0; k <= count; k++) {
             double r = exp(first + step * k);
             sum += PI * fabs((double)vndf_mixture_p22(&m, (float)r, 0) - f((double)p, r)) * r * r * step;
         }
