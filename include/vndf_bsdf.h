@@ -266,8 +266,8 @@ typedef enum vndf_lobe {
 typedef struct vndf_scattered {
     vndf_vec3 wo; /* unit within 10 ulps of 2^-23 */
     float weight
-        [VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1; 0 past the last */
-    float density;          /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
+        [VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1; of the material's wavelengths */
+    float density; /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
     vndf_lobe lobe;
     vndf_vec3
         wm; /* the facet that was met, on the side of wi; of a lost sample, a walk and Kulla & Conty's lobe 0 */

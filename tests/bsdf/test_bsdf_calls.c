@@ -122,7 +122,7 @@ static void check_retro(const vndf_description *is, vndf_vec3 wi, vndf_vec3 wo, 
     }
     float sign = s[0].lobe == VNDF_LOBE_REFLECTION ? -1.0f : 1.0f;
     TEST(s[1].wo.x == sign * s[0].wo.x && s[1].wo.y == sign * s[0].wo.y && s[1].wo.z == s[0].wo.z);
-    TEST(s[1].density == s[0].density && same(s[0].weight, s[1].weight, VNDF_WAVELENGTHS));
+    TEST(s[1].density == s[0].density && same(s[0].weight, s[1].weight, is->wavelengths));
     TEST(same(f[0], f[1], is->wavelengths));
 }
 
@@ -137,8 +137,6 @@ static void test_hit(const vndf_description *is, unsigned long long *state)
     TEST(vndf_material_resolve(is, &m, NULL) == VNDF_OK);
     vndf_bsdf_at(&b, &m, wi);
     vndf_bsdf_sample(&b, u, &s);
-    for (int i = is->wavelengths; i < VNDF_WAVELENGTHS; i++)
-        TEST(s.weight[i] == 0);
     check_both_at_once(&b, is->wavelengths, wo, 9);
     check_both_at_once(&b, is->wavelengths, s.wo, 9);
     check_facet(&b, is, wi, &s);

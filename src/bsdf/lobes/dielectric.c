@@ -11,8 +11,8 @@ VNDF_INLINE void set_reflected(const vndf_bsdf *b, const vndf_bsdf_normal *n, co
     s->wm = vndf_mirrored(n->wm, b->side);
     s->density = vndf_positive(out->density * (float)part);
     s->lobe = VNDF_LOBE_REFLECTION;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = i < b->material->is.wavelengths ? vndf_finite(out->weight * (float)(f[i] / part)) : 0.0f;
+    for (int i = 0, count = b->material->is.wavelengths; i < count; i++)
+        s->weight[i] = vndf_finite(out->weight * (float)(f[i] / part));
 }
 
 VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_outcome *out,
@@ -23,10 +23,8 @@ VNDF_INLINE void set_refracted(const vndf_bsdf *b, const vndf_bsdf_normal *n, co
     s->wm = vndf_mirrored(n->wm, b->side);
     s->density = straight ? 1.0f : vndf_positive(out->density * (float)part);
     s->lobe = straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = i < b->material->is.wavelengths
-                           ? vndf_finite(out->weight * (float)(b->carried * ((1.0 - f[i]) / part)))
-                           : 0.0f;
+    for (int i = 0, count = b->material->is.wavelengths; i < count; i++)
+        s->weight[i] = vndf_finite(out->weight * (float)(b->carried * ((1.0 - f[i]) / part)));
 }
 
 VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_scattered *s)

@@ -33,7 +33,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
-    vndf_set_bare(b, s, wo, wm, weight,
+    vndf_set_bare(s, wo, wm, weight,
                   vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
 }
 

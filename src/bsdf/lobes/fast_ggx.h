@@ -32,8 +32,7 @@ VNDF_INLINE float vndf_fast_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
     return wo.z * b->area + b->view.wi.z * lanes_positive(below);
 }
 
-VNDF_INLINE void vndf_set_bare(const vndf_bsdf *b, vndf_scattered *s, vndf_vec3 wo, vndf_vec3 wm, float weight,
-                               float density)
+VNDF_INLINE void vndf_set_bare(vndf_scattered *s, vndf_vec3 wo, vndf_vec3 wm, float weight, float density)
 {
     s->wo.x = wo.x;
     s->wo.y = wo.y;
@@ -41,8 +40,8 @@ VNDF_INLINE void vndf_set_bare(const vndf_bsdf *b, vndf_scattered *s, vndf_vec3 
     s->wm.x = wm.x;
     s->wm.y = wm.y;
     s->wm.z = wm.z;
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = i < b->material->is.wavelengths ? weight : 0.0f;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++) /* all: no count is waited for */
+        s->weight[i] = weight;
     s->density = vndf_positive(density);
     s->lobe = VNDF_LOBE_REFLECTION;
 }

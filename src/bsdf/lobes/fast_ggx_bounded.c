@@ -52,7 +52,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     float weight = wo.z * (b->area * n.inside_mass) / vndf_fast_ggx_unmasked(b, wo);
     float per = 1.0f / sqrtf(n.length2);
     vndf_vec3 wm = {n.x * per, n.y * per, n.z * per};
-    vndf_set_bare(b, s, wo, wm, weight, vndf_ggx_density_of(b, wo) / n.inside_mass);
+    vndf_set_bare(s, wo, wm, weight, vndf_ggx_density_of(b, wo) / n.inside_mass);
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)

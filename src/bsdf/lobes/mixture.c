@@ -41,7 +41,7 @@ double vndf_mixture_cosine(const vndf_bsdf *b, vndf_vec3 w)
 
 int vndf_mixture_see(vndf_bsdf *b, const vndf_mixture *mixture, vndf_vec3 wi)
 {
-    b->lobes = vndf_mixture_view_from(mixture, wi);
+    vndf_mixture_view_set(&b->lobes, mixture, wi);
     b->view.wi = wi;
     return b->lobes.count > 0;
 }

@@ -9,6 +9,7 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
 {
     vndf_outcome out;
     double f[VNDF_WAVELENGTHS];
+    int count = b->material->is.wavelengths;
     settled &= choice.bare || (!b->material->steep && vndf_keeps_reflectance(b, n->facing));
     if (!vndf_reflect(b, n, choice, settled, &out)) {
         vndf_scatter_nothing(s);
@@ -20,10 +21,8 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
     s->lobe = VNDF_LOBE_REFLECTION;
     if (!choice.bare)
         vndf_reflectance(b, out.facing, f);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        s->weight[i] = i < b->material->is.wavelengths
-                           ? vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i])
-                           : 0.0f;
+    for (int i = 0; i < count; i++)
+        s->weight[i] = vndf_finite(choice.bare ? out.weight : out.weight * (float)f[i]);
 }
 
 VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)

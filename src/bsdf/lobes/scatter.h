@@ -33,7 +33,7 @@ VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
 
 VNDF_INLINE void vndf_set_value(const vndf_bsdf *b, float *value, double f)
 {
-    for (int i = 0; i < b->material->is.wavelengths; i++)
+    for (int i = 0, count = b->material->is.wavelengths; i < count; i++)
         value[i] = vndf_density_from(f);
 }
 
@@ -41,7 +41,7 @@ VNDF_INLINE void vndf_set_value(const vndf_bsdf *b, float *value, double f)
 VNDF_INLINE void vndf_set_values(const vndf_bsdf *b, float *value, double shape, const double f[VNDF_WAVELENGTHS],
                                  int transmits)
 {
-    for (int i = 0; i < b->material->is.wavelengths; i++)
+    for (int i = 0, count = b->material->is.wavelengths; i < count; i++)
         value[i] = vndf_density_from(shape * (transmits ? 1.0 - f[i] : f[i]));
 }
 

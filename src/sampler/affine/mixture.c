@@ -30,32 +30,37 @@ static void share(vndf_mixture_view *view, const double *area)
     view->begin[view->count] = 1.0;
 }
 
-vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
+void vndf_mixture_view_set(vndf_mixture_view *view, const vndf_mixture *mixture, vndf_vec3 wi)
 {
-    vndf_mixture_view view;
     double area[VNDF_MIXTURE_LOBES], per = per_weight(mixture);
-    view.count = 0;
-    view.area = view.mean_x = view.mean_y = 0.0;
+    view->count = 0;
+    view->area = view->mean_x = view->mean_y = 0.0;
     for (int i = 0; per > 0.0 && i < mixture->count; i++) {
         const vndf_mixture_lobe *lobe = &mixture->lobe[i];
         vndf_areas areas;
         int valid;
         if (lobe->weight == 0.0f)
             continue;
-        view.lobe[view.count] = vndf_affine_lobe(&lobe->surface, wi, &areas, &valid); /* in place, not copied */
+        view->lobe[view->count] = vndf_affine_lobe(&lobe->surface, wi, &areas, &valid); /* in place, not copied */
         if (!valid) {
-            view.count = 0;
-            return view;
+            view->count = 0;
+            return;
         }
-        area[view.count] = lobe->weight * per * areas.toward;
-        view.weight[view.count] = lobe->weight * per;
-        view.area += area[view.count];
-        view.mean_x += lobe->weight * per * lobe->surface.mean_x;
-        view.mean_y += lobe->weight * per * lobe->surface.mean_y;
-        view.index[view.count++] = i;
+        area[view->count] = lobe->weight * per * areas.toward;
+        view->weight[view->count] = lobe->weight * per;
+        view->area += area[view->count];
+        view->mean_x += lobe->weight * per * lobe->surface.mean_x;
+        view->mean_y += lobe->weight * per * lobe->surface.mean_y;
+        view->index[view->count++] = i;
     }
-    if (view.count > 0)
-        share(&view, area);
+    if (view->count > 0)
+        share(view, area);
+}
+
+vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
+{
+    vndf_mixture_view view;
+    vndf_mixture_view_set(&view, mixture, wi);
     return view;
 }
 

@@ -65,6 +65,7 @@ typedef struct effects_subject {
     const effects_loops *loops;
     vndf_surface surface;
     vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
+    vndf_albedo *albedo;  /* owned; NULL unless energy is compensated */
     vndf_material material;
     const vndf_roughness *roughness; /* of the hits of a block, for EFFECTS_ROUGH */
 } effects_subject;

@@ -27,7 +27,7 @@ static vndf_status add(effects_list *list, const effects_named *of, const effect
     e->bare = e->visible = EFFECTS_NONE;
     e->row = effects_nothing;
     vndf_status status = effects_subject_make(&e->subject, set, &surface, error);
-    list->count += status == VNDF_OK;
+    list->count++; /* freed with the others, made or not */
     return status;
 }
 
@@ -156,6 +156,8 @@ vndf_status effects_list_make(effects_list *list, const effects_plan *plan, vndf
 
 void effects_list_free(effects_list *list)
 {
+    for (size_t i = 0; i < list->count; i++)
+        vndf_albedo_free(list->entry[i].subject.albedo);
     free(list->entry);
     list->entry = NULL;
     list->count = 0;

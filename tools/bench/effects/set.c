@@ -44,6 +44,8 @@ const effects_set effects_sets[] = {
     {.name = "both lobes, from inside",
      .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC},
      .inside = 1},
+    {.name = "Turquin", .effects = {.scattering = VNDF_SCATTERING_TURQUIN}},
+    {.name = "Kulla & Conty", .effects = {.scattering = VNDF_SCATTERING_KULLA_CONTY}},
     {.name = "walk", .effects = {.scattering = VNDF_SCATTERING_MULTIPLE}},
     {.name = "walk on a conductor",
      .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR, .scattering = VNDF_SCATTERING_MULTIPLE}},
@@ -106,6 +108,8 @@ vndf_status effects_subject_make(effects_subject *subject, const effects_set *se
     is.rotation = 0.5f;
     lobes_of(&subject->mixture, &subject->surface, set->effects.shape == VNDF_SHAPE_AFFINE);
     is.affine = subject->mixture.lobe[0].surface;
+    if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
+        is.albedo = subject->albedo = vndf_albedo_build(surface->distribution, NULL, error);
     is.mixture = &subject->mixture;
     memcpy(is.f0, schlick_f0, sizeof schlick_f0);
     memcpy(is.conductor_eta, gold_eta, sizeof gold_eta);
