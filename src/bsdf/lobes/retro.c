@@ -2,10 +2,12 @@
  * where it is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
 #include "bsdf/lobes/retro.h"
 
+#include "math/vector.h"
+
 static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    vndf_vec3 back = {-wo.x, -wo.y, wo.z};
-    return wo.z * b->side > 0.0f ? back : wo;
+    float turn = wo.z * b->side > 0.0f ? -1.0f : 1.0f;
+    return vndf_vec3_of(turn * wo.x, turn * wo.y, wo.z);
 }
 
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
