@@ -47,10 +47,19 @@ static float parameter_at(const scene_parameter *p, const hit *h)
     return p->map ? p->from + path_textured(&way, h) : p->from;
 }
 
-static void add_lobe(const scene_lobe *l, const hit *h, vndf_mixture *made)
+static void add_family(const scene_lobe *l, const hit *h, float weight, vndf_mixture *made)
 {
     const vndf_affine surface = affine_at(l, h);
-    scene_add_lobe(l, &surface, parameter_at(&l->parameter, h), path_textured(&l->weight, h), made);
+    scene_add_lobe(l, &surface, parameter_at(&l->parameter, h), weight, made);
+}
+
+static void add_lobe(const scene_lobe *l, const hit *h, vndf_mixture *made)
+{
+    const float weight = path_textured(&l->weight, h);
+    if (l->family)
+        add_family(l, h, weight, made);
+    else
+        made->lobe[made->count++] = (vndf_mixture_lobe){affine_at(l, h), weight};
 }
 
 static void mixture_at(const path_material *m, const hit *h, vndf_mixture *made)
