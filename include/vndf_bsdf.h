@@ -37,13 +37,16 @@
  * Mean slopes (VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
  * z = 0, as it does in masking (vndf.h): it divides reflection from transmission, and with its unit normal n all
  * cosines above are those to n, cos_i = n.wi, cos_o = n.wo; f has D n.z, the density per area of that plane. So f
- * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z.
+ * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z. A
+ * renderer that has |wo.z| in the place of vndf_bsdf_cosine gets it wrong. A reflected direction may point below z = 0,
+ * into the geometry, and is then lost to a ray.
  *
  * Errors and invalid input. vndf_material_resolve refuses sets that make no sense, and names the reason: a conductor
  * that transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit, V-cavity normals
  * without V-cavity masking, a walk with masking or normals other than its own or with transmission alone, mean
- * slopes and mixtures with a walk, with V-cavities or with normals that are not visible ones, retroreflection of
- * them or of transmission alone. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and
+ * slopes and mixtures with a walk, with V-cavities or with normals that are not visible ones, retroreflection with
+ * mean slopes, with mixtures or of transmission alone, compensation of these two, of transmission alone, of another
+ * masking or without the right albedo. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and
  * invalid roughness scatter nothing (lobe 0; weights, values and densities 0). For lengths between these that are
  * not 1, and for a cosine and a sine of different angles, only finite numbers are promised. The material must have
  * been resolved. No state, no NaN, and the same bits everywhere, as vndf.h says.
@@ -113,7 +116,8 @@ typedef enum vndf_scattering {
     /* The same by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with F_ms = F_avg^2 E_avg/(1 - F_avg (1 -
      * E_avg)) (Kulla & Conty 2017). Of both lobes, where F_ms is 1, the part b = (1 - F_avg) min/(1 - E_avg) of it is
      * transmitted, min the smaller 1 - E_avg of the two sides, and spread by the E and E_avg of the other side. f is
-     * reciprocal. A sample takes this lobe, by the cosine of wo, as often as light does; wm is then 0. */
+     * reciprocal. A sample takes this lobe as often as light does; wm is then 0. Of smooth surfaces, where 1 - E_avg is
+     * below 1e-5, Turquin's factor stands for the lobe. */
     VNDF_SCATTERING_KULLA_CONTY
 } vndf_scattering;
 
@@ -216,6 +220,7 @@ struct vndf_compensation {
     float per, beyond;              /* 1/(pi (1 - E_avg)) of this side and of the other, */
     float share;                    /* the part of the samples, */
     float reflected;                /* the part of that which stays on this side, */
+    float near, per_log;            /* how its cosines are drawn, */
     float colour[VNDF_WAVELENGTHS]; /* F_ms */
 };
 
@@ -278,7 +283,7 @@ typedef struct vndf_scattered {
  * The weight of a walk is its throughput, and its density an estimate (vndf_bsdf_pdf). */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
-/* f of each wavelength of the material, without the cosine; 0 where wo.z = 0. Only random walks read `seed`: their f is
+/* f of each wavelength of the material, without the cosine; 0 where that is 0. Only random walks read `seed`: their f is
  * a random number with the right mean. */
 VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value);
 

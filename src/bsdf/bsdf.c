@@ -116,5 +116,7 @@ float vndf_bsdf_pdf(const vndf_bsdf *b, vndf_vec3 wo)
 
 float vndf_bsdf_cosine(const vndf_bsdf *b, vndf_vec3 wo)
 {
+    if (!vndf_is_near_unit(wo))
+        return 0.0f;
     return b->material->is.effects.shape < VNDF_SHAPE_AFFINE ? wo.z : (float)vndf_mixture_cosine(b, wo);
 }

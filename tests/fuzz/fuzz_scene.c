@@ -37,8 +37,11 @@ static void check_scene(const scene *s)
             fuzz_require(is_of(s, m->lobes[k].alpha_x.map) && is_of(s, m->lobes[k].weight.map) &&
                              m->lobes[k].distribution,
                          "lobes have a distribution, and maps of the scene");
+        vndf_description is = m->is;
+        if (is.effects.scattering > VNDF_SCATTERING_MULTIPLE) /* which needs albedos that are not made yet */
+            is.effects.scattering = VNDF_SCATTERING_SINGLE;
         if (m->kind == MATERIAL_MICROFACET)
-            fuzz_require(vndf_material_resolve(&m->is, &resolved, NULL) == VNDF_OK, "the library takes it");
+            fuzz_require(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK, "the library takes it");
     }
     for (size_t i = 0; i < s->geometry.shape_count; i++) {
         int of = s->geometry.shapes[i].material;

@@ -30,6 +30,11 @@ answers(0 "perfect sampling: 2 BSDFs precomputed" render ${scene} -o perfect.pfm
 answers(0 "microfacets" render ${scene} --explain)
 answers(0 "of the time of a path, over the heaviest lobe" render ${lobes} --explain)
 answers(0 "textured weights" render ${lobes} --explain)
+file(WRITE ${OUT}/white.scene "film width 24 height 16\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+    "material a shape distribution ggx alpha 1 scattering turquin\nsphere centre 0 0 0 radius 0.5 material a\n"
+    "material b shape distribution ggx alpha 1 scattering kulla-conty\nsphere centre 1 0 0 radius 0.4 material b\n")
+answers(0 "energy compensation: 1 table of albedos built" render ${OUT}/white.scene -o white.pfm)
+answers(0 "of the time of a path, over single scattering" render ${OUT}/white.scene --explain)
 answers(0 "beside one.pfm pixels differ by 0.00% of its mean luminance" render ${scene} -o again.pfm
     --against one.pfm)
 answers(2 "one.pfm has 24 x 16 pixels, this picture has 12 x 8" render ${scene} -o no.pfm --width 12

@@ -1,8 +1,9 @@
 /* Surfaces with matrices, mean slopes, maps of slopes and several lobes bring the light that is there. A white plate
  * that leans sends back what the library's f sends to above the plate, by quadrature; lights that are drawn and lights
- * that are met agree about it, and light below the plate never comes through. Two equal lobes are one; a map of one
- * normal is a mean slope; two slopes in turns are, filtered, their second moment; heights that are filtered send back
- * the light of the same heights as a mesh, within 5%; a retroreflector shows the light behind the eye as a mirror shows
+ * that are met agree about it, and light below the plate never comes through. Two equal lobes are one; a family at a
+ * constant parameter is the mixture of its neighbours; a map of one normal is a mean slope; two slopes in turns are,
+ * filtered, their second moment; heights that are filtered send back the light of the same heights as a mesh, within
+ * 5%; a retroreflector shows the light behind the eye as a mirror shows
  * the light before it. Means of independent samples with fixed seeds, within 4.5 sigma: 7e-6 for each of some 20 to
  * fail by chance. */
 #include "harness/constants.h"
@@ -162,6 +163,67 @@ static void test_weight_map(void)
     l[1].weight.map = &none;
     case_agree("a lobe of weight 0", lit_plate(l, 2, NULL, NULL), lit_plate(NULL, 0, vndf_ggx(), alpha));
     image_free(&none);
+}
+
+/* ---- families ---- */
+
+static case_mean of_family(const vndf_family *family, scene_parameter parameter, unsigned without)
+{
+    render_case c;
+    scene_lobe l[2] = {lobe_of(0.3f, 0.0f, 0.1f, 0.4f), lobe_of(1.5f, 0.0f, 0.0f, 1.5f)};
+    l[0].family = family;
+    l[0].parameter = parameter;
+    l[0].weight.value = 2.0f;
+    l[0].mean_x = 0.1f;
+    case_begin(&c, vec(0.5f, -3.0f, 1.5f), origin);
+    case_constant(&c, 0.1f);
+    lay(&c, metal, l, 2);
+    add_lamp(&c, vec(-0.3f, 2.0f, 1.2f), 0.4f);
+    end(&c);
+    case_mean mean = case_render(&c, SAMPLER_MATERIAL, without, 256, 83);
+    case_free(&c);
+    return mean;
+}
+
+/* The lobes that a family of GGX, from 1, to Beckmann, at 3, is at 1.5; with that of of_family. */
+static case_mean of_mixture(void)
+{
+    render_case c;
+    scene_lobe l[3] = {lobe_of(0.3f, 0.0f, 0.1f, 0.4f), lobe_of(0.3f, 0.0f, 0.1f, 0.4f),
+                       lobe_of(1.5f, 0.0f, 0.0f, 1.5f)};
+    l[0].mean_x = l[1].mean_x = 0.1f;
+    l[0].weight.value = 1.5f;
+    l[1].weight.value = 0.5f;
+    l[1].distribution = vndf_beckmann();
+    case_begin(&c, vec(0.5f, -3.0f, 1.5f), origin);
+    case_constant(&c, 0.1f);
+    lay(&c, metal, l, 3);
+    add_lamp(&c, vec(-0.3f, 2.0f, 1.2f), 0.4f);
+    end(&c);
+    case_mean mean = case_render(&c, SAMPLER_MATERIAL, 0, 256, 84);
+    case_free(&c);
+    return mean;
+}
+
+/* A constant parameter, and a map of one colour, are the mixture of both knots; left out, the family is the
+ * distribution that stands for it. */
+static void test_family(void)
+{
+    const vndf_distribution *const knots[2] = {vndf_ggx(), vndf_beckmann()};
+    const float parameters[2] = {1.0f, 3.0f};
+    vndf_family *family = vndf_family_of(knots, parameters, 2, NULL);
+    image half;
+    if (!TEST(family && image_make(&half, 2, 2)))
+        return;
+    for (int i = 0; i < 12; i++)
+        half.rgb[i] = 0.5f;
+    case_mean mixed = of_mixture(), ggx = of_family(family, (scene_parameter){1.0f, 1.0f, NULL}, 0);
+    case_agree("a family", of_family(family, (scene_parameter){1.5f, 3.0f, NULL}, 0), mixed);
+    case_agree("a map", of_family(family, (scene_parameter){2.0f, 1.0f, &half}, 0), mixed);
+    case_agree("no family", of_family(family, (scene_parameter){2.0f, 3.0f, &half}, EFFECT_FAMILIES), ggx);
+    TEST(fabs(mixed.value - ggx.value) > 6 * (mixed.sigma + ggx.sigma));
+    image_free(&half);
+    vndf_family_free(family);
 }
 
 /* ---- maps of slopes ---- */
@@ -367,9 +429,11 @@ static void test_effects(void)
     TEST(path_material_effects(&m) == (EFFECT_MICROFACETS | EFFECT_MATRICES | EFFECT_MEAN_SLOPES));
     m.lobe_count = 2;
     l[1].weight.map = &map;
+    l[1].family = (const vndf_family *)&map; /* nobody looks at it */
     m.is.effects.reflection = VNDF_REFLECTION_RETRO;
-    TEST(path_material_effects(&m) == (EFFECT_MICROFACETS | EFFECT_MATRICES | EFFECT_MEAN_SLOPES |
-                                       EFFECT_MIXTURES | EFFECT_TEXTURED_WEIGHTS | EFFECT_RETROREFLECTION));
+    TEST(path_material_effects(&m) ==
+         (EFFECT_MICROFACETS | EFFECT_MATRICES | EFFECT_MEAN_SLOPES | EFFECT_MIXTURES | EFFECT_TEXTURED_WEIGHTS |
+          EFFECT_RETROREFLECTION | EFFECT_FAMILIES));
 }
 
 int main(void)
@@ -380,6 +444,7 @@ int main(void)
     test_no_leak();
     test_equal_lobes();
     test_weight_map();
+    test_family();
     test_mean_map();
     test_filtered_map();
     test_moments_of_mesh();

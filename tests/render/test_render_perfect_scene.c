@@ -76,6 +76,10 @@ static void test_refusals(void)
     c.materials[0].is_textured = 0;
     c.materials[0].is.effects.scattering = VNDF_SCATTERING_MULTIPLE;
     refused(&c, "single scattering, this one has 'scattering multiple'");
+    c.materials[0].is.effects.scattering = VNDF_SCATTERING_KULLA_CONTY;
+    TEST(scene_make_albedos(&c.scene, NULL, NULL, NULL, 0));
+    refused(&c, "single scattering alone, this one is compensated by 'scattering turquin' or 'kulla-conty'");
+    scene_free_albedos(&c.scene);
     c.materials[0].is = both;
     c.materials[0].is.distribution = vndf_ggx();
     c.materials[0].is.alpha_x = c.materials[0].is.alpha_y = 0.1f;

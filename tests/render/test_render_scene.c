@@ -174,6 +174,57 @@ static void test_lobes(void)
     scene_free(&s);
 }
 
+static void check_families(const scene *s)
+{
+    const material *a = material_of(s, "a"), *b = material_of(s, "b"), *c = material_of(s, "c");
+    TEST(s->family_count == 1 && s->table_count == 0);
+    TEST(a && a->lobe_count == 1 && a->is.effects.shape == VNDF_SHAPE_MIXTURE && !a->lobes[0].parameter.map);
+    TEST(a && a->lobes[0].family == s->families[0] && a->lobes[0].parameter.from == 2.5f &&
+         a->lobes[0].alpha_x.value == 1.0f);
+    TEST(a && a->is.distribution == vndf_family_distribution(s->families[0], 1)); /* 3 is nearer than 1.8 */
+    TEST(b && b->lobes[0].parameter.from == 3.0f && b->lobes[0].parameter.to == 1.8f &&
+         b->lobes[0].parameter.map == &s->images[0] && b->lobes[0].is_matrix);
+    TEST(c && c->lobe_count == 2 && c->lobes[0].family == s->families[0] && !c->lobes[1].family);
+}
+
+static void test_families(void)
+{
+    scene s;
+    char message[MESSAGE];
+    if (!TEST(read_text(&s,
+                        LIT "image m pattern ramp width 8 height 8\n"
+                            "material a shape distribution family corpus/family/two.vndfs parameter 2.5\n"
+                            "material b shape distribution family corpus/family/two.vndfs parameter 3 1.8\n"
+                            "  parameter-map m matrix 1 0 0.5 1 mean 0.1 0\n"
+                            "lobe tail distribution family corpus/family/two.vndfs parameter 3 alpha-map m\n"
+                            "lobe core distribution ggx alpha 0.1\nmaterial c shape mix tail core\n",
+                        message))) {
+        fprintf(stderr, "%s\n", message);
+        return;
+    }
+    check_families(&s);
+    scene_free(&s);
+}
+
+/* Albedos are made later; what else the library asks is asked at once. */
+static void test_compensation(void)
+{
+    scene s;
+    char message[MESSAGE];
+    if (!TEST(read_text(&s,
+                        LIT "material a shape distribution ggx alpha 1 scattering turquin\n"
+                            "material b dielectric index 1.5 distribution ggx alpha 1 scattering kulla-conty\n"
+                            "material c shape distribution ggx matrix 1 0 0.5 1 scattering kulla-conty\n",
+                        message))) {
+        fprintf(stderr, "%s\n", message);
+        return;
+    }
+    const material *m = s.materials;
+    TEST(m[0].is.effects.scattering == VNDF_SCATTERING_TURQUIN && !m[0].is.albedo && s.albedo_count == 0);
+    TEST(m[1].is.effects.scattering == VNDF_SCATTERING_KULLA_CONTY && m[2].is.effects.shape == VNDF_SHAPE_MATRIX);
+    scene_free(&s);
+}
+
 static void test_heights(void)
 {
     scene s;
@@ -262,7 +313,8 @@ static void check_shipped(int good, scene *s, const char *message)
 /* The table of rings is built as small as it can be, in half of the time. */
 static void test_shipped(void)
 {
-    static const char *const names[] = {"plate", "glass", "metal", "textured", "rings", "furnace", "haze"};
+    static const char *const names[] = {"plate",   "glass", "metal",  "textured",     "rings",
+                                        "furnace", "haze",  "relief", "compensation", "tails"};
     const scene_tables small = {.bytes = 2048};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         scene s;
@@ -370,12 +422,13 @@ static void test_shipped_reliefs(void)
 static void test_grammar(void)
 {
     static const char *const known[] = {
-        "title",     "film",       "camera", "integrator", "environment", "image",       "material",
-        "sphere",    "rectangle",  "box",    "mesh",       "conductor",   "dielectric",  "reflector",
-        "shape",     "matte",      "mirror", "glass",      "light",       "alpha-x-map", "alpha-y-map",
-        "alpha-map", "colour-map", "absorb", "order",      "scattering",  "masking",     "rotation",
-        "bytes",     "matrix",     "mean",   "height-map", "filtered",    "normal-map",  "scale",
-        "mix",       "lobe",       "weight", "weight-map", "heights",     "height",      "retroreflective"};
+        "title",     "film",        "camera",    "integrator",    "environment", "image",       "material",
+        "sphere",    "rectangle",   "box",       "mesh",          "conductor",   "dielectric",  "reflector",
+        "shape",     "matte",       "mirror",    "glass",         "light",       "alpha-x-map", "alpha-y-map",
+        "alpha-map", "colour-map",  "absorb",    "order",         "scattering",  "masking",     "rotation",
+        "bytes",     "matrix",      "mean",      "height-map",    "filtered",    "normal-map",  "scale",
+        "mix",       "lobe",        "weight",    "weight-map",    "heights",     "height",      "retroreflective",
+        "turquin",   "kulla-conty", "parameter", "parameter-map", "family"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (!strstr(scene_grammar[0], known[i]) && !strstr(scene_grammar[1], known[i]))
             TEST_HAS(scene_grammar[2], known[i]);
@@ -410,6 +463,8 @@ int main(void)
     test_defaults();
     test_rough_materials();
     test_lobes();
+    test_families();
+    test_compensation();
     test_heights();
     test_plain_materials();
     test_shapes();

@@ -184,23 +184,38 @@ static int render_to_file(const render_words *given, const path_plan *plan, cons
     return render_film(&output, write, plan, s, c);
 }
 
-static void print_precomputed(const path_plan *plan)
+/* Signals end the program as long as this goes on. */
+static int make_albedos(scene *s)
+{
+    char message[640];
+    progress line = progress_begin("albedos", 0);
+    int good = scene_make_albedos(s, progress_show, &line, message, sizeof message);
+    progress_end(&line);
+    return good || (complain(name, "%s", message), 0);
+}
+
+static void print_precomputed(const scene *s, const path_plan *plan)
 {
     path_precomputed cost = path_perfect_cost(plan);
+    if (s->albedo_count)
+        printf("energy compensation: %zu table%s of albedos built, %.3g KiB, %.3g s\n", s->albedo_count,
+               s->albedo_count == 1 ? "" : "s", (double)scene_albedo_bytes(s) / 1024, s->albedo_seconds);
     if (cost.count)
         printf("perfect sampling: %zu BSDF%s precomputed, %.3g MiB, %.3g s\n", cost.count,
                cost.count == 1 ? "" : "s", (double)cost.bytes / 1048576, cost.seconds);
 }
 
-static int render_scene(const render_words *given, const scene *s, const render_choice *c)
+static int render_scene(const render_words *given, scene *s, const render_choice *c)
 {
     char message[512];
+    if (!make_albedos(s))
+        return STATUS_USE;
     path_plan *plan = path_prepare(s, c->sampler, 0, message, sizeof message);
     int status = STATUS_GOOD;
     if (!plan)
         return complain(name, "%s", message);
     if (!given->output.count || !output_is_stdout(only_word(&given->output)))
-        print_precomputed(plan);
+        print_precomputed(s, plan);
     if (given->explain.count)
         status = render_explain(name, s, c->sampler);
     if (status == STATUS_GOOD && given->output.count)

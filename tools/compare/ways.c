@@ -14,6 +14,10 @@ static scene *add_scene(under_way *run, const scene_tables *tables)
         return NULL;
     }
     run->scene_count++;
+    if (!scene_make_albedos(s, NULL, NULL, message, sizeof message)) {
+        complain(run->choice->command, "%s", message);
+        return NULL;
+    }
     if (!run->choice->width || scene_resize(s, (int)run->choice->width, message, sizeof message))
         return s;
     complain(run->choice->command, "--width: %s", message);

@@ -7,11 +7,12 @@
 #include "bsdf/lobes/compensated.h"
 
 #include "bsdf/lobes/scatter.h"
+#include "math/elementary.h"
 #include "math/half_turn.h"
 
 static const float inverse_pi = 0.318309886f;
 
-/* Losses below it are within the error of the table. */
+/* A smaller 1 - E_avg is within the error of the table: Turquin's factor stands for the lobe. */
 static const float LEAST_LOSS = 1e-5f;
 
 static int has_both(const vndf_bsdf *b)
@@ -58,13 +59,17 @@ static float lost_from(const vndf_bsdf *b, float z)
 
 /* ---- Turquin ---- */
 
+static void set_gain(vndf_bsdf *b, float lost)
+{
+    float kept = lost < 0.999f ? 1.0f - lost : 1e-3f;
+    b->compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
+}
+
 static int prepare_turquin(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     if (!prepare_single(b, r, wi))
         return 0;
-    float kept = 1.0f - lost_from(b, wi.z);
-    kept = kept > 1e-3f ? kept : 1e-3f;
-    b->compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
+    set_gain(b, lost_from(b, wi.z));
     return 1;
 }
 
@@ -154,10 +159,21 @@ static int prepare_kulla_conty(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 
         colour_reflection(b, lost_average);
     if (!(c->per > 0.0f))
         c->share = c->lost = 0.0f;
+    set_gain(b, lost);
+    c->near = 0.01f * c->alpha + 1e-4f;
+    c->per_log = (float)(1.0 / vndf_log(1.0 + 1.0 / c->near));
     return 1;
 }
 
-/* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. */
+/* Whether the lobe is worth having; else single scattering is scaled. */
+static int has_lobe(const vndf_bsdf *b)
+{
+    return b->compensation.per > 0.0f;
+}
+
+/* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. Smooth surfaces lose along the surface
+ * alone, so half of the samples are even in the logarithm of the cosine, the others even in its square: weights stay
+ * bounded by some ten. */
 typedef struct added {
     float value, density;
 } added;
@@ -171,7 +187,8 @@ static added added_towards(const vndf_bsdf *b, float z)
     if (!(c->share > 0.0f) || !(part > 0.0f) || !(z != 0.0f))
         return none;
     float lost = lost_from(b, z), per = stays ? c->per : c->beyond * (float)b->carried;
-    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per, part * fabsf(z) * inverse_pi};
+    float cosine = fabsf(z), density = cosine + 0.5f * c->per_log / (cosine + c->near);
+    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per, part * density * (0.5f * inverse_pi)};
     return a;
 }
 
@@ -180,11 +197,20 @@ static float density_of(const vndf_bsdf *b, float single, const added *a)
     return (1.0f - b->compensation.share) * single + b->compensation.share * a->density;
 }
 
-/* By the cosine, on the side that is drawn. */
+/* The cosine of a sample: by half of u each way. */
+static float draw_cosine(const struct vndf_compensation *c, float u)
+{
+    if (u < 0.5f)
+        return sqrtf(2.0f * u);
+    float z = c->near * (float)(vndf_exp((2.0 * u - 1.0) / c->per_log) - 1.0);
+    return z < 1.0f ? z : 1.0f;
+}
+
+/* On the side that is drawn. */
 static vndf_vec3 draw_added(const vndf_bsdf *b, const float u[3])
 {
     const struct vndf_compensation *c = &b->compensation;
-    float u1 = vndf_clamp_unit(u[0]), across = sqrtf(u1), up = sqrtf(1.0f - u1);
+    float up = draw_cosine(c, vndf_clamp_unit(u[0])), across = sqrtf((1.0f - up) * (1.0f + up));
     vndf_turn half = vndf_half_turn(vndf_clamp_unit(u[1]));
     float cosine = half.cosine * half.cosine - half.sine * half.sine, sine = 2.0f * half.cosine * half.sine;
     float side = u[2] < c->share * c->reflected ? b->side : -b->side;
@@ -218,6 +244,8 @@ static void sample_kulla_conty(const vndf_bsdf *b, const float u[3], vndf_scatte
     }
     const float rest[3] = {u[0], u[1], share > 0.0f ? (u[2] - share) / (1.0f - share) : u[2]};
     b->material->single->sample(b, rest, s);
+    if (!has_lobe(b))
+        scale(b, s->weight);
     if (s->lobe == VNDF_LOBE_NONE || !(share > 0.0f))
         return;
     added a = added_towards(b, b->side * s->wo.z);
@@ -232,6 +260,8 @@ static void eval_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, fl
 {
     added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
     b->material->single->eval(b, wo, seed, value, pdf);
+    if (!has_lobe(b))
+        scale(b, value);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = vndf_finite(value[i] + b->compensation.colour[i] * a.value);
     if (pdf)

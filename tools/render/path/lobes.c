@@ -41,9 +41,25 @@ static vndf_affine affine_at(const scene_lobe *l, const hit *h)
     return a;
 }
 
+static float parameter_at(const scene_parameter *p, const hit *h)
+{
+    const textured way = {p->to - p->from, p->map};
+    return p->map ? p->from + path_textured(&way, h) : p->from;
+}
+
+static void add_family(const scene_lobe *l, const hit *h, float weight, vndf_mixture *made)
+{
+    const vndf_affine surface = affine_at(l, h);
+    scene_add_lobe(l, &surface, parameter_at(&l->parameter, h), weight, made);
+}
+
 static void add_lobe(const scene_lobe *l, const hit *h, vndf_mixture *made)
 {
-    made->lobe[made->count++] = (vndf_mixture_lobe){affine_at(l, h), path_textured(&l->weight, h)};
+    const float weight = path_textured(&l->weight, h);
+    if (l->family)
+        add_family(l, h, weight, made);
+    else
+        made->lobe[made->count++] = (vndf_mixture_lobe){affine_at(l, h), weight};
 }
 
 static void mixture_at(const path_material *m, const hit *h, vndf_mixture *made)
@@ -113,6 +129,10 @@ static void simplify(scene_lobe *l, unsigned without)
         l->mean_x = l->mean_y = 0.0f;
     if (without & EFFECT_RELIEFS)
         l->relief = NULL;
+    if (without & EFFECT_FAMILIES) {
+        l->family = NULL;
+        l->parameter.map = NULL;
+    }
     if (without & EFFECT_TEXTURED_WEIGHTS)
         l->weight.map = NULL;
     if (without & EFFECT_TEXTURED_ALPHA)
@@ -136,7 +156,8 @@ unsigned path_lobes_effects(const material *is)
     unsigned effects = is->lobe_count > 1 ? EFFECT_MIXTURES : 0u;
     for (int i = 0; i < is->lobe_count; i++) {
         const scene_lobe *l = &is->lobes[i];
-        effects |= (l->is_matrix ? EFFECT_MATRICES : 0u) | (l->relief ? EFFECT_RELIEFS : 0u) |
+        effects |= (l->family ? EFFECT_FAMILIES : 0u) | (l->is_matrix ? EFFECT_MATRICES : 0u) |
+                   (l->relief ? EFFECT_RELIEFS : 0u) |
                    (l->mean_x != 0.0f || l->mean_y != 0.0f ? EFFECT_MEAN_SLOPES : 0u) |
                    (l->alpha_x.map || l->alpha_y.map ? EFFECT_TEXTURED_ALPHA : 0u) |
                    (l->rotation != 0.0f ? EFFECT_ROTATED_AXES : 0u) |
@@ -150,7 +171,8 @@ static int varies(const path_material *m)
 {
     for (int i = 0; i < m->lobe_count; i++) {
         const scene_lobe *l = &m->lobes[i];
-        if (l->alpha_x.map || l->alpha_y.map || l->relief || (m->lobe_count > 1 && l->weight.map))
+        if (l->alpha_x.map || l->alpha_y.map || l->relief || l->parameter.map ||
+            (m->lobe_count > 1 && l->weight.map))
             return 1;
     }
     return 0;

@@ -114,6 +114,7 @@ unsigned path_material_effects(const material *is)
     if (is->kind == MATERIAL_MICROFACET)
         effects |= EFFECT_MICROFACETS | (is->is_textured ? EFFECT_TEXTURED_ALPHA : 0u) |
                    (is->is.effects.scattering == VNDF_SCATTERING_MULTIPLE ? EFFECT_MULTIPLE : 0u) |
+                   (is->is.effects.scattering > VNDF_SCATTERING_MULTIPLE ? EFFECT_COMPENSATION : 0u) |
                    (is->is.effects.shape == VNDF_SHAPE_ROTATED ? EFFECT_ROTATED_AXES : 0u) |
                    (is->is.effects.reflection == VNDF_REFLECTION_RETRO ? EFFECT_RETROREFLECTION : 0u) |
                    path_lobes_effects(is);

@@ -40,14 +40,16 @@ enum {
     EFFECT_RELIEFS = 32768, /* maps of slopes */
     EFFECT_MIXTURES = 65536,
     EFFECT_TEXTURED_WEIGHTS = 131072,
-    EFFECT_RETROREFLECTION = 262144
+    EFFECT_RETROREFLECTION = 262144,
+    EFFECT_COMPENSATION = 524288, /* turquin, kulla-conty */
+    EFFECT_FAMILIES = 1048576
 };
 
 typedef struct path_plan path_plan;
 
 /* Prepares lights, distributions over them, and materials with the given sampler. NULL and a message if a material
  * cannot have the sampler. Effects in `without` are left out, for measurements. The scene must outlive the
- * plan. */
+ * plan; materials with energy compensation need its albedos (scene_make_albedos). */
 path_plan *path_prepare(const scene *s, path_sampler sampler, unsigned without, char *message, size_t size);
 void path_free(path_plan *plan);
 unsigned path_effects(const path_plan *plan);

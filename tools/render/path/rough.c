@@ -152,7 +152,7 @@ static vndf_description describe(path_material *m, const path_choice *choice)
 {
     vndf_description is = m->is->is;
     choose_normals(&is.effects, choice->sampler);
-    if (choice->without & EFFECT_MULTIPLE)
+    if (choice->without & (path_material_effects(m->is) & (EFFECT_MULTIPLE | EFFECT_COMPENSATION)))
         is.effects.scattering = VNDF_SCATTERING_SINGLE;
     if (choice->without & EFFECT_ROTATED_AXES)
         is.effects.shape = VNDF_SHAPE_ALIGNED;

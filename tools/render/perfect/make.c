@@ -16,6 +16,9 @@ const char *path_perfect_refuses(const vndf_description *is)
     const vndf_effects *e = &is->effects;
     if (e->scattering == VNDF_SCATTERING_MULTIPLE)
         return "perfect sampling is precomputed for single scattering, this one has 'scattering multiple'";
+    if (e->scattering != VNDF_SCATTERING_SINGLE)
+        return "perfect sampling is precomputed for single scattering alone, this one is compensated by 'scattering "
+               "turquin' or 'kulla-conty'";
     if (e->lobes == VNDF_LOBES_BOTH && e->fresnel != VNDF_FRESNEL_DIELECTRIC)
         return "perfect sampling of both lobes is precomputed for dielectrics alone";
     if (e->lobes != VNDF_LOBES_REFLECTION && is->eta == 1.0f)

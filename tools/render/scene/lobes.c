@@ -13,7 +13,7 @@ static int leans(const scene_lobe *l)
 
 vndf_shape scene_shape_of(const scene_lobe *lobes, int count)
 {
-    return count > 1 ? VNDF_SHAPE_MIXTURE : leans(lobes) ? VNDF_SHAPE_AFFINE : VNDF_SHAPE_MATRIX;
+    return count > 1 || lobes->family ? VNDF_SHAPE_MIXTURE : leans(lobes) ? VNDF_SHAPE_AFFINE : VNDF_SHAPE_MATRIX;
 }
 
 vndf_affine scene_affine_of(const scene_lobe *l)
@@ -24,11 +24,31 @@ vndf_affine scene_affine_of(const scene_lobe *l)
     return made;
 }
 
+int scene_lobe_width(const scene_lobe *l)
+{
+    return l->family ? 2 : 1;
+}
+
+void scene_add_lobe(const scene_lobe *l, const vndf_affine *surface, float parameter, float weight,
+                    vndf_mixture *made)
+{
+    vndf_mixture part;
+    if (!l->family) {
+        made->lobe[made->count++] = (vndf_mixture_lobe){*surface, weight};
+        return;
+    }
+    vndf_family_at(l->family, parameter, surface, &part);
+    for (int i = 0; i < part.count; i++)
+        made->lobe[made->count++] = (vndf_mixture_lobe){part.lobe[i].surface, weight * part.lobe[i].weight};
+}
+
 void scene_mixture_of(const scene_lobe *lobes, int count, vndf_mixture *made)
 {
-    made->count = count;
-    for (int i = 0; i < count; i++)
-        made->lobe[i] = (vndf_mixture_lobe){scene_affine_of(&lobes[i]), lobes[i].weight.value};
+    made->count = 0;
+    for (int i = 0; i < count; i++) {
+        const vndf_affine surface = scene_affine_of(&lobes[i]);
+        scene_add_lobe(&lobes[i], &surface, lobes[i].parameter.from, lobes[i].weight.value, made);
+    }
 }
 
 /* ---- of materials ---- */
@@ -78,6 +98,17 @@ static int refuse_others(scene_reader *r, const clause c[CLAUSES])
     return 1;
 }
 
+/* A family is two lobes of the library. */
+static int check_width(scene_reader *r, const clause *mix, const scene_lobe *lobes, int count)
+{
+    int width = 0;
+    for (int i = 0; i < count; i++)
+        width += scene_lobe_width(&lobes[i]);
+    return width <= VNDF_MIXTURE_LOBES ||
+           reader_refuse(r, mix->at, "this mixture has %d lobes, where families count twice; %d are possible",
+                         width, VNDF_MIXTURE_LOBES);
+}
+
 /* Weights that maps multiply count as they are without them. */
 static int check_weights(scene_reader *r, const clause *mix, const scene_lobe *lobes, int count)
 {
@@ -99,7 +130,8 @@ int read_mix(scene_reader *r, const clause c[CLAUSES], material *m)
             return 0;
         lobes[i] = *found;
     }
-    return check_weights(r, mix, lobes, (int)mix->count) && set_lobes(r, mix->at, m, lobes, (int)mix->count);
+    return check_width(r, mix, lobes, (int)mix->count) && check_weights(r, mix, lobes, (int)mix->count) &&
+           set_lobes(r, mix->at, m, lobes, (int)mix->count);
 }
 
 /* ---- the statement ---- */

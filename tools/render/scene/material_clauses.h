@@ -9,7 +9,8 @@ enum { CONDUCTOR, DIELECTRIC, REFLECTOR, SHAPE, MATTE, MIRROR, GLASS, LIGHT, KIN
 
 /* clang-format off */
 enum {
-    OF, ETA, K, F0, INDEX, LOBES, DISTRIBUTION, BYTES, ALPHA, ALPHA_MAP, ALPHA_X_MAP, ALPHA_Y_MAP, ROTATION,
+    OF, ETA, K, F0, INDEX, LOBES, DISTRIBUTION, PARAMETER, PARAMETER_MAP, BYTES, ALPHA, ALPHA_MAP, ALPHA_X_MAP,
+    ALPHA_Y_MAP, ROTATION,
     MATRIX, MEAN, HEIGHT_MAP, NORMAL_MAP, SCALE, FILTERED, WEIGHT, WEIGHT_MAP, MIX,
     MASKING, NORMALS, SCATTERING, ORDER, RETRO, ABSORB, COLOUR, COLOUR_MAP, RADIANCE, CLAUSES
 };
@@ -20,6 +21,10 @@ int material_clauses(scene_reader *r, const statement *s, size_t from, unsigned 
 
 /* The distribution, the slopes and the weight of a lobe, or of a material without `mix`. */
 int read_slopes(scene_reader *r, const clause c[CLAUSES], scene_lobe *made);
+
+/* Whether a distribution is a family of tables, "family FILE.vndfs"; and that family with its parameter. */
+int is_family(const clause *distribution);
+int read_family(scene_reader *r, const clause c[CLAUSES], scene_lobe *made);
 
 /* The lobes that `mix` names. */
 int read_mix(scene_reader *r, const clause c[CLAUSES], material *m);

@@ -1,6 +1,7 @@
 /* material NAME KIND ...: which clauses go with which kind, and the material that they make. */
 #include "render/scene/material_clauses.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,8 +31,10 @@ static const rule rules[CLAUSES] = {
     [F0] = {"f0", "R G B", 3, 3, 1 << REFLECTOR, 1 << REFLECTOR},
     [INDEX] = {"index", "N", 1, 1, THROUGH | 1 << GLASS, 1 << DIELECTRIC | 1 << GLASS},
     [LOBES] = {"lobes", "reflection|transmission|both", 1, 1, THROUGH, 0},
-    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", 1, 2, LAID,
-                      LAID},
+    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME or FILE|slope FORMULA|ndf FORMULA", 1,
+                      2, LAID, LAID},
+    [PARAMETER] = {"parameter", "P or FROM TO", 1, 2, LAID, 0},
+    [PARAMETER_MAP] = {"parameter-map", "IMAGE", 1, 1, LAID, 0},
     [BYTES] = {"bytes", "COUNT", 1, 1, LAID, 0},
     [ALPHA] = {"alpha", "A or AX AY", 1, 2, LAID, 0},
     [ALPHA_MAP] = {"alpha-map", "IMAGE", 1, 1, LAID, 0},
@@ -49,7 +52,7 @@ static const rule rules[CLAUSES] = {
     [MIX] = {"mix", "LOBE ...", 1, VNDF_MIXTURE_LOBES, ROUGH, 0},
     [MASKING] = {"masking", "height-correlated|separable|v-cavities|none", 1, 1, ROUGH, 0},
     [NORMALS] = {"normals", "visible|bounded|all|v-cavity", 1, 1, ROUGH, 0},
-    [SCATTERING] = {"scattering", "single|multiple", 1, 1, ROUGH, 0},
+    [SCATTERING] = {"scattering", "single|multiple|turquin|kulla-conty", 1, 1, ROUGH, 0},
     [ORDER] = {"order", "COUNT", 1, 1, ROUGH, 0},
     [RETRO] = {"retroreflective", "nothing", 0, 0, ROUGH, 0},
     [ABSORB] = {"absorb", "R G B", 3, 3, THROUGH | 1 << GLASS, 0},
@@ -125,7 +128,7 @@ static int read_effects(scene_reader *r, const clause c[CLAUSES], unsigned kind,
         return reader_refuse(r, c[LOBES].at, "'lobes %s' needs 'index N'", c[LOBES].values->text);
     if (lobes == VNDF_LOBES_REFLECTION && c[ABSORB].at)
         return reader_refuse(r, c[ABSORB].at, "'absorb' is of what light passes, this material only reflects");
-    if (scattering == VNDF_SCATTERING_SINGLE && c[ORDER].at)
+    if (scattering != VNDF_SCATTERING_MULTIPLE && c[ORDER].at)
         return reader_refuse(r, c[ORDER].at, "'order' goes with 'scattering multiple'");
     *e = (vndf_effects){.lobes = (vndf_lobes)lobes,
                         .fresnel = fresnel[kind],
@@ -159,13 +162,27 @@ static int read_roughness(scene_reader *r, const clause c[CLAUSES], material *m)
         return read_mix(r, c, m);
     if (!read_slopes(r, c, &one))
         return 0;
-    if (one.is_matrix || c[MEAN].at || one.relief)
+    if (one.is_matrix || c[MEAN].at || one.relief || one.family)
         return set_lobes(r, c[DISTRIBUTION].at, m, &one, 1);
     set_roughness(m, &one);
     return 1;
 }
 
 /* ---- resolving ---- */
+
+static int is_compensated(const vndf_effects *e)
+{
+    return e->scattering == VNDF_SCATTERING_TURQUIN || e->scattering == VNDF_SCATTERING_KULLA_CONTY;
+}
+
+/* The library looks for the albedos of a compensated material after its effects and before its optics. None are made
+ * yet (albedos.c), so that refusal passes, and the optics are looked at without compensation. */
+static int resolve_effects(const vndf_description *is, vndf_error *error)
+{
+    vndf_material made;
+    return !is_compensated(&is->effects) || vndf_material_resolve(is, &made, error) == VNDF_OK ||
+           strncmp(error->message, "albedo is NULL", 14) == 0;
+}
 
 /* Resolves the material, so that a refusal of the library names the place in the file. Plans resolve it again,
  * with their sampler. */
@@ -174,10 +191,22 @@ static int resolve(scene_reader *r, const statement *s, const material *m)
     vndf_material made;
     vndf_error error = {VNDF_OK, ""};
     char message[512];
-    if (vndf_material_resolve(&m->is, &made, &error) == VNDF_OK)
+    vndf_description is = m->is;
+    if (is_compensated(&is.effects))
+        is.effects.scattering = VNDF_SCATTERING_SINGLE;
+    if (resolve_effects(&m->is, &error) && vndf_material_resolve(&is, &made, &error) == VNDF_OK)
         return 1;
     scene_wording(error.message, message, sizeof message);
     return reader_refuse(r, &s->words[1], "%s", message);
+}
+
+/* Albedos of light that passes are those of an index, which bends it. */
+static int check_bending(scene_reader *r, const clause c[CLAUSES], const vndf_description *is)
+{
+    return !is_compensated(&is->effects) || is->effects.lobes != VNDF_LOBES_BOTH ||
+           fabsf(is->eta - 1.0f) > 1.01e-3f ||
+           reader_refuse(r, c[INDEX].values, "'scattering %s' needs an index farther than 0.001 from 1",
+                         c[SCATTERING].values->text);
 }
 
 static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSES], unsigned kind, material *m)
@@ -185,7 +214,8 @@ static int read_rough(scene_reader *r, const statement *s, const clause c[CLAUSE
     if (!read_effects(r, c, kind, &m->is.effects) ||
         (kind == CONDUCTOR && !read_metal(r, &s->words[2], &c[OF], &c[ETA], &c[K], &m->is)) ||
         (c[F0].at && !reader_three(r, &c[F0], 0, 1, m->is.f0)) || !read_roughness(r, c, m) ||
-        (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)))
+        (c[ORDER].at && !reader_whole(r, &c[ORDER], 0, 1, 1e6, &m->is.order_limit)) ||
+        !check_bending(r, c, &m->is))
         return 0;
     return resolve(r, s, m);
 }

@@ -3,8 +3,8 @@
  *
  * words.c splits a file into words. A word in the first column begins a statement. clauses.c splits a statement
  * into clauses: a keyword and its values. Each statement then has a function of its own, in settings.c, images.c,
- * shapes.c, or materials.c and lobes.c with slopes.c, metals.c and tables.c. All of them return 1, or 0 after a
- * refusal that names the place. */
+ * shapes.c, or materials.c and lobes.c with slopes.c, metals.c, tables.c and families.c. All of them return 1, or 0
+ * after a refusal that names the place. */
 #ifndef TOOLS_RENDER_SCENE_READER_H
 #define TOOLS_RENDER_SCENE_READER_H
 
@@ -17,6 +17,7 @@ enum {
     SCENE_MATERIALS_MAX = 4096,
     SCENE_IMAGES_MAX = 64,
     SCENE_TABLES_MAX = 64,
+    SCENE_FAMILIES_MAX = 16,
     SCENE_RELIEFS_MAX = 64,
     SCENE_LOBES_MAX = 256,
     SCENE_DISPLACED_MAX = 1 << 20,          /* pixels of heights that become triangles */

@@ -160,6 +160,13 @@ void scene_free(scene *s)
         vndf_free(s->tables[i]);
         free(s->table_names[i]);
     }
+    scene_free_albedos(s);
+    for (size_t i = 0; i < s->family_count; i++) {
+        vndf_family_free(s->families[i]);
+        free(s->family_names[i]);
+    }
+    free(s->families);
+    free(s->family_names);
     free(s->title);
     free(s->materials);
     free(s->reliefs);

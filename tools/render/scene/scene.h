@@ -24,10 +24,18 @@ typedef struct textured {
     const image *map; /* an image of the scene; NULL: constant */
 } textured;
 
+/* The parameter of a family: `from` where the red of the map is 0, `to` where it is 1; without a map `from`. */
+typedef struct scene_parameter {
+    float from, to;
+    const image *map;
+} scene_parameter;
+
 /* A lobe of a surface that more than alpha along two axes describes: its matrix of slopes is `axes` (xx xy yx yy), with
  * columns times alpha_x and alpha_y; the slopes of a map add to its mean slope and, filtered, to M M^T. */
 typedef struct scene_lobe {
-    const vndf_distribution *distribution;
+    const vndf_distribution *distribution; /* of a family: of its knot nearest to the middle of the parameter */
+    const vndf_family *family;             /* one of the scene, which takes its place; NULL: none */
+    scene_parameter parameter;
     textured alpha_x, alpha_y;
     float rotation, axes[4];
     int is_matrix; /* `axes` is a matrix that was said, and alpha is 1 */
@@ -63,6 +71,13 @@ typedef struct environment {
     float scale, turn; /* of the map; degrees about y */
 } environment;
 
+/* A table of albedos: of a distribution, for an index, or for a mirror (0). */
+typedef struct scene_albedo {
+    const vndf_distribution *of;
+    float eta;
+    vndf_albedo *is;
+} scene_albedo;
+
 typedef struct scene {
     char *title; /* owned; may be NULL */
     camera camera;
@@ -79,6 +94,12 @@ typedef struct scene {
     vndf_distribution **tables; /* owned */
     char **table_names;
     size_t table_count;
+    vndf_family **families; /* owned */
+    char **family_names;
+    size_t family_count;
+    scene_albedo *albedos; /* owned */
+    size_t albedo_count;
+    double albedo_seconds; /* that they took */
     environment environment;
 } scene;
 
@@ -103,10 +124,22 @@ int scene_resize(scene *s, int width, char *message, size_t size);
 
 void scene_free(scene *s);
 
+/* Builds the albedos that materials with energy compensation need before a plan is prepared, one for all that share
+ * the distribution (and, where light passes, the index). `show` may be NULL. 0 and a message if the library refuses,
+ * or `show` stops it. Does nothing where no shape has such a material. */
+int scene_make_albedos(scene *s, vndf_albedo_progress *show, void *user, char *message, size_t size);
+size_t scene_albedo_bytes(const scene *s);
+void scene_free_albedos(scene *s); /* scene_free does it */
+
 /* The shape that lobes call for, and the first of them, or all, without maps. */
 vndf_shape scene_shape_of(const scene_lobe *lobes, int count);
 vndf_affine scene_affine_of(const scene_lobe *l);
 void scene_mixture_of(const scene_lobe *lobes, int count, vndf_mixture *made);
+
+/* Lobes of the mixture that a lobe takes; and puts them behind those that are there. A family takes two. */
+int scene_lobe_width(const scene_lobe *l);
+void scene_add_lobe(const scene_lobe *l, const vndf_affine *surface, float parameter, float weight,
+                    vndf_mixture *made);
 
 /* Turns a message of the library about a material into the words of the language. */
 void scene_wording(const char *said, char *message, size_t size);

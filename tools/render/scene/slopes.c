@@ -185,6 +185,12 @@ static int read_mean(scene_reader *r, const clause *c, scene_lobe *l)
 static int read_table(scene_reader *r, const clause c[CLAUSES], scene_lobe *l)
 {
     const char *form = c[DISTRIBUTION].values->text;
+    if (is_family(&c[DISTRIBUTION]))
+        return read_family(r, c, l);
+    for (int i = PARAMETER; i <= PARAMETER_MAP; i++)
+        if (c[i].at)
+            return reader_refuse(
+                r, c[i].at, "'%s' is of a family of tables, as in 'distribution family FILE.vndfs'", c[i].keyword);
     int closed = strcmp(form, "ggx") == 0 || strcmp(form, "beckmann") == 0;
     unsigned bytes = 4096;
     if (closed && !c[ALPHA].at && !c[MATRIX].at)

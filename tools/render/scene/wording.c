@@ -23,8 +23,10 @@ static const wording wordings[] = {
     {"reflection is VNDF_REFLECTION_RETRO", "the material is retroreflective"},
     {"which is not reciprocal with mean slopes: shape must be VNDF_SHAPE_ALIGNED, VNDF_SHAPE_ROTATED or "
      "VNDF_SHAPE_MATRIX",
-     "which is not reciprocal with mean slopes: leave out mean, its maps and mix"},
-    {"shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE", "the surface has mean slopes or several lobes"},
+     "which is not reciprocal with mean slopes: leave out mean, its maps, mix and families"},
+    {"VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC", "both of a dielectric"},
+    {"shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE", "leave out mean, its maps, mix and families"},
+    {"shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE", "the surface has mean slopes, several lobes or a family"},
 };
 
 static const wording *wording_of(const char *said)
