@@ -171,9 +171,9 @@ static int has_lobe(const vndf_bsdf *b)
     return b->compensation.per > 0.0f;
 }
 
-/* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. Smooth surfaces lose along the surface
- * alone, so half of the samples are even in the logarithm of the cosine, the others even in its square: weights stay
- * bounded by some ten. */
+/* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. Smooth surfaces lose along the
+ * surface alone, so half of the samples are even in the logarithm of the cosine, the others in its square: the largest
+ * weight that was measured is 12. */
 typedef struct added {
     float value, density;
 } added;
