@@ -269,13 +269,11 @@ typedef enum vndf_lobe {
 } vndf_lobe;
 
 typedef struct vndf_scattered {
-    vndf_vec3 wo; /* unit within 10 ulps of 2^-23 */
-    float weight
-        [VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1; of the material's wavelengths */
-    float density; /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
+    vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23 */
+    float weight[VNDF_WAVELENGTHS]; /* f |cos_o| / density, to 1e-5; through V-cavities to 2e-5 of 1 */
+    float density;                  /* per steradian, at least FLT_MIN; equals vndf_bsdf_pdf for wo, to 1e-5 */
     vndf_lobe lobe;
-    vndf_vec3
-        wm; /* the facet that was met, on the side of wi; of a lost sample, a walk and Kulla & Conty's lobe 0 */
+    vndf_vec3 wm; /* the facet that was met, on the side of wi; 0 where there is none, or a walk met many */
 } vndf_scattered;
 
 /* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random
@@ -283,8 +281,8 @@ typedef struct vndf_scattered {
  * The weight of a walk is its throughput, and its density an estimate (vndf_bsdf_pdf). */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
-/* f of each wavelength of the material, without the cosine; 0 where that is 0. Only random walks read `seed`: their f is
- * a random number with the right mean. */
+/* f of each wavelength of the material, without the cosine; 0 where that is 0. Only random walks read `seed`: their f
+ * is a random number with the right mean. */
 VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value);
 
 /* The density per steradian with which vndf_bsdf_sample draws wo. For random walks it is a density near that one:

@@ -117,6 +117,11 @@ static void rows_coincide(vndf_wedge *w)
     w->row_y[1] = 0;
 }
 
+static void rows_nearly_coincide(vndf_wedge *w)
+{
+    w->row_y[1] = 1e-20f;
+}
+
 static void knots_coincide(vndf_wedge *w)
 {
     w->knot_y[1] = 0;
@@ -180,6 +185,7 @@ static const struct {
                    {row_heavy, "add up to 1"},
                    {aspect_zero, "aspect"},
                    {rows_coincide, "azimuth rows do not ascend"},
+                   {rows_nearly_coincide, "azimuth rows do not ascend"},
                    {knots_coincide, "area knots do not ascend"},
                    {no_mass, "wedge mass is out of range"},
                    {slope_negative, "wedge mass is out of range"},
