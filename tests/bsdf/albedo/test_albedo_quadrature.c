@@ -180,6 +180,6 @@ int main(int arguments, char **argument)
     }
     for (size_t i = 0; i < 5; i++)
         if (oracle_wanted(arguments, argument, i + 1, names[i]))
-            test_subject(names[i], 5e-4);
+            test_subject(names[i], test_quick() ? 1.5e-3 : 5e-4);
     return test_done();
 }
