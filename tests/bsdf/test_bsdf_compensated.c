@@ -219,7 +219,7 @@ static void test_one(const vndf_distribution *d, const char *name, float eta)
         return;
     test_furnace(&s, name);
     test_values(&s);
-    if (!(eta > 0))
+    if (!(eta > 0) && d == vndf_ggx()) /* it loses a tenth there; narrow cores lose too little to compare */
         test_colours(&s);
     vndf_albedo_free(s.albedo);
 }
