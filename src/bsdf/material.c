@@ -1,15 +1,16 @@
 /* A description becomes a material. Nothing else looks at the effects. */
 #include "bsdf/material.h"
 
-#include "bsdf/lobes/dielectric.h"
-#include "bsdf/terms/fresnel.h"
-#include "bsdf/terms/masking.h"
-#include "bsdf/walk/multiple.h"
 #include "bsdf/lobes/compensated.h"
+#include "bsdf/lobes/dielectric.h"
 #include "bsdf/lobes/mixture.h"
 #include "bsdf/lobes/retro.h"
+#include "bsdf/lobes/scatter.h"
 #include "bsdf/lobes/turned.h"
+#include "bsdf/terms/fresnel.h"
+#include "bsdf/terms/masking.h"
 #include "bsdf/trust.h"
+#include "bsdf/walk/multiple.h"
 #include "core/error.h"
 #include "math/elementary.h"
 #include "math/half_turn.h"
@@ -27,20 +28,16 @@ static int prepare_nothing(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 
 static void sample_nothing(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
     (void)b;
     (void)u;
-    *s = none;
+    vndf_scatter_nothing(s);
 }
 
 static void eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     (void)wo;
     (void)seed;
-    for (int i = 0; i < b->material->is.wavelengths; i++)
-        value[i] = 0.0f;
-    if (pdf)
-        *pdf = 0.0f;
+    vndf_see_nothing(b, value, pdf);
 }
 
 static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
@@ -51,14 +48,12 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
 }
 
 static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
-#define NOTHING(count)                                                                            \
-  {                                                                                               \
-    .routines = &nothing, .unturned = &nothing, .single = &nothing, .specular = &nothing, .is = { \
-        .wavelengths = count                                                                      \
-    }                                                                                             \
-  }
-const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {NOTHING(3), NOTHING(1), NOTHING(2),
-                                                                       NOTHING(3), NOTHING(4)};
+const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {
+    {.routines = &nothing, .is = {.wavelengths = 3}},
+    {.routines = &nothing, .is = {.wavelengths = 1}},
+    {.routines = &nothing, .is = {.wavelengths = 2}},
+    {.routines = &nothing, .is = {.wavelengths = 3}},
+    {.routines = &nothing, .is = {.wavelengths = 4}}};
 
 /* ---- effects to routines ---- */
 

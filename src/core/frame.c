@@ -69,7 +69,8 @@ static unsigned char *read_stream(const vndf_frame *frame, FILE *file, size_t *s
     return NULL;
 }
 
-unsigned char *vndf_frame_read(const vndf_frame *frame, const char *path, size_t *size, vndf_error *error)
+/* The whole of a file, to be freed. */
+static unsigned char *read_file(const vndf_frame *frame, const char *path, size_t *size, vndf_error *error)
 {
     vndf_error inner = {VNDF_OK, ""};
     FILE *file = path ? fopen(path, "rb") : NULL;
@@ -86,4 +87,30 @@ unsigned char *vndf_frame_read(const vndf_frame *frame, const char *path, size_t
         vndf_fail(error, inner.status, "%s: %s", path, inner.message);
     fclose(file);
     return bytes;
+}
+
+void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_decode *decode, vndf_error *error)
+{
+    size_t size = 0;
+    unsigned char *bytes = read_file(frame, path, &size, error);
+    if (!bytes)
+        return NULL;
+    vndf_error inner = {VNDF_OK, ""};
+    void *made = decode(bytes, size, &inner);
+    if (!made)
+        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
+    free(bytes);
+    return made;
+}
+
+void vndf_frame_begin(const vndf_frame *frame, vndf_writer *w, size_t size)
+{
+    vndf_write_bytes(w, frame->magic, MAGIC);
+    vndf_write_u32(w, frame->version);
+    vndf_write_u32(w, (uint32_t)size);
+}
+
+void vndf_frame_end(vndf_writer *w)
+{
+    vndf_write_u32(w, w->at <= w->capacity ? vndf_crc32(0, w->bytes, w->at) : 0);
 }

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/cursor.h"
 #include "vndf.h"
 
 enum { VNDF_FRAME_HEAD = 16 };
@@ -19,8 +20,13 @@ typedef struct vndf_frame {
 /* VNDF_OK if magic, version, size and checksum are right; else VNDF_ERROR_TABLE. */
 vndf_status vndf_frame_check(const vndf_frame *frame, const unsigned char *bytes, size_t size, vndf_error *error);
 
-/* The whole of a file, to be freed; NULL and an error. It reads no more than the head states, and one byte. Magic and
- * version are checked, the rest is not. */
-unsigned char *vndf_frame_read(const vndf_frame *frame, const char *path, size_t *size, vndf_error *error);
+/* What `decode` makes of the bytes of a file; NULL and an error that names the file. It reads no more than the head
+ * states, and one byte; `decode` gets bytes whose magic and version are right, and checks the rest. */
+typedef void *vndf_frame_decode(const void *bytes, size_t size, vndf_error *error);
+void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_decode *decode, vndf_error *error);
+
+/* The first bytes of a file that will have `size`, and the checksum at its end. */
+void vndf_frame_begin(const vndf_frame *frame, vndf_writer *writer, size_t size);
+void vndf_frame_end(vndf_writer *writer);
 
 #endif

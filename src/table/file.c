@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -11,7 +10,6 @@
 #include "table/validate.h"
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 3, VNDF_LIMIT_TABLE_BYTES};
-enum { MAGIC = 8 };
 
 /* ---- writing ---- */
 
@@ -54,9 +52,7 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
 static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
 {
     const vndf_certificate *c = &table->certificate;
-    vndf_write_bytes(w, FRAME.magic, MAGIC);
-    vndf_write_u32(w, FRAME.version);
-    vndf_write_u32(w, size);
+    vndf_frame_begin(&FRAME, w, size);
     vndf_write_f64(w, table->normalization);
     vndf_write_f64(w, table->scale);
     vndf_write_u32(w, table->radial_count);
@@ -78,7 +74,7 @@ static size_t write_all(const vndf_distribution *table, unsigned char *bytes, si
     write_radial(&w, table);
     write_wedge(&w, &table->above);
     write_wedge(&w, &table->below);
-    vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
+    vndf_frame_end(&w);
     return w.at;
 }
 
@@ -203,16 +199,12 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     return NULL;
 }
 
+static void *decode(const void *bytes, size_t size, vndf_error *error)
+{
+    return vndf_load_memory(bytes, size, error);
+}
+
 vndf_distribution *vndf_load(const char *path, vndf_error *error)
 {
-    size_t size = 0;
-    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
-    if (!bytes)
-        return NULL;
-    vndf_error inner = {VNDF_OK, ""};
-    vndf_distribution *table = vndf_load_memory(bytes, size, &inner);
-    if (!table)
-        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
-    free(bytes);
-    return table;
+    return vndf_frame_load(&FRAME, path, decode, error);
 }

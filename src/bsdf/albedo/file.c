@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -30,9 +29,7 @@ static size_t write_all(const vndf_albedo *albedo, unsigned char *bytes, size_t 
     vndf_writer w = {bytes, capacity, 0};
     float measured[MEASURED];
     measured_of(&albedo->is, measured);
-    vndf_write_bytes(&w, FRAME.magic, 8);
-    vndf_write_u32(&w, FRAME.version);
-    vndf_write_u32(&w, size);
+    vndf_frame_begin(&FRAME, &w, size);
     vndf_write_f32(&w, albedo->is.eta);
     vndf_write_f32(&w, albedo->is.scale);
     vndf_write_u32(&w, (uint32_t)albedo->is.columns);
@@ -43,7 +40,7 @@ static size_t write_all(const vndf_albedo *albedo, unsigned char *bytes, size_t 
     vndf_write_text(&w, albedo->tool);
     for (size_t i = 0; i < albedo->is.values; i++)
         vndf_write_f32(&w, albedo->value[i]);
-    vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
+    vndf_frame_end(&w);
     return w.at;
 }
 
@@ -174,16 +171,12 @@ vndf_albedo *vndf_albedo_load_memory(const void *bytes, size_t size, vndf_error 
     return NULL;
 }
 
+static void *decode(const void *bytes, size_t size, vndf_error *error)
+{
+    return vndf_albedo_load_memory(bytes, size, error);
+}
+
 vndf_albedo *vndf_albedo_load(const char *path, vndf_error *error)
 {
-    size_t size = 0;
-    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
-    if (!bytes)
-        return NULL;
-    vndf_error inner = {VNDF_OK, ""};
-    vndf_albedo *albedo = vndf_albedo_load_memory(bytes, size, &inner);
-    if (!albedo)
-        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
-    free(bytes);
-    return albedo;
+    return vndf_frame_load(&FRAME, path, decode, error);
 }

@@ -10,8 +10,6 @@
 #include "math/elementary.h"
 #include "math/half_turn.h"
 
-static const float inverse_pi = 0.318309886f;
-
 /* A smaller 1 - E_avg is within the error of the table: Turquin's factor stands for the lobe. */
 static const float LEAST_LOSS = 1e-5f;
 
@@ -22,7 +20,7 @@ static int has_both(const vndf_bsdf *b)
 
 /* ---- a material ---- */
 
-/* 2 integral_0^1 F mu dmu, by Gauss-Legendre over the root of mu: F of glass from inside has a kink. */
+/* 2 integral_0^1 F mu dmu is the mean of F over mu^2: midpoints. */
 enum { NODES = 64 };
 
 void vndf_compensation_resolve(vndf_material *m)
@@ -31,7 +29,7 @@ void vndf_compensation_resolve(vndf_material *m)
     m->fresnel->reflectance(&m->is, 1.0, m->is.eta, f);
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance0[i] = (float)f[i];
-    for (int n = 0; n < NODES; n++) /* midpoints in mu^2, the measure 2 mu dmu */ {
+    for (int n = 0; n < NODES; n++) {
         m->fresnel->reflectance(&m->is, sqrt((n + 0.5) / NODES), m->is.eta, f);
         for (int i = 0; i < m->is.wavelengths; i++)
             sum[i] += f[i] / NODES;
@@ -42,7 +40,7 @@ void vndf_compensation_resolve(vndf_material *m)
 
 /* ---- a hit ---- */
 
-/* Single scattering, and what both ways need. */
+/* Prepares single scattering, and finds the roughness to look up. */
 static int prepare_single(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
     if (!b->material->single->prepare(b, r, wi))
@@ -109,10 +107,10 @@ static float average_lost(const vndf_bsdf *b, float side)
 
 static float per_of(float lost)
 {
-    return lost > LEAST_LOSS ? inverse_pi / lost : 0.0f;
+    return lost > LEAST_LOSS ? (float)vndf_inverse_pi / lost : 0.0f;
 }
 
-/* F_ms, and the part of the samples that it asks for: what is sent there over what is sent at all. */
+/* Sets F_ms, and the share of the samples: the light that the lobe sends over all light that is sent. */
 static void colour_reflection(vndf_bsdf *b, float lost_average)
 {
     const vndf_material *m = b->material;
@@ -129,7 +127,8 @@ static void colour_reflection(vndf_bsdf *b, float lost_average)
     c->beyond = 0.0f;
 }
 
-/* 1 - F_avg of the side of wi, from that of the side of z: times n^2 they are the same. */
+/* Sets what stays and what passes. 1 - F_avg of the other side follows from that of the side of z, since times n^2 both
+ * are the same. */
 static void part_lobes(vndf_bsdf *b, float lost_average)
 {
     struct vndf_compensation *c = &b->compensation;
@@ -165,7 +164,7 @@ static int prepare_kulla_conty(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 
     return 1;
 }
 
-/* Whether the lobe is worth having; else single scattering is scaled. */
+/* Whether there is a lobe; else single scattering is scaled. */
 static int has_lobe(const vndf_bsdf *b)
 {
     return b->compensation.per > 0.0f;
@@ -188,7 +187,8 @@ static added added_towards(const vndf_bsdf *b, float z)
         return none;
     float lost = lost_from(b, z), per = stays ? c->per : c->beyond * (float)b->carried;
     float cosine = fabsf(z), density = cosine + 0.5f * c->per_log / (cosine + c->near);
-    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per, part * density * (0.5f * inverse_pi)};
+    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per,
+               part * density * (0.5f * (float)vndf_inverse_pi)};
     return a;
 }
 
@@ -197,7 +197,7 @@ static float density_of(const vndf_bsdf *b, float single, const added *a)
     return (1.0f - b->compensation.share) * single + b->compensation.share * a->density;
 }
 
-/* The cosine of a sample: by half of u each way. */
+/* The cosine of a sample: half of u draws it even in its square, half even in its logarithm. */
 static float draw_cosine(const struct vndf_compensation *c, float u)
 {
     if (u < 0.5f)

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
@@ -10,7 +9,6 @@
 #include "table/file.h"
 
 static const vndf_frame FRAME = {"VNDFfam\n", "family", 1, VNDF_LIMIT_FAMILY_BYTES};
-enum { MAGIC = 8 };
 
 /* ---- writing ---- */
 
@@ -27,9 +25,7 @@ static void write_table(vndf_writer *w, const vndf_distribution *table)
 static size_t write_all(const vndf_family *family, unsigned char *bytes, size_t capacity, size_t size)
 {
     vndf_writer w = {bytes, capacity, 0};
-    vndf_write_bytes(&w, FRAME.magic, MAGIC);
-    vndf_write_u32(&w, FRAME.version);
-    vndf_write_u32(&w, (uint32_t)size);
+    vndf_frame_begin(&FRAME, &w, size);
     vndf_write_u32(&w, (uint32_t)family->count);
     vndf_write_u32(&w, family->reciprocal != 0);
     vndf_write_f32(&w, family->grazing);
@@ -41,7 +37,7 @@ static size_t write_all(const vndf_family *family, unsigned char *bytes, size_t 
         vndf_write_f32(&w, family->distance[i]);
     for (size_t i = 0; i < family->count; i++)
         write_table(&w, family->distribution[i]);
-    vndf_write_u32(&w, w.at <= capacity ? vndf_crc32(0, bytes, w.at) : 0);
+    vndf_frame_end(&w);
     return w.at;
 }
 
@@ -136,16 +132,12 @@ vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error 
     return NULL;
 }
 
+static void *decode(const void *bytes, size_t size, vndf_error *error)
+{
+    return vndf_family_load_memory(bytes, size, error);
+}
+
 vndf_family *vndf_family_load(const char *path, vndf_error *error)
 {
-    size_t size = 0;
-    unsigned char *bytes = vndf_frame_read(&FRAME, path, &size, error);
-    if (!bytes)
-        return NULL;
-    vndf_error inner = {VNDF_OK, ""};
-    vndf_family *family = vndf_family_load_memory(bytes, size, &inner);
-    if (!family)
-        vndf_fail(error, inner.status, "%s: %s", path, inner.message);
-    free(bytes);
-    return family;
+    return vndf_frame_load(&FRAME, path, decode, error);
 }
