@@ -276,7 +276,7 @@ static void measure_reflected(const builder *b, uint32_t side, double x, double 
     note_error(&is->split_error, &is->split_usual, fabs((double)got.reflected - reflected), alpha);
 }
 
-/* In the middle of a cell and of an edge, and at more places in the first and last cells of a row. */
+/* In the middle of a cell and of an edge; in the first and last cells of a row at 15 places, the ends among them. */
 static void measure_cell(const builder *b, uint32_t side, int row, int column)
 {
     int columns = b->is.columns - 1;
@@ -285,10 +285,8 @@ static void measure_cell(const builder *b, uint32_t side, int row, int column)
     measure_at(b, side, x + 0.5 * dx, y + 0.5 * dy);
     if (b->albedo->layers > 1)
         measure_reflected(b, side, x + 0.5 * dx, y + 0.5 * dy);
-    if (column == 0 || column == columns - 1) {
-        measure_at(b, side, x + 0.2 * dx, y + 0.5 * dy);
-        measure_at(b, side, x + 0.8 * dx, y + 0.5 * dy);
-    }
+    for (int i = 0; i < 15 && (column == 0 || column == columns - 1); i++)
+        measure_at(b, side, x + 0.25 * (i % 5) * dx, y + (0.25 + 0.25 * (i / 5)) * dy);
 }
 
 static int measure_errors(builder *b)
