@@ -2,6 +2,7 @@
  * for one sample after the other by the code of the call of one, so the bits are the same. */
 #include "bsdf/routines.h"
 #include "math/vector.h"
+#include "sampler/surface.h"
 
 enum { BLOCK = 256 };
 
@@ -102,7 +103,7 @@ static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3],
 
 /* Normals of a block, and the heights of its directions. */
 typedef struct block {
-    float x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], up[BLOCK];
+    float x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], weight[BLOCK], up[BLOCK];
 } block;
 
 /* The elements from `first` on, turned up for the sampler. */
@@ -125,7 +126,7 @@ static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, 
 
 static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
 {
-    void (*scatter)(const vndf_bsdf *, vndf_vec3, float, float, vndf_scattered *) = b->material->routines->scatter;
+    const vndf_routines *routines = b->material->routines;
     int one = is_one_hit(b);
     block drawn;
     vndf_normals wm = {drawn.x, drawn.y, drawn.z};
@@ -133,13 +134,14 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
     for (size_t first = 0; first < b->count; first += BLOCK) {
         size_t count = b->count - first < BLOCK ? b->count - first : BLOCK;
         vndf_batch part = part_of(b, first, count, drawn.up);
-        vndf_sample_n(&part, u[0] + first, u[1] + first, wm, drawn.density);
+        vndf_sample_weighted_n(&part, u[0] + first, u[1] + first, wm, drawn.density, drawn.weight);
         for (size_t i = 0; i < count; i++) {
             vndf_scattered s;
             if (first + i == 0 || !one)
                 hit_at(&hit, b, first + i);
             if (hit.material == b->material)
-                scatter(&hit, direction_at(wm, i), drawn.density[i], u[2][first + i], &s);
+                routines->scatter(&hit, direction_at(wm, i), drawn.density[i], drawn.weight[i], u[2][first + i],
+                                  &s);
             else
                 vndf_bsdf_sample(&hit, u[0], &s); /* of nothing */
             put(to, first + i, &s, b->material->is.wavelengths);

@@ -19,8 +19,9 @@ typedef struct vndf_routines {
     /* the value of each wavelength, and, unless `pdf` is NULL, the density */
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
     float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
-    /* `sample` after vndf_sample drew wm with `density`; NULL if it draws otherwise */
-    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float u3, vndf_scattered *scattered);
+    /* `sample` after vndf_sample_weighted drew wm; NULL if it draws otherwise */
+    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, float u3,
+                    vndf_scattered *scattered);
 } vndf_routines;
 
 /* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */

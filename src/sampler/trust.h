@@ -200,6 +200,26 @@ VNDF_INLINE lanes_m vndf_is_beside_knot(lanes_f xi)
     return lanes_less(lanes_set(VNDF_TRUST_KNOT), lanes_abs(xi - 0.5f));
 }
 
+/* ---- tables: the weight of a sample, D (wi.wm) over area and density ---- */
+
+/* P22 in a cell is the sum of a line and a bump. Over its terms: it must be no small difference. It may change by a
+ * factor e^10 per e-fold of the slope, as the density may (VNDF_STEEP_RADIUS): weights are within 5e-6. */
+static const float VNDF_TRUST_P22_TERMS = 0.125f;
+
+VNDF_INLINE lanes_m vndf_trusts_p22(lanes_f p22, lanes_f terms, lanes_f rise, lanes_f width, lanes_f reach)
+{
+    return lanes_both(lanes_less(VNDF_TRUST_P22_TERMS * terms, p22),
+                      lanes_at_most(lanes_abs(rise) * reach, VNDF_STEEP_RADIUS * (p22 * width)));
+}
+
+/* The density that divides. */
+static const float VNDF_TRUST_DRAWN = 1e-30f;
+
+VNDF_INLINE lanes_m vndf_trusts_drawn(lanes_f drawn)
+{
+    return lanes_less(lanes_set(VNDF_TRUST_DRAWN), drawn);
+}
+
 /* ---- GGX ---- */
 
 /* The level part of the stretched direction, squared: its area does not overflow. */

@@ -54,6 +54,23 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
     return vndf_law_sample(view, u1, u2, pdf);
 }
 
+float vndf_weight_of(const vndf_view *view, vndf_vec3 wm, float pdf)
+{
+    int ready;
+    double area = (double)vndf_law_view_area(view, &ready), facing = vndf_exact_dot(view->wi, wm);
+    vndf_query g = vndf_query_of(view, wm);
+    return pdf > 0.0f ? vndf_density_from(vndf_law_ndf(view->distribution, &g) * facing / (area * (double)pdf))
+                      : 0.0f;
+}
+
+vndf_vec3 vndf_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
+{
+    vndf_vec3 wm = vndf_law_sample_weighted(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), pdf, weight);
+    if (!(*weight > 0.0f))
+        *weight = vndf_weight_of(view, wm, *pdf);
+    return wm;
+}
+
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     return vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;

@@ -6,13 +6,14 @@
 #include <string.h>
 
 #include "harness/test.h"
+#include "sampler/law.h"
 #include "vndf_build.h"
 
 static const double least_true = 1e-30;
 
 const char *float_quantity_name(float_quantity quantity)
 {
-    static const char *const names[FLOAT_COUNT] = {"density", "drawn", "area", "lambda", "g1", "ndf"};
+    static const char *const names[FLOAT_COUNT] = {"density", "drawn", "weight", "area", "lambda", "g1", "ndf"};
     return names[quantity];
 }
 
@@ -138,6 +139,32 @@ static double density_error(const float_subject *subject, float_quantity quantit
     return unless_blurred(subject, &q, (double)density, error, quantity == FLOAT_NDF, aside);
 }
 
+/* All quotients of a D and a density. */
+static double weight_error(const float_subject *subject, const float_point *at, int *aside)
+{
+    vndf_surface surface = {subject->table, at->alpha_x, at->alpha_y};
+    vndf_view view = vndf_view_from(&surface, at->wi);
+    double density[ORACLE_SIDES], ndf[ORACLE_SIDES], value[ORACLE_SIDES * ORACLE_SIDES], d[2], p[2];
+    float pdf, weight;
+    int ready;
+    vndf_vec3 wm = vndf_sample_weighted(&view, at->wm.x, at->wm.y, &pdf, &weight);
+    oracle_query q = query_of(at, wm);
+    size_t n = oracle_table_densities(&subject->reference, &q, density);
+    size_t m = oracle_table_ndfs(&subject->reference, &q, ndf);
+    double facing = vndf_exact_dot(at->wi, wm), got = (double)weight * (double)vndf_law_view_area(&view, &ready);
+    for (size_t i = 0; i < m * n; i++)
+        value[i] = ndf[i / n] * facing / density[i % n];
+    if (!(at->wi.z > 0 && density[0] > least_true && ndf[0] * facing > least_true && density[0] < (double)FLT_MAX))
+        return -1;
+    double error = nearest(got, value, m * n, aside);
+    if (error <= FLOAT_LIMIT)
+        return error;
+    oracle_table_blur(&subject->reference, &q, 1, d);
+    oracle_table_blur(&subject->reference, &q, 0, p);
+    *aside = d[0] * facing <= got * p[1] && got * p[0] <= d[1] * facing;
+    return *aside ? 0 : error;
+}
+
 static double direction_error(const float_subject *subject, float_quantity quantity, const float_point *at)
 {
     vndf_surface surface = {subject->table, at->alpha_x, at->alpha_y};
@@ -168,6 +195,8 @@ double float_error(const float_subject *subject, float_quantity quantity, const 
     *aside = 0;
     if (!is_valid(subject, at))
         return -1;
+    if (quantity == FLOAT_WEIGHT)
+        return weight_error(subject, at, aside);
     if (quantity == FLOAT_DENSITY || quantity == FLOAT_DRAWN || quantity == FLOAT_NDF)
         return density_error(subject, quantity, at, aside);
     return direction_error(subject, quantity, at);
@@ -202,6 +231,12 @@ static float nudged(float value, unsigned long long *state)
     return (float)((double)value * (1 + (u - 0.85) * step));
 }
 
+/* Whether a point holds uniform numbers. */
+static int is_drawn(float_quantity quantity)
+{
+    return quantity == FLOAT_DRAWN || quantity == FLOAT_WEIGHT;
+}
+
 static float_point neighbour(float_point at, int drawn, unsigned long long *state)
 {
     float *numbers[8] = {&at.wi.x, &at.wi.y, &at.wi.z, &at.alpha_x, &at.alpha_y, &at.wm.x, &at.wm.y, &at.wm.z};
@@ -219,10 +254,10 @@ void float_climb(float_worst *worst, const float_subject *subject, float_quantit
                  unsigned long long *state)
 {
     for (size_t i = 0; worst->checked && i < steps; i++) {
-        float_point at = neighbour(worst->at, quantity == FLOAT_DRAWN, state);
+        float_point at = neighbour(worst->at, is_drawn(quantity), state);
         int aside;
         double length = hypot(hypot((double)at.wm.x, (double)at.wm.y), (double)at.wm.z);
-        if (quantity != FLOAT_DRAWN) { /* unit as far as rounding lets it */
+        if (!is_drawn(quantity)) { /* unit as far as rounding lets it */
             at.wm.x = (float)((double)at.wm.x / length);
             at.wm.y = (float)((double)at.wm.y / length);
             at.wm.z = (float)((double)at.wm.z / length);
@@ -248,7 +283,7 @@ void float_run(float_worst worst[FLOAT_COUNT], const float_subject *subject, siz
         float_point at = i < random ? float_point_random(subject, &state) : float_point_hard(subject, &state);
         float_point drawn = float_point_drawn(at, &state);
         for (int id = 0; id < FLOAT_COUNT; id++)
-            float_note(worst, subject, (float_quantity)id, id == FLOAT_DRAWN ? &drawn : &at);
+            float_note(worst, subject, (float_quantity)id, is_drawn((float_quantity)id) ? &drawn : &at);
     }
     for (int id = 0; id < FLOAT_COUNT; id++)
         float_climb(&worst[id], subject, (float_quantity)id, climb, &state);

@@ -8,10 +8,12 @@
 #include "oracle/oracle_table.h"
 #include "vndf.h"
 
-/* DRAWN is the density that vndf_sample returns against the oracle's at the normal that it returns. */
+/* DRAWN is the density that vndf_sample returns against the oracle's at the normal that it returns; WEIGHT is what
+ * vndf_sample_weighted returns, times its area, against D (wi.wm) over the density there, above the horizon. */
 typedef enum float_quantity {
     FLOAT_DENSITY,
     FLOAT_DRAWN,
+    FLOAT_WEIGHT,
     FLOAT_AREA,
     FLOAT_LAMBDA,
     FLOAT_G1,
@@ -34,7 +36,7 @@ typedef struct float_subject {
 int float_subject_open(float_subject *subject, const char *name, const char *scratch);
 void float_subject_close(float_subject *subject);
 
-/* One input of any quantity; of DRAWN, wm holds u1 and u2. */
+/* One input of any quantity; of DRAWN and WEIGHT, wm holds u1 and u2. */
 typedef struct float_point {
     vndf_vec3 wi;
     float alpha_x, alpha_y;

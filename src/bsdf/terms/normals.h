@@ -65,19 +65,18 @@ VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float fac
     return (float)(vndf_bsdf_ndf(b, vndf_normal_of(wm)) * (facing / density));
 }
 
-VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density)
+/* `weight` is the visible density over `density`. */
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight)
 {
-    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area};
-    if (!vndf_law_is_exact(b->view.distribution))
-        n.quotient = vndf_bsdf_quotient(b, wm, n.facing, density);
+    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area * weight};
     return n;
 }
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1, float u2)
 {
-    float density;
-    vndf_vec3 wm = vndf_sample(&b->view, u1, u2, &density);
-    return vndf_bsdf_visible(b, wm, density);
+    float density, weight;
+    vndf_vec3 wm = vndf_sample_weighted(&b->view, u1, u2, &density, &weight);
+    return vndf_bsdf_visible(b, wm, density, weight);
 }
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)

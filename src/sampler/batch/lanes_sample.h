@@ -23,6 +23,7 @@ typedef struct vndf_sample_block {
     /* indices of samples that were left; VNDF_DELICATE is added where float has tried */
     uint32_t left[VNDF_BLOCK_SAMPLES];
     float *x, *y, *z, *density; /* written to the end of the last group */
+    float *weight;              /* the same, of tables; 0 where the scalar call is to compute it; or NULL */
 } vndf_sample_block;
 
 #if VNDF_HAS_LANES

@@ -47,26 +47,42 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 
 /* ---- sample ---- */
 
-VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
+VNDF_INLINE void put_normal(vndf_normals to, size_t i, vndf_vec3 n)
 {
-    float density;
-    vndf_vec3 n = vndf_sample(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL);
-    c->wm.x[i] = n.x;
-    c->wm.y[i] = n.y;
-    c->wm.z[i] = n.z;
-    if (c->to1)
-        c->to1[i] = density;
+    to.x[i] = n.x;
+    to.y[i] = n.y;
+    to.z[i] = n.z;
 }
 
-static void sample_one_by_one(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+/* vndf_sample, or with a weight vndf_sample_weighted. */
+VNDF_INLINE vndf_vec3 sample_view(const vndf_view *view, float u1, float u2, float *density, float *weight)
 {
-    vndf_batch_call c = {wm, u1, u2, pdf, NULL};
-    vndf_batch_for_each_view(b, &c, sample_one);
+    if (weight && view->distribution)
+        return vndf_sample_weighted(view, u1, u2, density, weight);
+    if (weight)
+        *weight = 0.0f;
+    return vndf_sample(view, u1, u2, density);
+}
+
+VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
+{
+    float density, weight;
+    vndf_vec3 n = sample_view(view, c->from1[i], c->from2[i], c->to1 ? &density : NULL, c->to2 ? &weight : NULL);
+    put_normal(c->wm, i, n);
+    if (c->to1)
+        c->to1[i] = density;
+    if (c->to2)
+        c->to2[i] = weight;
+}
+
+static void sample_one_by_one(const vndf_batch *b, const vndf_batch_call *c)
+{
+    vndf_batch_for_each_view(b, c, sample_one);
 }
 
 #if VNDF_HAS_LANES
 
-enum { INPUTS = 7, RESULTS = 4 };
+enum { INPUTS = 7, RESULTS = 5 };
 
 /* Copies of the inputs that lanes cannot read in place: a number that all samples share, and the last block of a batch,
  * whose last group would read past the end. Results wait here for the last block, and wherever results may overwrite
@@ -89,13 +105,13 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
     return copy;
 }
 
-static void read_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const float *u1,
-                       const float *u2, copies *c)
+static void read_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const vndf_batch_call *call,
+                       copies *c)
 {
     uint32_t n = block->count;
     int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
-    block->u1 = input_at(u1, 0, first, n, c->of[0]);
-    block->u2 = input_at(u2, 0, first, n, c->of[1]);
+    block->u1 = input_at(call->from1, 0, first, n, c->of[0]);
+    block->u2 = input_at(call->from2, 0, first, n, c->of[1]);
     if (block->view)
         return;
     block->alpha_x = input_at(b->alpha_x, alpha, first, n, c->of[2]);
@@ -112,10 +128,10 @@ static int overlap(const float *a, const float *b, size_t count)
 }
 
 /* Whether no result overlaps an input. */
-static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, const float *pdf)
+static int is_apart(const vndf_batch *b, const vndf_batch_call *c)
 {
-    const float *read[INPUTS] = {u1, u2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
-    const float *written[RESULTS] = {wm.x, wm.y, wm.z, pdf};
+    const float *read[INPUTS] = {c->from1, c->from2, b->alpha_x, b->alpha_y, b->wi_x, b->wi_y, b->wi_z};
+    const float *written[RESULTS] = {c->wm.x, c->wm.y, c->wm.z, c->to1, c->to2};
     for (int i = 0; i < INPUTS; i++)
         for (int j = 0; j < RESULTS; j++)
             if (written[j] && overlap(read[i], written[j], b->count))
@@ -124,42 +140,59 @@ static int is_apart(const vndf_batch *b, const float *u1, const float *u2, vndf_
 }
 
 /* Where a block writes its results: in place, or into the copies. */
-static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart, vndf_normals wm,
-                          float *pdf)
+static void place_results(vndf_sample_block *block, copies *c, size_t first, int apart,
+                          const vndf_batch_call *call)
 {
     int at_once = apart && block->count == VNDF_BLOCK_SAMPLES;
-    block->x = at_once ? wm.x + first : c->result[0];
-    block->y = at_once ? wm.y + first : c->result[1];
-    block->z = at_once ? wm.z + first : c->result[2];
-    block->density = at_once && pdf ? pdf + first : c->result[3];
+    block->x = at_once ? call->wm.x + first : c->result[0];
+    block->y = at_once ? call->wm.y + first : c->result[1];
+    block->z = at_once ? call->wm.z + first : c->result[2];
+    block->density = at_once && call->to1 ? call->to1 + first : c->result[3];
+    block->weight = !call->to2 ? NULL : at_once ? call->to2 + first : c->result[4];
 }
 
 /* Draws the samples that lanes have left, before results overwrite inputs. */
-static void sample_left(vndf_sample_block *block, const vndf_batch *b, size_t first)
+static void sample_left(const vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
+    const vndf_normals to = {block->x, block->y, block->z};
     for (uint32_t n = 0; n < block->left_count; n++) {
         uint32_t i = block->left[n] % VNDF_DELICATE;
         vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
-        vndf_vec3 wm = block->left[n] >= VNDF_DELICATE
-                           ? vndf_sample_exactly(&own, block->u1[i], block->u2[i], &block->density[i])
-                           : vndf_sample(&own, block->u1[i], block->u2[i], &block->density[i]);
-        block->x[i] = wm.x;
-        block->y[i] = wm.y;
-        block->z[i] = wm.z;
+        float *density = &block->density[i], *weight = block->weight ? &block->weight[i] : NULL;
+        if (weight)
+            *weight = 0.0f;
+        put_normal(to, i,
+                   block->left[n] >= VNDF_DELICATE
+                       ? vndf_sample_exactly(&own, block->u1[i], block->u2[i], density)
+                       : sample_view(&own, block->u1[i], block->u2[i], density, weight));
+    }
+}
+
+/* The weights that lanes have not computed. */
+static void weigh_left(const vndf_sample_block *block, const vndf_batch *b, size_t first)
+{
+    for (uint32_t i = 0; i < block->count; i++) {
+        if (block->weight[i] > 0.0f)
+            continue;
+        vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
+        vndf_vec3 wm = {block->x[i], block->y[i], block->z[i]};
+        block->weight[i] = own.distribution ? vndf_weight_of(&own, wm, block->density[i]) : 0.0f;
     }
 }
 
 /* Moves results from the copies to where they belong. */
-static void move_results(const vndf_sample_block *block, size_t first, vndf_normals wm, float *pdf)
+static void move_results(const vndf_sample_block *block, size_t first, const vndf_batch_call *c)
 {
     size_t bytes = block->count * sizeof(float);
-    if (pdf && block->density != pdf + first)
-        memcpy(pdf + first, block->density, bytes);
-    if (block->x == wm.x + first)
+    if (c->to1 && block->density != c->to1 + first)
+        memcpy(c->to1 + first, block->density, bytes);
+    if (block->x == c->wm.x + first)
         return;
-    memcpy(wm.x + first, block->x, bytes);
-    memcpy(wm.y + first, block->y, bytes);
-    memcpy(wm.z + first, block->z, bytes);
+    memcpy(c->wm.x + first, block->x, bytes);
+    memcpy(c->wm.y + first, block->y, bytes);
+    memcpy(c->wm.z + first, block->z, bytes);
+    if (c->to2)
+        memcpy(c->to2 + first, block->weight, bytes);
 }
 
 static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
@@ -170,10 +203,10 @@ static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
         vndf_sample_block_avx2(b->distribution, block);
 }
 
-static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+static void sample_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
 {
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
-    int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, u1, u2, wm, pdf);
+    int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, c);
     vndf_view view;
     vndf_sample_block block;
     copies own;
@@ -183,33 +216,51 @@ static void sample_in_lanes(const vndf_batch *b, const float *u1, const float *u
         block.view = &view;
     }
     if (block.view && !view.trusted) { /* lanes would leave every sample */
-        sample_one_by_one(b, u1, u2, wm, pdf);
+        sample_one_by_one(b, c);
         return;
     }
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t left = b->count - first;
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
-        read_block(&block, b, first, u1, u2, &own);
-        place_results(&block, &own, first, apart, wm, pdf);
+        read_block(&block, b, first, c, &own);
+        place_results(&block, &own, first, apart, c);
         draw_block(b, &block, wide);
         sample_left(&block, b, first);
-        move_results(&block, first, wm, pdf);
+        if (block.weight)
+            weigh_left(&block, b, first);
+        move_results(&block, first, c);
     }
 }
 
-void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+static void sample_all(const vndf_batch *b, const vndf_batch_call *c)
 {
     if (vndf_batch_has_lanes(b) && vndf_unit_scale_float(b->distribution) > 0.0f) /* lanes have no double */
-        sample_in_lanes(b, u1, u2, wm, pdf);
+        sample_in_lanes(b, c);
     else
-        sample_one_by_one(b, u1, u2, wm, pdf);
+        sample_one_by_one(b, c);
 }
 
 #else
 
-void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+static void sample_all(const vndf_batch *b, const vndf_batch_call *c)
 {
-    sample_one_by_one(b, u1, u2, wm, pdf);
+    sample_one_by_one(b, c);
 }
 
 #endif
+
+void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+{
+    vndf_batch_call c = {wm, u1, u2, pdf, NULL};
+    sample_all(b, &c);
+}
+
+void vndf_sample_weighted_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
+                            float *weight)
+{
+    int computes = vndf_is_table(b->distribution); /* closed forms draw with the visible density itself */
+    vndf_batch_call c = {wm, u1, u2, pdf, computes ? weight : NULL};
+    sample_all(b, &c);
+    for (size_t i = 0; i < b->count && !computes; i++)
+        weight[i] = 1.0f;
+}

@@ -23,6 +23,7 @@ typedef struct vndf_sorted {
 /* The normals that were drawn. A negative density marks a sample that float may not draw. */
 typedef struct vndf_results {
     float x[VNDF_BLOCK_SAMPLES], y[VNDF_BLOCK_SAMPLES], z[VNDF_BLOCK_SAMPLES], density[VNDF_BLOCK_SAMPLES];
+    float weight[VNDF_BLOCK_SAMPLES]; /* where the block asks for it */
 } vndf_results;
 
 /* How a group was sorted, which of its samples can be drawn here, and which of these float may draw so far. */
@@ -181,6 +182,8 @@ VNDF_INLINE void vndf_unsort_block(vndf_sample_block *b, const vndf_origin *from
                         lanes_split_load(&o->split, front->z, wedge->z),
                         lanes_split_load(&o->split, front->density, wedge->density)};
         vndf_block_store(b, i, &n);
+        if (b->weight)
+            lanes_store(b->weight + i, lanes_split_load(&o->split, front->weight, wedge->weight));
         lanes_m good = lanes_both(o->trusted, lanes_less(lanes_set(0.0f), n.density));
         vndf_block_leave(b, lanes_without(lanes_all(), o->usable), lanes_without(o->usable, good), i);
     }

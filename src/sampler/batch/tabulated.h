@@ -5,12 +5,13 @@
 
 #include "sampler/batch/search.h"
 
-/* Intermediate results of a block. Each step goes over all groups of lanes before the next step begins: the steps of
- * one group wait for each other, groups do not. */
+/* Intermediate results of a block; weights where the block asks for them. Each step goes over all groups of lanes
+ * before the next step begins: the steps of one group wait for each other, groups do not. */
 typedef struct fronts {
     vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
     lanes_m trusted[VNDF_BLOCK_GROUPS];
+    lanes_f weight[VNDF_BLOCK_GROUPS];
     vndf_radial_search radii;
 } fronts;
 
@@ -21,13 +22,14 @@ typedef struct wedges {
     vndf_radial_law law[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
     lanes_m trusted[VNDF_BLOCK_GROUPS];
+    lanes_f weight[VNDF_BLOCK_GROUPS];
     vndf_radial_search radii;
 } wedges;
 
 /* ---- in front of wi ---- */
 
-VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from, uint32_t end, fronts *w,
-                             vndf_results *to)
+VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from, uint32_t end, int weighted,
+                             fronts *w, vndf_results *to)
 {
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_incidence at = vndf_sorted_incidence(from, i);
@@ -43,11 +45,13 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from
         vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
         w->trusted[g] = lanes_all();
         w->place[g] = vndf_place_front(d, &at, &w->bearing[g], &cell, lanes_load_u(w->radii.cell + i),
-                                       lanes_load(from->u2 + i), &w->trusted[g]);
+                                       lanes_load(from->u2 + i), &w->trusted[g], weighted ? &w->weight[g] : NULL);
     }
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->trusted[g]);
         vndf_results_keep(to, i, &n, w->trusted[g]);
+        if (weighted)
+            lanes_store(to->weight + i, w->weight[g]);
     }
 }
 
@@ -71,7 +75,7 @@ VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *fr
 }
 
 VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
-                            wedges *w)
+                            int weighted, wedges *w)
 {
     const float *u2 = from->u2 + first;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
@@ -87,23 +91,25 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
         w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
-                                       lanes_load(u2 + i), &w->trusted[g]);
+                                       lanes_load(u2 + i), &w->trusted[g], weighted ? &w->weight[g] : NULL);
     }
 }
 
 /* Draws `count` samples from `first` on. */
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
-                             wedges *w, vndf_results *to)
+                             int weighted, wedges *w, vndf_results *to)
 {
     if (vndf_has_one_row(d, from))
         vndf_find_in_one_row(d, from, first, count, &w->azimuths);
     else
         vndf_find_azimuths(d, from, first, count, &w->azimuths);
     draw_azimuths(d, from, first, count, w);
-    draw_radii(d, from, first, count, w);
+    draw_radii(d, from, first, count, weighted, w);
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_drawn n = vndf_drawn_at(&w->bearing[g].level, &w->place[g], &w->trusted[g]);
         vndf_results_keep(to, first + i, &n, w->trusted[g]);
+        if (weighted)
+            lanes_store(to->weight + first + i, w->weight[g]);
     }
 }
 
@@ -125,8 +131,8 @@ static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block
     wedges in_wedge;
     uint32_t end = whole_groups(b->count), border = vndf_sort_block(d, b, &sorted, from);
     uint32_t count = whole_groups(end - border);
-    draw_fronts(d, &sorted, whole_groups(border), &in_front, &front);
-    draw_wedges(d, &sorted, end - count, count, &in_wedge, &wedge);
+    draw_fronts(d, &sorted, whole_groups(border), b->weight != NULL, &in_front, &front);
+    draw_wedges(d, &sorted, end - count, count, b->weight != NULL, &in_wedge, &wedge);
     vndf_unsort_block(b, from, &front, &wedge);
 }
 

@@ -128,7 +128,7 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, trusted);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, trusted, NULL);
     return drawn_inside(&b, at, edge, trusted);
 }
 
@@ -145,7 +145,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted, NULL);
     return drawn_inside(&b, at, edge, trusted);
 }
 

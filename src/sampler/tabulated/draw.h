@@ -161,11 +161,25 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
     return at;
 }
 
+/* The visible density at a place over the drawn one, which is density root/below; c and k are the true weights of the
+ * law. 0 where it may not stand for that of the rounded normal. */
+VNDF_INLINE lanes_f vndf_weight_in(const vndf_radial_lanes *cell, const vndf_rational_place *in,
+                                   const vndf_place *at, lanes_f c, lanes_f k, lanes_f density)
+{
+    lanes_f xi = in->xi, eta = 1.0f - xi, w = xi * eta, bump = cell->a + cell->b * xi;
+    lanes_f line = cell->f0 * eta + cell->f1 * xi, f = line + w * bump;
+    lanes_f rise = (cell->f1 - cell->f0) + ((eta - xi) * bump + w * cell->b);
+    lanes_f seen = f * ((c * at->z + k * at->x) * at->per) * in->below, drawn = density * in->root;
+    lanes_m follows = vndf_trusts_p22(f, line + w * (lanes_abs(cell->a) + lanes_abs(cell->b)), rise, cell->width,
+                                      cell->x1 * cell->z0);
+    return lanes_keep(lanes_both(follows, vndf_trusts_drawn(drawn)), seen / drawn);
+}
+
 /* The place in cell j. Clears *trusted beside the cut - here at infinity, where W vanishes - where cells have another
- * form (exact_radius.c). */
+ * form (exact_radius.c). *weight is the visible density over the drawn one, unless it is NULL. */
 VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_incidence *w,
                                         const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
-                                        lanes_f u2, lanes_m *trusted)
+                                        lanes_f u2, lanes_m *trusted, lanes_f *weight)
 {
     vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
     vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
@@ -176,6 +190,8 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
     *trusted = lanes_both(*trusted, vndf_trusts_place_in_cell(cell, &in_cell, &in));
     *trusted = lanes_both(*trusted, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
+    if (weight)
+        *weight = vndf_weight_in(cell, &in, &at, b->c, b->k, lanes_set(1.0f));
     at.above = in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
@@ -199,9 +215,10 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_wedge(const vndf_distributio
     return b;
 }
 
+/* The same in the wedge. */
 VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_azimuth_sample *b,
                                         const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
-                                        lanes_f u2, lanes_m *trusted)
+                                        lanes_f u2, lanes_m *trusted, lanes_f *weight)
 {
     vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
     vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
@@ -213,6 +230,8 @@ VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_azim
     *trusted = lanes_both(*trusted, vndf_radial_is_away(&law, j));
     *trusted = lanes_both(*trusted, unscaled->trusted);
     *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
+    if (weight) /* b->c is n times the direction's */
+        *weight = vndf_weight_in(cell, &in, &at, w->c * b->c, w->c * b->k, b->c * b->density);
     at.above = b->density * in.root;
     at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
     return at;
