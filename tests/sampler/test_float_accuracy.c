@@ -1,8 +1,8 @@
-/* In float, the density of a normal, the density and the weight that come with a sample, projected area, Lambda, G1 and D are
- * within 1e-5 of what a double-precision oracle makes of the same table and the same numbers, wherever that is
- * above 1e-30: for all shipped tables, smallest ones and pathological ones, at random and at hard points,
- * climbing from the worst of them, and at the worst points that were ever found (tests/corpus/float/worst.csv;
- * the long test prints such lines).
+/* In float, the density of a normal, the density and the weight that come with a sample, projected area, Lambda, G1
+ * and D are within 1e-5 of what a double-precision oracle makes of the same table and the same numbers, wherever that
+ * is above 1e-30: for all shipped tables, smallest ones and pathological ones, at random and at hard points, climbing
+ * from the worst of them, and at the worst points that were ever found (tests/corpus/float/worst.csv; the long test
+ * prints such lines).
  *
  * True is what oracle_table.h says. Two things are counted and may not be more than one in 10^4: points within
  * two ulps of a jump that have the value of its other side, and points where the density changes by more than
