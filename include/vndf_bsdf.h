@@ -249,9 +249,9 @@ typedef struct vndf_bsdf {
 
 /* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
  * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
- * from both sides. Returns 0 if the material scatters nothing from there, or is a mixture that hits must bring
- * (`mixture` NULL). (The result goes through a pointer: a
- * returned struct would be copied, and reading it back would stall on store forwarding.) */
+ * from both sides. Returns 0 if the material scatters nothing from there, as one does whose mixture is NULL, since hits
+ * have to bring theirs (vndf_bsdf_mixture). (The result goes through a pointer: a returned struct would be copied, and
+ * reading it back would stall on store forwarding.) */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* The same with the roughness of the hit; NULL: the roughness of the material. */

@@ -161,7 +161,7 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
     return VNDF_OK;
 }
 
-/* Of the material; hits bring others, whose errors have a result. */
+/* Of the material or a lobe of its mixture; hits bring others, whose errors have a result. */
 static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error *error)
 {
     vndf_vec3 up = {0.0f, 0.0f, 1.0f};

@@ -105,7 +105,10 @@ static void test_instructions(const vndf_distribution *table, vndf_instructions 
     plain = (vndf_batch){table, COUNT, 0, limit, m[0], m[3], input[2], input[3], input[4]};
     affine = (vndf_affine_batch){table, COUNT, 0,    limit,    m[0],     m[1],    m[2],
                                  m[3],  m[4],  m[5], input[2], input[3], input[4]};
-    mixture = (vndf_mixture_batch){COUNT, 0, limit, input[2], input[3], input[4], VNDF_MIXTURE_LOBES, {{NULL}}};
+    mixture = (vndf_mixture_batch){.count = COUNT, .limit = limit, .lobes = VNDF_MIXTURE_LOBES};
+    mixture.wi_x = input[2];
+    mixture.wi_y = input[3];
+    mixture.wi_z = input[4];
     for (int l = 0; l < VNDF_MIXTURE_LOBES; l++)
         mixture.lobe[l] = (vndf_lobe_batch){of[l % 3], m[0], m[1], m[2], m[3], m[4], m[5], input[5]};
     double bare = (double)taken(call_nothing) / 1024;
