@@ -497,8 +497,8 @@ typedef struct vndf_mixture_batch {
 /* As above. Results `pdf` and `lobe` may be NULL; `asked`, the argument `lobe` of vndf_mixture_invert, may be NULL for
  * -1 everywhere, and `lobe` receives what that call returns.
  *
- * With AVX2 and AVX-512 these calls take up to 300 KiB of the stack, whatever `lobes` is (measured, optimised: 240 KiB
- * for samples, 155 for densities, 130 for areas), those of vndf_batch and vndf_affine_batch up to 200 (measured: 110);
+ * With AVX2 and AVX-512 these calls take up to 300 KiB of the stack, whatever `lobes` is (measured, optimised: 250 KiB
+ * for samples, 160 for densities, 130 for areas), those of vndf_batch and vndf_affine_batch up to 200 (measured: 110);
  * unoptimised code up to 520. Where that is too much, VNDF_INSTRUCTIONS_PORTABLE takes 10 KiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
