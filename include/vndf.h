@@ -353,7 +353,18 @@ VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, 
  * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, stands where formulas have cos(theta) (Dupuy et al.,
  * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z -
  * 1, G1(wi) = wi'.z/A(wi), for a unit wi. A direction above the horizon may be below the mean plane, wi'.z < 0: then
- * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere. */
+ * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere.
+ *
+ * Brushed metal under a normal map: the brush runs at the angle phi from x, roughness is `along` it and `across` it in
+ * the plane z = 0, and n is the normal of the map, n.z > 0. M turns x to the brush after it has stretched, and the mean
+ * slope is that of n:
+ *
+ *     const float c = cosf(phi), s = sinf(phi);
+ *     const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
+ *     const vndf_affine_view view = vndf_affine_view_from(&brushed, wi);
+ *     float pdf;
+ *     const vndf_vec3 wm = vndf_affine_sample(&view, u[0], u[1], &pdf);
+ */
 typedef struct vndf_affine {
     const vndf_distribution *distribution;
     float xx, xy, yx, yy;
@@ -484,7 +495,11 @@ typedef struct vndf_mixture_batch {
 } vndf_mixture_batch;
 
 /* As above. Results `pdf` and `lobe` may be NULL; `asked`, the argument `lobe` of vndf_mixture_invert, may be NULL for
- * -1 everywhere, and `lobe` receives what that call returns. */
+ * -1 everywhere, and `lobe` receives what that call returns.
+ *
+ * With AVX2 and AVX-512 these calls take up to 300 KiB of the stack, whatever `lobes` is (measured, optimised: 250 KiB
+ * for samples, 160 for densities, 130 for areas), those of vndf_batch and vndf_affine_batch up to 200 (measured: 110);
+ * unoptimised code up to 520. Where that is too much, VNDF_INSTRUCTIONS_PORTABLE takes 10 KiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
@@ -504,7 +519,8 @@ VNDF_API void vndf_mixture_g1_n(const vndf_mixture_batch *batch, float *g1);
  *     D = (1 - t) D_i + t D_i+1,    t = (p - p_i)/(p_i+1 - p_i),  or linear in 1/p where that takes fewer knots,
  *
  * which is a D as good as any: samples and densities are exact for it. vndf_build_family (vndf_build.h) makes the
- * tables, and measures how far the mixture is from the family that is meant. Immutable; threads may share it. */
+ * tables, and measures how far the mixture is from the family that is meant. Immutable; threads may share it.
+ * (vndf_family_help and vndf_family_material of vndf_build.h list the names that distributions are built from.) */
 typedef struct vndf_family vndf_family;
 
 enum {
@@ -557,8 +573,23 @@ typedef enum vndf_family_place {
 } vndf_family_place;
 
 /* The family at a parameter, with the matrix and the mean slope of `shape`, whose distribution is not read: a mixture
- * of one lobe at a knot, of two between knots, valid while the family lives. Costs a binary search and a division;
- * other lobes of *mixture are not written, so that more may be added behind. */
+ * of one lobe at a knot, of two between knots, with weights whose sum is 1, valid while the family lives. Costs a
+ * binary search and a division; other lobes of *mixture are not written, so that more may be added behind. Two families
+ * on one surface, of which the second is 30%, are two to four of its VNDF_MIXTURE_LOBES:
+ *
+ *     vndf_mixture whole, haze;
+ *     vndf_family_at(metals, p, narrow, &whole);
+ *     vndf_family_at(tails, q, wide, &haze);
+ *     for (int i = 0; i < whole.count; i++)
+ *         whole.lobe[i].weight *= 0.7f;
+ *     for (int i = 0; i < haze.count; i++) {
+ *         haze.lobe[i].weight *= 0.3f;
+ *         whole.lobe[whole.count++] = haze.lobe[i];
+ *     }
+ *     const vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
+ *     float pdf;
+ *     const vndf_vec3 wm = vndf_mixture_sample(&view, u[0], u[1], &pdf, NULL);
+ */
 VNDF_API vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_affine *shape,
                                           vndf_mixture *mixture);
 

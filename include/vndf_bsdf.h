@@ -5,18 +5,23 @@
  * vndf_bsdf_at forms everything that depends on the incident direction alone; samples, values and densities start
  * from that.
  *
+ *     vndf_error error;
  *     vndf_material material;
  *     vndf_description glass = {.distribution = vndf_ggx(), .alpha_x = 0.1f, .alpha_y = 0.1f, .eta = 1.5f,
  *         .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
- *     if (vndf_material_resolve(&glass, &material, &error) != VNDF_OK) ...
+ *     if (vndf_material_resolve(&glass, &material, &error) != VNDF_OK)
+ *         return 0;
  *     vndf_bsdf bsdf;
  *     vndf_scattered s;
  *     vndf_bsdf_at(&bsdf, &material, wi);
- *     vndf_bsdf_sample(&bsdf, u, &s);         weight s.weight, direction s.wo, density s.density
+ *     vndf_bsdf_sample(&bsdf, u, &s);
+ *
+ * gives a direction s.wo with the density s.density and the weight s.weight.
  *
  * The conventions of vndf.h hold: z is the geometric normal, directions are unit and point away from the surface,
- * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 is on the other side of
- * the surface, in the second medium; it is not below the horizon. Both sides have the same microsurface.
+ * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 (below the mean plane, where
+ * there is one: see "Mean slopes") is on the other side of the surface, in the second medium; it is not below the
+ * horizon. Both sides have the same microsurface.
  *
  * The model (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
  * "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 2014). With the microfacet normal
@@ -70,8 +75,9 @@ enum { VNDF_WAVELENGTHS = 4 };
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
-/* What light does at the surface. With both, a sample chooses one: reflection with the probability F (the mean
- * over the wavelengths). */
+/* What light does at the surface; the lobes of a mixture (vndf.h) are parts of its normals instead, and each reflects
+ * and transmits. With both, a sample chooses one: reflection with the probability F (the mean over the
+ * wavelengths). */
 typedef enum vndf_lobes { VNDF_LOBES_REFLECTION, VNDF_LOBES_TRANSMISSION, VNDF_LOBES_BOTH } vndf_lobes;
 
 typedef enum vndf_fresnel {
@@ -131,7 +137,7 @@ typedef enum vndf_transport {
 typedef enum vndf_shape {
     VNDF_SHAPE_ALIGNED, /* alpha_x along x, alpha_y along y: vndf_bsdf_rough */
     VNDF_SHAPE_ROTATED, /* alpha_x at an angle: vndf_bsdf_rough */
-    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes, without mean slope: vndf_bsdf_affine */
+    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes: vndf_bsdf_affine, whose mean slope is not read */
     VNDF_SHAPE_AFFINE,  /* a matrix and a mean slope, as filtered normal maps have it: vndf_bsdf_affine */
     VNDF_SHAPE_MIXTURE  /* several lobes, each with its distribution and matrix: vndf_bsdf_mixture */
 } vndf_shape;
@@ -164,7 +170,8 @@ typedef struct vndf_description {
     vndf_effects effects;
     float alpha_x, alpha_y;      /* roughness of hits that bring none, > 0 */
     float rotation;              /* angle from x to the axis of alpha_x, radians, within 1e4 */
-    vndf_affine affine;          /* matrix and mean slope of hits that bring none; its distribution is not read */
+    vndf_affine affine;          /* of hits that bring none; its distribution is not read, its mean slope is of
+                                  * VNDF_SHAPE_AFFINE alone */
     const vndf_mixture *mixture; /* of hits that bring none; NULL: all do; must outlive the material */
     int wavelengths;             /* 1 to VNDF_WAVELENGTHS; 0: 3 */
     /* Turquin, Kulla & Conty: of this distribution, for a mirror where the material only reflects, else for its eta;
@@ -242,8 +249,9 @@ typedef struct vndf_bsdf {
 
 /* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
  * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
- * from both sides. Returns 0 if the material scatters nothing from there. (The result goes through a pointer: a
- * returned struct would be copied, and reading it back would stall on store forwarding.) */
+ * from both sides. Returns 0 if the material scatters nothing from there, as one does whose mixture is NULL, since hits
+ * have to bring theirs (vndf_bsdf_mixture). (The result goes through a pointer: a returned struct would be copied, and
+ * reading it back would stall on store forwarding.) */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* The same with the roughness of the hit; NULL: the roughness of the material. */
@@ -251,8 +259,9 @@ VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, con
                              vndf_vec3 wi);
 
 /* The same with the matrix and mean slope of the hit (its distribution is not read), and with its mixture; neither is
- * kept. A mean slope needs VNDF_SHAPE_AFFINE: VNDF_SHAPE_MATRIX does not read it. A call for another shape than the
- * material's scatters nothing and returns 0, as invalid matrices and mixtures do. */
+ * kept. NULL: those of the material. A mean slope needs VNDF_SHAPE_AFFINE: VNDF_SHAPE_MATRIX does not read it. A call
+ * for another shape than the material's scatters nothing and returns 0, as invalid matrices and mixtures do, and NULL
+ * where the material has no mixture. */
 VNDF_API int vndf_bsdf_affine(vndf_bsdf *bsdf, const vndf_material *material, const vndf_affine *affine,
                               vndf_vec3 wi);
 VNDF_API int vndf_bsdf_mixture(vndf_bsdf *bsdf, const vndf_material *material, const vndf_mixture *mixture,

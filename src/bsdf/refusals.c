@@ -1,5 +1,6 @@
 /* Combinations of effects that make no sense, and numbers out of range: each is refused by name. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "bsdf/material.h"
@@ -160,31 +161,58 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
     return VNDF_OK;
 }
 
-/* Of the material; hits bring others, whose errors have a result. */
+/* Of the material or a lobe of its mixture; hits bring others, whose errors have a result. */
+static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error *error)
+{
+    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    if (!a->distribution)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s has the distribution NULL", name);
+    if (vndf_affine_view_from(a, up).principal.distribution)
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                     "%s is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "
+                     "scale of the distribution, must be within [1e-18, 1e18], the mean slope within 1e6",
+                     name, (double)a->xx, (double)a->xy, (double)a->yx, (double)a->yy, (double)a->mean_x,
+                     (double)a->mean_y);
+}
+
 static vndf_status check_affine(const vndf_description *is, vndf_error *error)
 {
     vndf_affine a = is->affine;
-    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
     a.distribution = is->distribution;
-    if (vndf_affine_view_from(&a, up).principal.distribution)
-        return VNDF_OK;
-    return vndf_fail(
-        error, VNDF_ERROR_ARGUMENT,
-        "affine is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "
-        "scale of the distribution, must be within [1e-18, 1e18], the mean slope within 1e6",
-        (double)a.xx, (double)a.xy, (double)a.yx, (double)a.yy, (double)a.mean_x, (double)a.mean_y);
+    if (is->effects.shape == VNDF_SHAPE_MATRIX) /* which does not read it */
+        a.mean_x = a.mean_y = 0.0f;
+    return check_map("affine", &a, error);
 }
 
-static vndf_status check_mixture(const vndf_description *is, vndf_error *error)
+/* One lobe; its weight is added to the sum. */
+static vndf_status check_lobe(const vndf_mixture *mixture, int i, double *sum, vndf_error *error)
 {
-    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    if (!is->mixture || vndf_mixture_view_from(is->mixture, up).count > 0)
+    char name[48];
+    const vndf_mixture_lobe *lobe = &mixture->lobe[i];
+    if (!(lobe->weight >= 0.0f && lobe->weight < HUGE_VALF))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "mixture->lobe[%d].weight is %g, it must be finite and at least 0", i,
+                         (double)lobe->weight);
+    *sum += lobe->weight;
+    snprintf(name, sizeof name, "mixture->lobe[%d].surface", i);
+    return lobe->weight > 0.0f ? check_map(name, &lobe->surface, error) : VNDF_OK;
+}
+
+static vndf_status check_mixture(const vndf_mixture *mixture, vndf_error *error)
+{
+    double sum = 0.0;
+    vndf_status status = VNDF_OK;
+    if (!mixture)
         return VNDF_OK;
-    return vndf_fail(
-        error, VNDF_ERROR_ARGUMENT,
-        "mixture is invalid: it needs 1 to %d lobes, weights of at least 0 that are not all 0, and for "
-        "each weight above 0 a distribution with a matrix that is not singular",
-        VNDF_MIXTURE_LOBES);
+    if (mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture->count is %d, it must be in [1, %d]", mixture->count,
+                         VNDF_MIXTURE_LOBES);
+    for (int i = 0; i < mixture->count && status == VNDF_OK; i++)
+        status = check_lobe(mixture, i, &sum, error);
+    if (status == VNDF_OK && !(sum > 0.0))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture: the weights of all lobes are 0");
+    return status;
 }
 
 /* An albedo of something else would keep the wrong energy. */
@@ -216,7 +244,7 @@ static vndf_status check_shape(const vndf_description *is, vndf_error *error)
     case VNDF_SHAPE_ROTATED: break;
     case VNDF_SHAPE_MATRIX:
     case VNDF_SHAPE_AFFINE: return check_affine(is, error);
-    case VNDF_SHAPE_MIXTURE: return check_mixture(is, error);
+    case VNDF_SHAPE_MIXTURE: return check_mixture(is->mixture, error);
     }
     return check_roughness(is, error);
 }

@@ -8,6 +8,7 @@
 #include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
+#include "core/replace_file.h"
 
 enum { MAGIC = 8 };
 
@@ -101,6 +102,39 @@ void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_deco
         vndf_fail(error, inner.status, "%s: %s", path, inner.message);
     free(bytes);
     return made;
+}
+
+/* ---- saving ---- */
+
+static vndf_status no_memory(const char *path, vndf_error *error)
+{
+    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+}
+
+vndf_status vndf_frame_save(const void *what, vndf_frame_encode *encode, const char *path, vndf_error *error)
+{
+    size_t size = encode(what, NULL, 0);
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return no_memory(path, error);
+    encode(what, bytes, size);
+    int good = vndf_replace_whole(path, bytes, size), reason = errno;
+    free(bytes);
+    if (good)
+        return VNDF_OK;
+    return reason == ENOMEM ? no_memory(path, error)
+                            : vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
+}
+
+vndf_status vndf_frame_save_memory(const void *what, vndf_frame_encode *encode, void *bytes, size_t size,
+                                   vndf_error *error)
+{
+    size_t needed = encode(what, NULL, 0);
+    if (size != needed)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the file %lu", (unsigned long)size,
+                         (unsigned long)needed);
+    encode(what, bytes, size);
+    return VNDF_OK;
 }
 
 void vndf_frame_begin(const vndf_frame *frame, vndf_writer *w, size_t size)

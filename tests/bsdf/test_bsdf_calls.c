@@ -273,15 +273,10 @@ static void test_refused(const oracle_ndf *ndf)
 {
     vndf_description is = {.distribution = ndf->distribution, .effects = {.shape = VNDF_SHAPE_AFFINE}};
     vndf_error error = {VNDF_OK, ""};
-    vndf_mixture none = {.count = 0};
     vndf_material m;
     is.affine = (vndf_affine){NULL, 1, 2, 2, 4, 0, 0};
     TEST(vndf_material_resolve(&is, &m, &error) == VNDF_ERROR_ARGUMENT);
     TEST_HAS(error.message, "affine");
-    is.effects.shape = VNDF_SHAPE_MIXTURE;
-    is.mixture = &none;
-    TEST(vndf_material_resolve(&is, &m, &error) == VNDF_ERROR_ARGUMENT);
-    TEST_HAS(error.message, "mixture");
     is = (vndf_description){.distribution = ndf->distribution, .alpha_x = 1, .alpha_y = 1, .wavelengths = 5};
     TEST(vndf_material_resolve(&is, &m, &error) == VNDF_ERROR_ARGUMENT);
     TEST_HAS(error.message, "wavelengths");

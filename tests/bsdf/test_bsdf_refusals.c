@@ -199,8 +199,102 @@ static void test_rest(void)
     }
 }
 
+/* ---- shapes ---- */
+
+/* Each way in which a mixture is invalid has a text of its own, which names the lobe. */
+static void test_mixtures(void)
+{
+    const vndf_effects several = {.shape = VNDF_SHAPE_MIXTURE};
+    const vndf_mixture_lobe sound = {{vndf_ggx(), 0.3f, 0.1f, 0, 0.2f, 0.1f, 0}, 1};
+    vndf_mixture none = {.count = 0}, many = {.count = VNDF_MIXTURE_LOBES + 1}, lightless = {2, {sound, sound}};
+    vndf_mixture negative = {2, {sound, sound}}, infinite = negative, missing = negative, singular = negative;
+    const struct {
+        const vndf_mixture *is;
+        const char *text;
+    } cases[] = {
+        {&none, "mixture->count is 0, it must be in [1, 8]"},
+        {&many, "mixture->count is 9, it must be in [1, 8]"},
+        {&lightless, "mixture: the weights of all lobes are 0"},
+        {&negative, "mixture->lobe[1].weight is -1, it must be finite and at least 0"},
+        {&infinite, "mixture->lobe[0].weight is inf"},
+        {&missing, "mixture->lobe[1].surface has the distribution NULL"},
+        {&singular, "mixture->lobe[1].surface is the matrix (1 2; 2 4) with mean slope (0.1, 0); its singular"},
+    };
+    vndf_material material;
+    vndf_description is = good(several);
+    lightless.lobe[0].weight = lightless.lobe[1].weight = 0;
+    negative.lobe[1].weight = -1;
+    infinite.lobe[0].weight = INFINITY;
+    missing.lobe[1].surface.distribution = NULL;
+    singular.lobe[1].surface = (vndf_affine){vndf_ggx(), 1, 2, 2, 4, 0.1f, 0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        is.mixture = cases[i].is;
+        refuse(&is, cases[i].text);
+    }
+    singular.lobe[1].weight = 0; /* which is not looked at */
+    is.mixture = &singular;
+    TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK);
+}
+
+/* What is refused is what has no view. */
+static void test_odd_mixtures(void)
+{
+    static const float odd[] = {0, -1, 1e-20f, 1e-40f, 1e7f, 1e20f, INFINITY, NAN};
+    const vndf_vec3 up = {0, 0, 1};
+    unsigned long long state = 1;
+    size_t taken = 0, count = 20000;
+    for (size_t n = 0; n < count; n++) {
+        vndf_description is = good((vndf_effects){.shape = VNDF_SHAPE_MIXTURE});
+        vndf_mixture mixture = {.count = (int)(n % 200 == 7 ? 9 : n % 4)};
+        vndf_material material;
+        for (int i = 0; i < mixture.count && i < VNDF_MIXTURE_LOBES; i++) {
+            float lobe[7] = {0.3f, 0.1f, 0, 0.2f, 0.1f, 0, i % 3 ? 0.5f : 0};
+            unsigned long long bits = test_random_bits(&state) >> 20;
+            if (bits % 3 == 0)
+                lobe[bits / 3 % 7] = odd[bits / 21 % 8];
+            mixture.lobe[i].surface = (vndf_affine){
+                bits / 168 % 20 ? vndf_beckmann() : NULL, lobe[0], lobe[1], lobe[2], lobe[3], lobe[4], lobe[5]};
+            mixture.lobe[i].weight = lobe[6];
+        }
+        is.mixture = &mixture;
+        vndf_status status = vndf_material_resolve(&is, &material, NULL);
+        TEST((status == VNDF_OK) == (vndf_mixture_view_from(&mixture, up).count > 0));
+        taken += status == VNDF_OK;
+    }
+    TEST(taken > count / 10 && taken < count / 2);
+}
+
+/* A matrix alone: its mean slope is not read, neither of the material nor of a hit. */
+static void test_matrix(void)
+{
+    const vndf_effects matrix = {.shape = VNDF_SHAPE_MATRIX}, leaning = {.shape = VNDF_SHAPE_AFFINE};
+    const vndf_vec3 wi = {0.6f, 0, 0.8f}, wo = {-0.36f, 0.48f, 0.8f};
+    const vndf_affine straight = {NULL, 0.3f, 0.1f, 0, 0.2f, 0, 0};
+    const float means[] = {0, 0.5f, 1e7f, INFINITY, NAN};
+    float expected[VNDF_WAVELENGTHS], f[VNDF_WAVELENGTHS];
+    for (size_t i = 0; i < sizeof means / sizeof *means; i++) {
+        vndf_description is = good(matrix);
+        vndf_material material;
+        vndf_bsdf bsdf;
+        is.affine = straight;
+        is.affine.mean_x = is.affine.mean_y = means[i];
+        TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK);
+        TEST(vndf_bsdf_at(&bsdf, &material, wi));
+        vndf_bsdf_eval(&bsdf, wo, 0, i ? f : expected);
+        TEST(i ? f[0] == expected[0] : expected[0] > 0);
+        TEST(vndf_bsdf_affine(&bsdf, &material, &is.affine, wi));
+        vndf_bsdf_eval(&bsdf, wo, 0, f);
+        TEST(f[0] == expected[0]);
+        is.effects = leaning;
+        TEST((vndf_material_resolve(&is, &material, NULL) == VNDF_OK) == (means[i] < 1));
+    }
+}
+
 int main(void)
 {
+    test_mixtures();
+    test_odd_mixtures();
+    test_matrix();
     test_sets();
     test_names();
     test_choices();

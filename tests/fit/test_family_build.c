@@ -208,10 +208,15 @@ static void test_refusals(void)
     test_refused(NULL, 2, 3, none, VNDF_ERROR_ARGUMENT, "NULL");
     test_refused("student", 2, 3, none, VNDF_ERROR_SYNTAX, "unknown family 'student'");
     test_refused("abc:3,0.5", 2, 3, none, VNDF_ERROR_SYNTAX, "does not say where the parameter stands");
-    test_refused("abc", 2, 3, none, VNDF_ERROR_SYNTAX, "at the parameter 2: column 6: C is missing");
+    test_refused("abc", 2, 3, none, VNDF_ERROR_SYNTAX, "abc has the parameters B and C");
+    test_refused("abc", 2, 3, none, VNDF_ERROR_SYNTAX, "right would be abc:{p},C or abc:B,{p}, with a number");
+    test_refused("abc:{p}", 2, 3, none, VNDF_ERROR_SYNTAX, "at the parameter 2: column 6: C is missing");
+    test_refused("ggx", 1, 2, none, VNDF_ERROR_SYNTAX,
+                 "ggx has no parameter; families that have one are student-t,");
+    test_refused("beckmann:{p}", 1, 2, none, VNDF_ERROR_SYNTAX, "beckmann has no parameter");
     test_refused("student-t", 1.5, 3, none, VNDF_ERROR_SYNTAX, "it must be above 1.5");
-    test_refused("student-t", 2, 2, none, VNDF_ERROR_ARGUMENT, "no range");
-    test_refused("student-t", 2, (double)NAN, none, VNDF_ERROR_ARGUMENT, "no range");
+    test_refused("student-t", 2, 2, none, VNDF_ERROR_ARGUMENT, "from 2 to 2: the first must be below");
+    test_refused("student-t", 2, (double)NAN, none, VNDF_ERROR_ARGUMENT, "the first must be below");
     test_refused("student-t", 2, 3, (vndf_family_options){.knots = 1}, VNDF_ERROR_ARGUMENT, "knots is 1");
     test_refused("student-t", 2, 3, (vndf_family_options){.knots = 257}, VNDF_ERROR_ARGUMENT, "knots is 257");
     test_refused("student-t", 2, 3, (vndf_family_options){.max_distance = -1}, VNDF_ERROR_ARGUMENT,

@@ -1,5 +1,5 @@
 /* What the tests of batches share: an argument avx2 or avx512 asks for one instruction set, and each distribution is
- * given to the test. */
+ * given to the test; plain batches over arrays, and what they say of one element. */
 #ifndef TESTS_SAMPLER_BATCH_CASE_H
 #define TESTS_SAMPLER_BATCH_CASE_H
 
@@ -39,6 +39,42 @@ static inline int batch_main(int arguments, char **argument, batch_test *test)
         vndf_free(table);
     }
     return test_done();
+}
+
+/* The limits to be tried, from the first to the last: those that `only` asks for. */
+static inline int batch_first_limit(vndf_instructions only)
+{
+    return (int)only; /* BEST is the first of all */
+}
+
+static inline int batch_last_limit(vndf_instructions only)
+{
+    return only == VNDF_INSTRUCTIONS_BEST ? VNDF_INSTRUCTIONS_AVX512 : (int)only;
+}
+
+/* ---- plain batches ---- */
+
+/* Over arrays of alpha_x, alpha_y, wi.x, wi.y and wi.z, from their second number on: no call may count on an
+ * alignment. */
+static inline vndf_batch batch_over(const vndf_distribution *d, const float *const from[5], size_t count,
+                                    unsigned shared, vndf_instructions limit)
+{
+    vndf_batch b = {d, count, shared, limit, from[0] + 1, from[1] + 1, from[2] + 1, from[3] + 1, from[4] + 1};
+    return b;
+}
+
+static inline vndf_surface batch_surface_at(const vndf_batch *b, size_t i)
+{
+    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
+    vndf_surface surface = {b->distribution, b->alpha_x[at], b->alpha_y[at]};
+    return surface;
+}
+
+static inline vndf_vec3 batch_wi_at(const vndf_batch *b, size_t i)
+{
+    size_t at = b->shared & VNDF_SHARED_WI ? 0 : i;
+    vndf_vec3 wi = {b->wi_x[at], b->wi_y[at], b->wi_z[at]};
+    return wi;
 }
 
 #endif

@@ -54,16 +54,8 @@ static void fill(numbers *n, unsigned long long seed)
 static vndf_batch batch_of(const vndf_distribution *d, const numbers *n, size_t count, unsigned shared,
                            vndf_instructions limit)
 {
-    vndf_batch b = {d,
-                    count,
-                    shared,
-                    limit,
-                    n->of[ALPHA_X] + 1,
-                    n->of[ALPHA_Y] + 1,
-                    n->of[WI_X] + 1,
-                    n->of[WI_Y] + 1,
-                    n->of[WI_Z] + 1};
-    return b;
+    const float *const from[5] = {n->of[ALPHA_X], n->of[ALPHA_Y], n->of[WI_X], n->of[WI_Y], n->of[WI_Z]};
+    return batch_over(d, from, count, shared, limit);
 }
 
 static vndf_normals normals_of(numbers *n)
@@ -75,10 +67,8 @@ static vndf_normals normals_of(numbers *n)
 /* What the calls of one give for element i. */
 static void one(const vndf_batch *b, const numbers *n, size_t i, float result[4])
 {
-    size_t a = b->shared & VNDF_SHARED_ALPHA ? 0 : i, w = b->shared & VNDF_SHARED_WI ? 0 : i;
-    vndf_surface surface = {b->distribution, b->alpha_x[a], b->alpha_y[a]};
-    vndf_vec3 wi = {b->wi_x[w], b->wi_y[w], b->wi_z[w]};
-    vndf_view view = vndf_view_from(&surface, wi);
+    vndf_surface surface = batch_surface_at(b, i);
+    vndf_view view = vndf_view_from(&surface, batch_wi_at(b, i));
     vndf_vec3 wm = vndf_sample(&view, n->of[U1][i], n->of[U2][i], &result[3]);
     result[0] = wm.x;
     result[1] = wm.y;
@@ -137,9 +127,7 @@ static void test_in_place(const vndf_distribution *d, vndf_instructions limit)
 
 static void test_distribution(const vndf_distribution *d, const char *name, vndf_instructions only)
 {
-    int first = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_BEST;
-    int last = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_AVX512;
-    for (int limit = first; limit <= last; limit++) {
+    for (int limit = batch_first_limit(only); limit <= batch_last_limit(only); limit++) {
         vndf_instructions used = vndf_instructions_used((vndf_instructions)limit);
         TEST(used >= VNDF_INSTRUCTIONS_PORTABLE && (limit == VNDF_INSTRUCTIONS_BEST || (int)used <= limit));
         test_sample(d, name, (vndf_instructions)limit);

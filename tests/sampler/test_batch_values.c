@@ -108,9 +108,8 @@ static void call_batch(kind which, const vndf_batch *b, vndf_normals wm, float *
 /* What the calls of one give for element i. */
 static void call_one(kind which, const vndf_batch *b, vndf_normals normals, size_t i, float to[2])
 {
-    size_t a = b->shared & VNDF_SHARED_ALPHA ? 0 : i, w = b->shared & VNDF_SHARED_WI ? 0 : i;
-    vndf_surface surface = {b->distribution, b->alpha_x[a], b->alpha_y[a]};
-    vndf_vec3 wi = {b->wi_x[w], b->wi_y[w], b->wi_z[w]}, wm = {normals.x[i], normals.y[i], normals.z[i]};
+    vndf_surface surface = batch_surface_at(b, i);
+    vndf_vec3 wi = batch_wi_at(b, i), wm = {normals.x[i], normals.y[i], normals.z[i]};
     vndf_view view = vndf_view_from(&surface, wi);
     switch (which) {
     case PDF: to[0] = vndf_pdf(&view, wm); break;
@@ -126,16 +125,8 @@ static void call_one(kind which, const vndf_batch *b, vndf_normals normals, size
 static vndf_batch batch_of(const vndf_distribution *d, numbers *n, size_t count, unsigned shared,
                            vndf_instructions limit)
 {
-    vndf_batch b = {d,
-                    count,
-                    shared,
-                    limit,
-                    n->of[ALPHA_X] + 1,
-                    n->of[ALPHA_Y] + 1,
-                    n->of[WI_X] + 1,
-                    n->of[WI_Y] + 1,
-                    n->of[WI_Z] + 1};
-    return b;
+    const float *const from[5] = {n->of[ALPHA_X], n->of[ALPHA_Y], n->of[WI_X], n->of[WI_Y], n->of[WI_Z]};
+    return batch_over(d, from, count, shared, limit);
 }
 
 static vndf_normals normals_of(numbers *n)
@@ -196,9 +187,7 @@ static void test_in_place(kind which, const vndf_distribution *d, vndf_instructi
 
 static void test_distribution(const vndf_distribution *d, const char *name, vndf_instructions only)
 {
-    int first = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_BEST;
-    int last = only != VNDF_INSTRUCTIONS_BEST ? (int)only : VNDF_INSTRUCTIONS_AVX512;
-    for (int limit = first; limit <= last; limit++)
+    for (int limit = batch_first_limit(only); limit <= batch_last_limit(only); limit++)
         for (int which = 0; which < KINDS; which++) {
             test_call((kind)which, d, name, (vndf_instructions)limit);
             test_in_place((kind)which, d, (vndf_instructions)limit);

@@ -158,16 +158,14 @@ const char *only_word(const words *values)
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
 
-/* One decimal number at text; the end of it, or NULL. strtod alone would also take nan, inf, hexadecimal
- * numbers and leading blanks. */
+/* One decimal number at text, infinite if it is too large; the end of it, or NULL. strtod alone would also take nan,
+ * inf, hexadecimal numbers and leading blanks. */
 static const char *scan_number(const char *text, double *number)
 {
     size_t length = strspn(text, "+-.0123456789eE");
     char *end;
     *number = strtod(text, &end);
-    if (length == 0 || end != text + length || !isfinite(*number))
-        return NULL;
-    return end;
+    return length == 0 || end != text + length ? NULL : end;
 }
 
 static size_t refuse_number(const char *command, const char *what, const char *text, const char *expected)
@@ -188,6 +186,8 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
         if (!at || (*at != '\0' && *at != ','))
             return refuse_number(command, what, text,
                                  most > 1 ? "is not a number, or numbers between commas" : "is not a number");
+        if (isinf(numbers[count]))
+            return refuse_number(command, what, text, "is too large for a double");
         if (!(numbers[count] >= low && numbers[count] <= high))
             return refuse_number(command, what, text, expected);
         count++;

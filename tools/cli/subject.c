@@ -15,7 +15,8 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
     else if (strcmp(name, "beckmann") == 0)
         chosen->distribution = vndf_beckmann();
     else if (is_family_file(name) || family_parameter(name)) {
-        complain(command, "'%s' is a family; a single table is needed (sample, eval and info take families)",
+        complain(command,
+                 "'%s' is a family; a single table is needed (eval and sample take FILE.vndfs@P, info FILE.vndfs)",
                  name);
         return 0;
     } else if (!input_named(command, name))

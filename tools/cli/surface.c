@@ -92,7 +92,7 @@ static int read_key(const lobe_text *lobe, int key, double low, double high, siz
 static int check_keys(const lobe_text *lobe)
 {
     if (!lobe->value[KEY_TABLE])
-        complain(lobe->command, "%s: table=FILE|ggx|beckmann is missing", lobe->where);
+        complain(lobe->command, "%s: table=" SURFACE_POSITIONAL " is missing", lobe->where);
     else if (lobe->value[KEY_ALPHA] && lobe->value[KEY_MATRIX])
         complain(lobe->command, "%s has both alpha and matrix; one of them is possible", lobe->where);
     else
@@ -132,7 +132,7 @@ static int is_valid(const vndf_affine *surface)
 static int put_lobe(chosen_surface *chosen, const char *command, vndf_mixture_lobe lobe, int option)
 {
     if (chosen->mixture.count == VNDF_MIXTURE_LOBES) {
-        complain(command, "--lobe: more than %d lobes; a family between two knots takes two", VNDF_MIXTURE_LOBES);
+        complain(command, "--lobe: these are more than %d lobes; a family counts as two", VNDF_MIXTURE_LOBES);
         return 0;
     }
     chosen->option[chosen->mixture.count] = option;
@@ -166,17 +166,23 @@ static int read_parameter(const char *command, const vndf_family *family, const 
     return 0;
 }
 
-/* Lobes of a family at a parameter; `what` opens a message about that. 1, or 0 after a complaint. */
-static int add_family(chosen_surface *chosen, const char *command, const char *path, const char *what,
-                      const char *parameter, vndf_mixture_lobe lobe, int option)
+/* What names a distribution: "ggx", "beckmann", a table's file or FILE.vndfs@P; or FILE.vndfs and P apart. */
+typedef struct subject_words {
+    const char *name, *parameter; /* the latter may be NULL */
+    const char *what;             /* opens a message about the parameter */
+} subject_words;
+
+/* Lobes of a family at a parameter. 1, or 0 after a complaint. */
+static int add_family(chosen_surface *chosen, const char *command, const subject_words *subject,
+                      vndf_mixture_lobe lobe, int option)
 {
     double p;
     vndf_mixture at;
-    vndf_family *family = family_open(command, path);
+    vndf_family *family = family_open(command, subject->name);
     if (!family)
         return 0;
     chosen->family[chosen->families++] = family;
-    if (!read_parameter(command, family, what, parameter, &p))
+    if (!read_parameter(command, family, subject->what, subject->parameter, &p))
         return 0;
     vndf_family_at(family, (float)p, &lobe.surface, &at);
     for (int i = 0; i < at.count; i++) {
@@ -187,22 +193,51 @@ static int add_family(chosen_surface *chosen, const char *command, const char *p
     return 1;
 }
 
-static int add_any(chosen_surface *chosen, const lobe_text *lobe, vndf_mixture_lobe next, int option)
+/* "FILE.vndfs@P": the file's name is copied. */
+static int add_family_at(chosen_surface *chosen, const char *command, const subject_words *subject,
+                         vndf_mixture_lobe lobe, int option)
 {
-    char what[32];
-    snprintf(what, sizeof what, "%s: parameter", lobe->where);
-    return lobe->value[KEY_PARAMETER] ? add_family(chosen, lobe->command, lobe->value[KEY_TABLE], what,
-                                                   lobe->value[KEY_PARAMETER], next, option)
-                                      : add_table(chosen, lobe->command, lobe->value[KEY_TABLE], next, option);
+    char path[LOBE_LENGTH];
+    const subject_words apart = {path, family_parameter(subject->name), subject->what};
+    size_t length = (size_t)(apart.parameter - subject->name) - 1;
+    if (subject->parameter)
+        complain(command, "%s '%s' is given, and '%s' says one already", subject->what, subject->parameter,
+                 subject->name);
+    else if (length >= sizeof path)
+        complain(command, "the name of the family's file has more than %d characters", LOBE_LENGTH - 1);
+    else {
+        memcpy(path, subject->name, length);
+        path[length] = '\0';
+        return add_family(chosen, command, &apart, lobe, option);
+    }
+    return 0;
+}
+
+/* Lobes of any distribution. 1, or 0 after a complaint. */
+static int add_any(chosen_surface *chosen, const char *command, const subject_words *subject,
+                   vndf_mixture_lobe lobe, int option)
+{
+    if (family_parameter(subject->name))
+        return add_family_at(chosen, command, subject, lobe, option);
+    if (subject->parameter)
+        return add_family(chosen, command, subject, lobe, option);
+    if (!is_family_file(subject->name))
+        return add_table(chosen, command, subject->name, lobe, option);
+    complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", subject->name, subject->name);
+    return 0;
 }
 
 static int add_lobe(chosen_surface *chosen, const char *command, const char *given, int option)
 {
+    char what[32];
     lobe_text lobe = {.command = command};
     vndf_mixture_lobe next;
     snprintf(lobe.where, sizeof lobe.where, "--lobe %d", option + 1);
-    if (!split_lobe(&lobe, given) || !check_keys(&lobe) || !read_numbers(&lobe, &next) ||
-        !add_any(chosen, &lobe, next, option))
+    snprintf(what, sizeof what, "%s: parameter", lobe.where);
+    if (!split_lobe(&lobe, given) || !check_keys(&lobe) || !read_numbers(&lobe, &next))
+        return 0;
+    const subject_words subject = {lobe.value[KEY_TABLE], lobe.value[KEY_PARAMETER], what};
+    if (!add_any(chosen, command, &subject, next, option))
         return 0;
     if (is_valid(&chosen->mixture.lobe[chosen->mixture.count - 1].surface))
         return 1;
@@ -229,35 +264,15 @@ static int add_all_lobes(chosen_surface *chosen, const char *command, const word
     return sum > 0;
 }
 
-/* "FILE.vndfs@P": the file's name is copied. */
-static int add_subject_family(chosen_surface *chosen, const char *command, const char *name,
-                              vndf_mixture_lobe lobe)
-{
-    char path[LOBE_LENGTH];
-    const char *parameter = family_parameter(name);
-    size_t length = (size_t)(parameter - name) - 1;
-    if (length >= sizeof path) {
-        complain(command, "the name of the family's file has more than %d characters", LOBE_LENGTH - 1);
-        return 0;
-    }
-    memcpy(path, name, length);
-    path[length] = '\0';
-    return add_family(chosen, command, path, "the parameter", parameter, lobe, 0);
-}
-
 /* With --alpha: a roughness that is out of the range of the table draws nothing, and is no mistake here. */
 static int add_subject(chosen_surface *chosen, const char *command, const char *name, const char *alpha)
 {
+    const subject_words subject = {name, NULL, "the parameter"};
     vndf_surface plain = {NULL, 1, 1};
-    if (is_family_file(name)) {
-        complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name);
-        return 0;
-    }
     if (!roughness_from(command, alpha, &plain))
         return 0;
     vndf_mixture_lobe lobe = {{NULL, plain.alpha_x, 0, 0, plain.alpha_y, 0, 0}, 1};
-    return family_parameter(name) ? add_subject_family(chosen, command, name, lobe)
-                                  : add_table(chosen, command, name, lobe, 0);
+    return add_any(chosen, command, &subject, lobe, 0);
 }
 
 static int check_subject(const char *command, const aim_words *aim, const words *positional)

@@ -31,15 +31,17 @@ float surface_g1(const chosen_surface *chosen);
 
 /* The positional word, and help for --lobe. */
 #define SURFACE_POSITIONAL "FILE|ggx|beckmann|FILE.vndfs@P"
-#define SURFACE_HELP                                                                                             \
-  "A surface of several lobes takes, in the place of FILE and --alpha, up to 8 times\n"                          \
-  "\n"                                                                                                           \
-  "  --lobe 'KEY=VALUE ...'  with the keys, between blanks and each once:\n"                                     \
-  "      table=FILE|ggx|beckmann  the distribution of the lobe (needed); FILE has no blanks in its name\n"       \
-  "      parameter=P              where FILE is a family (vndf build --parameter), which takes two of 8 lobes\n" \
-  "      weight=W                 its part of the surface, over the sum of all weights (default 1)\n"            \
-  "      alpha=AX[,AY]            its roughness (default 1), or\n"                                               \
-  "      matrix=XX,XY,YX,YY       the linear map of its slopes, s = M u + mean, not singular\n"                  \
+#define SURFACE_HELP                                                                                                \
+  "FILE is a table (vndf build); FILE.vndfs@P is a family of tables (vndf build --parameter) at the parameter P,\n" \
+  "as in tails.vndfs@2.7. A surface of several lobes takes, in their place and that of --alpha, up to 8 times\n"    \
+  "\n"                                                                                                              \
+  "  --lobe 'KEY=VALUE ...'  with the keys, between blanks and each once:\n"                                        \
+  "      table=" SURFACE_POSITIONAL "\n"                                                                            \
+  "                               the distribution of the lobe (needed); FILE has no blanks in its name\n"          \
+  "      parameter=P              of table=FILE.vndfs, in the place of @P; a family takes two of the 8 lobes\n"     \
+  "      weight=W                 its part of the surface, over the sum of all weights (default 1)\n"               \
+  "      alpha=AX[,AY]            its roughness (default 1), or\n"                                                  \
+  "      matrix=XX,XY,YX,YY       the linear map of its slopes, s = M u + mean, not singular\n"                     \
   "      mean=X,Y                 its mean slope (default 0,0)\n"
 
 #endif

@@ -34,7 +34,7 @@ static const char help[] =
     "  --c OUT.h        float OUT[N][N], rows even in sqrt(alpha) and columns even in the cosine, from 0 to 1, and\n"
     "                   OUT_average[N]: for hosts with such tables; - for stdout\n"
     "  --size N         that N, 2 to 256 (default 32)\n"
-    "  --save OUT       a small file for vndf_albedo_load\n"
+    "  --save OUT       a small file for vndf_albedo_load; `vndf info` says what is in OUT.albedo\n"
     "\n"
     "exit status: 0 good, 2 wrong use\n"
     "\n"
@@ -218,15 +218,9 @@ static int run_with_subject(albedo_plan *plan)
 static int run_with_source(albedo_plan *plan)
 {
     char title[256];
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = source_from_words(name, &plan->given->source);
-    if (!source)
-        return STATUS_USE;
-    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
-    vndf_source_free(source);
+    vndf_distribution *table = table_from_words(name, &plan->given->source, title, sizeof title);
     if (!table)
-        return complain(name, "%s", error.message);
-    source_text_name(&plan->given->source, title, sizeof title);
+        return STATUS_USE;
     plan->subject = title;
     plan->distribution = table;
     int status = run(plan);

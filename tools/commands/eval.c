@@ -12,7 +12,7 @@
 static const char name[] = "vndf eval";
 
 static const char help[] =
-    "usage: vndf eval FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
+    "usage: vndf eval " SURFACE_POSITIONAL " --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
     "       vndf eval --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG]\n"
     "\n"
     "Reads one normal a line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), and prints a line for each:\n"

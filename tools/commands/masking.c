@@ -209,15 +209,9 @@ static int report(masking_plan *plan)
 static int report_with_own(masking_plan *plan)
 {
     char title[256];
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = source_from_words(name, &plan->given->source);
-    if (!source)
-        return STATUS_USE;
-    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
-    vndf_source_free(source);
+    vndf_distribution *table = table_from_words(name, &plan->given->source, title, sizeof title);
     if (!table)
-        return complain(name, "%s", error.message);
-    source_text_name(&plan->given->source, title, sizeof title);
+        return STATUS_USE;
     plan->own = table;
     plan->own_name = title;
     int status = report(plan);

@@ -15,7 +15,8 @@
 static const char name[] = "vndf sample";
 
 static const char help[] =
-    "usage: vndf sample FILE|ggx|beckmann --theta DEG [--phi DEG] [--alpha AX[,AY]] -n N -o OUT [options]\n"
+    "usage: vndf sample " SURFACE_POSITIONAL " --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
+    "                   -n N -o OUT [options]\n"
     "       vndf sample --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG] -n N -o OUT [options]\n"
     "\n"
     "Draws visible normals from one incident direction, each with its density per steradian.\n"

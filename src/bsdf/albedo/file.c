@@ -1,41 +1,53 @@
 #include "bsdf/albedo/file.h"
 
-#include <errno.h>
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
+#include <stddef.h>
 
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
-#include "core/replace_file.h"
 
 static const vndf_frame FRAME = {"VNDFalb\n", "table of albedos", 1, VNDF_LIMIT_ALBEDO_BYTES};
-enum { MEASURED = 8 };
 
 /* Splines through values in [0, 1] have coefficients below 200, and these are at the ends of coarse grids. */
 #define COEFFICIENT_MAX 1000.0f
 
-/* ---- writing ------------------------------------------------------------------------------------- */
+/* What was measured, in the order of the file, and what a file may say. */
+typedef struct measured {
+    size_t at; /* in vndf_albedo_properties */
+    float least, most;
+} measured;
 
-static void measured_of(const vndf_albedo_properties *is, float measured[MEASURED])
+static const measured MEASURED[] = {
+    {offsetof(vndf_albedo_properties, error), 0.0f, 2.0f},
+    {offsetof(vndf_albedo_properties, error_cosine), -1.0f, 1.0f},
+    {offsetof(vndf_albedo_properties, error_alpha), 0.0f, VNDF_ALBEDO_ALPHA_MAX},
+    {offsetof(vndf_albedo_properties, error_usual), 0.0f, 2.0f},
+    {offsetof(vndf_albedo_properties, split_error), 0.0f, 2.0f},
+    {offsetof(vndf_albedo_properties, split_usual), 0.0f, 2.0f},
+    {offsetof(vndf_albedo_properties, average_error), 0.0f, 2.0f},
+    {offsetof(vndf_albedo_properties, quadrature_error), 0.0f, 2.0f},
+};
+enum { MEASURED_COUNT = sizeof MEASURED / sizeof MEASURED[0] };
+
+static float *measured_at(vndf_albedo_properties *is, int i)
 {
-    const float all[MEASURED] = {is->error,       is->error_cosine, is->error_alpha,   is->error_usual,
-                                 is->split_error, is->split_usual,  is->average_error, is->quadrature_error};
-    memcpy(measured, all, sizeof all);
+    return (float *)((char *)is + MEASURED[i].at);
 }
+
+/* ---- writing ------------------------------------------------------------------------------------- */
 
 static size_t write_all(const vndf_albedo *albedo, unsigned char *bytes, size_t capacity, uint32_t size)
 {
     vndf_writer w = {bytes, capacity, 0};
-    float measured[MEASURED];
-    measured_of(&albedo->is, measured);
+    vndf_albedo_properties is = albedo->is;
     vndf_frame_begin(&FRAME, &w, size);
     vndf_write_f32(&w, albedo->is.eta);
     vndf_write_f32(&w, albedo->is.scale);
     vndf_write_u32(&w, (uint32_t)albedo->is.columns);
     vndf_write_u32(&w, (uint32_t)albedo->is.rows);
-    for (int i = 0; i < MEASURED; i++)
-        vndf_write_f32(&w, measured[i]);
+    for (int i = 0; i < MEASURED_COUNT; i++)
+        vndf_write_f32(&w, *measured_at(&is, i));
     vndf_write_text(&w, albedo->source);
     vndf_write_text(&w, albedo->tool);
     for (size_t i = 0; i < albedo->is.values; i++)
@@ -50,32 +62,23 @@ size_t vndf_albedo_encode(const vndf_albedo *albedo, unsigned char *bytes, size_
     return size > capacity ? size : write_all(albedo, bytes, capacity, (uint32_t)size);
 }
 
+static size_t encode(const void *albedo, unsigned char *bytes, size_t capacity)
+{
+    return vndf_albedo_encode(albedo, bytes, capacity);
+}
+
 vndf_status vndf_albedo_save(const vndf_albedo *albedo, const char *path, vndf_error *error)
 {
     if (!albedo || !path)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table of albedos and a path are needed to save");
-    unsigned char *bytes = malloc(albedo->is.bytes);
-    if (!bytes)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
-    vndf_albedo_encode(albedo, bytes, albedo->is.bytes);
-    int good = vndf_replace_whole(path, bytes, albedo->is.bytes), reason = errno;
-    free(bytes);
-    if (good)
-        return VNDF_OK;
-    if (reason == ENOMEM)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
-    return vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
+    return vndf_frame_save(albedo, encode, path, error);
 }
 
 vndf_status vndf_albedo_save_memory(const vndf_albedo *albedo, void *bytes, size_t size, vndf_error *error)
 {
     if (!albedo || !bytes)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table of albedos and memory are needed to save");
-    if (size != albedo->is.bytes)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the table %lu",
-                         (unsigned long)size, (unsigned long)albedo->is.bytes);
-    vndf_albedo_encode(albedo, bytes, size);
-    return VNDF_OK;
+    return vndf_frame_save_memory(albedo, encode, bytes, size, error);
 }
 
 /* ---- reading ------------------------------------------------------------------------------------- */
@@ -96,14 +99,12 @@ static int within(float value, float least, float most)
 }
 
 /* NULL, or what is wrong with the numbers. */
-static const char *numbers_invalid(const vndf_albedo *albedo)
+static const char *numbers_invalid(vndf_albedo *albedo)
 {
-    float measured[MEASURED];
-    measured_of(&albedo->is, measured);
     if (!vndf_albedo_eta_valid(albedo->is.eta) || !vndf_albedo_scale_valid(albedo->is.scale))
         return "eta or the scale is out of range";
-    for (int i = 0; i < MEASURED; i++)
-        if (!within(measured[i], i == 1 ? -1.0f : 0.0f, i == 2 ? VNDF_ALBEDO_ALPHA_MAX : 2.0f))
+    for (int i = 0; i < MEASURED_COUNT; i++)
+        if (!within(*measured_at(&albedo->is, i), MEASURED[i].least, MEASURED[i].most))
             return "a measured error is out of range";
     for (size_t i = 0; i < albedo->is.values; i++)
         if (!within(albedo->value[i], -COEFFICIENT_MAX, COEFFICIENT_MAX))
@@ -115,11 +116,8 @@ static const char *numbers_invalid(const vndf_albedo *albedo)
 static int read_body(vndf_reader *r, vndf_albedo *albedo)
 {
     vndf_albedo_properties *is = &albedo->is;
-    float *const measured[MEASURED] = {&is->error,         &is->error_cosine,    &is->error_alpha,
-                                       &is->error_usual,   &is->split_error,     &is->split_usual,
-                                       &is->average_error, &is->quadrature_error};
-    for (int i = 0; i < MEASURED; i++)
-        *measured[i] = vndf_read_f32(r);
+    for (int i = 0; i < MEASURED_COUNT; i++)
+        *measured_at(is, i) = vndf_read_f32(r);
     is->source = albedo->source = vndf_read_text(r);
     is->tool = albedo->tool = vndf_read_text(r);
     if (!albedo->source || !albedo->tool)

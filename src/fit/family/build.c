@@ -258,7 +258,10 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
     if (status != VNDF_OK)
         return status;
     if (!(low < high && fabs(low) < 1e30 && fabs(high) < 1e30) || (float)low == (float)high)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameters from %.7g to %.7g are no range", low, high);
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "parameters from %.7g to %.7g: the first must be below the second, as floats, and both "
+                         "between -1e30 and 1e30",
+                         low, high);
     if (options->knots == 1 || options->knots > VNDF_LIMIT_FAMILY_KNOTS)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "knots is %lu; from 2 to %d is possible",
                          (unsigned long)options->knots, VNDF_LIMIT_FAMILY_KNOTS);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "source/family/family.h"
 #include "source/number.h"
 #include "source/words.h"
 
@@ -15,6 +16,49 @@ double vndf_pattern_number(double p)
     char text[VNDF_NUMBER_TEXT];
     snprintf(text, sizeof text, "%.6e", p);
     return strtod(text, NULL);
+}
+
+/* ---- what a pattern may be ---- */
+
+/* The words of a specification with this name. */
+static vndf_status unknown_family(const char *pattern, vndf_error *error)
+{
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_source_free(vndf_source_family(pattern, &inner));
+    return inner.status == VNDF_OK ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
+}
+
+static vndf_status no_parameter(const vndf_family_form *form, vndf_error *error)
+{
+    char known[160] = "";
+    size_t used = 0;
+    const vndf_family_form *other;
+    for (size_t i = 0; (other = vndf_family_form_at(i)) != NULL && used < sizeof known; i++)
+        if (other->count > 0 && other->required < 2)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", other->name);
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "%s has no parameter; families that have one are %s", form->name,
+                     known);
+}
+
+/* A name alone stands for one parameter. */
+static vndf_status two_parameters(const vndf_family_form *form, vndf_error *error)
+{
+    const char *name = form->name, *first = form->range[0].name, *second = form->range[1].name;
+    return vndf_fail(
+        error, VNDF_ERROR_SYNTAX,
+        "%s has the parameters %s and %s: right would be %s:{p},%s or %s:%s,{p}, with a number for the "
+        "other",
+        name, first, second, name, second, name, first);
+}
+
+static vndf_status check_form(const char *pattern, size_t name, vndf_error *error)
+{
+    const vndf_family_form *form = vndf_family_form_find(pattern, name);
+    if (!form)
+        return strncmp(pattern, "mix", 3) == 0 ? VNDF_OK : unknown_family(pattern, error);
+    if (form->count == 0)
+        return no_parameter(form, error);
+    return form->required > 1 && !pattern[name] ? two_parameters(form, error) : VNDF_OK;
 }
 
 vndf_status vndf_pattern_check(const char *pattern, vndf_error *error)
@@ -30,7 +74,7 @@ vndf_status vndf_pattern_check(const char *pattern, vndf_error *error)
                          "'%s' does not say where the parameter stands; right would be {p} in its place, as in "
                          "abc:{p},0.8, or a name alone, as in student-t",
                          vndf_excerpt(excerpt, pattern, strlen(pattern)));
-    return VNDF_OK;
+    return check_form(pattern, strcspn(pattern, ":"), error);
 }
 
 /* The pattern with the number in its places. */

@@ -7,6 +7,7 @@
  * A family alone is one lobe with the factor and the scale 1. */
 #include "source/family/family.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,7 +94,10 @@ static vndf_status read_number(part p, const char *usage, double *value, vndf_er
 {
     char excerpt[VNDF_EXCERPT];
     if (vndf_number_is_all(p.text, p.size, value))
-        return VNDF_OK;
+        return isfinite(*value)
+                   ? VNDF_OK
+                   : vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double",
+                               p.column, vndf_excerpt(excerpt, p.text, p.size));
     return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: '%s' is no number; right would be %s", p.column,
                      vndf_excerpt(excerpt, p.text, p.size), usage);
 }

@@ -72,6 +72,18 @@ static void print_transmitted(FILE *file, const vndf_albedo *albedo, const albed
     fputc('\n', file);
 }
 
+void albedo_print_facts(FILE *file, const vndf_albedo_properties *is)
+{
+    fprintf(file,
+            "error %.2g (cosine %.3g, alpha %.3g)\nerror_usual %.2g (alpha 0.05 to 1)\nsplit_error %.2g\n"
+            "split_usual %.2g\naverage_error %.2g\nquadrature_error %.2g\ngrid %d cosines, %d alphas\nvalues %lu\n"
+            "bytes %lu\n",
+            (double)is->error, (double)is->error_cosine, (double)is->error_alpha, (double)is->error_usual,
+            (double)is->split_error, (double)is->split_usual, (double)is->average_error,
+            (double)is->quadrature_error, is->columns, is->rows, (unsigned long)is->values,
+            (unsigned long)is->bytes);
+}
+
 void albedo_print_text(FILE *file, const char *subject, const vndf_albedo *albedo, const albedo_lists *at)
 {
     vndf_albedo_properties is = vndf_albedo_info(albedo);
@@ -84,13 +96,8 @@ void albedo_print_text(FILE *file, const char *subject, const vndf_albedo *albed
         if (is.eta > 0)
             print_transmitted(file, albedo, at, side);
     }
-    fprintf(file,
-            "\nerror %.2g (cosine %.3g, alpha %.3g)\nerror_usual %.2g (alpha 0.05 to 1)\nsplit_error %.2g\n"
-            "split_usual %.2g\naverage_error %.2g\nquadrature_error %.2g\ngrid %d cosines, %d alphas\nvalues %lu\n"
-            "bytes %lu\n",
-            (double)is.error, (double)is.error_cosine, (double)is.error_alpha, (double)is.error_usual,
-            (double)is.split_error, (double)is.split_usual, (double)is.average_error, (double)is.quadrature_error,
-            is.columns, is.rows, (unsigned long)is.values, (unsigned long)is.bytes);
+    fputc('\n', file);
+    albedo_print_facts(file, &is);
 }
 
 /* ---- CSV ----------------------------------------------------------------------------------------- */

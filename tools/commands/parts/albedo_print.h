@@ -18,6 +18,9 @@ typedef struct albedo_lists {
 /* E over theta and alpha from each side, of a dielectric also what is transmitted; averages; the measured errors. */
 void albedo_print_text(FILE *file, const char *subject, const vndf_albedo *albedo, const albedo_lists *at);
 
+/* The last part of that text: the measured errors, the grid and the size. */
+void albedo_print_facts(FILE *file, const vndf_albedo_properties *is);
+
 void albedo_print_csv(FILE *file, const char *subject, const vndf_albedo *albedo, const albedo_lists *at);
 
 /* float NAME[size][size] over roughness sqrt(alpha) and cosine, both even from 0 to 1, and NAME_average[size]; of a

@@ -105,8 +105,7 @@ static int check_width(scene_reader *r, const clause *mix, const scene_lobe *lob
     for (int i = 0; i < count; i++)
         width += scene_lobe_width(&lobes[i]);
     return width <= VNDF_MIXTURE_LOBES ||
-           reader_refuse(r, mix->at, "this mixture has %d lobes, where families count twice; %d are possible",
-                         width, VNDF_MIXTURE_LOBES);
+           reader_refuse(r, mix->at, "these are more than %d lobes; a family counts as two", VNDF_MIXTURE_LOBES);
 }
 
 /* Weights that maps multiply count as they are without them. */
@@ -115,7 +114,7 @@ static int check_weights(scene_reader *r, const clause *mix, const scene_lobe *l
     for (int i = 0; i < count; i++)
         if (lobes[i].weight.value > 0.0f)
             return 1;
-    return reader_refuse(r, mix->at, "all lobes of this mixture have the weight 0");
+    return reader_refuse(r, mix->at, "the weights of all lobes are 0");
 }
 
 int read_mix(scene_reader *r, const clause c[CLAUSES], material *m)

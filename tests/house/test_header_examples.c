@@ -1,0 +1,214 @@
+/* The examples of the public headers compile, stand there to the letter, and do what is said of them: glass scatters;
+ * a brushed surface under a normal map has the map's normal in its middle, `along` along the brush and `across` across
+ * it; two families in one mixture have the densities of their sum, 7 to 3. */
+#include <ctype.h>
+
+#include "harness/test.h"
+#include "vndf.h"
+#include "vndf_bsdf.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- examples ---- */
+
+static int example_glass(vndf_vec3 wi, const float u[3], vndf_scattered *scattered)
+{
+    /* example: vndf_bsdf.h */
+    vndf_error error;
+    vndf_material material;
+    vndf_description glass = {.distribution = vndf_ggx(),
+                              .alpha_x = 0.1f,
+                              .alpha_y = 0.1f,
+                              .eta = 1.5f,
+                              .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
+    if (vndf_material_resolve(&glass, &material, &error) != VNDF_OK)
+        return 0;
+    vndf_bsdf bsdf;
+    vndf_scattered s;
+    vndf_bsdf_at(&bsdf, &material, wi);
+    vndf_bsdf_sample(&bsdf, u, &s);
+    /* end */
+    *scattered = s;
+    return 1;
+}
+
+typedef struct drawn {
+    vndf_vec3 wm;
+    float pdf;
+} drawn;
+
+static drawn example_brushed(const vndf_distribution *metal, float phi, float along, float across, vndf_vec3 n,
+                             vndf_vec3 wi, const float u[2], vndf_affine *surface)
+{
+    /* example: vndf.h */
+    const float c = cosf(phi), s = sinf(phi);
+    const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
+    const vndf_affine_view view = vndf_affine_view_from(&brushed, wi);
+    float pdf;
+    const vndf_vec3 wm = vndf_affine_sample(&view, u[0], u[1], &pdf);
+    /* end */
+    const drawn sample = {wm, pdf};
+    *surface = brushed;
+    return sample;
+}
+
+static drawn example_families(const vndf_family *metals, float p, const vndf_affine *narrow,
+                              const vndf_family *tails, float q, const vndf_affine *wide, vndf_vec3 wi,
+                              const float u[2], vndf_mixture *whole_of)
+{
+    /* example: vndf.h */
+    vndf_mixture whole, haze;
+    vndf_family_at(metals, p, narrow, &whole);
+    vndf_family_at(tails, q, wide, &haze);
+    for (int i = 0; i < whole.count; i++)
+        whole.lobe[i].weight *= 0.7f;
+    for (int i = 0; i < haze.count; i++) {
+        haze.lobe[i].weight *= 0.3f;
+        whole.lobe[whole.count++] = haze.lobe[i];
+    }
+    const vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
+    float pdf;
+    const vndf_vec3 wm = vndf_mixture_sample(&view, u[0], u[1], &pdf, NULL);
+    /* end */
+    const drawn sample = {wm, pdf};
+    *whole_of = whole;
+    return sample;
+}
+
+/* ---- what they do ---- */
+
+static vndf_vec3 normal_of(double x, double y)
+{
+    double per = 1 / sqrt(1 + x * x + y * y);
+    vndf_vec3 n = {(float)(-x * per), (float)(-y * per), (float)per};
+    return n;
+}
+
+static void test_glass(void)
+{
+    const vndf_vec3 wi = {0.6f, 0, 0.8f};
+    const float u[3] = {0.3f, 0.6f, 0.5f};
+    vndf_scattered s;
+    TEST(example_glass(wi, u, &s));
+    TEST(s.lobe != VNDF_LOBE_NONE && s.density > 0 && s.weight[0] > 0.3f && s.weight[0] < 1);
+}
+
+/* P22 of GGX at the slope (x, y) from the middle, in the axes of the brush. */
+static double p22_brushed(double along, double across, double x, double y)
+{
+    double q = 1 + x * x / (along * along) + y * y / (across * across);
+    return 1 / (PI * along * across * q * q);
+}
+
+static void test_brushed(void)
+{
+    const double phi = 0.4, along = 0.05, across = 0.3, mean[2] = {0.35, -0.2};
+    const vndf_vec3 n = normal_of(mean[0], mean[1]), wi = {0.48f, 0.64f, 0.6f};
+    const float u[2] = {0.3f, 0.7f};
+    vndf_affine surface;
+    drawn d = example_brushed(vndf_ggx(), (float)phi, (float)along, (float)across, n, wi, u, &surface);
+    vndf_affine_view view = vndf_affine_view_from(&surface, wi);
+    TEST_RELATIVE((double)d.pdf, (double)vndf_affine_pdf(&view, d.wm), 1e-5);
+    TEST_RELATIVE((double)vndf_affine_ndf(&surface, n), p22_brushed(along, across, 0, 0) / pow((double)n.z, 4),
+                  1e-4);
+    for (int i = -3; i <= 3; i++)
+        for (int j = -3; j <= 3; j++) {
+            double x = 0.04 * i, y = 0.2 * j; /* along the brush and across it */
+            double at[2] = {mean[0] + cos(phi) * x - sin(phi) * y, mean[1] + sin(phi) * x + cos(phi) * y};
+            double p22 = p22_brushed(along, across, x, y);
+            vndf_vec3 wm = normal_of(at[0], at[1]);
+            TEST_RELATIVE((double)vndf_affine_p22(&surface, (float)at[0], (float)at[1]), p22, 1e-4);
+            TEST_RELATIVE((double)vndf_affine_ndf(&surface, wm), p22 / pow((double)wm.z, 4), 1e-4);
+        }
+}
+
+static double sum_of_weights(const vndf_mixture *m)
+{
+    double sum = 0;
+    for (int i = 0; i < m->count; i++)
+        sum += (double)m->lobe[i].weight;
+    return sum;
+}
+
+static void test_families(void)
+{
+    const vndf_distribution *const two[2] = {vndf_ggx(), vndf_beckmann()};
+    const float parameters[2] = {1, 2};
+    const vndf_affine narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
+    const vndf_vec3 wi = {0.6f, 0, 0.8f};
+    vndf_family *family = vndf_family_of(two, parameters, 2, NULL);
+    unsigned long long state = 1;
+    for (int i = 0; i < 200; i++) {
+        const float u[2] = {test_uniform(&state), test_uniform(&state)};
+        float p = 1 + test_uniform(&state), q = i % 2 ? 1 + test_uniform(&state) : 2;
+        vndf_mixture whole, core, haze;
+        drawn d = example_families(family, p, &narrow, family, q, &wide, wi, u, &whole);
+        vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
+        TEST(whole.count == (i % 2 ? 4 : 3));
+        TEST_NEAR(sum_of_weights(&whole), 1, 1e-6);
+        TEST(vndf_family_at(family, p, &narrow, &core) == VNDF_FAMILY_INSIDE);
+        TEST(vndf_family_at(family, q, &wide, &haze) == VNDF_FAMILY_INSIDE);
+        TEST_RELATIVE((double)vndf_mixture_ndf(&whole, d.wm),
+                      0.7 * (double)vndf_mixture_ndf(&core, d.wm) + 0.3 * (double)vndf_mixture_ndf(&haze, d.wm),
+                      1e-5);
+        TEST_RELATIVE((double)d.pdf, (double)vndf_mixture_pdf(&view, d.wm), 1e-5);
+    }
+    vndf_family_free(family);
+}
+
+/* ---- to the letter ---- */
+
+enum { TEXT_MOST = 1 << 18 };
+
+/* The file without blanks, and without the stars that open lines of a comment. */
+static int read_bare(const char *path, char *text)
+{
+    FILE *file = fopen(path, "rb");
+    size_t n = 0;
+    int letter, at_start = 1;
+    if (!TEST(file != NULL))
+        return 0;
+    while ((letter = getc(file)) != EOF && n < TEXT_MOST - 1) {
+        if (letter == '\n')
+            at_start = 1;
+        if (isspace(letter) || (at_start && letter == '*'))
+            continue;
+        at_start = 0;
+        text[n++] = (char)letter;
+    }
+    text[n] = '\0';
+    fclose(file);
+    return TEST(n > 0 && n < TEXT_MOST - 1);
+}
+
+/* Every part of this file between "example: HEADER" and "end" is part of that header. */
+static void test_letters(void)
+{
+    static char here[TEXT_MOST], header[TEXT_MOST];
+    static const char opens[] = "/*example:", ends[] = "/*end*/";
+    char path[512];
+    int count = 0;
+    if (!read_bare(VNDF_SOURCE_DIR "/tests/house/test_header_examples.c", here))
+        return;
+    for (char *at = here; (at = strstr(at, opens)) != NULL;) {
+        char *name = at += strlen(opens), *body = strstr(name, "*/"), *end = strstr(at, ends);
+        if (!isalpha((unsigned char)*name) || !body || !end) /* the words above */
+            continue;
+        *body = *end = '\0';
+        snprintf(path, sizeof path, VNDF_SOURCE_DIR "/include/%s", name);
+        if (read_bare(path, header) && !TEST(strstr(header, body + 2) != NULL))
+            fprintf(stderr, "  example %d is not in %s\n", count + 1, name);
+        at = end + 1;
+        count++;
+    }
+    TEST(count == 3);
+}
+
+int main(void)
+{
+    test_glass();
+    test_brushed();
+    test_families();
+    test_letters();
+    return test_done();
+}
