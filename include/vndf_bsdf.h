@@ -188,7 +188,7 @@ typedef struct vndf_description {
 } vndf_description;
 
 /* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if the shape is rotated;
- * they must be unit within rounding. */
+ * they must be unit within 1e-6; far from that nothing is scattered. */
 typedef struct vndf_roughness {
     float alpha_x, alpha_y;
     float cos_rotation, sin_rotation;
@@ -236,13 +236,13 @@ struct vndf_compensation {
  * never touch it. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    vndf_view view; /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
-    double eta;     /* index on the other side over that on the side of wi */
-    double carried; /* what transmission has more than for importance: 1/eta^2 for radiance */
-    float side;     /* -1 where wi is on the side of -z, 1 else */
-    float area;     /* projected area along wi */
-    float cos_rotation, sin_rotation;
-    vndf_bounds bounds; /* of bounded normals */
+    vndf_view view;      /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
+    double eta;          /* index on the other side over that on the side of wi */
+    double carried;      /* what transmission has more than for importance: 1/eta^2 for radiance */
+    float side;          /* -1 where wi is on the side of -z, 1 else */
+    float area;          /* projected area along wi */
+    double cosine, sine; /* of the rotation */
+    vndf_bounds bounds;  /* of bounded normals */
     struct vndf_compensation compensation;
     vndf_mixture_view lobes;
 } vndf_bsdf;

@@ -34,14 +34,17 @@ _Static_assert(VNDF_SHARE_REFLECTANCE + VNDF_SHARE_MASKING + VNDF_SHARE_WO <= VN
 /* ---- the slope that wo stands for is the one that was drawn ---- */
 
 /* The least roughness, or 1, times how far wo turns with the normal. Rounding moves wo by 6e-8, and so the slope by
- * 2e-6 of the roughness. This is for laws like GGX, whose P22 changes by a factor of up to e^2 within one roughness;
+ * 3e-6 of the roughness. This is for laws like GGX, whose P22 changes by a factor of up to e^2 within one roughness;
  * steeper ones want as much more. */
-static const float VNDF_TRUST_TURN = 0.04f;
+static const float VNDF_TRUST_TURN = 0.025f;
 
 VNDF_INLINE float vndf_turn_for(double steepness)
 {
     return VNDF_TRUST_TURN * (steepness > 2.0 ? (float)(0.5 * steepness) : 1.0f);
 }
+
+/* How much more a law asks for where its P22 is steeper than that: Beckmann's, at R = 3.9, where float ends. */
+static const float VNDF_TRUST_STEEPER = 4.2f;
 
 /* `turn` is that of the law. */
 VNDF_INLINE int vndf_trusts_turn(float ax, float ay, float gain, float turn)
@@ -52,7 +55,7 @@ VNDF_INLINE int vndf_trusts_turn(float ax, float ay, float gain, float turn)
 
 /* The sine of the normal times how far wo turns with it: beside the pole the rounding of wo turns the azimuth of the
  * normal, and what a table draws there changes with the azimuth. */
-static const float VNDF_TRUST_POLE = 2e-3f;
+static const float VNDF_TRUST_POLE = 1e-2f;
 
 VNDF_INLINE int vndf_trusts_pole(float x, float y, float gain)
 {
@@ -68,8 +71,11 @@ static const float VNDF_TRUST_REFRACTION_GAIN = 0.75f;
 /* The cosine of refraction: beside total reflection wo turns as fast as one over it. */
 static const double VNDF_TRUST_BEYOND = 0.1;
 
-/* Rotated lobes round wo three times more. */
-static const float VNDF_TRUST_ROTATED_GAIN = 0.2f;
+/* Rotated lobes round wo once more, and once more where it is evaluated. */
+static const float VNDF_TRUST_ROTATED_GAIN = 0.7f;
+
+/* The second uniform number of a rotated sample: the last normals of a table may be just before a jump of D. */
+static const float VNDF_TRUST_LAST = 0.9999f;
 
 /* ---- terms of a weight ---- */
 

@@ -342,6 +342,20 @@ VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
     VNDF_NO_OTHER_KIND();
 }
 
+/* Whether a unit normal is where hardly any samples are, and that bound does not hold. */
+VNDF_INLINE int vndf_law_is_steeper(const vndf_distribution *d, float ax, float ay, float x, float y)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return 0;
+    case VNDF_KIND_GGX: return 0;
+    case VNDF_KIND_BECKMANN: {
+        float p = ay * x, q = ax * y, product = ax * ay;
+        return p * p + q * q > 2.25f * (product * product) * (1.0f - (x * x + y * y));
+    }
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
 /* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
  * trusted: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
 VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)

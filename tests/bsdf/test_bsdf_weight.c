@@ -114,6 +114,72 @@ static void test_ndf(const char *name, unsigned long long seed)
     oracle_ndf_close(&ndf);
 }
 
+/* Points that a search found: with Beckmann far out, and beside the pole, where a small table's azimuth is steep. */
+typedef struct found_point {
+    const char *name;
+    int both;
+    float alpha_x, alpha_y;
+    vndf_vec3 wi;
+    float u[3];
+} found_point;
+
+static const found_point FOUND[] = {
+    {"beckmann",
+     0,
+     2.5371747f,
+     0.0534297973f,
+     {0.723192155f, -0.684835255f, 0.0894079581f},
+     {2.29220495e-06f, 0.999998629f, 0.2f}},
+    {"beckmann",
+     0,
+     0.29682976f,
+     2.46248651f,
+     {-0.998412549f, 0.048978541f, 0.0278114453f},
+     {1.404059e-08f, 0.999478221f, 0.7f}},
+    {"beckmann",
+     1,
+     1.33290720f,
+     1.39052498f,
+     {-0.559509099f, -0.292215794f, 0.775602639f},
+     {2.39730707e-06f, 1.47953081e-08f, 0.256229937f}},
+    {"beckmann",
+     1,
+     1.54292583f,
+     1.5748632f,
+     {-0.644765377f, -0.0168178678f, 0.764195502f},
+     {2.37543372e-08f, 1.34521883e-06f, 0.646892607f}},
+    {"student-t-2.5-small",
+     0,
+     3.12432814f,
+     0.776679993f,
+     {0.589946628f, 0.792322278f, 0.15552628f},
+     {0.999910235f, 0.00725647854f, 0.9f}},
+    {"student-t-2.5-small",
+     0,
+     1.72422671f,
+     0.434209168f,
+     {0.816814303f, 0.54522115f, 0.188542724f},
+     {0.999924541f, 0.0151153496f, 0.7f}},
+};
+
+static void test_found(const found_point *at)
+{
+    oracle_ndf ndf;
+    finding found = {0, 0, 0, 0, 0, 0};
+    vndf_description is = {
+        .alpha_x = at->alpha_x, .alpha_y = at->alpha_y, .eta = 1.5f, .wavelengths = VNDF_WAVELENGTHS};
+    if (!TEST(oracle_ndf_open(&ndf, at->name)))
+        return;
+    is.distribution = ndf.distribution;
+    if (at->both) {
+        is.effects.lobes = VNDF_LOBES_BOTH;
+        is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+    }
+    check_sample(&is, at->name, at->wi, at->u, &found);
+    TEST(found.kept == 1);
+    oracle_ndf_close(&ndf);
+}
+
 int main(int arguments, char **argument)
 {
     static const char *const names[] = {
@@ -121,5 +187,7 @@ int main(int arguments, char **argument)
     for (size_t i = 0; i < 7; i++)
         if (oracle_wanted(arguments, argument, i, names[i]))
             test_ndf(names[i], 1000 * i + 23);
+    for (size_t i = 0; i < sizeof FOUND / sizeof *FOUND; i++)
+        test_found(&FOUND[i]);
     return test_done();
 }

@@ -186,7 +186,10 @@ VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 /* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
 VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float x, float y, float gain)
 {
-    return vndf_trusts_turn(b->view.ax, b->view.ay, gain, b->material->turn) && vndf_trusts_pole(x, y, gain);
+    float ax = b->view.ax, ay = b->view.ay, turn = b->material->turn;
+    if (vndf_law_is_steeper(b->view.distribution, ax, ay, x, y))
+        turn *= VNDF_TRUST_STEEPER;
+    return vndf_trusts_turn(ax, ay, gain, turn) && vndf_trusts_pole(x, y, gain);
 }
 
 /* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum

@@ -4,16 +4,20 @@
 #include "math/vector.h"
 #include "sampler/affine/principal.h"
 
-static vndf_vec3 to_axes(const vndf_bsdf *b, vndf_vec3 w)
+/* By the angle of (c, s), in double: one rounding, of the result. */
+VNDF_INLINE vndf_vec3 turned_by(double c, double s, vndf_vec3 w)
 {
-    float c = b->cos_rotation, s = b->sin_rotation;
-    return vndf_vec3_of(c * w.x + s * w.y, c * w.y - s * w.x, w.z);
+    return vndf_vec3_of((float)(c * w.x - s * w.y), (float)(c * w.y + s * w.x), w.z);
 }
 
-static vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
+VNDF_INLINE vndf_vec3 to_axes(const vndf_bsdf *b, vndf_vec3 w)
 {
-    float c = b->cos_rotation, s = b->sin_rotation;
-    return vndf_vec3_of(c * w.x - s * w.y, c * w.y + s * w.x, w.z);
+    return turned_by(b->cosine, -b->sine, w);
+}
+
+VNDF_INLINE vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
+{
+    return turned_by(b->cosine, b->sine, w);
 }
 
 int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine, vndf_roughness *r)
@@ -33,20 +37,32 @@ int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine,
 
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    b->cos_rotation = r->cos_rotation;
-    b->sin_rotation = r->sin_rotation;
-    return b->material->unturned->prepare(b, r, to_axes(b, wi));
+    double c = r->cos_rotation, s = r->sin_rotation, off = c * c + s * s - 1.0, per = 1.0 - 0.5 * off;
+    b->cosine = c * per; /* unit, where they are nearly so */
+    b->sine = s * per;
+    return fabs(off) < 1e-3 && b->material->unturned->prepare(b, r, to_axes(b, wi));
 }
 
-/* Whether the slope of wo is the drawn one (vndf_is_settled), though two turns have rounded wo three times more. */
-static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
+/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. */
+static int is_settled(const vndf_bsdf *b, vndf_normal wm, double facing)
 {
-    vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(wo, b->side));
+    float gain = VNDF_TRUST_ROTATED_GAIN * (float)facing;
+    return gain > VNDF_TRUST_REFLECTION_FACING && vndf_keeps_reflectance(b, facing) &&
+           vndf_is_settled(b, (float)wm.x, (float)wm.y, gain);
+}
+
+/* The same for a sample in its axes; walks have no normal. */
+static int is_settled_sample(const vndf_bsdf *b, const vndf_scattered *s, const float u[3])
+{
+    const vndf_effects *is = &b->material->is.effects;
     /* the density of bounded normals jumps in places that this test does not look for */
-    return b->material->is.effects.normals != VNDF_NORMALS_BOUNDED && s->lobe == VNDF_LOBE_REFLECTION &&
-           vndf_keeps_reflectance(b, half.event.facing_i) &&
-           vndf_is_settled(b, (float)half.wm.x, (float)half.wm.y,
-                           VNDF_TRUST_ROTATED_GAIN * (float)half.event.facing_i);
+    if (is->normals == VNDF_NORMALS_BOUNDED || s->lobe != VNDF_LOBE_REFLECTION || !(u[1] < VNDF_TRUST_LAST))
+        return 0;
+    if (is->scattering == VNDF_SCATTERING_MULTIPLE) {
+        vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side));
+        return is_settled(b, half.wm, half.event.facing_i);
+    }
+    return is_settled(b, vndf_normal_of(s->wm), vndf_dot(b->view.wi, vndf_mirrored(s->wm, b->side)));
 }
 
 /* Density and weight of the rounded wo, where both density and f are in the range of float. The weight of a walk does
@@ -54,16 +70,19 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, vndf_vec3 wo)
 static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 {
     const vndf_material *m = b->material;
-    float f[VNDF_WAVELENGTHS], density = m->unturned->pdf(b, wo);
+    int walks = m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE;
+    float f[VNDF_WAVELENGTHS], density;
+    if (walks)
+        density = m->unturned->pdf(b, wo);
+    else
+        m->unturned->eval(b, wo, 0, f, &density);
     if (!(density > 0.0f)) {
         vndf_scatter_nothing(s);
         return;
     }
     s->density = density;
-    if (m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE ||
-        !(density > VNDF_TRUST_DIVISOR && density < VNDF_TRUST_VALUE))
+    if (walks || !(density > VNDF_TRUST_DIVISOR && density < VNDF_TRUST_VALUE))
         return;
-    m->unturned->eval(b, wo, 0, f, NULL);
     for (int i = 0; i < m->is.wavelengths; i++)
         if (f[i] < VNDF_TRUST_VALUE)
             s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
@@ -72,11 +91,12 @@ static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     b->material->unturned->sample(b, u, s);
+    int drawn = s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION;
+    int settled = drawn && is_settled_sample(b, s, u);
     s->wo = from_axes(b, s->wo);
     s->wm = from_axes(b, s->wm);
-    vndf_vec3 wo = to_axes(b, s->wo);
-    if ((s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION) && !is_settled(b, s, wo))
-        evaluate(b, wo, s);
+    if (drawn && !settled)
+        evaluate(b, to_axes(b, s->wo), s);
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
