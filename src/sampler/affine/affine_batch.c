@@ -8,17 +8,16 @@
 
 /* ---- one by one ---- */
 
-static float number_at(const float *from, size_t i)
-{
-    return from ? from[i] : 0.0f;
-}
-
 static vndf_affine surface_at(const vndf_affine_batch *b, size_t i)
 {
     size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
-    vndf_affine surface = {b->distribution,         b->xx[at], number_at(b->xy, at),
-                           number_at(b->yx, at),    b->yy[at], number_at(b->mean_x, at),
-                           number_at(b->mean_y, at)};
+    vndf_affine surface = {b->distribution,
+                           b->xx[at],
+                           vndf_batch_number(b->xy, at),
+                           vndf_batch_number(b->yx, at),
+                           b->yy[at],
+                           vndf_batch_number(b->mean_x, at),
+                           vndf_batch_number(b->mean_y, at)};
     return surface;
 }
 
@@ -97,9 +96,7 @@ static int has_lanes(const vndf_affine_batch *b)
 /* A block, its inputs and its axes. */
 typedef struct block {
     const vndf_affine_batch *batch;
-    int wide;
-    uint32_t count;
-    size_t first;
+    vndf_walk walk;
     vndf_map_inputs in;
     vndf_map_copies copies;
     vndf_axes_block axes;
@@ -109,8 +106,7 @@ typedef struct block {
 static void begin(block *at, const vndf_affine_batch *b)
 {
     at->batch = b;
-    at->wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
-    at->first = at->count = 0;
+    at->walk = vndf_walk_over(b->count, b->limit);
 }
 
 /* Moves on to the next block; 0 after the last. Without wi, questions of D alone. */
@@ -119,33 +115,30 @@ static int next(block *at, int with_wi)
     const vndf_affine_batch *b = at->batch;
     const float *from[VNDF_MAP_INPUTS] = {b->xx,     b->xy,   b->yx,   b->yy,  b->mean_x,
                                           b->mean_y, b->wi_x, b->wi_y, b->wi_z};
-    at->first += at->count;
-    if (at->first >= b->count)
+    if (!vndf_walk_on(&at->walk))
         return 0;
-    size_t rest = b->count - at->first;
-    int begun = at->first > 0;
-    at->count = rest < VNDF_AXES_BLOCK ? (uint32_t)rest : VNDF_AXES_BLOCK;
+    int begun = at->walk.first > 0;
     for (int n = 0; n < VNDF_MAP_INPUTS; n++) {
         int is_wi = n >= VNDF_MAP_WI_X, shared = (b->shared & (is_wi ? VNDF_SHARED_WI : VNDF_SHARED_ALPHA)) != 0;
         if (!(begun && shared))
-            at->in.of[n] = vndf_block_input(is_wi && !with_wi ? NULL : from[n], shared, at->first, at->count,
-                                            at->copies.of[n]);
+            at->in.of[n] =
+                vndf_walk_input(&at->walk, is_wi && !with_wi ? NULL : from[n], shared, at->copies.of[n]);
     }
     if (!(begun && (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI)))
-        vndf_block_axes(at->wide, &at->in, begun ? at->count : VNDF_AXES_BLOCK, &at->axes);
+        vndf_block_axes(at->walk.wide, &at->in, begun ? at->walk.count : VNDF_AXES_BLOCK, &at->axes);
     return 1;
 }
 
 static const float *more(block *at, int which, const float *from)
 {
-    return vndf_block_input(from, 0, at->first, at->count, at->more[which]);
+    return vndf_walk_input(&at->walk, from, 0, at->more[which]);
 }
 
 static void answer_areas(const block *at, float *value)
 {
     vndf_areas_block areas;
-    vndf_block_areas(at->wide, at->batch->distribution, &at->in, &at->axes, at->count, &areas);
-    for (uint32_t i = 0; i < at->count; i++) {
+    vndf_block_areas(at->walk.wide, at->batch->distribution, &at->in, &at->axes, at->walk.count, &areas);
+    for (uint32_t i = 0; i < at->walk.count; i++) {
         vndf_normal w = {at->in.of[VNDF_MAP_WI_X][i], at->in.of[VNDF_MAP_WI_Y][i], at->in.of[VNDF_MAP_WI_Z][i]};
         value[i] = vndf_unit_area_of(areas.toward[i], w, areas.toward[i] >= 0.0);
     }
@@ -154,8 +147,7 @@ static void answer_areas(const block *at, float *value)
 /* Answers may overwrite inputs, so they are stored after the whole block is read. */
 static void answer_in_blocks(const call *c)
 {
-    int of_direction =
-        c->question == VNDF_ASK_AREA || c->question == VNDF_ASK_LAMBDA || c->question == VNDF_ASK_G1;
+    int of_direction = vndf_question_is_of_direction(c->question);
     block at;
     float value[VNDF_AXES_BLOCK];
     for (begin(&at, c->batch); next(&at, c->question != VNDF_ASK_NDF);) {
@@ -167,12 +159,12 @@ static void answer_in_blocks(const call *c)
             const float *normal[3] = {NULL, NULL, NULL};
             for (int n = 0; n < 3 && !of_direction; n++)
                 normal[n] = more(&at, n, n == 0 ? c->wm.x : n == 1 ? c->wm.y : c->wm.z);
-            vndf_block_answer(at.wide, c->batch->distribution, c->question, &at.in, &at.axes,
-                              of_direction ? NULL : normal, at.count, NULL, value, &left);
+            vndf_block_answer(at.walk.wide, c->batch->distribution, c->question, &at.in, &at.axes,
+                              of_direction ? NULL : normal, at.walk.count, NULL, value, &left);
         }
         for (uint32_t n = 0; n < left.count; n++)
-            value[left.index[n]] = answer_of(c, at.first + left.index[n]);
-        memcpy(c->to + at.first, value, at.count * sizeof(float));
+            value[left.index[n]] = answer_of(c, at.walk.first + left.index[n]);
+        memcpy(c->to + at.walk.first, value, at.walk.count * sizeof(float));
     }
 }
 
@@ -181,9 +173,9 @@ static void sample_left(const block *at, const draw *c, const vndf_left *left, v
 {
     for (uint32_t n = 0; n < left->count; n++) {
         uint32_t i = left->index[n];
-        vndf_affine_view view = view_at(at->batch, at->first + i);
+        vndf_affine_view view = view_at(at->batch, at->walk.first + i);
         vndf_vec3 wm;
-        real->density[i] = sample_one(&view, c, at->first + i, &wm);
+        real->density[i] = sample_one(&view, c, at->walk.first + i, &wm);
         real->x[i] = wm.x;
         real->y[i] = wm.y;
         real->z[i] = wm.z;
@@ -195,17 +187,17 @@ static void sample_in_blocks(const vndf_affine_batch *b, const draw *c)
     block at;
     vndf_real_block real;
     for (begin(&at, b); next(&at, 1);) {
-        size_t bytes = at.count * sizeof(float);
+        size_t bytes = at.walk.count * sizeof(float);
         vndf_left left;
         left.count = 0;
-        vndf_block_draw(at.wide, b->distribution, &at.in, &at.axes, more(&at, 0, c->u1), more(&at, 1, c->u2),
-                        at.count, c->pdf != NULL, &real, &left);
+        vndf_block_draw(at.walk.wide, b->distribution, &at.in, &at.axes, more(&at, 0, c->u1), more(&at, 1, c->u2),
+                        at.walk.count, c->pdf != NULL, &real, &left);
         sample_left(&at, c, &left, &real);
-        memcpy(c->wm.x + at.first, real.x, bytes);
-        memcpy(c->wm.y + at.first, real.y, bytes);
-        memcpy(c->wm.z + at.first, real.z, bytes);
+        memcpy(c->wm.x + at.walk.first, real.x, bytes);
+        memcpy(c->wm.y + at.walk.first, real.y, bytes);
+        memcpy(c->wm.z + at.walk.first, real.z, bytes);
         if (c->pdf)
-            memcpy(c->pdf + at.first, real.density, bytes);
+            memcpy(c->pdf + at.walk.first, real.density, bytes);
     }
 }
 

@@ -4,14 +4,34 @@
 
 #if VNDF_HAS_LANES
 
-const float *vndf_block_input(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
+/* ---- walks ---- */
+
+vndf_walk vndf_walk_over(size_t total, vndf_instructions limit)
 {
-    if (from && !is_shared && count == VNDF_AXES_BLOCK)
-        return from + first;
+    vndf_walk at = {total, 0, 0, vndf_instructions_used(limit) == VNDF_INSTRUCTIONS_AVX512};
+    return at;
+}
+
+int vndf_walk_on(vndf_walk *at)
+{
+    at->first += at->count;
+    if (at->first >= at->total)
+        return 0;
+    size_t rest = at->total - at->first;
+    at->count = rest < VNDF_AXES_BLOCK ? (uint32_t)rest : VNDF_AXES_BLOCK;
+    return 1;
+}
+
+const float *vndf_walk_input(const vndf_walk *at, const float *from, int is_shared, float *copy)
+{
+    if (from && !is_shared && at->count == VNDF_AXES_BLOCK)
+        return from + at->first;
     for (uint32_t i = 0; i < VNDF_AXES_BLOCK; i++)
-        copy[i] = !from || (!is_shared && i >= count) ? 0.0f : from[is_shared ? 0 : first + i];
+        copy[i] = !from || (!is_shared && i >= at->count) ? 0.0f : from[is_shared ? 0 : at->first + i];
     return copy;
 }
+
+/* ---- axes ---- */
 
 void vndf_block_axes(int wide, const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to)
 {
@@ -35,6 +55,12 @@ void vndf_block_areas(int wide, const vndf_distribution *d, const vndf_map_input
 static void leave(vndf_left *left, uint32_t index)
 {
     left->index[left->count++] = index;
+}
+
+void vndf_left_mark(const vndf_left *left, unsigned char *is_left)
+{
+    for (uint32_t n = 0; n < left->count; n++)
+        is_left[left->index[n]] = 1;
 }
 
 /* The inputs of some elements, side by side. */

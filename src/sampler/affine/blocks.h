@@ -12,13 +12,29 @@ typedef struct vndf_map_copies {
     float of[VNDF_MAP_INPUTS][VNDF_AXES_BLOCK];
 } vndf_map_copies;
 
-/* `count` numbers from element `first` on, which lanes may read to the end of a block; NULL is 0. */
-const float *vndf_block_input(const float *from, int is_shared, size_t first, uint32_t count, float *copy);
+/* Where a batch is in its blocks, and whether lanes of AVX-512 take them. */
+typedef struct vndf_walk {
+    size_t total, first;
+    uint32_t count;
+    int wide;
+} vndf_walk;
+
+/* Before the first block. */
+vndf_walk vndf_walk_over(size_t total, vndf_instructions limit);
+
+/* Moves on to the next block; 0 after the last. */
+int vndf_walk_on(vndf_walk *at);
+
+/* The block's numbers, which lanes may read to the end of a block; NULL holds zeros. */
+const float *vndf_walk_input(const vndf_walk *at, const float *from, int is_shared, float *copy);
 
 /* Elements that the scalar calls have to answer. An element may stand there twice. */
 typedef struct vndf_left {
     uint32_t index[4 * VNDF_AXES_BLOCK], count;
 } vndf_left;
+
+/* Sets what is listed. */
+void vndf_left_mark(const vndf_left *left, unsigned char *is_left);
 
 /* Some elements of a block. */
 typedef struct vndf_some {
