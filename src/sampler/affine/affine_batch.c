@@ -93,6 +93,11 @@ static int has_lanes(const vndf_affine_batch *b)
     return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 
+static int is_one_view(const vndf_affine_batch *b)
+{
+    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI);
+}
+
 /* A block, its inputs and its axes. */
 typedef struct block {
     const vndf_affine_batch *batch;
@@ -117,16 +122,24 @@ static int next(block *at, int with_wi)
                                           b->mean_y, b->wi_x, b->wi_y, b->wi_z};
     if (!vndf_walk_on(&at->walk))
         return 0;
-    int begun = at->walk.first > 0;
+    int begun = vndf_walk_has_begun(&at->walk), is_one = is_one_view(b);
     for (int n = 0; n < VNDF_MAP_INPUTS; n++) {
         int is_wi = n >= VNDF_MAP_WI_X, shared = (b->shared & (is_wi ? VNDF_SHARED_WI : VNDF_SHARED_ALPHA)) != 0;
         if (!(begun && shared))
             at->in.of[n] =
                 vndf_walk_input(&at->walk, is_wi && !with_wi ? NULL : from[n], shared, at->copies.of[n]);
     }
-    if (!(begun && (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI)))
-        vndf_block_axes(at->walk.wide, &at->in, begun ? at->walk.count : VNDF_AXES_BLOCK, &at->axes);
+    if (!(begun && is_one))
+        vndf_block_axes(at->walk.wide, !(begun && (b->shared & VNDF_SHARED_ALPHA)), &at->in, at->walk.count,
+                        &at->axes);
     return 1;
+}
+
+static vndf_surfaces surfaces_of(const block *at)
+{
+    const vndf_affine_batch *b = at->batch;
+    vndf_surfaces of = {at->walk.wide, is_one_view(b), b->distribution, &at->in, &at->axes, NULL};
+    return of;
 }
 
 static const float *more(block *at, int which, const float *from)
@@ -136,8 +149,9 @@ static const float *more(block *at, int which, const float *from)
 
 static void answer_areas(const block *at, float *value)
 {
+    const vndf_surfaces of = surfaces_of(at);
     vndf_areas_block areas;
-    vndf_block_areas(at->walk.wide, at->batch->distribution, &at->in, &at->axes, at->walk.count, &areas);
+    vndf_block_areas(&of, at->walk.count, &areas);
     for (uint32_t i = 0; i < at->walk.count; i++) {
         vndf_normal w = {at->in.of[VNDF_MAP_WI_X][i], at->in.of[VNDF_MAP_WI_Y][i], at->in.of[VNDF_MAP_WI_Z][i]};
         value[i] = vndf_unit_area_of(areas.toward[i], w, areas.toward[i] >= 0.0);
@@ -151,6 +165,7 @@ static void answer_in_blocks(const call *c)
     block at;
     float value[VNDF_AXES_BLOCK];
     for (begin(&at, c->batch); next(&at, c->question != VNDF_ASK_NDF);) {
+        const vndf_surfaces of = surfaces_of(&at);
         vndf_left left;
         left.count = 0;
         if (c->question == VNDF_ASK_AREA) {
@@ -159,8 +174,7 @@ static void answer_in_blocks(const call *c)
             const float *normal[3] = {NULL, NULL, NULL};
             for (int n = 0; n < 3 && !of_direction; n++)
                 normal[n] = more(&at, n, n == 0 ? c->wm.x : n == 1 ? c->wm.y : c->wm.z);
-            vndf_block_answer(at.walk.wide, c->batch->distribution, c->question, &at.in, &at.axes,
-                              of_direction ? NULL : normal, at.walk.count, NULL, value, &left);
+            vndf_block_answer(&of, c->question, of_direction ? NULL : normal, at.walk.count, value, &left);
         }
         for (uint32_t n = 0; n < left.count; n++)
             value[left.index[n]] = answer_of(c, at.walk.first + left.index[n]);
@@ -186,12 +200,18 @@ static void sample_in_blocks(const vndf_affine_batch *b, const draw *c)
 {
     block at;
     vndf_real_block real;
+    vndf_affine_view view; /* of all samples, if they share one */
+    if (is_one_view(b))
+        view = view_at(b, 0);
     for (begin(&at, b); next(&at, 1);) {
         size_t bytes = at.walk.count * sizeof(float);
+        vndf_surfaces of = surfaces_of(&at);
         vndf_left left;
         left.count = 0;
-        vndf_block_draw(at.walk.wide, b->distribution, &at.in, &at.axes, more(&at, 0, c->u1), more(&at, 1, c->u2),
-                        at.walk.count, c->pdf != NULL, &real, &left);
+        if (of.is_one)
+            of.view = vndf_trusted_view(&view);
+        vndf_block_draw(&of, more(&at, 0, c->u1), more(&at, 1, c->u2), at.walk.count, c->pdf != NULL, &real,
+                        &left);
         sample_left(&at, c, &left, &real);
         memcpy(c->wm.x + at.walk.first, real.x, bytes);
         memcpy(c->wm.y + at.walk.first, real.y, bytes);

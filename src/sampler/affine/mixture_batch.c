@@ -99,11 +99,11 @@ static void sample_one_by_one(const draw *c)
 
 #if VNDF_HAS_LANES
 
-enum { B = VNDF_AXES_BLOCK, L = VNDF_MIXTURE_LOBES };
+enum { B = VNDF_AXES_BLOCK };
 
 static int has_lanes(const vndf_mixture_batch *b)
 {
-    if (b->lobes < 1 || b->lobes > L || b->count < 2 ||
+    if (b->lobes < 1 || b->lobes > VNDF_MIXTURE_LOBES || b->count < 2 ||
         vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_PORTABLE)
         return 0;
     for (int l = 0; l < b->lobes; l++) /* lanes have no double */
@@ -116,10 +116,11 @@ static int has_lanes(const vndf_mixture_batch *b)
 
 static void answer_areas(const vndf_mixture_block *at, vndf_question question, float *value)
 {
+    const vndf_areas_block *whole = &at->of.whole;
     for (uint32_t i = 0; i < at->walk.count; i++) {
-        vndf_areas areas = {at->whole.toward[i], at->whole.away[i], at->whole.up[i]};
+        vndf_areas areas = {whole->toward[i], whole->away[i], whole->up[i]};
         vndf_normal w = {at->in.of[VNDF_MAP_WI_X][i], at->in.of[VNDF_MAP_WI_Y][i], at->in.of[VNDF_MAP_WI_Z][i]};
-        value[i] = !at->valid[i]                 ? 0.0f
+        value[i] = areas.toward < 0.0            ? 0.0f
                    : question == VNDF_ASK_AREA   ? vndf_unit_area_of(areas.toward, w, 1)
                    : question == VNDF_ASK_LAMBDA ? vndf_areas_lambda(&areas)
                                                  : vndf_areas_g1(&areas);
@@ -132,23 +133,24 @@ static void answer_normals(vndf_mixture_block *at, const call *c, float *value, 
     const float *const normal[3] = {vndf_mixture_more(at, 0, c->wm.x), vndf_mixture_more(at, 1, c->wm.y),
                                     vndf_mixture_more(at, 2, c->wm.z)};
     double sum[B] = {0.0};
-    for (int l = 0; l < at->batch->lobes; l++) {
-        const vndf_lobe_block *of = &at->lobe[l];
-        const double *part = c->question == VNDF_ASK_NDF ? of->weight : of->share;
+    for (int l = 0; l < at->of.lobes; l++) {
+        const vndf_surfaces of = vndf_mixture_surfaces(at, l);
+        const vndf_lobe_block *lobe = &at->of.lobe[l];
+        const double *part = c->question == VNDF_ASK_NDF ? lobe->weight : lobe->share;
         float own[B];
         vndf_left from;
         from.count = 0;
-        if (!at->batch->lobe[l].distribution)
+        if (!of.distribution)
             continue;
-        vndf_block_answer(at->walk.wide, at->batch->lobe[l].distribution, c->question, &at->in, &of->axes, normal,
-                          at->walk.count, NULL, own, &from);
+        vndf_block_answer(&of, c->question, normal, at->walk.count, own, &from);
         for (uint32_t i = 0; i < at->walk.count; i++)
-            sum[i] += of->weight[i] > 0.0 ? part[i] * own[i] : 0.0;
+            sum[i] += lobe->weight[i] > 0.0 ? part[i] * own[i] : 0.0;
         vndf_left_mark(&from, left);
     }
     for (uint32_t i = 0; i < at->walk.count; i++) {
-        float density = at->valid[i] ? vndf_density_from(sum[i]) : 0.0f;
-        value[i] = c->question == VNDF_ASK_PDF && at->valid[i] && sum[i] > 0.0 ? vndf_positive(density) : density;
+        int valid = at->of.whole.toward[i] >= 0.0;
+        float density = valid ? vndf_density_from(sum[i]) : 0.0f;
+        value[i] = c->question == VNDF_ASK_PDF && valid && sum[i] > 0.0 ? vndf_positive(density) : density;
     }
 }
 

@@ -1,125 +1,149 @@
 #include "sampler/affine/mixture_block.h"
 
-#include <math.h>
+#include "sampler/batch/batch.h"
 
 #if VNDF_HAS_LANES
+
+static int is_shared(const vndf_mixture_block *at, unsigned what)
+{
+    return (at->batch->shared & what) == what;
+}
+
+/* Whether the block has what `what` says from the block before. */
+static int is_read(const vndf_mixture_block *at, unsigned what)
+{
+    return vndf_walk_has_begun(&at->walk) && is_shared(at, what);
+}
+
+static const unsigned ONE = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
 
 void vndf_mixture_begin(vndf_mixture_block *at, const vndf_mixture_batch *b)
 {
     at->batch = b;
     at->walk = vndf_walk_over(b->count, b->limit);
+    at->of.lobes = b->lobes;
 }
 
-static void read_wi(vndf_mixture_block *at, int begun, int with_wi)
+/* ---- inputs ---- */
+
+static void read_wi(vndf_mixture_block *at, int with_wi)
 {
     const vndf_mixture_batch *b = at->batch;
     const float *from[] = {b->wi_x, b->wi_y, b->wi_z};
-    int shared = (b->shared & VNDF_SHARED_WI) != 0;
+    if (is_read(at, VNDF_SHARED_WI))
+        return;
     for (int n = 0; n < 3; n++)
-        if (!(begun && shared))
-            at->in.of[VNDF_MAP_WI_X + n] =
-                vndf_walk_input(&at->walk, with_wi ? from[n] : NULL, shared, at->copies.of[VNDF_MAP_WI_X + n]);
+        at->in.of[VNDF_MAP_WI_X + n] = vndf_walk_input(
+            &at->walk, with_wi ? from[n] : NULL, is_shared(at, VNDF_SHARED_WI), at->copies.of[VNDF_MAP_WI_X + n]);
 }
 
-static void find_axes(vndf_mixture_block *at, int begun)
+static void read_matrix(vndf_mixture_block *at, const vndf_lobe_batch *of)
 {
-    const vndf_mixture_batch *b = at->batch;
-    int shared = (b->shared & VNDF_SHARED_ALPHA) != 0;
-    if (begun && shared && (b->shared & VNDF_SHARED_WI))
+    const float *from[] = {of->xx, of->xy, of->yx, of->yy, of->mean_x, of->mean_y};
+    for (int n = 0; n < VNDF_MAP_WI_X; n++)
+        at->in.of[n] = vndf_walk_input(&at->walk, from[n], is_shared(at, VNDF_SHARED_ALPHA), at->copies.of[n]);
+}
+
+static void find_axes(vndf_mixture_block *at)
+{
+    int with_matrix = !is_read(at, VNDF_SHARED_ALPHA);
+    if (is_read(at, ONE))
         return;
-    for (int l = 0; l < b->lobes; l++) {
-        const vndf_lobe_batch *of = &b->lobe[l];
-        const float *from[] = {of->xx, of->xy, of->yx, of->yy, of->mean_x, of->mean_y};
-        for (int n = 0; n < VNDF_MAP_WI_X; n++)
-            at->in.of[n] = vndf_walk_input(&at->walk, from[n], shared, at->copies.of[n]);
-        vndf_block_axes(at->walk.wide, &at->in, begun ? at->walk.count : VNDF_AXES_BLOCK, &at->lobe[l].axes);
+    for (int l = 0; l < at->of.lobes; l++) {
+        if (with_matrix)
+            read_matrix(at, &at->batch->lobe[l]);
+        vndf_block_axes(at->walk.wide, with_matrix, &at->in, at->walk.count, &at->of.lobe[l].axes);
     }
 }
 
-/* Weights over their sum; not valid where they are not. */
 static void weigh(vndf_mixture_block *at)
 {
-    const vndf_mixture_batch *b = at->batch;
-    for (uint32_t i = 0; i < at->walk.count; i++) {
-        size_t from = b->shared & VNDF_SHARED_WEIGHT ? 0 : at->walk.first + i;
-        double sum = 0.0;
-        int valid = 1;
-        for (int l = 0; l < b->lobes; l++) {
-            float weight = b->lobe[l].weight[from];
-            valid &= weight >= 0.0f && weight < HUGE_VALF;
-            sum += weight;
-        }
-        at->valid[i] = valid && sum > 0.0;
-        double per = at->valid[i] ? 1.0 / sum : 0.0;
-        for (int l = 0; l < b->lobes; l++)
-            at->lobe[l].weight[i] = at->valid[i] ? b->lobe[l].weight[from] * per : 0.0;
-    }
+    const float *weight[VNDF_MIXTURE_LOBES];
+    for (int l = 0; l < at->of.lobes; l++)
+        weight[l] = vndf_walk_input(&at->walk, at->batch->lobe[l].weight, is_shared(at, VNDF_SHARED_WEIGHT),
+                                    at->weight_copies[l]);
+    if (at->walk.wide)
+        vndf_mixture_weigh_avx512(weight, at->walk.count, &at->of);
+    else
+        vndf_mixture_weigh_avx2(weight, at->walk.count, &at->of);
 }
 
-/* Adds a lobe's areas to those of the whole; its `share` is its area until all are known. */
-static void add_areas(vndf_mixture_block *at, int l)
+static void find_areas(vndf_mixture_block *at)
 {
-    vndf_lobe_block *of = &at->lobe[l];
-    vndf_areas_block areas;
-    if (at->batch->lobe[l].distribution)
-        vndf_block_areas(at->walk.wide, at->batch->lobe[l].distribution, &at->in, &of->axes, at->walk.count,
-                         &areas);
-    for (uint32_t i = 0; i < at->walk.count; i++) {
-        double weight = of->weight[i], toward = at->batch->lobe[l].distribution ? areas.toward[i] : -1.0;
-        of->share[i] = 0.0;
-        if (!(weight > 0.0))
-            continue;
-        of->share[i] = weight * toward;
-        at->valid[i] &= toward >= 0.0;
-        at->whole.toward[i] += of->share[i];
-        if (toward >= 0.0) {
-            at->whole.away[i] += weight * areas.away[i];
-            at->whole.up[i] += weight * areas.up[i];
-        }
+    for (int l = 0; l < at->of.lobes; l++) {
+        vndf_areas_block *areas = &at->of.lobe[l].areas;
+        vndf_surfaces of = vndf_mixture_surfaces(at, l);
+        if (of.distribution)
+            vndf_block_areas(&of, at->walk.count, areas);
+        for (uint32_t i = 0; i < VNDF_AXES_BLOCK && !of.distribution; i++)
+            areas->toward[i] = areas->away[i] = areas->up[i] = -1.0;
     }
 }
 
 static void share(vndf_mixture_block *at)
 {
-    for (uint32_t i = 0; i < at->walk.count; i++) {
-        double from = 0.0, area = at->whole.toward[i];
-        vndf_lobe_block *last = NULL;
-        for (int l = 0; l < at->batch->lobes; l++) {
-            vndf_lobe_block *of = &at->lobe[l];
-            of->begin[i] = from;
-            if (!(of->weight[i] > 0.0))
-                continue;
-            from += area > 0.0 ? of->share[i] / area : of->weight[i];
-            of->share[i] = from - of->begin[i];
-            last = of;
-        }
-        if (last)
-            last->share[i] = 1.0 - last->begin[i];
+    if (at->walk.wide)
+        vndf_mixture_share_avx512(at->walk.count, &at->of);
+    else
+        vndf_mixture_share_avx2(at->walk.count, &at->of);
+}
+
+/* The views of a batch whose elements share one surface and direction. */
+static void find_views(vndf_mixture_block *at)
+{
+    vndf_vec3 wi = {at->batch->wi_x[0], at->batch->wi_y[0], at->batch->wi_z[0]};
+    for (int l = 0; l < at->of.lobes; l++) {
+        const vndf_lobe_batch *of = &at->batch->lobe[l];
+        vndf_affine surface = {of->distribution,
+                               vndf_batch_number(of->xx, 0),
+                               vndf_batch_number(of->xy, 0),
+                               vndf_batch_number(of->yx, 0),
+                               vndf_batch_number(of->yy, 0),
+                               vndf_batch_number(of->mean_x, 0),
+                               vndf_batch_number(of->mean_y, 0)};
+        at->view[l] = vndf_affine_view_from(&surface, wi);
     }
 }
 
-/* Moves on to the next block; 0 after the last. */
 int vndf_mixture_next(vndf_mixture_block *at, int with_wi)
 {
     if (!vndf_walk_on(&at->walk))
         return 0;
-    int begun = at->walk.first > 0;
-    read_wi(at, begun, with_wi);
-    find_axes(at, begun);
-    weigh(at);
-    if (!with_wi)
-        return 1;
-    for (uint32_t i = 0; i < at->walk.count; i++)
-        at->whole.toward[i] = at->whole.away[i] = at->whole.up[i] = 0.0;
-    for (int l = 0; l < at->batch->lobes; l++)
-        add_areas(at, l);
-    share(at);
+    read_wi(at, with_wi);
+    find_axes(at);
+    if (with_wi && is_shared(at, ONE) && !is_read(at, ONE))
+        find_views(at);
+    if (!is_read(at, VNDF_SHARED_WEIGHT))
+        weigh(at);
+    if (with_wi && !is_read(at, ONE))
+        find_areas(at);
+    if (with_wi && !is_read(at, ONE | VNDF_SHARED_WEIGHT))
+        share(at);
     return 1;
+}
+
+/* ---- what a block holds ---- */
+
+vndf_surfaces vndf_mixture_surfaces(const vndf_mixture_block *at, int lobe)
+{
+    vndf_surfaces of = {at->walk.wide, is_shared(at, ONE),      at->batch->lobe[lobe].distribution,
+                        &at->in,       &at->of.lobe[lobe].axes, NULL};
+    if (of.is_one)
+        of.view = vndf_trusted_view(&at->view[lobe]);
+    return of;
 }
 
 const float *vndf_mixture_more(vndf_mixture_block *at, int which, const float *from)
 {
     return vndf_walk_input(&at->walk, from, 0, at->more[which]);
+}
+
+void vndf_mixture_choose(const vndf_mixture_block *at, const float *u1, vndf_choice_block *to)
+{
+    if (at->walk.wide)
+        vndf_mixture_choose_avx512(&at->of, u1, at->walk.count, to);
+    else
+        vndf_mixture_choose_avx2(&at->of, u1, at->walk.count, to);
 }
 
 #endif

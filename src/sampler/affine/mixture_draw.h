@@ -6,12 +6,11 @@
 
 #if VNDF_HAS_LANES
 
-/* The samples of a block, the densities of the lobes that drew them, and which lobe each chose; -1 of what is invalid.
- * What lanes cannot do is left to the scalar call. */
+/* The samples of a block, and which lobe drew each; -1 of what is invalid. What lanes cannot do is left to the scalar
+ * call. */
 typedef struct vndf_mixture_drawn {
-    float x[VNDF_AXES_BLOCK], y[VNDF_AXES_BLOCK], z[VNDF_AXES_BLOCK], own[VNDF_AXES_BLOCK], pdf[VNDF_AXES_BLOCK];
+    float x[VNDF_AXES_BLOCK], y[VNDF_AXES_BLOCK], z[VNDF_AXES_BLOCK], pdf[VNDF_AXES_BLOCK];
     int lobe[VNDF_AXES_BLOCK];
-    float part[VNDF_AXES_BLOCK];
     unsigned char left[VNDF_AXES_BLOCK];
 } vndf_mixture_drawn;
 
