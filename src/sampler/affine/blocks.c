@@ -59,48 +59,53 @@ void vndf_block_areas(const vndf_surfaces *of, uint32_t count, vndf_areas_block 
 
 /* ---- some elements ---- */
 
-/* Spare lanes repeat the first element. */
-static uint32_t end_of(const vndf_some *some)
+/* The list, filled up to whole groups with its first element. Returns how many that are. */
+static uint32_t whole_groups(const vndf_some *some, uint32_t *index)
 {
-    return (some->count + 15) / 16 * 16;
-}
-
-static uint32_t place_in(const vndf_some *some, uint32_t k)
-{
-    return some->index[k < some->count ? k : 0];
+    uint32_t end = (some->count + 15) / 16 * 16;
+    memcpy(index, some->index, some->count * sizeof *index);
+    for (uint32_t k = some->count; k < end; k++)
+        index[k] = some->index[0];
+    return end;
 }
 
 void vndf_block_pick(const float *from, const vndf_some *some, float *to)
 {
-    for (uint32_t k = 0; k < end_of(some); k++)
-        to[k] = from[place_in(some, k)];
+    uint32_t index[VNDF_AXES_BLOCK], end = whole_groups(some, index);
+    for (uint32_t k = 0; k < end; k++)
+        to[k] = from[index[k]];
 }
 
-static void pick_long(const double *from, const vndf_some *some, double *to)
+static void pick_axes(const vndf_axes_block *from, const uint32_t *index, uint32_t end, vndf_axes_block *to)
 {
-    for (uint32_t k = 0; k < end_of(some); k++)
-        to[k] = from[place_in(some, k)];
+    for (uint32_t k = 0; k < end; k++) {
+        uint32_t i = index[k];
+        to->ax[k] = from->ax[i];
+        to->ay[k] = from->ay[i];
+        to->x[k] = from->x[i];
+        to->y[k] = from->y[i];
+        to->z[k] = from->z[i];
+        to->cosine[k] = from->cosine[i];
+        to->sine[k] = from->sine[i];
+        to->mean_x[k] = from->mean_x[i];
+        to->mean_y[k] = from->mean_y[i];
+        to->factor[k] = from->factor[i];
+    }
 }
 
 vndf_surfaces vndf_block_gather(const vndf_surfaces *of, const vndf_some *some, vndf_gathered *own)
 {
     vndf_surfaces to = *of;
-    const vndf_axes_block *axes = of->axes;
+    uint32_t index[VNDF_AXES_BLOCK], end;
     if (of->is_one)
         return to;
-    vndf_block_pick(axes->ax, some, own->axes.ax);
-    vndf_block_pick(axes->ay, some, own->axes.ay);
-    vndf_block_pick(axes->x, some, own->axes.x);
-    vndf_block_pick(axes->y, some, own->axes.y);
-    vndf_block_pick(axes->z, some, own->axes.z);
-    pick_long(axes->cosine, some, own->axes.cosine);
-    pick_long(axes->sine, some, own->axes.sine);
-    pick_long(axes->mean_x, some, own->axes.mean_x);
-    pick_long(axes->mean_y, some, own->axes.mean_y);
-    pick_long(axes->factor, some, own->axes.factor);
+    end = whole_groups(some, index);
+    pick_axes(of->axes, index, end, &own->axes);
     for (int n = 0; n < 3; n++) {
-        vndf_block_pick(of->in->of[VNDF_MAP_WI_X + n], some, own->wi[n]);
+        const float *wi = of->in->of[VNDF_MAP_WI_X + n];
         own->in.of[VNDF_MAP_WI_X + n] = own->wi[n];
+        for (uint32_t k = 0; k < end; k++)
+            own->wi[n][k] = wi[index[k]];
     }
     to.axes = &own->axes;
     to.in = &own->in;

@@ -99,11 +99,6 @@ void NAMED(vndf_axes_areas)(const vndf_distribution *d, const vndf_map_inputs *i
 
 /* ---- normals ---- */
 
-VNDF_INLINE void list(vndf_some *to, doubles_m m, uint32_t first, uint32_t end)
-{
-    to->count = vndf_list_append(to->index, to->count, m, first, end);
-}
-
 VNDF_INLINE doubles_f pick_f(doubles_m m, doubles_f yes, doubles no)
 {
     return doubles_narrow(doubles_pick(m, doubles_widen(yes), no));
@@ -128,8 +123,8 @@ void NAMED(vndf_axes_real)(const vndf_distribution *d, const vndf_map_inputs *in
         doubles_store_f(real->z + i, pick_f(turned, drawn.z, n.z));
         doubles_store_f(real->density + i, pick_f(turned, vndf_positive_of(drawn.density), density));
         doubles_m slow = doubles_without(doubles_both(turned, faces), drawn.trusted);
-        list(&real->lost, doubles_without(turned, faces), i, count);
-        list(&real->slow, slow, i, count);
+        vndf_list_add_few(&real->lost, doubles_without(turned, faces), i, count);
+        vndf_list_add_few(&real->slow, slow, i, count);
     }
 }
 

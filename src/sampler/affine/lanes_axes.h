@@ -11,9 +11,9 @@
 
 enum { VNDF_AXES_BLOCK = 128 };
 
-/* Some elements of a block. */
+/* Some elements of a block. Lanes write past the end of the list. */
 typedef struct vndf_some {
-    uint32_t index[VNDF_AXES_BLOCK], count;
+    uint32_t index[VNDF_AXES_BLOCK + 8], count;
 } vndf_some;
 
 /* The inputs of a block. */

@@ -145,9 +145,8 @@ void NAMED(vndf_mixture_choose)(const vndf_lobes_block *at, const float *u1, uin
             doubles_m has = doubles_both(valid, doubles_less(nothing, doubles_load_long(at->lobe[l].weight + i)));
             doubles away = doubles_abs(chosen - (double)l);
             doubles_m here = doubles_both(valid, doubles_at_most(away, nothing));
-            vndf_some *own = &to->own[l], *other = &to->other[l];
-            own->count = vndf_list_append(own->index, own->count, here, i, count);
-            other->count = vndf_list_append(other->index, other->count, doubles_without(has, here), i, count);
+            vndf_list_add(&to->own[l], here, vndf_list_indices(i), count);
+            vndf_list_add(&to->other[l], doubles_without(has, here), vndf_list_indices(i), count);
         }
     }
 }
