@@ -33,49 +33,79 @@ static vndf_affine_view view_at(const vndf_affine_batch *b, size_t i)
     return vndf_affine_view_from(&surface, wi_at(b, i));
 }
 
-/* A question of all elements. */
+static int is_one_view(const vndf_affine_batch *b)
+{
+    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI);
+}
+
+/* The view that all elements share, made in *view; NULL if there is none. */
+static const vndf_affine_view *shared_view(const vndf_affine_batch *b, vndf_affine_view *view)
+{
+    if (!is_one_view(b) || b->count == 0)
+        return NULL;
+    *view = view_at(b, 0);
+    return view;
+}
+
+/* A question of all elements, and the view that they share, or NULL. */
 typedef struct call {
     const vndf_affine_batch *batch;
     vndf_question question;
     vndf_normals wm;
     float *to;
+    const vndf_affine_view *one;
 } call;
+
+static float answer_of_normal(const call *c, size_t i)
+{
+    vndf_affine_view own;
+    const vndf_affine_view *view = c->one;
+    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
+    if (!view) {
+        own = view_at(c->batch, i);
+        view = &own;
+    }
+    return c->question == VNDF_ASK_PDF ? vndf_affine_pdf(view, wm) : vndf_affine_visible(view, wm);
+}
 
 static float answer_of(const call *c, size_t i)
 {
+    if (c->question == VNDF_ASK_PDF || c->question == VNDF_ASK_VISIBLE)
+        return answer_of_normal(c, i);
     vndf_affine surface = surface_at(c->batch, i);
     switch (c->question) {
     case VNDF_ASK_NDF: return vndf_affine_ndf(&surface, vndf_batch_normal(c->wm, i));
     case VNDF_ASK_AREA: return vndf_affine_projected_area(&surface, wi_at(c->batch, i));
     case VNDF_ASK_LAMBDA: return vndf_affine_lambda(&surface, wi_at(c->batch, i));
-    case VNDF_ASK_G1: return vndf_affine_g1(&surface, wi_at(c->batch, i));
-    default: break;
+    default: return vndf_affine_g1(&surface, wi_at(c->batch, i));
     }
-    vndf_affine_view view = vndf_affine_view_from(&surface, wi_at(c->batch, i));
-    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
-    return c->question == VNDF_ASK_PDF ? vndf_affine_pdf(&view, wm) : vndf_affine_visible(&view, wm);
 }
 
-/* The arrays of a sample call. */
+/* The arrays of a sample call, and the view that all share, or NULL. */
 typedef struct draw {
+    const vndf_affine_batch *batch;
     const float *u1, *u2;
     vndf_normals wm;
     float *pdf;
+    const vndf_affine_view *one;
 } draw;
 
-static float sample_one(const vndf_affine_view *view, const draw *c, size_t i, vndf_vec3 *wm)
+static vndf_vec3 sample_one(const draw *c, size_t i, float *density)
 {
-    float density = 0.0f;
-    *wm = vndf_affine_sample(view, c->u1[i], c->u2[i], c->pdf ? &density : NULL);
-    return density;
+    vndf_affine_view own;
+    const vndf_affine_view *view = c->one;
+    if (!view) {
+        own = view_at(c->batch, i);
+        view = &own;
+    }
+    return vndf_affine_sample(view, c->u1[i], c->u2[i], c->pdf ? density : NULL);
 }
 
-static void sample_one_by_one(const vndf_affine_batch *b, const draw *c)
+static void sample_one_by_one(const draw *c)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_affine_view view = view_at(b, i);
-        vndf_vec3 wm;
-        float density = sample_one(&view, c, i, &wm);
+    for (size_t i = 0; i < c->batch->count; i++) {
+        float density;
+        vndf_vec3 wm = sample_one(c, i, &density);
         c->wm.x[i] = wm.x;
         c->wm.y[i] = wm.y;
         c->wm.z[i] = wm.z;
@@ -91,11 +121,6 @@ static void sample_one_by_one(const vndf_affine_batch *b, const draw *c)
 static int has_lanes(const vndf_affine_batch *b)
 {
     return b->count > 1 && b->distribution && vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
-}
-
-static int is_one_view(const vndf_affine_batch *b)
-{
-    return (b->shared & VNDF_SHARED_ALPHA) && (b->shared & VNDF_SHARED_WI);
 }
 
 /* A block, its inputs and its axes. */
@@ -183,36 +208,30 @@ static void answer_in_blocks(const call *c)
 }
 
 /* Draws the samples that lanes have left, before results overwrite inputs. */
-static void sample_left(const block *at, const draw *c, const vndf_left *left, vndf_real_block *real)
+static void sample_left(const draw *c, size_t first, const vndf_left *left, vndf_real_block *real)
 {
     for (uint32_t n = 0; n < left->count; n++) {
         uint32_t i = left->index[n];
-        vndf_affine_view view = view_at(at->batch, at->walk.first + i);
-        vndf_vec3 wm;
-        real->density[i] = sample_one(&view, c, at->walk.first + i, &wm);
+        vndf_vec3 wm = sample_one(c, first + i, &real->density[i]);
         real->x[i] = wm.x;
         real->y[i] = wm.y;
         real->z[i] = wm.z;
     }
 }
 
-static void sample_in_blocks(const vndf_affine_batch *b, const draw *c)
+static void sample_in_blocks(const draw *c)
 {
     block at;
     vndf_real_block real;
-    vndf_affine_view view; /* of all samples, if they share one */
-    if (is_one_view(b))
-        view = view_at(b, 0);
-    for (begin(&at, b); next(&at, 1);) {
+    for (begin(&at, c->batch); next(&at, 1);) {
         size_t bytes = at.walk.count * sizeof(float);
         vndf_surfaces of = surfaces_of(&at);
         vndf_left left;
         left.count = 0;
-        if (of.is_one)
-            of.view = vndf_trusted_view(&view);
+        of.view = c->one ? vndf_trusted_view(c->one) : NULL;
         vndf_block_draw(&of, more(&at, 0, c->u1), more(&at, 1, c->u2), at.walk.count, c->pdf != NULL, &real,
                         &left);
-        sample_left(&at, c, &left, &real);
+        sample_left(c, at.walk.first, &left, &real);
         memcpy(c->wm.x + at.walk.first, real.x, bytes);
         memcpy(c->wm.y + at.walk.first, real.y, bytes);
         memcpy(c->wm.z + at.walk.first, real.z, bytes);
@@ -234,22 +253,25 @@ static void answer_in_blocks(const call *c)
     (void)c;
 }
 
-static void sample_in_blocks(const vndf_affine_batch *b, const draw *c)
+static void sample_in_blocks(const draw *c)
 {
-    (void)b;
     (void)c;
 }
 
 #endif
 
-static void answer(const call *c)
+static void ask(const vndf_affine_batch *b, vndf_question question, vndf_normals wm, float *to)
 {
-    if (has_lanes(c->batch)) {
-        answer_in_blocks(c);
+    vndf_affine_view view;
+    call c = {b, question, wm, to, NULL};
+    if (question == VNDF_ASK_PDF || question == VNDF_ASK_VISIBLE)
+        c.one = shared_view(b, &view);
+    if (has_lanes(b)) {
+        answer_in_blocks(&c);
         return;
     }
-    for (size_t i = 0; i < c->batch->count; i++)
-        c->to[i] = answer_of(c, i);
+    for (size_t i = 0; i < b->count; i++)
+        to[i] = answer_of(&c, i);
 }
 
 /* ---- the calls ---- */
@@ -257,49 +279,44 @@ static void answer(const call *c)
 void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
                           float *pdf)
 {
-    draw c = {u1, u2, wm, pdf};
+    vndf_affine_view view;
+    draw c = {b, u1, u2, wm, pdf, shared_view(b, &view)};
     if (has_lanes(b) && vndf_unit_scale_float(b->distribution) > 0.0f) /* lanes have no double */
-        sample_in_blocks(b, &c);
+        sample_in_blocks(&c);
     else
-        sample_one_by_one(b, &c);
+        sample_one_by_one(&c);
 }
 
 void vndf_affine_pdf_n(const vndf_affine_batch *b, vndf_normals wm, float *pdf)
 {
-    call c = {b, VNDF_ASK_PDF, wm, pdf};
-    answer(&c);
+    ask(b, VNDF_ASK_PDF, wm, pdf);
 }
 
 void vndf_affine_visible_n(const vndf_affine_batch *b, vndf_normals wm, float *visible)
 {
-    call c = {b, VNDF_ASK_VISIBLE, wm, visible};
-    answer(&c);
+    ask(b, VNDF_ASK_VISIBLE, wm, visible);
 }
 
 void vndf_affine_ndf_n(const vndf_affine_batch *b, vndf_normals wm, float *ndf)
 {
-    call c = {b, VNDF_ASK_NDF, wm, ndf};
-    answer(&c);
+    ask(b, VNDF_ASK_NDF, wm, ndf);
 }
 
 static const vndf_normals no_normals = {NULL, NULL, NULL};
 
 void vndf_affine_projected_area_n(const vndf_affine_batch *b, float *area)
 {
-    call c = {b, VNDF_ASK_AREA, no_normals, area};
-    answer(&c);
+    ask(b, VNDF_ASK_AREA, no_normals, area);
 }
 
 void vndf_affine_lambda_n(const vndf_affine_batch *b, float *lambda)
 {
-    call c = {b, VNDF_ASK_LAMBDA, no_normals, lambda};
-    answer(&c);
+    ask(b, VNDF_ASK_LAMBDA, no_normals, lambda);
 }
 
 void vndf_affine_g1_n(const vndf_affine_batch *b, float *g1)
 {
-    call c = {b, VNDF_ASK_G1, no_normals, g1};
-    answer(&c);
+    ask(b, VNDF_ASK_G1, no_normals, g1);
 }
 
 void vndf_affine_invert_n(const vndf_affine_batch *b, vndf_normals wm, float *u1, float *u2)

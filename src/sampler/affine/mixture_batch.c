@@ -2,7 +2,7 @@
  * other. The inverse always takes one after the other. */
 #include <string.h>
 
-#include "sampler/affine/areas.h"
+#include "sampler/affine/densities.h"
 #include "sampler/affine/mixture_draw.h"
 #include "sampler/batch/batch.h"
 
@@ -34,27 +34,56 @@ static vndf_vec3 wi_at(const vndf_mixture_batch *b, size_t i)
     return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
 }
 
-/* A question of all elements. */
+/* The view that all elements share, made in *view; NULL if there is none. */
+static const vndf_mixture_view *shared_view(const vndf_mixture_batch *b, vndf_mixture_view *view)
+{
+    const unsigned all = VNDF_SHARED_ALPHA | VNDF_SHARED_WI | VNDF_SHARED_WEIGHT;
+    if ((b->shared & all) != all || b->count == 0)
+        return NULL;
+    vndf_mixture mixture = mixture_at(b, 0);
+    vndf_mixture_view_set(view, &mixture, wi_at(b, 0));
+    return view;
+}
+
+/* The view of element i: `one` if all share it, or else its own, made in *view. */
+static const vndf_mixture_view *view_at(const vndf_mixture_batch *b, const vndf_mixture_view *one, size_t i,
+                                        vndf_mixture_view *view)
+{
+    if (one)
+        return one;
+    vndf_mixture mixture = mixture_at(b, i);
+    vndf_mixture_view_set(view, &mixture, wi_at(b, i));
+    return view;
+}
+
+/* A question of all elements, and the view that they share, or NULL. */
 typedef struct call {
     const vndf_mixture_batch *batch;
     vndf_question question;
     vndf_normals wm;
     float *to;
+    const vndf_mixture_view *one;
 } call;
+
+static float answer_of_normal(const call *c, size_t i)
+{
+    vndf_mixture_view own;
+    const vndf_mixture_view *view = view_at(c->batch, c->one, i, &own);
+    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
+    return c->question == VNDF_ASK_PDF ? vndf_mixture_pdf(view, wm) : vndf_mixture_visible(view, wm);
+}
 
 static float answer_of(const call *c, size_t i)
 {
+    if (c->question == VNDF_ASK_PDF || c->question == VNDF_ASK_VISIBLE)
+        return answer_of_normal(c, i);
     vndf_mixture mixture = mixture_at(c->batch, i);
     switch (c->question) {
     case VNDF_ASK_NDF: return vndf_mixture_ndf(&mixture, vndf_batch_normal(c->wm, i));
     case VNDF_ASK_AREA: return vndf_mixture_projected_area(&mixture, wi_at(c->batch, i));
     case VNDF_ASK_LAMBDA: return vndf_mixture_lambda(&mixture, wi_at(c->batch, i));
-    case VNDF_ASK_G1: return vndf_mixture_g1(&mixture, wi_at(c->batch, i));
-    default: break;
+    default: return vndf_mixture_g1(&mixture, wi_at(c->batch, i));
     }
-    vndf_mixture_view view = vndf_mixture_view_from(&mixture, wi_at(c->batch, i));
-    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
-    return c->question == VNDF_ASK_PDF ? vndf_mixture_pdf(&view, wm) : vndf_mixture_visible(&view, wm);
 }
 
 /* The arrays of a sample call, and one result. */
@@ -64,6 +93,7 @@ typedef struct draw {
     vndf_normals wm;
     float *pdf;
     int *lobe;
+    const vndf_mixture_view *one;
 } draw;
 
 typedef struct sample {
@@ -74,10 +104,10 @@ typedef struct sample {
 
 static sample sample_of(const draw *c, size_t i)
 {
-    vndf_mixture mixture = mixture_at(c->batch, i);
-    vndf_mixture_view view = vndf_mixture_view_from(&mixture, wi_at(c->batch, i));
+    vndf_mixture_view own;
     sample s = {{0.0f, 0.0f, 1.0f}, 0.0f, -1};
-    s.wm = vndf_mixture_sample(&view, c->u1[i], c->u2[i], c->pdf ? &s.pdf : NULL, &s.lobe);
+    s.wm = vndf_mixture_sample(view_at(c->batch, c->one, i, &own), c->u1[i], c->u2[i], c->pdf ? &s.pdf : NULL,
+                               &s.lobe);
     return s;
 }
 
@@ -99,8 +129,6 @@ static void sample_one_by_one(const draw *c)
 
 #if VNDF_HAS_LANES
 
-enum { B = VNDF_AXES_BLOCK };
-
 static int has_lanes(const vndf_mixture_batch *b)
 {
     if (b->lobes < 1 || b->lobes > VNDF_MIXTURE_LOBES || b->count < 2 ||
@@ -114,58 +142,14 @@ static int has_lanes(const vndf_mixture_batch *b)
 
 /* ---- answers ---- */
 
-static void answer_areas(const vndf_mixture_block *at, vndf_question question, float *value)
-{
-    const vndf_areas_block *whole = &at->of.whole;
-    for (uint32_t i = 0; i < at->walk.count; i++) {
-        vndf_areas areas = {whole->toward[i], whole->away[i], whole->up[i]};
-        vndf_normal w = {at->in.of[VNDF_MAP_WI_X][i], at->in.of[VNDF_MAP_WI_Y][i], at->in.of[VNDF_MAP_WI_Z][i]};
-        value[i] = areas.toward < 0.0            ? 0.0f
-                   : question == VNDF_ASK_AREA   ? vndf_unit_area_of(areas.toward, w, 1)
-                   : question == VNDF_ASK_LAMBDA ? vndf_areas_lambda(&areas)
-                                                 : vndf_areas_g1(&areas);
-    }
-}
-
-/* Sums of shares, or of weights for D, times the answers of the lobes. */
-static void answer_normals(vndf_mixture_block *at, const call *c, float *value, unsigned char *left)
-{
-    const float *const normal[3] = {vndf_mixture_more(at, 0, c->wm.x), vndf_mixture_more(at, 1, c->wm.y),
-                                    vndf_mixture_more(at, 2, c->wm.z)};
-    double sum[B] = {0.0};
-    for (int l = 0; l < at->of.lobes; l++) {
-        const vndf_surfaces of = vndf_mixture_surfaces(at, l);
-        const vndf_lobe_block *lobe = &at->of.lobe[l];
-        const double *part = c->question == VNDF_ASK_NDF ? lobe->weight : lobe->share;
-        float own[B];
-        vndf_left from;
-        from.count = 0;
-        if (!of.distribution)
-            continue;
-        vndf_block_answer(&of, c->question, normal, at->walk.count, own, &from);
-        for (uint32_t i = 0; i < at->walk.count; i++)
-            sum[i] += lobe->weight[i] > 0.0 ? part[i] * own[i] : 0.0;
-        vndf_left_mark(&from, left);
-    }
-    for (uint32_t i = 0; i < at->walk.count; i++) {
-        int valid = at->of.whole.toward[i] >= 0.0;
-        float density = valid ? vndf_density_from(sum[i]) : 0.0f;
-        value[i] = c->question == VNDF_ASK_PDF && valid && sum[i] > 0.0 ? vndf_positive(density) : density;
-    }
-}
-
 /* Answers may overwrite inputs, so they are stored after the whole block is read. */
 static void answer_in_blocks(const call *c)
 {
-    int of_direction = vndf_question_is_of_direction(c->question);
     vndf_mixture_block at;
-    float value[B];
+    float value[VNDF_AXES_BLOCK];
     for (vndf_mixture_begin(&at, c->batch); vndf_mixture_next(&at, c->question != VNDF_ASK_NDF);) {
-        unsigned char left[B] = {0};
-        if (of_direction)
-            answer_areas(&at, c->question, value);
-        else
-            answer_normals(&at, c, value, left);
+        unsigned char left[VNDF_AXES_BLOCK] = {0};
+        vndf_mixture_answer(&at, c->question, c->wm, value, left);
         for (uint32_t i = 0; i < at.walk.count; i++)
             if (left[i])
                 value[i] = answer_of(c, at.walk.first + i);
@@ -227,14 +211,18 @@ static void sample_in_blocks(const draw *c)
 
 #endif
 
-static void answer(const call *c)
+static void ask(const vndf_mixture_batch *b, vndf_question question, vndf_normals wm, float *to)
 {
-    if (has_lanes(c->batch)) {
-        answer_in_blocks(c);
+    vndf_mixture_view view;
+    call c = {b, question, wm, to, NULL};
+    if (question == VNDF_ASK_PDF || question == VNDF_ASK_VISIBLE)
+        c.one = shared_view(b, &view);
+    if (has_lanes(b)) {
+        answer_in_blocks(&c);
         return;
     }
-    for (size_t i = 0; i < c->batch->count; i++)
-        c->to[i] = answer_of(c, i);
+    for (size_t i = 0; i < b->count; i++)
+        to[i] = answer_of(&c, i);
 }
 
 /* ---- the calls ---- */
@@ -242,7 +230,8 @@ static void answer(const call *c)
 void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
                            float *pdf, int *lobe)
 {
-    draw c = {b, u1, u2, wm, pdf, lobe};
+    vndf_mixture_view view;
+    draw c = {b, u1, u2, wm, pdf, lobe, shared_view(b, &view)};
     if (has_lanes(b))
         sample_in_blocks(&c);
     else
@@ -251,40 +240,34 @@ void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const f
 
 void vndf_mixture_pdf_n(const vndf_mixture_batch *b, vndf_normals wm, float *pdf)
 {
-    call c = {b, VNDF_ASK_PDF, wm, pdf};
-    answer(&c);
+    ask(b, VNDF_ASK_PDF, wm, pdf);
 }
 
 void vndf_mixture_visible_n(const vndf_mixture_batch *b, vndf_normals wm, float *visible)
 {
-    call c = {b, VNDF_ASK_VISIBLE, wm, visible};
-    answer(&c);
+    ask(b, VNDF_ASK_VISIBLE, wm, visible);
 }
 
 void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf)
 {
-    call c = {b, VNDF_ASK_NDF, wm, ndf};
-    answer(&c);
+    ask(b, VNDF_ASK_NDF, wm, ndf);
 }
 
 static const vndf_normals no_normals = {NULL, NULL, NULL};
 
 void vndf_mixture_projected_area_n(const vndf_mixture_batch *b, float *area)
 {
-    call c = {b, VNDF_ASK_AREA, no_normals, area};
-    answer(&c);
+    ask(b, VNDF_ASK_AREA, no_normals, area);
 }
 
 void vndf_mixture_lambda_n(const vndf_mixture_batch *b, float *lambda)
 {
-    call c = {b, VNDF_ASK_LAMBDA, no_normals, lambda};
-    answer(&c);
+    ask(b, VNDF_ASK_LAMBDA, no_normals, lambda);
 }
 
 void vndf_mixture_g1_n(const vndf_mixture_batch *b, float *g1)
 {
-    call c = {b, VNDF_ASK_G1, no_normals, g1};
-    answer(&c);
+    ask(b, VNDF_ASK_G1, no_normals, g1);
 }
 
 void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const int *asked, float *u1, float *u2,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "math/vector.h"
+#include "sampler/affine/areas.h"
 
 #if VNDF_HAS_LANES
 
@@ -91,6 +92,59 @@ void vndf_mixture_draw(const vndf_mixture_block *at, const float *u1, const floa
         draw_lobe(at, l, u2, with_density, &w, to);
     if (with_density)
         add_densities(at, &w, to);
+}
+
+/* ---- answers ---- */
+
+static void answer_areas(const vndf_mixture_block *at, vndf_question question, float *value)
+{
+    const vndf_areas_block *whole = &at->of.whole;
+    for (uint32_t i = 0; i < at->walk.count; i++) {
+        vndf_areas areas = {whole->toward[i], whole->away[i], whole->up[i]};
+        vndf_normal w = {at->in.of[VNDF_MAP_WI_X][i], at->in.of[VNDF_MAP_WI_Y][i], at->in.of[VNDF_MAP_WI_Z][i]};
+        value[i] = areas.toward < 0.0            ? 0.0f
+                   : question == VNDF_ASK_AREA   ? vndf_unit_area_of(areas.toward, w, 1)
+                   : question == VNDF_ASK_LAMBDA ? vndf_areas_lambda(&areas)
+                                                 : vndf_areas_g1(&areas);
+    }
+}
+
+/* Sums of shares, or of weights for D, times the answers of the lobes. */
+static void answer_normals(const vndf_mixture_block *at, vndf_question question, const float *const normal[3],
+                           float *value, unsigned char *left)
+{
+    double sum[VNDF_AXES_BLOCK] = {0.0};
+    for (int l = 0; l < at->of.lobes; l++) {
+        const vndf_surfaces of = vndf_mixture_surfaces(at, l);
+        const vndf_lobe_block *lobe = &at->of.lobe[l];
+        const double *part = question == VNDF_ASK_NDF ? lobe->weight : lobe->share;
+        float own[VNDF_AXES_BLOCK];
+        vndf_left from;
+        from.count = 0;
+        if (!of.distribution)
+            continue;
+        vndf_block_answer(&of, question, normal, at->walk.count, own, &from);
+        for (uint32_t i = 0; i < at->walk.count; i++)
+            sum[i] += lobe->weight[i] > 0.0 ? part[i] * own[i] : 0.0;
+        vndf_left_mark(&from, left);
+    }
+    for (uint32_t i = 0; i < at->walk.count; i++) {
+        int valid = at->of.whole.toward[i] >= 0.0;
+        float density = valid ? vndf_density_from(sum[i]) : 0.0f;
+        value[i] = question == VNDF_ASK_PDF && valid && sum[i] > 0.0 ? vndf_positive(density) : density;
+    }
+}
+
+void vndf_mixture_answer(vndf_mixture_block *at, vndf_question question, vndf_normals wm, float *value,
+                         unsigned char *left)
+{
+    if (vndf_question_is_of_direction(question)) {
+        answer_areas(at, question, value);
+        return;
+    }
+    const float *const normal[3] = {vndf_mixture_more(at, 0, wm.x), vndf_mixture_more(at, 1, wm.y),
+                                    vndf_mixture_more(at, 2, wm.z)};
+    answer_normals(at, question, normal, value, left);
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* Draws blocks of mixtures: samples are sorted by lobe, each lobe draws its own, and all other lobes evaluate them. */
+/* Draws and evaluates blocks of mixtures: samples are sorted by lobe, each lobe draws its own, and all other lobes
+ * evaluate them. */
 #ifndef VNDF_SAMPLER_AFFINE_MIXTURE_DRAW_H
 #define VNDF_SAMPLER_AFFINE_MIXTURE_DRAW_H
 
@@ -17,6 +18,10 @@ typedef struct vndf_mixture_drawn {
 /* Densities only where they are wanted. */
 void vndf_mixture_draw(const vndf_mixture_block *at, const float *u1, const float *u2, int with_density,
                        vndf_mixture_drawn *to);
+
+/* Answers for the whole; marks in `left` those that the scalar call has to give. */
+void vndf_mixture_answer(vndf_mixture_block *at, vndf_question question, vndf_normals wm, float *value,
+                         unsigned char *left);
 
 #endif
 #endif
