@@ -56,16 +56,19 @@ typedef struct call {
     const vndf_affine_view *one;
 } call;
 
+static float answer_seen(const call *c, const vndf_affine_view *view, size_t i)
+{
+    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
+    return c->question == VNDF_ASK_PDF ? vndf_affine_pdf(view, wm) : vndf_affine_visible(view, wm);
+}
+
+/* An assigned view would be copied, and waited for. */
 static float answer_of_normal(const call *c, size_t i)
 {
-    vndf_affine_view own;
-    const vndf_affine_view *view = c->one;
-    vndf_vec3 wm = vndf_batch_normal(c->wm, i);
-    if (!view) {
-        own = view_at(c->batch, i);
-        view = &own;
-    }
-    return c->question == VNDF_ASK_PDF ? vndf_affine_pdf(view, wm) : vndf_affine_visible(view, wm);
+    if (c->one)
+        return answer_seen(c, c->one, i);
+    vndf_affine_view own = view_at(c->batch, i);
+    return answer_seen(c, &own, i);
 }
 
 static float answer_of(const call *c, size_t i)
@@ -92,13 +95,11 @@ typedef struct draw {
 
 static vndf_vec3 sample_one(const draw *c, size_t i, float *density)
 {
-    vndf_affine_view own;
-    const vndf_affine_view *view = c->one;
-    if (!view) {
-        own = view_at(c->batch, i);
-        view = &own;
-    }
-    return vndf_affine_sample(view, c->u1[i], c->u2[i], c->pdf ? density : NULL);
+    float *pdf = c->pdf ? density : NULL;
+    if (c->one)
+        return vndf_affine_sample(c->one, c->u1[i], c->u2[i], pdf);
+    vndf_affine_view own = view_at(c->batch, i);
+    return vndf_affine_sample(&own, c->u1[i], c->u2[i], pdf);
 }
 
 static void sample_one_by_one(const draw *c)
