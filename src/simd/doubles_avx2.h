@@ -129,6 +129,17 @@ VNDF_INLINE uint32_t doubles_mask_bits(doubles_m m)
     return (uint32_t)_mm256_movemask_pd(_mm256_castsi256_pd(m));
 }
 
+/* Stores the numbers of the lanes in `m` one after the other, and anything behind them. Returns how many they are. */
+VNDF_INLINE uint32_t doubles_keep_u(uint32_t to[VNDF_DOUBLES], doubles_m m, doubles_u x)
+{
+    uint32_t bits = doubles_mask_bits(m), count = 0;
+    for (int i = 0; i < VNDF_DOUBLES; i++) {
+        to[count] = x[i];
+        count += bits >> i & 1;
+    }
+    return count;
+}
+
 VNDF_INLINE doubles_u doubles_least_u(doubles_u a, doubles_u b)
 {
     return (doubles_u)_mm_min_epu32((__m128i)a, (__m128i)b);

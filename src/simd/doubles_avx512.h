@@ -126,6 +126,13 @@ VNDF_INLINE uint32_t doubles_mask_bits(doubles_m m)
     return m;
 }
 
+/* Stores the numbers of the lanes in `m` one after the other, and anything behind them. Returns how many they are. */
+VNDF_INLINE uint32_t doubles_keep_u(uint32_t to[VNDF_DOUBLES], doubles_m m, doubles_u x)
+{
+    _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(m, (__m256i)x));
+    return (uint32_t)__builtin_popcount(m);
+}
+
 VNDF_INLINE doubles_u doubles_least_u(doubles_u a, doubles_u b)
 {
     return (doubles_u)_mm256_min_epu32((__m256i)a, (__m256i)b);

@@ -77,7 +77,8 @@ endforeach()
 foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"
         "GGX disc (2018) | scalar" "all normals (2007) | scalar"
         "closed form | scalar" "closed form, batch | portable" "closed form: diagonal | scalar"
-        "closed form: affine | scalar" "closed form: two lobes | scalar")
+        "closed form: affine | scalar" "closed form: two lobes | scalar" "closed form: affine, batch | portable"
+        "closed form: two lobes, batch | portable")
     has(output "| ggx | ${method} |")
 endforeach()
 

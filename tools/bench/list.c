@@ -72,7 +72,8 @@ static void add_surfaces(bench_list *list, const bench_plan *plan, bench_subject
                          const vndf_distribution *d, const char *name)
 {
     for (method_surface surface = 0; surface < METHOD_SURFACES; surface++)
-        add(list, plan, subject, method_ours_surface(d, name, surface), 0);
+        for (size_t i = 0; i < SETS; i++)
+            add(list, plan, subject, method_ours_surface(d, name, surface, sets[i]), 0);
 }
 
 /* The published ways for any D. All three makers are asked alike: the CDF has no side. */

@@ -2,168 +2,257 @@
 
 #include <string.h>
 
+#include "math/vector.h"
+#include "sampler/law.h"
+#include "sampler/surface.h"
+
 #if VNDF_HAS_LANES
 
-const float *vndf_block_input(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
+/* ---- walks ---- */
+
+vndf_walk vndf_walk_over(size_t total, vndf_instructions limit)
 {
-    if (from && !is_shared && count == VNDF_AXES_BLOCK)
-        return from + first;
+    vndf_walk at = {total, 0, 0, vndf_instructions_used(limit) == VNDF_INSTRUCTIONS_AVX512};
+    return at;
+}
+
+int vndf_walk_on(vndf_walk *at)
+{
+    at->first += at->count;
+    if (at->first >= at->total)
+        return 0;
+    size_t rest = at->total - at->first;
+    at->count = rest < VNDF_AXES_BLOCK ? (uint32_t)rest : VNDF_AXES_BLOCK;
+    return 1;
+}
+
+const float *vndf_walk_input(const vndf_walk *at, const float *from, int is_shared, float *copy)
+{
+    if (from && !is_shared && at->count == VNDF_AXES_BLOCK)
+        return from + at->first;
     for (uint32_t i = 0; i < VNDF_AXES_BLOCK; i++)
-        copy[i] = !from || (!is_shared && i >= count) ? 0.0f : from[is_shared ? 0 : first + i];
+        copy[i] = !from || (!is_shared && i >= at->count) ? 0.0f : from[is_shared ? 0 : at->first + i];
     return copy;
 }
 
-void vndf_block_axes(int wide, const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to)
+/* ---- surfaces ---- */
+
+void vndf_block_axes(int wide, int with_matrix, const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to)
 {
-    if (wide)
+    if (wide && with_matrix)
         vndf_axes_avx512(in, count, to);
-    else
+    else if (wide)
+        vndf_axes_turn_avx512(in, count, to);
+    else if (with_matrix)
         vndf_axes_avx2(in, count, to);
-}
-
-void vndf_block_areas(int wide, const vndf_distribution *d, const vndf_map_inputs *in, const vndf_axes_block *at,
-                      uint32_t count, vndf_areas_block *to)
-{
-    if (wide)
-        vndf_axes_areas_avx512(d, in, at, count, to);
     else
-        vndf_axes_areas_avx2(d, in, at, count, to);
+        vndf_axes_turn_avx2(in, count, to);
 }
 
-/* ---- answers ---- */
+void vndf_block_areas(const vndf_surfaces *of, uint32_t count, vndf_areas_block *to)
+{
+    if (of->wide)
+        vndf_axes_areas_avx512(of->distribution, of->in, of->axes, count, to);
+    else
+        vndf_axes_areas_avx2(of->distribution, of->in, of->axes, count, to);
+}
+
+/* ---- some elements ---- */
+
+/* The list, filled up to whole groups with its first element. Returns how many that are. */
+static uint32_t whole_groups(const vndf_some *some, uint32_t *index)
+{
+    uint32_t end = (some->count + 15) / 16 * 16;
+    memcpy(index, some->index, some->count * sizeof *index);
+    for (uint32_t k = some->count; k < end; k++)
+        index[k] = some->index[0];
+    return end;
+}
+
+void vndf_block_pick(const float *from, const vndf_some *some, float *to)
+{
+    uint32_t index[VNDF_AXES_BLOCK], end = whole_groups(some, index);
+    for (uint32_t k = 0; k < end; k++)
+        to[k] = from[index[k]];
+}
+
+static void pick_axes(const vndf_axes_block *from, const uint32_t *index, uint32_t end, vndf_axes_block *to)
+{
+    for (uint32_t k = 0; k < end; k++) {
+        uint32_t i = index[k];
+        to->ax[k] = from->ax[i];
+        to->ay[k] = from->ay[i];
+        to->x[k] = from->x[i];
+        to->y[k] = from->y[i];
+        to->z[k] = from->z[i];
+        to->cosine[k] = from->cosine[i];
+        to->sine[k] = from->sine[i];
+        to->mean_x[k] = from->mean_x[i];
+        to->mean_y[k] = from->mean_y[i];
+        to->factor[k] = from->factor[i];
+    }
+}
+
+vndf_surfaces vndf_block_gather(const vndf_surfaces *of, const vndf_some *some, vndf_gathered *own)
+{
+    vndf_surfaces to = *of;
+    uint32_t index[VNDF_AXES_BLOCK], end;
+    if (of->is_one)
+        return to;
+    end = whole_groups(some, index);
+    pick_axes(of->axes, index, end, &own->axes);
+    for (int n = 0; n < 3; n++) {
+        const float *wi = of->in->of[VNDF_MAP_WI_X + n];
+        own->in.of[VNDF_MAP_WI_X + n] = own->wi[n];
+        for (uint32_t k = 0; k < end; k++)
+            own->wi[n][k] = wi[index[k]];
+    }
+    to.axes = &own->axes;
+    to.in = &own->in;
+    return to;
+}
 
 static void leave(vndf_left *left, uint32_t index)
 {
     left->index[left->count++] = index;
 }
 
-/* The inputs of some elements, side by side. */
-typedef struct gathered {
-    float of[VNDF_EVAL_X][VNDF_AXES_BLOCK];
-    vndf_seen_block seen;
-} gathered;
-
-static void gather(const vndf_axes_block *at, const vndf_seen_block *seen, const vndf_some *some, gathered *to)
+void vndf_left_mark(const vndf_left *left, unsigned char *is_left)
 {
-    uint32_t end = (some->count + 7) / 8 * 8; /* spare lanes repeat the first element */
-    for (uint32_t k = 0; k < end; k++) {
-        uint32_t i = some->index[k < some->count ? k : 0];
-        to->of[VNDF_EVAL_ALPHA_X][k] = at->ax[i];
-        to->of[VNDF_EVAL_ALPHA_Y][k] = at->ay[i];
-        to->of[VNDF_EVAL_WI_X][k] = at->x[i];
-        to->of[VNDF_EVAL_WI_Y][k] = at->y[i];
-        to->of[VNDF_EVAL_WI_Z][k] = at->z[i];
-        to->seen.x[k] = seen->x[i];
-        to->seen.y[k] = seen->y[i];
-        to->seen.z[k] = seen->z[i];
-        to->seen.facing[k] = seen->facing[i];
-    }
+    for (uint32_t n = 0; n < left->count; n++)
+        is_left[left->index[n]] = 1;
 }
 
-static void point_at(vndf_eval_inputs *in, const float *const from[VNDF_EVAL_X], const vndf_seen_block *seen)
-{
-    for (int n = 0; n < VNDF_EVAL_X; n++)
-        in->of[n] = from[n];
-    in->normal[0] = seen->x;
-    in->normal[1] = seen->y;
-    in->normal[2] = seen->z;
-    in->facing = seen->facing;
-}
+/* ---- answers ---- */
 
-static void evaluate(int wide, const vndf_distribution *d, vndf_question question, vndf_eval_block *block)
+static void see(const vndf_surfaces *of, uint32_t count, const float *const normal[3], vndf_seen_block *to)
 {
-    if (wide)
-        vndf_eval_block_avx512(d, question, block);
+    if (of->wide)
+        vndf_axes_seen_avx512(of->in, of->axes, count, normal, to);
     else
-        vndf_eval_block_avx2(d, question, block);
+        vndf_axes_seen_avx2(of->in, of->axes, count, normal, to);
 }
 
-static void answer_some(int wide, const vndf_distribution *d, vndf_question question, const vndf_axes_block *at,
-                        const vndf_seen_block *seen, const vndf_some *some, float *value, vndf_left *left)
+void vndf_block_answer(const vndf_surfaces *of, vndf_question question, const float *const normal[3],
+                       uint32_t count, float *value, vndf_left *left)
 {
-    gathered own;
+    const vndf_axes_block *at = of->axes;
+    vndf_seen_block seen;
     vndf_eval_block block;
-    if (some->count == 0)
-        return;
-    gather(at, seen, some, &own);
-    const float *from[VNDF_EVAL_X] = {own.of[0], own.of[1], own.of[2], own.of[3], own.of[4]};
-    point_at(&block.in, from, &own.seen);
-    block.count = some->count;
-    evaluate(wide, d, question, &block);
-    for (uint32_t k = 0; k < some->count; k++)
-        value[some->index[k]] = block.value[k];
-    for (uint32_t k = 0; k < block.left_count; k++)
-        leave(left, some->index[block.left[k]]);
-}
-
-static void answer_all(int wide, const vndf_distribution *d, vndf_question question, const vndf_axes_block *at,
-                       const vndf_seen_block *seen, uint32_t count, float *value, vndf_left *left)
-{
-    const float *from[VNDF_EVAL_X] = {at->ax, at->ay, at->x, at->y, at->z};
-    vndf_eval_block block;
-    point_at(&block.in, from, seen);
+    block.in = (vndf_eval_inputs){{at->ax, at->ay, at->x, at->y, at->z}, {seen.x, seen.y, seen.z}, seen.facing};
     block.count = count;
-    evaluate(wide, d, question, &block);
+    if (normal)
+        see(of, count, normal, &seen);
+    if (of->wide)
+        vndf_eval_block_avx512(of->distribution, question, &block);
+    else
+        vndf_eval_block_avx2(of->distribution, question, &block);
     memcpy(value, block.value, count * sizeof(float));
     for (uint32_t k = 0; k < block.left_count; k++)
         leave(left, block.left[k]);
 }
 
-static void see(int wide, const vndf_map_inputs *in, const vndf_axes_block *at, uint32_t count,
-                const float *const normal[3], vndf_seen_block *to)
+void vndf_block_answer_some(const vndf_surfaces *of, vndf_question question, const float *const normal[3],
+                            const vndf_some *some, float *value, vndf_left *left)
 {
-    if (wide)
-        vndf_axes_seen_avx512(in, at, count, normal, to);
-    else
-        vndf_axes_seen_avx2(in, at, count, normal, to);
-}
-
-void vndf_block_answer(int wide, const vndf_distribution *d, vndf_question question, const vndf_map_inputs *in,
-                       const vndf_axes_block *at, const float *const normal[3], uint32_t count,
-                       const vndf_some *some, float *value, vndf_left *left)
-{
-    vndf_seen_block seen;
-    if (normal)
-        see(wide, in, at, count, normal, &seen);
-    if (some)
-        answer_some(wide, d, question, at, &seen, some, value, left);
-    else
-        answer_all(wide, d, question, at, &seen, count, value, left);
+    vndf_gathered own;
+    float picked[3][VNDF_AXES_BLOCK];
+    const float *const picked_normal[3] = {picked[0], picked[1], picked[2]};
+    if (some->count == 0)
+        return;
+    const vndf_surfaces own_surfaces = vndf_block_gather(of, some, &own);
+    for (int n = 0; n < 3; n++)
+        vndf_block_pick(normal[n], some, picked[n]);
+    vndf_block_answer(&own_surfaces, question, picked_normal, some->count, value, left);
 }
 
 /* ---- draws ---- */
 
-void vndf_block_draw(int wide, const vndf_distribution *d, const vndf_map_inputs *in, const vndf_axes_block *at,
-                     const float *u1, const float *u2, uint32_t count, int with_density, vndf_real_block *real,
-                     vndf_left *left)
+static void draw_plain(const vndf_surfaces *of, vndf_sample_block *block)
 {
-    vndf_sample_block block = {.alpha_x = at->ax, .alpha_y = at->ay, .wi_x = at->x, .wi_y = at->y, .wi_z = at->z};
+    if (of->wide)
+        vndf_sample_block_avx512(of->distribution, block);
+    else
+        vndf_sample_block_avx2(of->distribution, block);
+}
+
+static int is_straight(const vndf_axes_block *at, uint32_t i)
+{
+    return at->sine[i] == 0.0 && at->mean_x[i] == 0.0 && at->mean_y[i] == 0.0;
+}
+
+/* What vndf_affine_sample does along the axes. A density that has to be evaluated is 0 here, which is not trusted;
+ * what is invalid is left. */
+static void draw_one(const vndf_surfaces *of, vndf_sample_block *block, uint32_t i, vndf_left *left)
+{
+    const vndf_axes_block *at = of->axes;
+    const vndf_surface plain = {of->distribution, at->ax[i], at->ay[i]};
+    float u1 = vndf_clamp_unit(block->u1[i]), u2 = vndf_clamp_unit(block->u2[i]), density = 0.0f;
+    int fast = 1;
+    vndf_view view;
+    vndf_view_set(&view, &plain, vndf_vec3_of(at->x[i], at->y[i], at->z[i]));
+    if (!view.distribution) {
+        leave(left, i);
+        return;
+    }
+    vndf_vec3 n = is_straight(at, i) ? vndf_law_sample(&view, u1, u2, &density)
+                                     : vndf_law_sample_telling(&view, u1, u2, &density, &fast);
+    block->x[i] = n.x;
+    block->y[i] = n.y;
+    block->z[i] = n.z;
+    block->density[i] = fast ? density : 0.0f;
+}
+
+/* Samples that lanes cannot draw. */
+static void draw_left(const vndf_surfaces *of, vndf_sample_block *block, vndf_left *left)
+{
+    for (uint32_t k = 0; k < block->left_count; k++)
+        draw_one(of, block, block->left[k] % VNDF_DELICATE, left);
+}
+
+static void make_real(const vndf_surfaces *of, uint32_t count, vndf_real_block *real)
+{
+    if (of->wide)
+        vndf_axes_real_avx512(of->distribution, of->in, of->axes, count, real);
+    else
+        vndf_axes_real_avx2(of->distribution, of->in, of->axes, count, real);
+}
+
+/* Densities that did not survive. */
+static void evaluate(const vndf_surfaces *of, vndf_real_block *real, vndf_left *left)
+{
     const float *const normal[3] = {real->x, real->y, real->z};
+    const vndf_some *slow = &real->slow;
+    float value[VNDF_AXES_BLOCK];
+    vndf_left from;
+    from.count = 0;
+    vndf_block_answer_some(of, VNDF_ASK_PDF, normal, slow, value, &from);
+    for (uint32_t k = 0; k < slow->count; k++)
+        real->density[slow->index[k]] = value[k];
+    for (uint32_t k = 0; k < from.count; k++)
+        leave(left, slow->index[from.index[k]]);
+}
+
+void vndf_block_draw(const vndf_surfaces *of, const float *u1, const float *u2, uint32_t count, int with_density,
+                     vndf_real_block *real, vndf_left *left)
+{
+    const vndf_axes_block *at = of->axes;
+    vndf_sample_block block = {.alpha_x = at->ax, .alpha_y = at->ay, .wi_x = at->x, .wi_y = at->y, .wi_z = at->z};
     block.u1 = u1;
     block.u2 = u2;
-    block.view = NULL;
+    block.view = of->view;
     block.count = count;
     block.x = real->x;
     block.y = real->y;
     block.z = real->z;
     block.density = real->density;
-    if (wide) {
-        vndf_sample_block_avx512(d, &block);
-        vndf_axes_real_avx512(d, in, at, count, real);
-    } else {
-        vndf_sample_block_avx2(d, &block);
-        vndf_axes_real_avx2(d, in, at, count, real);
-    }
-    for (uint32_t k = 0; k < block.left_count; k++)
-        leave(left, block.left[k] % VNDF_DELICATE);
-    for (uint32_t k = 0; k < real->lost_count; k++)
-        leave(left, real->lost[k]);
-    if (!with_density || real->slow_count == 0)
-        return;
-    vndf_some slow;
-    slow.count = real->slow_count;
-    memcpy(slow.index, real->slow, slow.count * sizeof *slow.index);
-    vndf_block_answer(wide, d, VNDF_ASK_PDF, in, at, normal, count, &slow, real->density, left);
+    draw_plain(of, &block);
+    draw_left(of, &block, left);
+    make_real(of, count, real);
+    for (uint32_t k = 0; k < real->lost.count; k++)
+        leave(left, real->lost.index[k]);
+    if (with_density)
+        evaluate(of, real, left);
 }
 
 #endif

@@ -5,6 +5,7 @@
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
 #  include "sampler/affine/areas.h"
+#  include "sampler/affine/lanes_list.h"
 #  include "sampler/affine/principal.h"
 #  include "sampler/batch/density_of.h"
 
@@ -44,22 +45,36 @@ VNDF_INLINE vndf_normal wi_at(const vndf_map_inputs *in, uint32_t i)
 
 /* ---- to the axes ---- */
 
+VNDF_INLINE void store_direction(const vndf_principal *p, const vndf_map_inputs *in, uint32_t i,
+                                 vndf_axes_block *to)
+{
+    vndf_normal wi = wi_at(in, i);
+    vndf_toward w = vndf_principal_toward(p, wi.x, wi.y, wi.z);
+    doubles_store_f(to->x + i, doubles_narrow(w.x));
+    doubles_store_f(to->y + i, doubles_narrow(w.y));
+    doubles_store_f(to->z + i, doubles_narrow(w.z));
+    doubles_store_long(to->factor + i, w.factor);
+}
+
 void NAMED(vndf_axes)(const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to)
 {
     for (uint32_t i = 0; i < count; i += VNDF_DOUBLES) {
         vndf_principal p = axes_at(in, i);
-        vndf_normal wi = wi_at(in, i);
-        vndf_toward w = vndf_principal_toward(&p, wi.x, wi.y, wi.z);
         doubles_store_f(to->ax + i, p.ax);
         doubles_store_f(to->ay + i, p.ay);
-        doubles_store_f(to->x + i, doubles_narrow(w.x));
-        doubles_store_f(to->y + i, doubles_narrow(w.y));
-        doubles_store_f(to->z + i, doubles_narrow(w.z));
         doubles_store_long(to->cosine + i, p.cosine);
         doubles_store_long(to->sine + i, p.sine);
         doubles_store_long(to->mean_x + i, p.mean_x);
         doubles_store_long(to->mean_y + i, p.mean_y);
-        doubles_store_long(to->factor + i, w.factor);
+        store_direction(&p, in, i, to);
+    }
+}
+
+void NAMED(vndf_axes_turn)(const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to)
+{
+    for (uint32_t i = 0; i < count; i += VNDF_DOUBLES) {
+        vndf_principal p = stored_axes(to, i);
+        store_direction(&p, in, i, to);
     }
 }
 
@@ -84,17 +99,6 @@ void NAMED(vndf_axes_areas)(const vndf_distribution *d, const vndf_map_inputs *i
 
 /* ---- normals ---- */
 
-/* Indices of the lanes in `m`, from `first` on, that are below `end`. */
-VNDF_INLINE uint32_t append(uint32_t *list, uint32_t count, doubles_m m, uint32_t first, uint32_t end)
-{
-    uint32_t bits = doubles_mask_bits(m);
-    if (end - first < VNDF_DOUBLES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        list[count++] = first + (uint32_t)__builtin_ctz(bits);
-    return count;
-}
-
 VNDF_INLINE doubles_f pick_f(doubles_m m, doubles_f yes, doubles no)
 {
     return doubles_narrow(doubles_pick(m, doubles_widen(yes), no));
@@ -104,7 +108,7 @@ void NAMED(vndf_axes_real)(const vndf_distribution *d, const vndf_map_inputs *in
                            uint32_t count, vndf_real_block *real)
 {
     double scale = vndf_unit_scale(d);
-    real->lost_count = real->slow_count = 0;
+    real->lost.count = real->slow.count = 0;
     for (uint32_t i = 0; i < count; i += VNDF_DOUBLES) {
         vndf_principal p = stored_axes(at, i);
         vndf_direction of = {doubles_widen(p.ax) * scale, doubles_widen(p.ay) * scale, doubles_load(at->x + i),
@@ -118,9 +122,9 @@ void NAMED(vndf_axes_real)(const vndf_distribution *d, const vndf_map_inputs *in
         doubles_store_f(real->y + i, pick_f(turned, drawn.y, n.y));
         doubles_store_f(real->z + i, pick_f(turned, drawn.z, n.z));
         doubles_store_f(real->density + i, pick_f(turned, vndf_positive_of(drawn.density), density));
-        real->lost_count = append(real->lost, real->lost_count, doubles_without(turned, faces), i, count);
-        real->slow_count = append(real->slow, real->slow_count,
-                                  doubles_without(doubles_both(turned, faces), drawn.trusted), i, count);
+        doubles_m slow = doubles_without(doubles_both(turned, faces), drawn.trusted);
+        vndf_list_add_few(&real->lost, doubles_without(turned, faces), i, count);
+        vndf_list_add_few(&real->slow, slow, i, count);
     }
 }
 

@@ -11,6 +11,11 @@
 
 enum { VNDF_AXES_BLOCK = 128 };
 
+/* Some elements of a block. Lanes write past the end of the list. */
+typedef struct vndf_some {
+    uint32_t index[VNDF_AXES_BLOCK + 8], count;
+} vndf_some;
+
 /* The inputs of a block. */
 enum {
     VNDF_MAP_XX,
@@ -47,7 +52,7 @@ typedef struct vndf_areas_block {
  * that face away, and `slow` those whose density has to be evaluated. */
 typedef struct vndf_real_block {
     float x[VNDF_AXES_BLOCK], y[VNDF_AXES_BLOCK], z[VNDF_AXES_BLOCK], density[VNDF_AXES_BLOCK];
-    uint32_t lost[VNDF_AXES_BLOCK], slow[VNDF_AXES_BLOCK], lost_count, slow_count;
+    vndf_some lost, slow;
 } vndf_real_block;
 
 /* Real normals seen from the axes, and wi'.n. */
@@ -59,6 +64,7 @@ typedef struct vndf_seen_block {
 
 #  define VNDF_DECLARE_AXES(name)                                                                                 \
     void vndf_axes_##name(const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to);                        \
+    void vndf_axes_turn_##name(const vndf_map_inputs *in, uint32_t count, vndf_axes_block *to);                   \
     void vndf_axes_areas_##name(const vndf_distribution *d, const vndf_map_inputs *in, const vndf_axes_block *at, \
                                 uint32_t count, vndf_areas_block *to);                                            \
     void vndf_axes_real_##name(const vndf_distribution *d, const vndf_map_inputs *in, const vndf_axes_block *at,  \

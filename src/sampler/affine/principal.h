@@ -5,6 +5,8 @@
  *     wm ~ L n,   wi' = L^T wi,   L (x, y, z) = R (x - mean.x z, y - mean.y z, z),  mean along the axes.
  *
  * wi.wm is wi'.n. The plain surface has ax, ay and wi' as floats: relative roundings, which it could have been given.
+ * Their price is that u' is off by up to 2^-24 of itself from the matrix as it is given, and exp(-u'^2) of Beckmann by
+ * up to 2^-23 u'^2: 8.8e-6 where u'^2 is 74, and more than 1e-5 beyond 84, where D is 1e-37 of its maximum.
  * n = L^-1 wm stays in double, and is not made unit: with n of any length the density of n/|n| over |n|^3, and D of it
  * over |n|^4, are what the formulas give (density.h, analytic_density.h), and those are the densities of wm. */
 #ifndef VNDF_SAMPLER_AFFINE_PRINCIPAL_H
@@ -38,17 +40,27 @@ VNDF_INLINE doubles_m vndf_principal_is_straight(const vndf_principal *p)
     return doubles_both(vndf_are_zero(p->sine, p->mean_x), vndf_are_zero(p->mean_y, p->mean_y));
 }
 
+/* A diagonal M has the axes x and y, whichever is rougher. */
+VNDF_INLINE vndf_principal vndf_principal_of_diagonal(const vndf_slope_map *m)
+{
+    vndf_principal at;
+    at.ax = doubles_narrow(doubles_abs(m->xx));
+    at.ay = doubles_narrow(doubles_abs(m->yy));
+    at.cosine = doubles_set(1.0);
+    at.sine = doubles_set(0.0);
+    return at;
+}
+
 /* Axes and singular values of M from M M^T = (a b; b c): half the difference and half the sum of its eigenvalues.
- * Squares of floats are exact in double, and so are the products in the determinant. A diagonal M has the axes x and
- * y, whichever is rougher. */
-VNDF_INLINE vndf_principal vndf_principal_axes(const vndf_slope_map *m)
+ * Squares of floats are exact in double, and so are the products in the determinant. */
+VNDF_INLINE vndf_principal vndf_principal_of_any(const vndf_slope_map *m, doubles_m diagonal)
 {
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
     doubles xx = m->xx, xy = m->xy, yx = m->yx, yy = m->yy, a = xx * xx + xy * xy, c = yx * yx + yy * yy;
     doubles b = xx * yx + xy * yy, p = 0.5 * (a - c), h = doubles_root(p * p + b * b);
     doubles most = doubles_root(0.5 * (a + c) + h), least = doubles_abs(xx * yy - xy * yx) / most;
     doubles sum = h + doubles_abs(p), per = 1.0 / doubles_root(2.0 * h * sum), large = sum * per, small = b * per;
-    doubles_m diagonal = vndf_are_zero(xy, yx), turned = doubles_without(doubles_less(nothing, h), diagonal);
+    doubles_m turned = doubles_without(doubles_less(nothing, h), diagonal);
     doubles_m along_x = doubles_at_most(nothing, p);
     doubles cosine = doubles_pick(along_x, large, small), sine = doubles_pick(along_x, small, large);
     vndf_principal at;
@@ -57,6 +69,14 @@ VNDF_INLINE vndf_principal vndf_principal_axes(const vndf_slope_map *m)
     at.cosine = doubles_pick(turned, cosine, one);
     at.sine = doubles_pick(turned, sine, nothing);
     return at;
+}
+
+VNDF_INLINE vndf_principal vndf_principal_axes(const vndf_slope_map *m)
+{
+    const doubles nothing = doubles_set(0.0);
+    doubles_m diagonal = vndf_are_zero(m->xy, m->yx), all = doubles_at_most(nothing, nothing);
+    return doubles_any(doubles_without(all, diagonal)) ? vndf_principal_of_any(m, diagonal)
+                                                       : vndf_principal_of_diagonal(m);
 }
 
 /* Roughness 0, which is invalid, where the mean slope is too large. */

@@ -5,6 +5,12 @@
 #include "math/vector.h"
 #include "vndf.h"
 
+/* Number i of an array; a missing array holds zeros. */
+VNDF_INLINE float vndf_batch_number(const float *from, size_t i)
+{
+    return from ? from[i] : 0.0f;
+}
+
 /* Element i of a batch. */
 VNDF_INLINE vndf_surface vndf_batch_surface(const vndf_batch *b, size_t i)
 {

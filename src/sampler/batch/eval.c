@@ -16,11 +16,6 @@ typedef struct call {
     float *to;
 } call;
 
-static int is_of_direction(vndf_question question)
-{
-    return question == VNDF_ASK_AREA || question == VNDF_ASK_LAMBDA || question == VNDF_ASK_G1;
-}
-
 /* ---- one by one ---- */
 
 /* The answer for element i, by the scalar call. */
@@ -71,7 +66,7 @@ static void read_block(vndf_eval_block *block, const call *c, size_t first, copi
     const vndf_batch *b = c->batch;
     const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
                                            b->wi_z,    c->wm.x,    c->wm.y, c->wm.z};
-    int last = is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
+    int last = vndf_question_is_of_direction(c->question) ? VNDF_EVAL_WI_Z : VNDF_EVAL_Z;
     for (int n = 0; n <= last; n++) {
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
             continue; /* D needs no wi; the arrays may be missing */
@@ -112,7 +107,7 @@ static void answer_in_lanes(const call *c)
 
 static void answer(const call *c)
 {
-    if (is_of_direction(c->question) && vndf_batch_is_one_view(c->batch)) {
+    if (vndf_question_is_of_direction(c->question) && vndf_batch_is_one_view(c->batch)) {
         float all = answer_of(c, 0);
         for (size_t i = 0; i < c->batch->count; i++)
             c->to[i] = all;

@@ -19,6 +19,12 @@ typedef enum vndf_question {
     VNDF_ASK_G1
 } vndf_question;
 
+/* Whether the answer needs no normal. */
+static inline int vndf_question_is_of_direction(vndf_question question)
+{
+    return question == VNDF_ASK_AREA || question == VNDF_ASK_LAMBDA || question == VNDF_ASK_G1;
+}
+
 /* The inputs of a block: the members of vndf_query, in their order. */
 enum {
     VNDF_EVAL_ALPHA_X,

@@ -79,7 +79,9 @@ static void fill(numbers *n, const vndf_distribution *d, unsigned long long seed
         n->of[U1][i] = test_uniform(&state);
         n->of[U2][i] = test_uniform(&state);
         if (i < 2) {
-            const float first[] = {0.4f, 0.1f, -0.2f, 0.3f, 0.1f, i == seed % 2 ? 0.2f : 0.0f, 0.6f, 0.0f, 0.8f};
+            const float height[] = {0.8f, -0.3f, 0.8f, NAN}; /* one view may be below the horizon, or none */
+            const float first[] = {0.4f, 0.1f, -0.2f,           0.3f, 0.1f, i == seed % 2 ? 0.2f : 0.0f,
+                                   0.6f, 0.0f, height[seed % 4]};
             for (int k = XX; k <= WI_Z; k++)
                 n->of[k][i] = first[k];
         }

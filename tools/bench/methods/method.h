@@ -84,9 +84,11 @@ typedef enum method_call { METHOD_PDF, METHOD_INVERT, METHOD_NDF, METHOD_LAMBDA,
 method method_ours_call(const vndf_distribution *distribution, const char *name, method_call call,
                         vndf_instructions limit);
 
-/* Samples of a surface with a diagonal matrix, with any matrix and a mean slope, and with two lobes. */
+/* Samples of a surface with a diagonal matrix, with any matrix and a mean slope, and with two lobes. A diagonal one has
+ * no batch of its own. */
 typedef enum method_surface { METHOD_DIAGONAL, METHOD_AFFINE, METHOD_TWO_LOBES, METHOD_SURFACES } method_surface;
-method method_ours_surface(const vndf_distribution *distribution, const char *name, method_surface surface);
+method method_ours_surface(const vndf_distribution *distribution, const char *name, method_surface surface,
+                           vndf_instructions limit);
 
 const char *method_instructions_name(vndf_instructions set);
 
