@@ -136,14 +136,14 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
         vndf_batch part = part_of(b, first, count, drawn.up);
         vndf_sample_weighted_n(&part, u[0] + first, u[1] + first, wm, drawn.density, drawn.weight);
         for (size_t i = 0; i < count; i++) {
+            const float own[3] = {u[0][first + i], u[1][first + i], u[2][first + i]};
             vndf_scattered s;
             if (first + i == 0 || !one)
                 hit_at(&hit, b, first + i);
             if (hit.material == b->material)
-                routines->scatter(&hit, direction_at(wm, i), drawn.density[i], drawn.weight[i], u[2][first + i],
-                                  &s);
+                routines->scatter(&hit, direction_at(wm, i), drawn.density[i], drawn.weight[i], own, &s);
             else
-                vndf_bsdf_sample(&hit, u[0], &s); /* of nothing */
+                vndf_bsdf_sample(&hit, own, &s); /* of nothing */
             put(to, first + i, &s, b->material->is.wavelengths);
         }
     }

@@ -20,7 +20,7 @@ typedef struct vndf_routines {
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
     float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
     /* `sample` after vndf_sample_weighted drew wm; NULL if it draws otherwise */
-    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, float u3,
+    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, const float u[3],
                     vndf_scattered *scattered);
 } vndf_routines;
 

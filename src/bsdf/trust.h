@@ -36,7 +36,7 @@ _Static_assert(VNDF_SHARE_REFLECTANCE + VNDF_SHARE_MASKING + VNDF_SHARE_WO <= VN
 /* The least roughness, or 1, times how far wo turns with the normal. Rounding moves wo by 6e-8, and so the slope by
  * 3e-6 of the roughness. This is for laws like GGX, whose P22 changes by a factor of up to e^2 within one roughness;
  * steeper ones want as much more. */
-static const float VNDF_TRUST_TURN = 0.025f;
+static const float VNDF_TRUST_TURN = 0.03f;
 
 VNDF_INLINE float vndf_turn_for(double steepness)
 {
@@ -44,7 +44,7 @@ VNDF_INLINE float vndf_turn_for(double steepness)
 }
 
 /* How much more a law asks for where its P22 is steeper than that: Beckmann's, at R = 3.9, where float ends. */
-static const float VNDF_TRUST_STEEPER = 4.2f;
+static const float VNDF_TRUST_STEEPER = 3.5f;
 
 /* `turn` is that of the law. */
 VNDF_INLINE int vndf_trusts_turn(float ax, float ay, float gain, float turn)
@@ -74,7 +74,7 @@ static const double VNDF_TRUST_BEYOND = 0.1;
 /* Rotated lobes round wo once more, and once more where it is evaluated. */
 static const float VNDF_TRUST_ROTATED_GAIN = 0.7f;
 
-/* The second uniform number of a rotated sample: the last normals of a table may be just before a jump of D. */
+/* The second uniform number: the last normals of a table may be just before a jump of D. */
 static const float VNDF_TRUST_LAST = 0.9999f;
 
 /* ---- terms of a weight ---- */

@@ -159,11 +159,10 @@ static void through_visible(const vndf_bsdf *b, const float u[3], vndf_scattered
     sample_through(b, u, s, VNDF_NORMALS_VISIBLE);
 }
 
-static void through_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, float u3,
+static void through_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, const float u[3],
                           vndf_scattered *s)
 {
-    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight);
-    (void)u3;
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight, u[1]);
     scatter_through(b, &n, s);
 }
 
@@ -182,10 +181,11 @@ static void both_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
     sample_both(b, u, s, VNDF_NORMALS_VISIBLE);
 }
 
-static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, float u3, vndf_scattered *s)
+static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, const float u[3],
+                       vndf_scattered *s)
 {
-    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight);
-    scatter_both(b, &n, u3, s, VNDF_NORMALS_VISIBLE);
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight, u[1]);
+    scatter_both(b, &n, u[2], s, VNDF_NORMALS_VISIBLE);
 }
 
 static void both_all(const vndf_bsdf *b, const float u[3], vndf_scattered *s)

@@ -29,7 +29,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     if (!(facing > VNDF_TRUST_GGX_FACING)) {
-        vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, 1.0f, u[2], s);
+        vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, drawn.density, 1.0f, u, s);
         return;
     }
     float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
@@ -66,9 +66,10 @@ static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
                              : vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
 }
 
-static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, float u3, vndf_scattered *s)
+static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, const float u[3],
+                    vndf_scattered *s)
 {
-    vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, density, weight, u3, s);
+    vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, density, weight, u, s);
 }
 
 const vndf_routines vndf_routines_bare_ggx = {prepare, sample, eval, pdf, scatter};

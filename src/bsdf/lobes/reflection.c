@@ -58,12 +58,11 @@ static void bare_visible(const vndf_bsdf *b, const float u[3], vndf_scattered *s
     sample(b, u, s, choice);
 }
 
-static void scatter_bare(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, float u3,
+static void scatter_bare(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, const float u[3],
                          vndf_scattered *s)
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
-    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight);
-    (void)u3;
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight, u[1]);
     scatter(b, &n, s, 1, choice);
 }
 
@@ -87,12 +86,11 @@ static void sample_visible(const vndf_bsdf *b, const float u[3], vndf_scattered 
     sample(b, u, s, choice);
 }
 
-static void scatter_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, float u3,
+static void scatter_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight, const float u[3],
                             vndf_scattered *s)
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
-    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight);
-    (void)u3;
+    vndf_bsdf_normal n = vndf_bsdf_visible(b, wm, density, weight, u[1]);
     scatter(b, &n, s, 1, choice);
 }
 

@@ -184,12 +184,12 @@ VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 }
 
 /* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
-VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, float x, float y, float gain)
+VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, const vndf_bsdf_normal *n, float gain)
 {
-    float ax = b->view.ax, ay = b->view.ay, turn = b->material->turn;
+    float ax = b->view.ax, ay = b->view.ay, turn = b->material->turn, x = n->wm.x, y = n->wm.y;
     if (vndf_law_is_steeper(b->view.distribution, ax, ay, x, y))
         turn *= VNDF_TRUST_STEEPER;
-    return vndf_trusts_turn(ax, ay, gain, turn) && vndf_trusts_pole(x, y, gain);
+    return vndf_trusts_turn(ax, ay, gain, turn) && vndf_trusts_pole(x, y, gain) && n->u2 < VNDF_TRUST_LAST;
 }
 
 /* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum
@@ -240,7 +240,7 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
-    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n->wm.x, n->wm.y, n->facing);
+    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n, n->facing);
     int trusted =
         settled & (as_drawn | of_wo) & ((choice.bare & of_wo) | (n->facing > VNDF_TRUST_REFLECTION_FACING));
     if (!trusted && vndf_reflect_exactly(b, wo, out))
@@ -274,8 +274,8 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
     float gain = VNDF_TRUST_REFRACTION_GAIN * (float)fabs(along / eta) * n->wm.z;
-    if (rise != 0.0 && !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING &&
-                         vndf_is_settled(b, n->wm.x, n->wm.y, gain)))
+    if (rise != 0.0 &&
+        !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING && vndf_is_settled(b, n, gain)))
         return vndf_refract_exactly(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->wo = wo;

@@ -43,26 +43,26 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     return fabs(off) < 1e-3 && b->material->unturned->prepare(b, r, to_axes(b, wi));
 }
 
-/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. */
-static int is_settled(const vndf_bsdf *b, vndf_normal wm, double facing)
+/* The normal of a sample in its axes; walks have none. */
+static vndf_bsdf_normal normal_of(const vndf_bsdf *b, const vndf_scattered *s, float u2)
 {
-    float gain = VNDF_TRUST_ROTATED_GAIN * (float)facing;
-    return gain > VNDF_TRUST_REFLECTION_FACING && vndf_keeps_reflectance(b, facing) &&
-           vndf_is_settled(b, (float)wm.x, (float)wm.y, gain);
+    vndf_bsdf_normal n = {s->wm, s->density, 0.0f, 0.0f, u2};
+    if (b->material->is.effects.scattering == VNDF_SCATTERING_MULTIPLE)
+        n.wm = vndf_vec3_from(vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side)).wm);
+    n.facing = vndf_dot(b->view.wi, vndf_mirrored(n.wm, b->side));
+    return n;
 }
 
-/* The same for a sample in its axes; walks have no normal. */
-static int is_settled_sample(const vndf_bsdf *b, const vndf_scattered *s, const float u[3])
+/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. */
+static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, float u2)
 {
-    const vndf_effects *is = &b->material->is.effects;
     /* the density of bounded normals jumps in places that this test does not look for */
-    if (is->normals == VNDF_NORMALS_BOUNDED || s->lobe != VNDF_LOBE_REFLECTION || !(u[1] < VNDF_TRUST_LAST))
+    if (b->material->is.effects.normals == VNDF_NORMALS_BOUNDED || s->lobe != VNDF_LOBE_REFLECTION)
         return 0;
-    if (is->scattering == VNDF_SCATTERING_MULTIPLE) {
-        vndf_half half = vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side));
-        return is_settled(b, half.wm, half.event.facing_i);
-    }
-    return is_settled(b, vndf_normal_of(s->wm), vndf_dot(b->view.wi, vndf_mirrored(s->wm, b->side)));
+    vndf_bsdf_normal n = normal_of(b, s, u2);
+    float gain = VNDF_TRUST_ROTATED_GAIN * n.facing;
+    return gain > VNDF_TRUST_REFLECTION_FACING && vndf_keeps_reflectance(b, n.facing) &&
+           vndf_is_settled(b, &n, gain);
 }
 
 /* Density and weight of the rounded wo, where both density and f are in the range of float. The weight of a walk does
@@ -92,7 +92,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     b->material->unturned->sample(b, u, s);
     int drawn = s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION;
-    int settled = drawn && is_settled_sample(b, s, u);
+    int settled = drawn && is_settled(b, s, u[1]);
     s->wo = from_axes(b, s->wo);
     s->wm = from_axes(b, s->wm);
     if (drawn && !settled)

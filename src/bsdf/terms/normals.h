@@ -9,10 +9,10 @@
 #include "sampler/query.h"
 #include "sampler/surface.h"
 
-/* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density. */
+/* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density; and the second uniform number. */
 typedef struct vndf_bsdf_normal {
     vndf_vec3 wm;
-    float density, facing, quotient;
+    float density, facing, quotient, u2;
 } vndf_bsdf_normal;
 
 VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
@@ -66,9 +66,10 @@ VNDF_INLINE float vndf_bsdf_quotient(const vndf_bsdf *b, vndf_vec3 wm, float fac
 }
 
 /* `weight` is the visible density over `density`. */
-VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight)
+VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm, float density, float weight,
+                                               float u2)
 {
-    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area * weight};
+    vndf_bsdf_normal n = {wm, density, vndf_dot(b->view.wi, wm), b->area * weight, u2};
     return n;
 }
 
@@ -76,13 +77,14 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1
 {
     float density, weight;
     vndf_vec3 wm = vndf_sample_weighted(&b->view, u1, u2, &density, &weight);
-    return vndf_bsdf_visible(b, wm, density, weight);
+    return vndf_bsdf_visible(b, wm, density, weight, u2);
 }
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1, float u2)
 {
     vndf_bounded drawn = vndf_sample_bounded(&b->view, &b->bounds, u1, u2);
-    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.inside_mass};
+    vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.inside_mass,
+                          u2};
     if (!vndf_law_is_exact(b->view.distribution))
         n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
     return n;
@@ -92,6 +94,7 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_all(const vndf_bsdf *b, float u1, fl
 {
     const vndf_view *v = &b->view;
     vndf_bsdf_normal n;
+    n.u2 = u2;
     n.wm = vndf_sample_all(v->distribution, v->alpha_x, v->alpha_y, u1, u2, &n.density);
     n.facing = vndf_dot(v->wi, n.wm);
     n.quotient =
@@ -103,6 +106,7 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_v_cavity(const vndf_bsdf *b, float u
 {
     const vndf_view *v = &b->view;
     vndf_bsdf_normal n;
+    n.u2 = u2;
     n.wm = vndf_sample_v_cavity(v->distribution, v->alpha_x, v->alpha_y, v->wi, u1, u2, &n.density);
     n.facing = vndf_dot(v->wi, n.wm);
     n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
