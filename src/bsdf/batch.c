@@ -134,7 +134,7 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
     for (size_t first = 0; first < b->count; first += BLOCK) {
         size_t count = b->count - first < BLOCK ? b->count - first : BLOCK;
         vndf_batch part = part_of(b, first, count, drawn.up);
-        vndf_sample_weighted_n(&part, u[0] + first, u[1] + first, wm, drawn.density, drawn.weight);
+        vndf_sample_weight_n(&part, u[0] + first, u[1] + first, wm, drawn.density, drawn.weight);
         for (size_t i = 0; i < count; i++) {
             const float own[3] = {u[0][first + i], u[1][first + i], u[2][first + i]};
             vndf_scattered s;

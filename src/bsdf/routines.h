@@ -19,7 +19,7 @@ typedef struct vndf_routines {
     /* the value of each wavelength, and, unless `pdf` is NULL, the density */
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
     float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
-    /* `sample` after vndf_sample_weighted drew wm; NULL if it draws otherwise */
+    /* `sample` after vndf_sample_weight drew wm; NULL if it draws otherwise */
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, const float u[3],
                     vndf_scattered *scattered);
 } vndf_routines;

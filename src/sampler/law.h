@@ -188,13 +188,12 @@ VNDF_INLINE vndf_vec3 vndf_law_sample_telling(const vndf_view *view, float u1, f
     VNDF_NO_OTHER_KIND();
 }
 
-/* The same with *weight (sampler/surface.h); 0 if it has to be computed from wm. */
-VNDF_INLINE vndf_vec3 vndf_law_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf,
-                                               float *weight)
+/* The same with *weight (vndf_sample_weight); 0 if it has to be computed from wm. */
+VNDF_INLINE vndf_vec3 vndf_law_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
     *weight = 1.0f;
     switch (view->distribution->kind) {
-    case VNDF_KIND_TABLE: return vndf_engine_sample_weighted(view, u1, u2, pdf, weight);
+    case VNDF_KIND_TABLE: return vndf_engine_sample_weight(view, u1, u2, pdf, weight);
     case VNDF_KIND_GGX: return vndf_ggx_view_sample(view, u1, u2, pdf);
     case VNDF_KIND_BECKMANN: return vndf_beckmann_view_sample(view, u1, u2, pdf);
     }

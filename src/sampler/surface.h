@@ -78,15 +78,7 @@ void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 /* vndf_sample of a valid view, for samples that float may not draw. */
 vndf_vec3 vndf_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* vndf_sample of a valid view from above the horizon, with *weight, D (wi.wm) over *pdf and the area of
- * vndf_law_view_area. */
-vndf_vec3 vndf_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
-
-/* The same of a batch whose directions are above the horizon. */
-void vndf_sample_weighted_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm, float *pdf,
-                            float *weight);
-
-/* The weight of a sample of a table with the density `pdf`. */
+/* The weight of a sample of a table (vndf_sample_weight) with the density `pdf`. */
 float vndf_weight_of(const vndf_view *view, vndf_vec3 wm, float pdf);
 
 #endif

@@ -54,20 +54,33 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
     return vndf_law_sample(view, u1, u2, pdf);
 }
 
+/* Above the horizon with the area that the draw divided by, as where the draw has told the weight. Below it that is a
+ * float which may underflow. */
 float vndf_weight_of(const vndf_view *view, vndf_vec3 wm, float pdf)
 {
-    int ready;
-    double area = (double)vndf_law_view_area(view, &ready), facing = vndf_exact_dot(view->wi, wm);
+    const vndf_distribution *d = view->distribution;
+    double facing = vndf_exact_dot(view->wi, wm);
     vndf_query g = vndf_query_of(view, wm);
-    return pdf > 0.0f ? vndf_density_from(vndf_law_ndf(view->distribution, &g) * facing / (area * (double)pdf))
-                      : 0.0f;
+    int ready;
+    if (!(pdf > 0.0f && facing > 0.0))
+        return 0.0f;
+    double visible = view->wi.z > 0.0f ? vndf_law_ndf(d, &g) * facing / (double)vndf_law_view_area(view, &ready)
+                                       : vndf_law_visible(d, &g, facing);
+    return vndf_density_from(visible / (double)pdf);
 }
 
-vndf_vec3 vndf_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
+vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    vndf_vec3 wm = vndf_law_sample_weighted(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), pdf, weight);
-    if (!(*weight > 0.0f))
-        *weight = vndf_weight_of(view, wm, *pdf);
+    float density = 0.0f;
+    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
+    *weight = 0.0f;
+    if (view->distribution) {
+        wm = vndf_law_sample_weight(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), &density, weight);
+        if (!(*weight > 0.0f) || !(density > 0.0f))
+            *weight = vndf_weight_of(view, wm, density);
+    }
+    if (pdf)
+        *pdf = density;
     return wm;
 }
 

@@ -147,14 +147,19 @@ static double weight_error(const float_subject *subject, const float_point *at, 
     double density[ORACLE_SIDES], ndf[ORACLE_SIDES], value[ORACLE_SIDES * ORACLE_SIDES], d[2], p[2];
     float pdf, weight;
     int ready;
-    vndf_vec3 wm = vndf_sample_weighted(&view, at->wm.x, at->wm.y, &pdf, &weight);
+    vndf_vec3 wm = vndf_sample_weight(&view, at->wm.x, at->wm.y, &pdf, &weight);
     oracle_query q = query_of(at, wm);
     size_t n = oracle_table_densities(&subject->reference, &q, density);
     size_t m = oracle_table_ndfs(&subject->reference, &q, ndf);
-    double facing = vndf_exact_dot(at->wi, wm), got = (double)weight * (double)vndf_law_view_area(&view, &ready);
+    double facing = vndf_exact_dot(at->wi, wm);
+    double length = sqrt(vndf_exact_dot(at->wi, at->wi)); /* the oracle's area is that of a unit vector */
+    double area = at->wi.z > 0 ? (double)vndf_law_view_area(&view, &ready)
+                               : length * oracle_table_area(&subject->reference, &q);
+    double got = (double)weight * area;
     for (size_t i = 0; i < m * n; i++)
         value[i] = ndf[i / n] * facing / density[i % n];
-    if (!(at->wi.z > 0 && density[0] > least_true && ndf[0] * facing > least_true && density[0] < (double)FLT_MAX))
+    if (!(area > least_true && density[0] > least_true && ndf[0] * facing > least_true &&
+          density[0] < (double)FLT_MAX))
         return -1;
     double error = nearest(got, value, m * n, aside);
     if (error <= FLOAT_LIMIT)

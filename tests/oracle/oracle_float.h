@@ -9,7 +9,7 @@
 #include "vndf.h"
 
 /* DRAWN is the density that vndf_sample returns against the oracle's at the normal that it returns; WEIGHT is what
- * vndf_sample_weighted returns, times its area, against D (wi.wm) over the density there, above the horizon. */
+ * vndf_sample_weight returns, times the area, against D (wi.wm) over the density there. */
 typedef enum float_quantity {
     FLOAT_DENSITY,
     FLOAT_DRAWN,

@@ -8,8 +8,8 @@
 #include "sampler/batch_case.h"
 #include "oracle/oracle.h"
 
-enum { COUNT_MOST = 3000, ARRAYS = 11 };
-enum { ALPHA_X, ALPHA_Y, WI_X, WI_Y, WI_Z, U1, U2, X, Y, Z, PDF };
+enum { COUNT_MOST = 3000, ARRAYS = 12 };
+enum { ALPHA_X, ALPHA_Y, WI_X, WI_Y, WI_Z, U1, U2, X, Y, Z, PDF, WEIGHT };
 
 typedef struct numbers {
     float of[ARRAYS][COUNT_MOST];
@@ -65,11 +65,14 @@ static vndf_normals normals_of(numbers *n)
 }
 
 /* What the calls of one give for element i. */
-static void one(const vndf_batch *b, const numbers *n, size_t i, float result[4])
+static void one(const vndf_batch *b, const numbers *n, size_t i, float result[5])
 {
     vndf_surface surface = batch_surface_at(b, i);
     vndf_view view = vndf_view_from(&surface, batch_wi_at(b, i));
+    float pdf;
     vndf_vec3 wm = vndf_sample(&view, n->of[U1][i], n->of[U2][i], &result[3]);
+    vndf_vec3 again = vndf_sample_weight(&view, n->of[U1][i], n->of[U2][i], &pdf, &result[4]);
+    TEST(memcmp(&wm, &again, sizeof wm) == 0 && memcmp(&pdf, &result[3], sizeof pdf) == 0);
     result[0] = wm.x;
     result[1] = wm.y;
     result[2] = wm.z;
@@ -79,7 +82,9 @@ static size_t differences(const vndf_batch *b, const numbers *given, const numbe
 {
     size_t different = 0;
     for (size_t i = 0; i < b->count; i++) {
-        float want[4], got[4] = {made->of[X][i], made->of[Y][i], made->of[Z][i], made->of[PDF][i]};
+        float want[5];
+        const float got[5] = {made->of[X][i], made->of[Y][i], made->of[Z][i], made->of[PDF][i],
+                              made->of[WEIGHT][i]};
         one(b, given, i, want);
         different += memcmp(want, got, sizeof want) != 0;
     }
@@ -89,13 +94,15 @@ static size_t differences(const vndf_batch *b, const numbers *given, const numbe
 static void test_sample(const vndf_distribution *d, const char *name, vndf_instructions limit)
 {
     static const size_t counts[] = {0, 1, 2, 7, 15, 16, 17, 255, 256, 257, COUNT_MOST - 1};
-    static numbers given, made;
+    static numbers given, made, alone;
     for (unsigned shared = 0; shared < 4; shared++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             fill(&given, 99 + c);
-            made = given;
+            made = alone = given;
             vndf_batch b = batch_of(d, &given, counts[c], shared, limit);
-            vndf_sample_n(&b, given.of[U1], given.of[U2], normals_of(&made), made.of[PDF]);
+            vndf_sample_n(&b, given.of[U1], given.of[U2], normals_of(&alone), alone.of[PDF]);
+            vndf_sample_weight_n(&b, given.of[U1], given.of[U2], normals_of(&made), made.of[PDF], made.of[WEIGHT]);
+            TEST(memcmp(alone.of[X], made.of[X], (size_t)(PDF - X + 1) * sizeof alone.of[X]) == 0);
             size_t different = differences(&b, &given, &made);
             if (!TEST(different == 0))
                 fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name, (int)limit,

@@ -150,7 +150,7 @@ static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i
     const char *instructions = "scalar portable avx2 avx512";
     char name[96];
     snprintf(name, sizeof name, "%s, batch%s", tables[i].name,
-             i == DEFAULT_TABLE ? ": pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
+             i == DEFAULT_TABLE ? ": sample, weight: pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 

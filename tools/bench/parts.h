@@ -27,7 +27,7 @@ int bench_go_on(const bench_clock *at, const char *what);
 
 /* ---- methods ----------------------------------------------------------------------------------- */
 
-enum { BENCH_ENTRIES_MAX = 96, BENCH_TABLES = 6 };
+enum { BENCH_ENTRIES_MAX = 112, BENCH_TABLES = 6 };
 
 typedef enum bench_subject { BENCH_GGX, BENCH_BECKMANN, BENCH_USER, BENCH_SUBJECTS } bench_subject;
 

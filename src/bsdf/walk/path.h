@@ -139,16 +139,13 @@ VNDF_INLINE vndf_vec3 vndf_walk_bounce(const vndf_walk *walk, vndf_walk_path *pa
     return vndf_walk_refracted(path->view.wi, m, eta);
 }
 
-/* Draws a normal. The weight corrects a table's density to the true one; closed forms need no correction. */
+/* Draws a normal. The weight corrects a table's density to the true one. */
 VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float u2)
 {
-    float density;
-    vndf_vec3 wm = vndf_sample(&path->view, u1, u2, &density);
-    if (!vndf_law_is_exact(path->view.distribution)) {
-        double ratio = (double)vndf_visible(&path->view, wm) / vndf_positive(density);
-        for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-            path->weight[i] *= ratio;
-    }
+    float weight;
+    vndf_vec3 wm = vndf_sample_weight(&path->view, u1, u2, NULL, &weight);
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        path->weight[i] *= (double)weight;
     vndf_walk_facet facet = {wm, vndf_exact_dot(path->view.wi, wm)};
     return facet;
 }

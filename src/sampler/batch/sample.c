@@ -54,14 +54,9 @@ VNDF_INLINE void put_normal(vndf_normals to, size_t i, vndf_vec3 n)
     to.z[i] = n.z;
 }
 
-/* vndf_sample, or with a weight vndf_sample_weighted. */
 VNDF_INLINE vndf_vec3 sample_view(const vndf_view *view, float u1, float u2, float *density, float *weight)
 {
-    if (weight && view->distribution)
-        return vndf_sample_weighted(view, u1, u2, density, weight);
-    if (weight)
-        *weight = 0.0f;
-    return vndf_sample(view, u1, u2, density);
+    return weight ? vndf_sample_weight(view, u1, u2, density, weight) : vndf_sample(view, u1, u2, density);
 }
 
 VNDF_INLINE void sample_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
@@ -168,15 +163,19 @@ static void sample_left(const vndf_sample_block *block, const vndf_batch *b, siz
     }
 }
 
-/* The weights that lanes have not computed. */
+/* The weights that lanes have not computed: all of a closed form, which draws with the visible density itself. */
 static void weigh_left(const vndf_sample_block *block, const vndf_batch *b, size_t first)
 {
+    int is_table = vndf_is_table(b->distribution);
     for (uint32_t i = 0; i < block->count; i++) {
-        if (block->weight[i] > 0.0f)
-            continue;
-        vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
-        vndf_vec3 wm = {block->x[i], block->y[i], block->z[i]};
-        block->weight[i] = own.distribution ? vndf_weight_of(&own, wm, block->density[i]) : 0.0f;
+        float density = block->density[i];
+        if (!is_table || !(density > 0.0f)) {
+            block->weight[i] = density > 0.0f ? 1.0f : 0.0f;
+        } else if (!(block->weight[i] > 0.0f)) {
+            vndf_view own = block->view ? *block->view : vndf_batch_view(b, first + i);
+            vndf_vec3 wm = {block->x[i], block->y[i], block->z[i]};
+            block->weight[i] = vndf_weight_of(&own, wm, density);
+        }
     }
 }
 
@@ -255,12 +254,9 @@ void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_n
     sample_all(b, &c);
 }
 
-void vndf_sample_weighted_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
-                            float *weight)
+void vndf_sample_weight_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
+                          float *weight)
 {
-    int computes = vndf_is_table(b->distribution); /* closed forms draw with the visible density itself */
-    vndf_batch_call c = {wm, u1, u2, pdf, computes ? weight : NULL};
+    vndf_batch_call c = {wm, u1, u2, pdf, weight};
     sample_all(b, &c);
-    for (size_t i = 0; i < b->count && !computes; i++)
-        weight[i] = 1.0f;
 }

@@ -68,7 +68,7 @@ vndf_vec3 vndf_engine_sample_telling(const vndf_view *view, float u1, float u2, 
     return vndf_vec3_of(n.x, n.y, n.z);
 }
 
-vndf_vec3 vndf_engine_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
+vndf_vec3 vndf_engine_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
     vndf_drawn n;
     lanes_m trusted = view->trusted;

@@ -58,8 +58,8 @@ vndf_vec3 vndf_engine_sample(const vndf_view *view, float u1, float u2, float *p
 /* The same, which tells in *fast whether float drew the normal; elsewhere the density is not wanted. */
 vndf_vec3 vndf_engine_sample_telling(const vndf_view *view, float u1, float u2, float *pdf, int *fast);
 
-/* The same with *weight (sampler/surface.h); 0 if it has to be computed from wm. */
-vndf_vec3 vndf_engine_sample_weighted(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
+/* The same with *weight (vndf_sample_weight); 0 if it has to be computed from wm. */
+vndf_vec3 vndf_engine_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
 
 /* The same by the exact tier (exact.h), for samples that float may not draw. */
 vndf_vec3 vndf_engine_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf);

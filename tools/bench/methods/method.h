@@ -80,7 +80,14 @@ method method_warp(const method_reference *reference, size_t side);
 method method_ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit);
 
 /* Other calls of a table. */
-typedef enum method_call { METHOD_PDF, METHOD_INVERT, METHOD_NDF, METHOD_LAMBDA, METHOD_CALLS } method_call;
+typedef enum method_call {
+    METHOD_WEIGHT,
+    METHOD_PDF,
+    METHOD_INVERT,
+    METHOD_NDF,
+    METHOD_LAMBDA,
+    METHOD_CALLS
+} method_call;
 method method_ours_call(const vndf_distribution *distribution, const char *name, method_call call,
                         vndf_instructions limit);
 

@@ -83,6 +83,18 @@ static vndf_normals normals_of(const method_inputs *in)
     return (vndf_normals){(float *)in->wm_x, (float *)in->wm_y, (float *)in->wm_z};
 }
 
+static void weight_each(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        const method_input *at = &in->at[i];
+        vndf_surface surface = surface_of(m, at->alpha);
+        vndf_view view = vndf_view_from(&surface, at->wi);
+        float pdf, weight;
+        vndf_vec3 wm = vndf_sample_weight(&view, at->u1, at->u2, &pdf, &weight);
+        method_put(out, i, wm, pdf * weight);
+    }
+}
+
 static void pdf_each(const method *m, const method_inputs *in, const method_outputs *out)
 {
     for (size_t i = 0; i < in->count; i++) {
@@ -120,6 +132,25 @@ static void lambda_each(const method *m, const method_inputs *in, const method_o
     }
 }
 
+static void weight_batch(const method *m, const method_inputs *in, const method_outputs *out)
+{
+    enum { BLOCK = 256 };
+    float weight[BLOCK];
+    for (size_t first = 0; first < in->count; first += BLOCK) {
+        vndf_batch batch = batch_of(m, in, 0);
+        batch.count = in->count - first < BLOCK ? in->count - first : BLOCK;
+        batch.alpha_x = batch.alpha_y = in->alpha + first;
+        batch.wi_x += first;
+        batch.wi_y += first;
+        batch.wi_z += first;
+        vndf_sample_weight_n(&batch, in->u1 + first, in->u2 + first,
+                             (vndf_normals){out->x + first, out->y + first, out->z + first}, out->pdf + first,
+                             weight);
+        for (size_t i = 0; i < batch.count; i++)
+            out->pdf[first + i] *= weight[i];
+    }
+}
+
 static void pdf_batch(const method *m, const method_inputs *in, const method_outputs *out)
 {
     vndf_batch batch = batch_of(m, in, 0);
@@ -150,7 +181,8 @@ method method_ours_call(const vndf_distribution *distribution, const char *name,
     static const struct {
         const char *name;
         method_run *each, *batch;
-    } calls[METHOD_CALLS] = {{"pdf", pdf_each, pdf_batch},
+    } calls[METHOD_CALLS] = {{"sample, weight", weight_each, weight_batch},
+                             {"pdf", pdf_each, pdf_batch},
                              {"invert", invert_each, invert_batch},
                              {"ndf", ndf_each, ndf_batch},
                              {"lambda", lambda_each, lambda_batch}};
