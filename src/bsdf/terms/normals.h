@@ -85,7 +85,9 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_bounded(const vndf_bsdf *b, float u1
     vndf_bounded drawn = vndf_sample_bounded(&b->view, &b->bounds, u1, u2);
     vndf_bsdf_normal n = {drawn.wm, drawn.density, vndf_dot(b->view.wi, drawn.wm), b->area * drawn.inside_mass,
                           u2};
-    if (!vndf_law_is_exact(b->view.distribution))
+    if (drawn.weight > 0.0f)
+        n.quotient *= drawn.weight;
+    else if (!vndf_law_is_exact(b->view.distribution))
         n.quotient = vndf_bsdf_quotient(b, n.wm, n.facing, n.density);
     return n;
 }

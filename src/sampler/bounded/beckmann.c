@@ -241,6 +241,6 @@ vndf_bounded vndf_bounded_beckmann(const vndf_view *view, const extent *bounds, 
     float p22 = 0.318309886f * vndf_exp_lanes(-(float)(x * x + y * y));
     double density = p22 * (up * length2 * length) / (bounds->spread * inside_mass);
     vndf_vec3 wm = vndf_vec3_of((float)(m.x * per), (float)(m.y * per), (float)per);
-    vndf_bounded b = {wm, (float)density, (float)inside_mass};
+    vndf_bounded b = {wm, (float)density, (float)inside_mass, 0.0f};
     return b;
 }

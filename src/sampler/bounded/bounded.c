@@ -20,7 +20,7 @@ vndf_bounded vndf_sample_bounded(const vndf_view *view, const vndf_bounds *bound
     u1 = vndf_clamp_unit(u1);
     u2 = vndf_clamp_unit(u2);
     if (!is_drawn(view)) {
-        vndf_bounded nothing = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f};
+        vndf_bounded nothing = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f, 0.0f};
         return nothing;
     }
     return vndf_law_sample_bounded(view, bounds, u1, u2);

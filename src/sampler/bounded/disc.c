@@ -57,6 +57,6 @@ double vndf_bounded_density(vndf_bounded_factors at)
 vndf_bounded vndf_bounded_from(vndf_vec3 wm, vndf_bounded_factors at)
 {
     double inside_mass = at.inside_mass > LEAST_INSIDE ? at.inside_mass : LEAST_INSIDE;
-    vndf_bounded b = {wm, vndf_positive(vndf_density_from(at.visible / inside_mass)), (float)inside_mass};
+    vndf_bounded b = {wm, vndf_positive(vndf_density_from(at.visible / inside_mass)), (float)inside_mass, 0.0f};
     return b;
 }

@@ -9,6 +9,7 @@
 typedef struct vndf_bounded {
     vndf_vec3 wm;
     float density, inside_mass;
+    float weight; /* of a table as for vndf_sample_weight; 0 where it is not known */
 } vndf_bounded;
 
 /* The two factors of the density (2) of a normal in the disc. */

@@ -23,6 +23,6 @@ vndf_bounded vndf_bounded_ggx(const vndf_view *view, const struct vndf_ggx_bound
         return vndf_bounded_ggx_exactly(view, bounds, u1, u2);
     float length = sqrtf(n.length2), per = 1.0f / length; /* spread: 2 pi times the area */
     float density = 2.0f * n.length2 * length * n.cosine / (view->of.ggx.spread * n.inside_mass);
-    vndf_bounded b = {vndf_vec3_of(n.x * per, n.y * per, n.z * per), density, n.inside_mass};
+    vndf_bounded b = {vndf_vec3_of(n.x * per, n.y * per, n.z * per), density, n.inside_mass, 0.0f};
     return b;
 }

@@ -119,7 +119,8 @@ VNDF_INLINE vndf_drawn drawn_inside(const vndf_azimuth_sample *b, vndf_place at,
 }
 
 VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted,
+                                     float *weight)
 {
     vndf_azimuth_sample b = vndf_azimuth_sample_front(d, w, range, u2);
     vndf_radial_law law = vndf_radial_law_whole(d, b.c, b.k);
@@ -128,12 +129,13 @@ VNDF_INLINE vndf_drawn draw_in_front(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 1);
     j = j < d->radial_count - 1 ? j : d->radial_count - 1;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, trusted, NULL);
+    vndf_place at = vndf_place_front(d, w, &b, &cell, j, u, trusted, weight);
     return drawn_inside(&b, at, edge, trusted);
 }
 
 VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_incidence *w,
-                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted)
+                                     const vndf_azimuth_range *range, float u2, border *edge, lanes_m *trusted,
+                                     float *weight)
 {
     vndf_azimuth_row row = vndf_wedge_row(&d->above, w->c);
     float part = vndf_wedge_part(fabsf(range->apart), range->mass);
@@ -145,7 +147,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted, NULL);
+    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted, weight);
     return drawn_inside(&b, at, edge, trusted);
 }
 
@@ -157,12 +159,13 @@ vndf_bounded vndf_bounded_table(const vndf_view *view, float u1, float u2)
     vndf_azimuth_range range = vndf_azimuth_range_at(view->of.table.front, view->of.table.wedge, half);
     lanes_m trusted = w.trusted & vndf_trusts_wedge_mass(view->of.table.front, range.mass);
     border edge;
+    float weight;
     if (!trusted)
         return bounded_exactly(view, u1, u2);
-    vndf_drawn n = range.in_front ? draw_in_front(d, &w, &range, u2, &edge, &trusted)
-                                  : draw_in_wedge(d, &w, &range, u2, &edge, &trusted);
+    vndf_drawn n = range.in_front ? draw_in_front(d, &w, &range, u2, &edge, &trusted, &weight)
+                                  : draw_in_wedge(d, &w, &range, u2, &edge, &trusted, &weight);
     if (!trusted)
         return bounded_exactly(view, u1, u2);
-    vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.inside_mass};
+    vndf_bounded b = {vndf_vec3_of(n.x, n.y, n.z), n.density, edge.inside_mass, weight};
     return b;
 }

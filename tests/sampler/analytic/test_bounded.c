@@ -110,7 +110,7 @@ static void test_variance(const char *name, const vndf_distribution *d, float al
     int count = 20000;
     for (int i = 0; i < 2 * count; i++) {
         float u1 = test_uniform(&seed), u2 = test_uniform(&seed);
-        vndf_bounded b = {vndf_sample(&s.view, u1, u2, NULL), 0, 1};
+        vndf_bounded b = {vndf_sample(&s.view, u1, u2, NULL), 0, 1, 0};
         b = i % 2 ? vndf_sample_bounded(&s.view, &s.bounds, u1, u2) : b;
         vndf_vec3 wi = s.view.wi, wm = b.wm;
         float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
