@@ -199,13 +199,14 @@ typedef struct slice {
 static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
                      const vndf_validation_node *n)
 {
+    vndf_validation_points *to = &v->samples;
     double mask = at->drawn.c + at->drawn.k * n->r;
-    if (mask > 0 && v->count < v->capacity) {
+    if (mask > 0 && to->count < to->capacity) {
         double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
-        vndf_validation_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
-        v->samples[v->count++] = one;
+        to->reference[to->count] = n->mass * mask * (at->weight / v->area);
+        to->drawn[to->count++] = at->weight * n->weight * drawn;
         if (n->rounding > 0) {
-            double xi = fmax(fmin(n->xi + (v->count % 2 ? 1 : -1) * n->rounding, 1), 0);
+            double xi = fmax(fmin(n->xi + (to->count % 2 ? 1 : -1) * n->rounding, 1), 0);
             double moved = vndf_engine_piece_density(&at->drawn, piece, j, xi, 1 - xi);
             v->blur += at->weight * n->weight * fabs(moved - drawn);
         }
@@ -223,21 +224,47 @@ static void add_cut(vndf_validation *v, const slice *at, const vndf_engine_piece
     }
 }
 
-/* The stretches of a cell, from s on. */
-static void add_cell(vndf_validation *v, const slice *at, const vndf_validation_stretch *s, uint32_t count)
+static int is_visible(const slice *at, double r)
 {
-    uint32_t j = s->cell;
-    vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
-    if (!(piece.mass > CELL_LEAST * at->drawn.mass)) {
-        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
-        return;
+    return at->drawn.c + at->drawn.k * r > 0;
+}
+
+/* All points of a cell at once, which are visible. */
+static void add_nodes(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                      const vndf_validation_cell *cell)
+{
+    const vndf_validation_lines *lines = &v->lines;
+    const vndf_engine_places places = {lines->xi + cell->first, lines->eta + cell->first, lines->x + cell->first,
+                                       cell->count};
+    const double *restrict weight = lines->weight + cell->first, *restrict mass = lines->mass + cell->first;
+    const double *restrict r = lines->r + cell->first;
+    double *restrict drawn = v->samples.drawn + v->samples.count;
+    double *restrict reference = v->samples.reference + v->samples.count;
+    double c = at->drawn.c, k = at->drawn.k, part = at->weight, per_area = at->weight / v->area;
+    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &places, drawn);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        drawn[i] = part * weight[i] * drawn[i];
+        reference[i] = mass[i] * (c + k * r[i]) * per_area;
     }
-    for (uint32_t n = 0; n < count; n++)
-        if (j == at->drawn.cut)
-            add_cut(v, at, &piece, s + n);
-        else
-            for (uint32_t i = 0; i < s[n].count; i++)
-                add_node(v, at, &piece, j, v->node + s[n].first + i);
+    v->samples.count += cell->count;
+}
+
+static void add_cell(vndf_validation *v, const slice *at, uint32_t j)
+{
+    const vndf_validation_cell *cell = v->cells + j;
+    const vndf_validation_node *node = v->node + cell->first;
+    vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
+    if (!(piece.mass > CELL_LEAST * at->drawn.mass))
+        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
+    else if (j == at->drawn.cut)
+        for (uint32_t n = 0; n < cell->stretches; n++)
+            add_cut(v, at, &piece, v->stretch + cell->first_stretch + n);
+    else if (!cell->rounded && is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
+             v->samples.count + cell->count <= v->samples.capacity)
+        add_nodes(v, at, &piece, cell);
+    else
+        for (uint32_t i = 0; i < cell->count; i++)
+            add_node(v, at, &piece, j, node + i);
 }
 
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
@@ -249,13 +276,10 @@ static void add_azimuth(vndf_validation *v, const slice *at)
     int inside = r->c > 0, beyond = r->c < 0;
     if (!vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->node_count))
         return;
-    for (size_t i = 0, next; i < v->stretch_count; i = next) {
-        uint32_t j = v->stretch[i].cell;
-        for (next = i + 1; next < v->stretch_count && v->stretch[next].cell == j;)
-            next++;
-        if (r->mass > 0 && !(inside && j > r->cut) && !(beyond && j < r->cut))
-            add_cell(v, at, v->stretch + i, (uint32_t)(next - i));
-    }
+    uint32_t from = beyond ? r->cut : 0,
+             end = inside && r->cut < v->table->radial_count ? r->cut + 1 : v->table->radial_count;
+    for (uint32_t j = from; r->mass > 0 && j < end; j++)
+        add_cell(v, at, j);
 }
 
 /* A quarter turn on the cells of a row with an aspect. */
@@ -281,17 +305,19 @@ static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, u
 /* Adds an azimuth to the sums: its normals together, so that no radius has to be looked at. */
 static void add_sum(vndf_validation *v, const slice *at)
 {
-    vndf_validation_point one = {at->weight * at->drawn.mass / v->area, at->weight * at->drawn.azimuth};
-    if (v->sum_count < v->sum_capacity)
-        v->sums[v->sum_count++] = one;
+    vndf_validation_points *to = &v->sums;
+    if (to->count < to->capacity) {
+        to->reference[to->count] = at->weight * at->drawn.mass / v->area;
+        to->drawn[to->count++] = at->weight * at->drawn.azimuth;
+    }
 }
 
 /* Adds an azimuth to the samples. */
 static void add_slice_of(vndf_validation *v, const slice *at)
 {
-    size_t first = v->count;
+    size_t first = v->samples.count;
     add_azimuth(v, at);
-    vndf_validation_slice made = {first, v->count - first, 0, 0};
+    vndf_validation_slice made = {first, v->samples.count - first, 0, 0};
     if (v->slice_count < v->slice_capacity)
         v->slices[v->slice_count++] = made;
 }
@@ -320,7 +346,7 @@ static const double SHARE_ENDS[VNDF_GAUSS_COARSE] = {0.17392742256872693, 0.5, 0
 static void share_sums(vndf_validation *v, const quarter *turn, size_t first_slice, size_t first_sum)
 {
     uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST), fine = parts_for(turn->cells, AZIMUTHS_LEAST);
-    size_t n = 0, sums = v->sum_count - first_sum;
+    size_t n = 0, sums = v->sums.count - first_sum;
     for (size_t i = 0; first_slice + i < v->slice_count; i++) {
         vndf_validation_slice *part = v->slices + first_slice + i;
         double end = ((double)(i / VNDF_GAUSS_COARSE) + SHARE_ENDS[i % VNDF_GAUSS_COARSE]) / parts;
@@ -336,7 +362,7 @@ static void share_sums(vndf_validation *v, const quarter *turn, size_t first_sli
  * are steep. Without the radius many more cost little. */
 static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
-    size_t first_slice = v->slice_count, first_sum = v->sum_count;
+    size_t first_slice = v->slice_count, first_sum = v->sums.count;
     double taken = add_azimuths(v, view, turn, AZIMUTH_PARTS_LEAST, add_slice_of);
     v->lack += add_azimuths(v, view, turn, AZIMUTHS_LEAST, add_sum) - taken;
     share_sums(v, turn, first_slice, first_sum);
@@ -366,7 +392,7 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
 {
     vndf_view view = view_of(v->table, s, c);
     v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
-    v->count = v->slice_count = v->sum_count = 0;
+    v->samples.count = v->sums.count = v->slice_count = 0;
     v->lack = v->blur = 0.0;
     if (c >= 0)
         add_front(v, &view, add);
@@ -377,22 +403,24 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
         add(v, &view, &wedge);
 }
 
-static double ratio_of(vndf_validation_point a)
+/* ---- the largest weight ---- */
+
+static double ratio(double reference, double drawn)
 {
-    return a.drawn > 0 ? a.reference / a.drawn : a.reference > 0 ? HUGE_VAL : 0.0;
+    return drawn > 0 ? reference / drawn : reference > 0 ? HUGE_VAL : 0.0;
 }
 
-/* Moves samples with a ratio of `pivot` or more to the front; their count. */
-static size_t split_at(vndf_validation_point *samples, size_t count, double pivot, double *mass)
+/* Moves weights of `pivot` or more to the front; their count. */
+static size_t split_at(vndf_validation_weight *weights, size_t count, double pivot, double *mass)
 {
     size_t n = 0;
     *mass = 0.0;
     for (size_t i = 0; i < count; i++)
-        if (ratio_of(samples[i]) >= pivot) {
-            vndf_validation_point swap = samples[n];
-            *mass += samples[i].reference;
-            samples[n++] = samples[i];
-            samples[i] = swap;
+        if (weights[i].ratio >= pivot) {
+            vndf_validation_weight swap = weights[n];
+            *mass += weights[i].mass;
+            weights[n++] = weights[i];
+            weights[i] = swap;
         }
     return n;
 }
@@ -402,13 +430,13 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-/* The largest reference/drawn, leaving out the points with the largest ratios that together hold
- * VNDF_VALIDATION_LEFT_OUT of the mass. Splits the rest until it is one value. */
-static double weight_of(vndf_validation_point *from, size_t count)
+/* The largest ratio, leaving out the largest ones that together hold VNDF_VALIDATION_LEFT_OUT of the mass. Splits the
+ * rest until it is one value. */
+static double weight_among(vndf_validation_weight *from, size_t count)
 {
     double left = VNDF_VALIDATION_LEFT_OUT, mass;
     while (count > 0) {
-        double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
+        double pivot = middle_of_three(from[0].ratio, from[count / 2].ratio, from[count - 1].ratio);
         size_t larger = 0;
         mass = 0.0;
         if (pivot < HUGE_VAL)
@@ -430,6 +458,42 @@ static double weight_of(vndf_validation_point *from, size_t count)
     return 1.0;
 }
 
+/* The mass of the points with a ratio of at least `least`; four sums, which do not wait for one another. */
+static double mass_above(const vndf_validation_points *p, double least)
+{
+    const double *reference = p->reference, *drawn = p->drawn;
+    double sum[4] = {0, 0, 0, 0};
+    size_t i = 0;
+    for (; i + 4 <= p->count; i += 4) {
+        sum[0] += reference[i] >= least * drawn[i] ? reference[i] : 0.0;
+        sum[1] += reference[i + 1] >= least * drawn[i + 1] ? reference[i + 1] : 0.0;
+        sum[2] += reference[i + 2] >= least * drawn[i + 2] ? reference[i + 2] : 0.0;
+        sum[3] += reference[i + 3] >= least * drawn[i + 3] ? reference[i + 3] : 0.0;
+    }
+    for (; i < p->count; i++)
+        sum[0] += reference[i] >= least * drawn[i] ? reference[i] : 0.0;
+    return sum[0] + sum[1] + sum[2] + sum[3];
+}
+
+/* The largest weight of points. Only those count that, with all larger ones, hold more than VNDF_VALIDATION_LEFT_OUT of
+ * the mass: a bound that begins at what the last direction had finds them without a division. */
+static double weight_of(vndf_validation *v, const vndf_validation_points *p)
+{
+    double beyond = 2 * v->beyond;
+    size_t n = 0;
+    while (beyond > 1e-12 && !(mass_above(p, 1 + beyond) > 1.01 * VNDF_VALIDATION_LEFT_OUT))
+        beyond /= 2;
+    double least = beyond > 1e-12 ? 1 + beyond : 0.0;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->reference[i] >= least * p->drawn[i]) {
+            vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
+            v->weights[n++] = one;
+        }
+    double weight = weight_among(v->weights, n);
+    v->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
+    return weight;
+}
+
 /* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
  * Gauss point would hold about VNDF_VALIDATION_LEFT_OUT, and chance would decide the largest weight. */
 static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part)
@@ -437,10 +501,10 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
     const double uneven = 1.02, little = 100 * VNDF_VALIDATION_LEFT_OUT;
     double least = HUGE_VAL, most = 0.0, mass = 0.0;
     for (size_t i = 0; i < part->sums && mass < little; i++) {
-        vndf_validation_point sum = v->sums[part->first_sum + i];
-        least = sum.reference + sum.drawn > 0 ? fmin(least, ratio_of(sum)) : least;
-        most = fmax(most, ratio_of(sum));
-        mass += sum.reference;
+        double reference = v->sums.reference[part->first_sum + i], drawn = v->sums.drawn[part->first_sum + i];
+        least = reference + drawn > 0 ? fmin(least, ratio(reference, drawn)) : least;
+        most = fmax(most, ratio(reference, drawn));
+        mass += reference;
     }
     return mass < little && most > uneven * least;
 }
@@ -448,9 +512,13 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
 /* Replaces the samples of a slice by its sums: beside them the radius matters little there. */
 static void take_sums(vndf_validation *v, const vndf_validation_slice *part)
 {
-    memset(v->samples + part->first, 0, part->count * sizeof *v->samples);
-    for (size_t i = 0; i < part->sums && v->count < v->capacity; i++)
-        v->samples[v->count++] = v->sums[part->first_sum + i];
+    vndf_validation_points *to = &v->samples;
+    memset(to->reference + part->first, 0, part->count * sizeof *to->reference);
+    memset(to->drawn + part->first, 0, part->count * sizeof *to->drawn);
+    for (size_t i = 0; i < part->sums && to->count < to->capacity; i++) {
+        to->reference[to->count] = v->sums.reference[part->first_sum + i];
+        to->drawn[to->count++] = v->sums.drawn[part->first_sum + i];
+    }
 }
 
 static double largest_weight(vndf_validation *v)
@@ -458,13 +526,17 @@ static double largest_weight(vndf_validation *v)
     for (size_t i = 0; i < v->slice_count; i++)
         if (is_uneven(v, v->slices + i))
             take_sums(v, v->slices + i);
-    return weight_of(v->samples, v->count);
+    return weight_of(v, &v->samples);
 }
 
-static int is_claimed(const vndf_validation *v, double s, double c)
+/* ---- directions ---- */
+
+/* The true area of a direction, 0 where nothing is claimed. */
+static double claimed_area(const vndf_validation *v, double s, double c)
 {
-    return vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile) &&
-           !vndf_guard_stopped(v->profile->guard);
+    const vndf_profile *p = v->profile;
+    double area = vndf_profile_area(p, s, c), seen = area / (2 * p->f1 * hypot(s, c));
+    return seen > vndf_profile_claimed(p) && !vndf_guard_stopped(p->guard) ? area : 0.0;
 }
 
 vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
@@ -472,16 +544,16 @@ vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
-    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
-    if (!is_claimed(v, s, c))
+    double area = claimed_area(v, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
+    if (!(area > 0))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
     add_turns(v, s, c, area, add_quarter);
-    for (size_t i = 0; i < v->count; i++) {
-        drawn += v->samples[i].drawn;
-        reference += v->samples[i].reference;
-        miss += fabs(v->samples[i].drawn - v->samples[i].reference);
+    for (size_t i = 0; i < v->samples.count; i++) {
+        drawn += v->samples.drawn[i];
+        reference += v->samples.reference[i];
+        miss += fabs(v->samples.drawn[i] - v->samples.reference[i]);
     }
     f.tv = fmin((miss + fabs(reference - 1) + v->blur) / 2, 1); /* mass that no point meets is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
@@ -493,35 +565,79 @@ double vndf_validation_foreseen(vndf_validation *v, double s, double c)
 {
     s = (float)s;
     c = (float)c;
-    if (!is_claimed(v, s, c))
+    double area = claimed_area(v, s, c);
+    if (!(area > 0))
         return 0.0;
-    add_turns(v, s, c, vndf_profile_area(v->profile, s, c), add_sums);
-    vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sum_count);
-    return weight_of(v->sums, v->sum_count);
+    add_turns(v, s, c, area, add_sums);
+    vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sums.count);
+    return weight_of(v, &v->sums);
+}
+
+/* ---- memory ---- */
+
+static int room_for(vndf_validation_points *points, size_t capacity)
+{
+    points->capacity = capacity;
+    points->reference = malloc(2 * capacity * sizeof *points->reference);
+    points->drawn = points->reference ? points->reference + capacity : NULL;
+    return points->reference != NULL;
+}
+
+/* The points once more, number by number, and where each cell has its own. */
+static int add_lines(vndf_validation *v)
+{
+    size_t n = v->node_count;
+    double *room = malloc(6 * n * sizeof *room);
+    v->cells = calloc(v->table->radial_count, sizeof *v->cells);
+    vndf_validation_lines lines = {room, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n};
+    v->lines = lines;
+    if (!room || !v->cells)
+        return 0;
+    for (size_t i = 0; i < v->stretch_count; i++) {
+        const vndf_validation_stretch *s = v->stretch + i;
+        vndf_validation_cell *cell = v->cells + s->cell;
+        cell->first_stretch = cell->stretches++ ? cell->first_stretch : (uint32_t)i;
+        cell->first = cell->count ? cell->first : s->first;
+        cell->count += s->count;
+        for (size_t k = s->first; k < s->first + s->count; k++) {
+            const vndf_validation_node *node = v->node + k;
+            const vndf_knot *at = v->table->knots.at + s->cell;
+            lines.xi[k] = node->xi;
+            lines.eta[k] = 1 - node->xi;
+            lines.x[k] = lines.eta[k] * at[0].x + node->xi * at[1].x;
+            lines.weight[k] = node->weight;
+            lines.mass[k] = node->mass;
+            lines.r[k] = node->r;
+            cell->rounded |= node->rounding > 0;
+        }
+    }
+    return 1;
 }
 
 int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile)
 {
     size_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS;
     size_t parts = cells + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_validation made = {.table = table, .profile = profile};
+    vndf_validation made = {.table = table, .profile = profile, .beyond = 1e-3};
     *v = made;
-    if (!add_stretches(v))
+    if (!add_stretches(v) || !add_lines(v))
         return 0;
-    v->capacity = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
-    v->samples = malloc(v->capacity * sizeof *v->samples);
-    v->sum_capacity = (cells + 3 * AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
-    v->sums = malloc(v->sum_capacity * sizeof *v->sums);
+    size_t samples = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
+    size_t sums = (cells + 3 * AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
     v->slice_capacity = parts * VNDF_GAUSS_COARSE;
     v->slices = malloc(v->slice_capacity * sizeof *v->slices);
-    return v->samples && v->sums && v->slices;
+    v->weights = malloc((samples > sums ? samples : sums) * sizeof *v->weights);
+    return room_for(&v->samples, samples) && room_for(&v->sums, sums) && v->slices && v->weights;
 }
 
 void vndf_validation_free(vndf_validation *v)
 {
     free(v->stretch);
     free(v->node);
-    free(v->samples);
-    free(v->sums);
+    free(v->cells);
+    free(v->lines.xi);
+    free(v->samples.reference);
+    free(v->sums.reference);
     free(v->slices);
+    free(v->weights);
 }

@@ -8,10 +8,16 @@
 /* The part of the mass that the largest weight and the error of D leave out. */
 #define VNDF_VALIDATION_LEFT_OUT 1e-6
 
-/* One Gauss point of a direction: its parts of the true and of the drawn mass. */
-typedef struct vndf_validation_point {
-    double reference, drawn;
-} vndf_validation_point;
+/* Gauss points of a direction: their parts of the true and of the drawn mass. */
+typedef struct vndf_validation_points {
+    double *reference, *drawn; /* one block */
+    size_t count, capacity;
+} vndf_validation_points;
+
+/* The ratio of both at a point that may be the largest. */
+typedef struct vndf_validation_weight {
+    double ratio, mass;
+} vndf_validation_weight;
 
 /* A stretch of a radial cell, in xi, and its Gauss points. The stretches of all cells stand in order. */
 typedef struct vndf_validation_stretch {
@@ -25,6 +31,17 @@ typedef struct vndf_validation_node {
     double xi, weight, r, mass, rounding;
 } vndf_validation_node;
 
+/* The same points number by number: xi, 1 - xi, the X of the slope, and so on; one block, which begins at xi. */
+typedef struct vndf_validation_lines {
+    double *xi, *eta, *x, *weight, *mass, *r;
+} vndf_validation_lines;
+
+/* The stretches and points of a radial cell, and whether rounding matters at any. */
+typedef struct vndf_validation_cell {
+    uint32_t first_stretch, stretches, first, count;
+    int rounded;
+} vndf_validation_cell;
+
 /* An azimuth that is looked at along the radius: its samples, and the sums that it stands for. */
 typedef struct vndf_validation_slice {
     size_t first, count, first_sum, sums;
@@ -36,13 +53,17 @@ typedef struct vndf_validation {
     vndf_validation_stretch *stretch;
     vndf_validation_node *node;
     size_t stretch_count, node_count;
-    vndf_validation_point *samples; /* of one direction after the other */
-    vndf_validation_point *sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
+    vndf_validation_cell *cells;
+    vndf_validation_lines lines;
+    vndf_validation_points samples; /* of one direction after the other */
+    vndf_validation_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
     vndf_validation_slice *slices;
-    size_t count, capacity, sum_count, sum_capacity, slice_count, slice_capacity;
-    double area; /* true area of the direction, for s + |c| = 1 */
-    double lack; /* the drawn mass that the samples leave out */
-    double blur; /* by how much rounding of normals to float changes the drawn density, all together */
+    vndf_validation_weight *weights; /* room for those that may be the largest */
+    size_t slice_count, slice_capacity;
+    double beyond; /* by how much the last largest weight exceeded 1 */
+    double area;   /* true area of the direction, for s + |c| = 1 */
+    double lack;   /* the drawn mass that the samples leave out */
+    double blur;   /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_validation;
 
 typedef struct vndf_finding {
