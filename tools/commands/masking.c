@@ -213,7 +213,8 @@ static int report_with_own(masking_plan *plan)
     vndf_source *source = source_from_words(name, &plan->given->source);
     if (!source)
         return STATUS_USE;
-    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
+    const vndf_build_options options = {.quick = 1};
+    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
     vndf_source_free(source);
     if (!table)
         return complain(name, "%s", error.message);

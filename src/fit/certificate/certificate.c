@@ -56,9 +56,8 @@ enum {
     ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS,
     PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
-    SPANS_MOST = 40, /* of rows on a side, and of radial cells: if there are more, takes every second, third ... */
+    SPANS_MOST = 40, /* of rows on a side, and of radial cells */
     PEAKS = 4,       /* of the weight, on a side */
-    PLACES = 8,      /* between two knots, where the weight is foreseen */
     BETWEEN = 44,
     DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
                       2 * PEAKS + BETWEEN
@@ -74,6 +73,18 @@ typedef struct circle {
     int count;
 } circle;
 
+/* How many directions are looked at. */
+typedef struct survey {
+    int every;       /* so many of ANGLES and ELEVATIONS */
+    uint32_t spans;  /* of rows on a side, and of radial cells: if there are more, every second, third ... */
+    uint32_t places; /* between two knots, where the weight is foreseen */
+    int peaks;       /* of the weight, on a side */
+    int thirds;      /* that are cut off a peak */
+    int between;     /* directions between two others */
+} survey;
+
+static const survey FULL = {1, SPANS_MOST, 8, PEAKS, 6, BETWEEN}, QUICK = {2, 16, 2, 2, 3, 10};
+
 static void add_direction(circle *all, vndf_validation *v, double s, double c)
 {
     double length = hypot(s, c);
@@ -84,13 +95,13 @@ static void add_direction(circle *all, vndf_validation *v, double s, double c)
     all->at[i] = made;
 }
 
-static void add_grid(circle *all, vndf_validation *v)
+static void add_grid(circle *all, vndf_validation *v, int every)
 {
-    for (int i = 0; i < ANGLE_COUNT; i++) {
+    for (int i = 0; i < ANGLE_COUNT; i += every) {
         double theta = ANGLES[i] * PI / 180;
         add_direction(all, v, sin(theta) * v->profile->scale, ANGLES[i] == 90 ? 0 : cos(theta));
     }
-    for (int i = 0; i < 2 * ELEVATION_COUNT; i++)
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i += every)
         add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
 }
 
@@ -102,23 +113,23 @@ static void add_side(circle *all, vndf_validation *v, const vndf_wedge *side, do
 }
 
 /* Between the knots of a side's azimuth rows. */
-static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side)
+static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side, uint32_t most)
 {
-    uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
+    uint32_t spans = side->row_count / 2, step = (spans + most - 1) / most;
     for (uint32_t i = 0; i < spans; i += step)
         for (int n = 0; n < PEAK_COUNT; n++)
             add_side(all, v, side, side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]));
 }
 
 /* Cuts in the radial cells, as long as something beyond the cut is claimed. */
-static void add_cuts(circle *all, vndf_validation *v)
+static void add_cuts(circle *all, vndf_validation *v, uint32_t most)
 {
     const vndf_distribution *d = v->table;
     uint32_t last = 0;
     while (last + 1 < d->radial_count && vndf_profile_s(v->profile, vndf_validation_slope(d, last + 1, 0, 1)) >
                                              vndf_profile_claimed(v->profile) * v->profile->f1)
         last++;
-    uint32_t step = last / SPANS_MOST + 1;
+    uint32_t step = last / most + 1;
     for (uint32_t j = 0; j <= last; j += step)
         add_direction(all, v, 1, -vndf_validation_slope(d, j, 1, 3));
 }
@@ -167,20 +178,20 @@ typedef struct seen {
 } seen;
 
 /* The i-th of even places between all knots of a side's rows; past the last one its end. */
-static seen seen_at(vndf_validation *v, const vndf_wedge *side, uint32_t i)
+static seen seen_at(vndf_validation *v, const vndf_wedge *side, uint32_t i, uint32_t places)
 {
-    uint32_t span = i / PLACES;
+    uint32_t span = i / places;
     if (span == side->row_count / 2)
         return (seen){side->row_y[span], 0.0};
-    double y0 = side->row_y[span], y = y0 + (side->row_y[span + 1] - y0) * (i % PLACES + 0.5) / PLACES;
+    double y0 = side->row_y[span], y = y0 + (side->row_y[span + 1] - y0) * (i % places + 0.5) / places;
     return (seen){y, foreseen(v, side, y)};
 }
 
-static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest)
+static void find_peaks(vndf_validation *v, const vndf_wedge *side, uint32_t places, peak *largest)
 {
     seen before = {side->row_y[0], 0.0}, here = before;
-    for (uint32_t i = 0; i <= side->row_count / 2 * PLACES; i++) {
-        seen next = seen_at(v, side, i);
+    for (uint32_t i = 0; i <= side->row_count / 2 * places; i++) {
+        seen next = seen_at(v, side, i, places);
         peak found = {before.y, next.y, here.weight};
         if (here.weight >= before.weight && here.weight > next.weight)
             keep_peak(largest, found);
@@ -190,9 +201,9 @@ static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest
 }
 
 /* Thirds of a peak that hold no maximum are cut off; below the horizon nothing is claimed where y is small. */
-static double top_of(vndf_validation *v, const vndf_wedge *side, peak p)
+static double top_of(vndf_validation *v, const vndf_wedge *side, peak p, int thirds)
 {
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < thirds; i++) {
         double low = p.from + (p.to - p.from) / 3, high = p.to - (p.to - p.from) / 3;
         if (foreseen(v, side, low) > foreseen(v, side, high))
             p.to = high;
@@ -203,12 +214,12 @@ static double top_of(vndf_validation *v, const vndf_wedge *side, peak p)
 }
 
 /* The maxima of the foreseen weight. */
-static void add_peaks(circle *all, vndf_validation *v, const vndf_wedge *side)
+static void add_peaks(circle *all, vndf_validation *v, const vndf_wedge *side, const survey *s)
 {
     peak largest[PEAKS] = {{0, 0, 0}};
-    find_peaks(v, side, largest);
-    for (int i = 0; i < PEAKS && largest[i].weight > 0; i++)
-        add_side(all, v, side, top_of(v, side, largest[i]));
+    find_peaks(v, side, s->places, largest);
+    for (int i = 0; i < s->peaks && largest[i].weight > 0; i++)
+        add_side(all, v, side, top_of(v, side, largest[i], s->thirds));
 }
 
 /* Adds directions between the two neighbours that promise the largest total variation, or weight. */
@@ -283,32 +294,101 @@ static int is_bounded(const vndf_profile *profile)
     return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
 }
 
-int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
+/* Looks at all directions of a survey. */
+static void look(circle *all, vndf_validation *v, const survey *s)
+{
+    const vndf_distribution *table = v->table;
+    all->count = 0;
+    add_grid(all, v, s->every);
+    add_rows(all, v, &table->above, s->spans);
+    add_rows(all, v, &table->below, s->spans);
+    add_cuts(all, v, s->spans);
+    add_levels(all, v);
+    add_peaks(all, v, &table->above, s);
+    add_peaks(all, v, &table->below, s);
+    for (int i = 0; i < s->between; i++)
+        add_between(all, v, i % 11 == 10);
+}
+
+static void take_all(vndf_certificate *c, const circle *all, const vndf_profile *profile)
+{
+    for (int i = 0; i < all->count; i++) /* the angle at alpha 1 */
+        take(c, all->at[i].found, atan2(sin(all->at[i].angle), cos(all->at[i].angle) * profile->scale) * 180 / PI);
+}
+
+/* ---- quick ---- */
+
+typedef enum order { BY_TV, BY_TV_ABOVE, BY_WEIGHT } order;
+
+static double size_of(const direction *at, order by)
+{
+    if (!at->found.measured || (by == BY_TV_ABOVE && at->angle > PI / 2))
+        return 0.0;
+    return by == BY_WEIGHT ? at->found.max_weight : at->found.tv;
+}
+
+/* The index of the largest local maximum below `most`, or -1. */
+static int next_maximum(const circle *all, order by, double most)
+{
+    int best = -1;
+    for (int i = 0; i < all->count; i++) {
+        double size = size_of(&all->at[i], by), before = i > 0 ? size_of(&all->at[i - 1], by) : 0.0;
+        double after = i + 1 < all->count ? size_of(&all->at[i + 1], by) : 0.0;
+        if (size > before && size >= after && size < most && (best < 0 || size > size_of(&all->at[best], by)))
+            best = i;
+    }
+    return best;
+}
+
+/* Measures the largest maxima of a coarse survey closely. */
+static void add_maxima(circle *all, vndf_validation *v, const circle *coarse, order by, int count)
+{
+    double most = HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+        int i = next_maximum(coarse, by, most);
+        if (i < 0)
+            return;
+        most = size_of(&coarse->at[i], by);
+        add_direction(all, v, sin(coarse->at[i].angle), cos(coarse->at[i].angle));
+    }
+}
+
+static int look_quickly(circle *all, vndf_validation *v)
+{
+    vndf_validation coarse;
+    circle found = {.count = 0};
+    int good = vndf_validation_from(&coarse, v->table, v->profile, vndf_validation_coarse);
+    if (good) {
+        look(&found, &coarse, &QUICK);
+        add_maxima(all, v, &found, BY_TV, 3);
+        add_maxima(all, v, &found, BY_TV_ABOVE, 2);
+        add_maxima(all, v, &found, BY_WEIGHT, 3);
+    }
+    vndf_validation_free(&coarse);
+    return good;
+}
+
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile,
+                             int quick)
 {
     vndf_validation v;
     vndf_certificate none = {.max_weight = 1};
     circle all = {.count = 0};
-    int good = vndf_validation_from(&v, table, profile);
+    int good = vndf_validation_from(&v, table, profile, vndf_validation_close);
+    if (good && quick)
+        good = look_quickly(&all, &v);
+    else if (good)
+        look(&all, &v, &FULL);
     if (good) {
-        add_grid(&all, &v);
-        add_rows(&all, &v, &table->above);
-        add_rows(&all, &v, &table->below);
-        add_cuts(&all, &v);
-        add_levels(&all, &v);
-        add_peaks(&all, &v, &table->above);
-        add_peaks(&all, &v, &table->below);
-        for (int i = 0; i < BETWEEN; i++)
-            add_between(&all, &v, i % 11 == 10);
         *c = none;
-        for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
-            take(c, all.at[i].found,
-                 atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
+        take_all(c, &all, profile);
         c->area_error = fmaxf(c->area_error, (float)area_error(&v));
         c->horizon_power = (float)horizon_power(profile);
         c->weight_bounded = (float)is_bounded(profile);
         c->ndf_error = (float)ndf_error(&v);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
+        c->quick = (float)quick;
     }
     vndf_validation_free(&v);
     return good;

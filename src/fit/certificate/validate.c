@@ -16,15 +16,10 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The cells of small tables are integrated in parts, at least this many in all, so that the rule errs less than
- * the table. */
-enum {
-    RADIAL_PARTS_LEAST = 128,
-    AZIMUTH_PARTS_LEAST = 20,
-    AZIMUTHS_LEAST = 512,
-    AZIMUTHS_FORESEEN = 100,
-    FRONT_PANELS = 12
-};
+const vndf_validation_rule vndf_validation_close = {128, 20, 12, 512, 100};
+const vndf_validation_rule vndf_validation_coarse = {1, 8, 6, 64, 64};
+
+enum { FRONT_PANELS_MOST = 12 };
 
 /* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
  * that part of the cell's mass. */
@@ -178,7 +173,7 @@ static int add_last(vndf_validation *v, size_t *panel)
 
 static int add_stretches(vndf_validation *v)
 {
-    uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
+    uint32_t parts = parts_for(v->table->radial_count, v->rule.radial_parts);
     size_t panel = 0;
     int good = 1;
     for (uint32_t i = 0; i < (v->table->radial_count - 1) * parts && good; i++) {
@@ -345,7 +340,7 @@ static const double SHARE_ENDS[VNDF_GAUSS_COARSE] = {0.17392742256872693, 0.5, 0
 /* Gives every slice of a quarter turn its sums: those that are nearer to it than to others. */
 static void share_sums(vndf_validation *v, const quarter *turn, size_t first_slice, size_t first_sum)
 {
-    uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST), fine = parts_for(turn->cells, AZIMUTHS_LEAST);
+    uint32_t parts = parts_for(turn->cells, v->rule.azimuth_parts), fine = parts_for(turn->cells, v->rule.sums);
     size_t n = 0, sums = v->sums.count - first_sum;
     for (size_t i = 0; first_slice + i < v->slice_count; i++) {
         vndf_validation_slice *part = v->slices + first_slice + i;
@@ -363,14 +358,14 @@ static void share_sums(vndf_validation *v, const quarter *turn, size_t first_sli
 static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
     size_t first_slice = v->slice_count, first_sum = v->sums.count;
-    double taken = add_azimuths(v, view, turn, AZIMUTH_PARTS_LEAST, add_slice_of);
-    v->lack += add_azimuths(v, view, turn, AZIMUTHS_LEAST, add_sum) - taken;
+    double taken = add_azimuths(v, view, turn, v->rule.azimuth_parts, add_slice_of);
+    v->lack += add_azimuths(v, view, turn, v->rule.sums, add_sum) - taken;
     share_sums(v, turn, first_slice, first_sum);
 }
 
 static void add_sums(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
-    add_azimuths(v, view, turn, AZIMUTHS_FORESEEN, add_sum);
+    add_azimuths(v, view, turn, v->rule.foreseen, add_sum);
 }
 
 typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *turn);
@@ -378,10 +373,11 @@ typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *
 /* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
 static void add_front(vndf_validation *v, const vndf_view *view, add_turn *add)
 {
-    float node[FRONT_PANELS + 1];
-    quarter turn = {node, FRONT_PANELS, 1, 1, 0};
-    for (int i = 0; i <= FRONT_PANELS; i++) {
-        double w = (double)i / FRONT_PANELS;
+    uint32_t cells = v->rule.front_panels;
+    float node[FRONT_PANELS_MOST + 1];
+    quarter turn = {node, cells, 1, 1, 0};
+    for (uint32_t i = 0; i <= cells; i++) {
+        double w = (double)i / cells;
         node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
     }
     add(v, view, &turn);
@@ -614,16 +610,18 @@ static int add_lines(vndf_validation *v)
     return 1;
 }
 
-int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile)
+int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile,
+                         vndf_validation_rule rule)
 {
-    size_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS;
-    size_t parts = cells + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_validation made = {.table = table, .profile = profile, .beyond = 1e-3};
+    size_t cells = table->above.cell_count + table->below.cell_count + rule.front_panels;
+    size_t parts = cells + 3 * (size_t)rule.azimuth_parts;
+    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .beyond = 1e-3};
     *v = made;
     if (!add_stretches(v) || !add_lines(v))
         return 0;
     size_t samples = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
-    size_t sums = (cells + 3 * AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
+    size_t sums =
+        (cells + 3 * (size_t)(rule.sums > rule.foreseen ? rule.sums : rule.foreseen)) * VNDF_GAUSS_COARSE;
     v->slice_capacity = parts * VNDF_GAUSS_COARSE;
     v->slices = malloc(v->slice_capacity * sizeof *v->slices);
     v->weights = malloc((samples > sums ? samples : sums) * sizeof *v->weights);

@@ -19,6 +19,17 @@ typedef struct vndf_validation_weight {
     double ratio, mass;
 } vndf_validation_weight;
 
+/* How closely a direction is looked at. The cells of small tables are integrated in parts, at least so many in all, so
+ * that the rule errs less than the table. */
+typedef struct vndf_validation_rule {
+    uint32_t radial_parts, azimuth_parts, front_panels; /* front_panels: cells of the quarter towards wi */
+    uint32_t sums, foreseen;                            /* azimuths that are not looked at along the radius */
+} vndf_validation_rule;
+
+/* The rule of certificates, and one that costs a twelfth: it finds where errors are large, and not how large to a few
+ * per cent. */
+extern const vndf_validation_rule vndf_validation_close, vndf_validation_coarse;
+
 /* A stretch of a radial cell, in xi, and its Gauss points. The stretches of all cells stand in order. */
 typedef struct vndf_validation_stretch {
     double from, to;
@@ -50,6 +61,7 @@ typedef struct vndf_validation_slice {
 typedef struct vndf_validation {
     const vndf_distribution *table;
     const vndf_profile *profile;
+    vndf_validation_rule rule;
     vndf_validation_stretch *stretch;
     vndf_validation_node *node;
     size_t stretch_count, node_count;
@@ -72,7 +84,8 @@ typedef struct vndf_finding {
 } vndf_finding;
 
 /* 0 if there is no memory; free it either way. */
-int vndf_validation_from(vndf_validation *validation, const vndf_distribution *table, const vndf_profile *profile);
+int vndf_validation_from(vndf_validation *validation, const vndf_distribution *table, const vndf_profile *profile,
+                         vndf_validation_rule rule);
 void vndf_validation_free(vndf_validation *validation);
 
 /* The direction (s, 0, c) of the unit problem. */
