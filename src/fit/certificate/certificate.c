@@ -267,8 +267,8 @@ static double area_error(const vndf_validation *v)
     for (uint32_t i = 0; i + 1 < below->knot_count; i++)
         for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
             double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
-            double area = vndf_profile_area(v->profile, y, y - 1);
-            if (vndf_profile_seen(v->profile, y, y - 1) > vndf_profile_claimed(v->profile))
+            double area = vndf_validation_claimed(v, y, y - 1);
+            if (area > 0)
                 worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
         }
     return worst;

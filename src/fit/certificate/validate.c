@@ -224,19 +224,37 @@ static int is_visible(const slice *at, double r)
     return at->drawn.c + at->drawn.k * r > 0;
 }
 
+static vndf_engine_places places_of(const vndf_validation_places *p, const vndf_validation_cell *cell)
+{
+    vndf_engine_places places = {p->xi + cell->first, p->eta + cell->first, p->x + cell->first, cell->count};
+    return places;
+}
+
+/* What rounding of normals changes in a cell whose densities are known. */
+static void add_blur(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                     const vndf_validation_cell *cell, const double *density)
+{
+    const double *weight = v->lines.weight + cell->first;
+    vndf_engine_places moved = places_of(&v->lines.moved[v->samples.count % 2], cell);
+    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &moved, v->beside);
+    for (uint32_t i = 0; i < cell->count; i++)
+        v->blur += at->weight * weight[i] * fabs(v->beside[i] - density[i]);
+}
+
 /* All points of a cell at once, which are visible. */
 static void add_nodes(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
                       const vndf_validation_cell *cell)
 {
     const vndf_validation_lines *lines = &v->lines;
-    const vndf_engine_places places = {lines->xi + cell->first, lines->eta + cell->first, lines->x + cell->first,
-                                       cell->count};
+    vndf_engine_places places = places_of(&lines->at, cell);
     const double *restrict weight = lines->weight + cell->first, *restrict mass = lines->mass + cell->first;
     const double *restrict r = lines->r + cell->first;
     double *restrict drawn = v->samples.drawn + v->samples.count;
     double *restrict reference = v->samples.reference + v->samples.count;
     double c = at->drawn.c, k = at->drawn.k, part = at->weight, per_area = at->weight / v->area;
     vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &places, drawn);
+    if (cell->rounded)
+        add_blur(v, at, piece, cell, drawn);
     for (uint32_t i = 0; i < cell->count; i++) {
         drawn[i] = part * weight[i] * drawn[i];
         reference[i] = mass[i] * (c + k * r[i]) * per_area;
@@ -254,7 +272,7 @@ static void add_cell(vndf_validation *v, const slice *at, uint32_t j)
     else if (j == at->drawn.cut)
         for (uint32_t n = 0; n < cell->stretches; n++)
             add_cut(v, at, &piece, v->stretch + cell->first_stretch + n);
-    else if (!cell->rounded && is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
+    else if (is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
              v->samples.count + cell->count <= v->samples.capacity)
         add_nodes(v, at, &piece, cell);
     else
@@ -471,6 +489,22 @@ static double mass_above(const vndf_validation_points *p, double least)
     return sum[0] + sum[1] + sum[2] + sum[3];
 }
 
+/* Whether there is room for another weight after n. */
+static int has_room(vndf_validation *v, size_t n)
+{
+    if (n < v->weight_capacity)
+        return 1;
+    size_t capacity = v->weight_capacity ? 2 * v->weight_capacity : 1024;
+    vndf_validation_weight *weights = realloc(v->weights, capacity * sizeof *weights);
+    if (!weights) {
+        v->profile->guard->starved = 1;
+        return 0;
+    }
+    v->weights = weights;
+    v->weight_capacity = capacity;
+    return 1;
+}
+
 /* The largest weight of points. Only those count that, with all larger ones, hold more than VNDF_VALIDATION_LEFT_OUT of
  * the mass: a bound that begins at what the last direction had finds them without a division. */
 static double weight_of(vndf_validation *v, const vndf_validation_points *p)
@@ -481,7 +515,7 @@ static double weight_of(vndf_validation *v, const vndf_validation_points *p)
         beyond /= 2;
     double least = beyond > 1e-12 ? 1 + beyond : 0.0;
     for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] >= least * p->drawn[i]) {
+        if (p->reference[i] >= least * p->drawn[i] && has_room(v, n)) {
             vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
             v->weights[n++] = one;
         }
@@ -527,8 +561,7 @@ static double largest_weight(vndf_validation *v)
 
 /* ---- directions ---- */
 
-/* The true area of a direction, 0 where nothing is claimed. */
-static double claimed_area(const vndf_validation *v, double s, double c)
+double vndf_validation_claimed(const vndf_validation *v, double s, double c)
 {
     const vndf_profile *p = v->profile;
     double area = vndf_profile_area(p, s, c), seen = area / (2 * p->f1 * hypot(s, c));
@@ -540,7 +573,7 @@ vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
-    double area = claimed_area(v, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
+    double area = vndf_validation_claimed(v, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
     if (!(area > 0))
         return f;
     f.measured = 1;
@@ -561,7 +594,7 @@ double vndf_validation_foreseen(vndf_validation *v, double s, double c)
 {
     s = (float)s;
     c = (float)c;
-    double area = claimed_area(v, s, c);
+    double area = vndf_validation_claimed(v, s, c);
     if (!(area > 0))
         return 0.0;
     add_turns(v, s, c, area, add_sums);
@@ -579,33 +612,61 @@ static int room_for(vndf_validation_points *points, size_t capacity)
     return points->reference != NULL;
 }
 
+static int places_for(vndf_validation_places *p, size_t n)
+{
+    p->xi = malloc(3 * n * sizeof *p->xi);
+    p->eta = p->xi ? p->xi + n : NULL;
+    p->x = p->xi ? p->eta + n : NULL;
+    return p->xi != NULL;
+}
+
+static void put_place(const vndf_validation *v, const vndf_validation_places *p, uint32_t cell, size_t i,
+                      double xi)
+{
+    const vndf_knot *at = v->table->knots.at + cell;
+    p->xi[i] = xi;
+    p->eta[i] = 1 - xi;
+    p->x[i] = p->eta[i] * at[0].x + xi * at[1].x;
+}
+
+/* Point i, which belongs to a cell. */
+static void put_point(vndf_validation *v, vndf_validation_cell *cell, size_t i)
+{
+    const vndf_validation_lines *lines = &v->lines;
+    const vndf_validation_node *node = v->node + i;
+    uint32_t j = (uint32_t)(cell - v->cells);
+    put_place(v, &lines->at, j, i, node->xi);
+    for (size_t n = 0; n < 2; n++) {
+        double way = (i - cell->first + n) % 2 ? -node->rounding : node->rounding;
+        put_place(v, &lines->moved[n], j, i, fmax(fmin(node->xi + way, 1), 0));
+    }
+    lines->weight[i] = node->weight;
+    lines->mass[i] = node->mass;
+    lines->r[i] = node->r;
+    cell->rounded |= node->rounding > 0;
+}
+
 /* The points once more, number by number, and where each cell has its own. */
 static int add_lines(vndf_validation *v)
 {
+    vndf_validation_lines *lines = &v->lines;
     size_t n = v->node_count;
-    double *room = malloc(6 * n * sizeof *room);
     v->cells = calloc(v->table->radial_count, sizeof *v->cells);
-    vndf_validation_lines lines = {room, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n};
-    v->lines = lines;
-    if (!room || !v->cells)
+    v->beside = malloc(n * sizeof *v->beside);
+    lines->weight = malloc(3 * n * sizeof *lines->weight);
+    if (!places_for(&lines->at, n) || !places_for(&lines->moved[0], n) || !places_for(&lines->moved[1], n) ||
+        !v->cells || !v->beside || !lines->weight)
         return 0;
+    lines->mass = lines->weight + n;
+    lines->r = lines->mass + n;
     for (size_t i = 0; i < v->stretch_count; i++) {
         const vndf_validation_stretch *s = v->stretch + i;
         vndf_validation_cell *cell = v->cells + s->cell;
         cell->first_stretch = cell->stretches++ ? cell->first_stretch : (uint32_t)i;
         cell->first = cell->count ? cell->first : s->first;
         cell->count += s->count;
-        for (size_t k = s->first; k < s->first + s->count; k++) {
-            const vndf_validation_node *node = v->node + k;
-            const vndf_knot *at = v->table->knots.at + s->cell;
-            lines.xi[k] = node->xi;
-            lines.eta[k] = 1 - node->xi;
-            lines.x[k] = lines.eta[k] * at[0].x + node->xi * at[1].x;
-            lines.weight[k] = node->weight;
-            lines.mass[k] = node->mass;
-            lines.r[k] = node->r;
-            cell->rounded |= node->rounding > 0;
-        }
+        for (size_t k = s->first; k < s->first + s->count; k++)
+            put_point(v, cell, k);
     }
     return 1;
 }
@@ -624,8 +685,7 @@ int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, con
         (cells + 3 * (size_t)(rule.sums > rule.foreseen ? rule.sums : rule.foreseen)) * VNDF_GAUSS_COARSE;
     v->slice_capacity = parts * VNDF_GAUSS_COARSE;
     v->slices = malloc(v->slice_capacity * sizeof *v->slices);
-    v->weights = malloc((samples > sums ? samples : sums) * sizeof *v->weights);
-    return room_for(&v->samples, samples) && room_for(&v->sums, sums) && v->slices && v->weights;
+    return room_for(&v->samples, samples) && room_for(&v->sums, sums) && v->slices;
 }
 
 void vndf_validation_free(vndf_validation *v)
@@ -633,7 +693,11 @@ void vndf_validation_free(vndf_validation *v)
     free(v->stretch);
     free(v->node);
     free(v->cells);
-    free(v->lines.xi);
+    free(v->lines.at.xi);
+    free(v->lines.moved[0].xi);
+    free(v->lines.moved[1].xi);
+    free(v->lines.weight);
+    free(v->beside);
     free(v->samples.reference);
     free(v->sums.reference);
     free(v->slices);

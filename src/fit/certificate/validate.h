@@ -42,9 +42,15 @@ typedef struct vndf_validation_node {
     double xi, weight, r, mass, rounding;
 } vndf_validation_node;
 
-/* The same points number by number: xi, 1 - xi, the X of the slope, and so on; one block, which begins at xi. */
+/* Places number by number: xi, 1 - xi, and the X of the slope; one block, which begins at xi. */
+typedef struct vndf_validation_places {
+    double *xi, *eta, *x;
+} vndf_validation_places;
+
+/* The same points number by number; and moved by rounding, every second one inwards and the others outwards. */
 typedef struct vndf_validation_lines {
-    double *xi, *eta, *x, *weight, *mass, *r;
+    vndf_validation_places at, moved[2]; /* moved[0]: the first of a cell outwards */
+    double *weight, *mass, *r;           /* one block, which begins at weight */
 } vndf_validation_lines;
 
 /* The stretches and points of a radial cell, and whether rounding matters at any. */
@@ -70,8 +76,9 @@ typedef struct vndf_validation {
     vndf_validation_points samples; /* of one direction after the other */
     vndf_validation_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
     vndf_validation_slice *slices;
-    vndf_validation_weight *weights; /* room for those that may be the largest */
-    size_t slice_count, slice_capacity;
+    vndf_validation_weight *weights; /* those that may be the largest */
+    double *beside;                  /* the densities of a cell at moved points */
+    size_t slice_count, slice_capacity, weight_capacity;
     double beyond; /* by how much the last largest weight exceeded 1 */
     double area;   /* true area of the direction, for s + |c| = 1 */
     double lack;   /* the drawn mass that the samples leave out */
@@ -90,6 +97,9 @@ void vndf_validation_free(vndf_validation *validation);
 
 /* The direction (s, 0, c) of the unit problem. */
 vndf_finding vndf_validation_direction(vndf_validation *validation, double s, double c);
+
+/* The true area of a direction, 0 where nothing is claimed. */
+double vndf_validation_claimed(const vndf_validation *validation, double s, double c);
 
 /* About the largest weight there, from the sums alone: costs a fiftieth. */
 double vndf_validation_foreseen(vndf_validation *validation, double s, double c);

@@ -129,7 +129,7 @@ static double density_over(const vndf_engine_piece *p, vndf_exact_place at)
 
 /* Mass per xi over X at a place where the normal has the weight w. Where f begins at 0, the mass per xi does so as X
  * does, and their quotient is finite. */
-static double density_over_x(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at, double w)
+VNDF_INLINE double density_over_x(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at, double w)
 {
     inner in = inner_of(p, at.in, w);
     double per = in.per / p->length;
