@@ -9,13 +9,38 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Relative error of D at a slope; 0 in the mass left out at either end. */
+/* The slope at an even place inside a cell. */
+enum { PLACES = 24 };
+static double slope_at(const vndf_validation *v, size_t place)
+{
+    return vndf_validation_slope(v->table, (uint32_t)(place / (PLACES - 1)), 1 + (uint32_t)(place % (PLACES - 1)),
+                                 PLACES);
+}
+
+/* The first place that has more than `end` of the mass before it, or the first beyond which there is no more. */
+static size_t place_of_mass(const vndf_validation *v, double end, int beyond)
+{
+    size_t low = 0, high = v->table->radial_count * (size_t)(PLACES - 1);
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        double r = slope_at(v, middle);
+        int more =
+            (beyond ? vndf_profile_moments(v->profile, r, HUGE_VAL) : vndf_profile_moments(v->profile, 0, r)).m0 >
+            end;
+        if (more == beyond)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Relative error of D at a slope, 0 where next to nothing is. */
 static double ndf_miss(const vndf_validation *v, double r)
 {
     const vndf_profile *p = v->profile;
-    double z = 1 / (1 + r), reference = vndf_profile_p22(p, r), end = VNDF_VALIDATION_LEFT_OUT / 2 * p->f0;
-    if (!(reference * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
-          vndf_profile_moments(p, r, HUGE_VAL).m0 > end))
+    double z = 1 / (1 + r), reference = vndf_profile_p22(p, r);
+    if (!(reference * r * r > 1e-6 * p->f0))
         return 0.0;
     return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / reference - 1);
 }
@@ -23,11 +48,10 @@ static double ndf_miss(const vndf_validation *v, double r)
 /* The largest over the slopes that hold all but VNDF_VALIDATION_LEFT_OUT of the mass, at even places of every cell. */
 static double ndf_error(const vndf_validation *v)
 {
-    enum { PLACES = 24 };
-    double worst = 0.0;
-    for (uint32_t j = 0; j < v->table->radial_count; j++)
-        for (uint32_t i = 1; i < PLACES; i++)
-            worst = fmax(worst, ndf_miss(v, vndf_validation_slope(v->table, j, i, PLACES)));
+    double worst = 0.0, left_out = VNDF_VALIDATION_LEFT_OUT / 2 * v->profile->f0;
+    size_t end = place_of_mass(v, left_out, 1);
+    for (size_t i = place_of_mass(v, left_out, 0); i < end; i++)
+        worst = fmax(worst, ndf_miss(v, slope_at(v, i)));
     return worst;
 }
 
@@ -75,15 +99,17 @@ typedef struct circle {
 
 /* How many directions are looked at. */
 typedef struct survey {
-    int every;       /* so many of ANGLES and ELEVATIONS */
-    uint32_t spans;  /* of rows on a side, and of radial cells: if there are more, every second, third ... */
-    uint32_t places; /* between two knots, where the weight is foreseen */
-    int peaks;       /* of the weight, on a side */
-    int thirds;      /* that are cut off a peak */
-    int between;     /* directions between two others */
+    int first, angles; /* the first of ANGLES, and every so many */
+    int elevations;    /* every so many of ELEVATIONS */
+    uint32_t spans;    /* of rows on a side, and of radial cells: if there are more, every second, third ... */
+    uint32_t places;   /* between two knots, where the weight is foreseen */
+    int peaks;         /* of the weight, on a side */
+    int thirds;        /* that are cut off a peak */
+    int between;       /* directions between two others, */
+    int weighed;       /* every so many by the weight */
 } survey;
 
-static const survey FULL = {1, SPANS_MOST, 8, PEAKS, 6, BETWEEN}, QUICK = {2, 16, 2, 2, 3, 10};
+static const survey FULL = {0, 1, 1, SPANS_MOST, 8, PEAKS, 6, BETWEEN, 11}, QUICK = {1, 2, 3, 12, 2, 2, 3, 12, 2};
 
 static void add_direction(circle *all, vndf_validation *v, double s, double c)
 {
@@ -95,13 +121,13 @@ static void add_direction(circle *all, vndf_validation *v, double s, double c)
     all->at[i] = made;
 }
 
-static void add_grid(circle *all, vndf_validation *v, int every)
+static void add_grid(circle *all, vndf_validation *v, const survey *s)
 {
-    for (int i = 0; i < ANGLE_COUNT; i += every) {
+    for (int i = s->first; i < ANGLE_COUNT; i += s->angles) {
         double theta = ANGLES[i] * PI / 180;
         add_direction(all, v, sin(theta) * v->profile->scale, ANGLES[i] == 90 ? 0 : cos(theta));
     }
-    for (int i = 0; i < 2 * ELEVATION_COUNT; i += every)
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i += s->elevations)
         add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
 }
 
@@ -134,14 +160,21 @@ static void add_cuts(circle *all, vndf_validation *v, uint32_t most)
         add_direction(all, v, 1, -vndf_validation_slope(d, j, 1, 3));
 }
 
+/* The part of the area at grazing incidence that is visible; from the table it costs nothing. */
+static double seen_from(const vndf_validation *v, double angle, int by_table)
+{
+    double s = sin(angle), c = cos(angle);
+    return by_table ? vndf_unit_area(v->table, s, c) / (2 * v->profile->f1) : vndf_profile_seen(v->profile, s, c);
+}
+
 /* The area falls from 90 to 180 degrees. */
-static void add_levels(circle *all, vndf_validation *v)
+static void add_levels(circle *all, vndf_validation *v, int by_table)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
         double low = PI / 2, high = PI, level = pow(vndf_profile_claimed(v->profile), LEVELS[i]);
         for (int step = 0; step < 40 && !vndf_guard_stopped(v->profile->guard); step++) {
             double angle = (low + high) / 2;
-            if (vndf_profile_seen(v->profile, sin(angle), cos(angle)) > level)
+            if (seen_from(v, angle, by_table) > level)
                 low = angle;
             else
                 high = angle;
@@ -299,15 +332,15 @@ static void look(circle *all, vndf_validation *v, const survey *s)
 {
     const vndf_distribution *table = v->table;
     all->count = 0;
-    add_grid(all, v, s->every);
+    add_grid(all, v, s);
     add_rows(all, v, &table->above, s->spans);
     add_rows(all, v, &table->below, s->spans);
     add_cuts(all, v, s->spans);
-    add_levels(all, v);
+    add_levels(all, v, s == &QUICK);
     add_peaks(all, v, &table->above, s);
     add_peaks(all, v, &table->below, s);
     for (int i = 0; i < s->between; i++)
-        add_between(all, v, i % 11 == 10);
+        add_between(all, v, i % s->weighed == s->weighed - 1);
 }
 
 static void take_all(vndf_certificate *c, const circle *all, const vndf_profile *profile)
@@ -340,6 +373,14 @@ static int next_maximum(const circle *all, order by, double most)
     return best;
 }
 
+static int has_direction(const circle *all, double angle)
+{
+    for (int i = 0; i < all->count; i++)
+        if (fabs(all->at[i].angle - angle) < 1e-12)
+            return 1;
+    return 0;
+}
+
 /* Measures the largest maxima of a coarse survey closely. */
 static void add_maxima(circle *all, vndf_validation *v, const circle *coarse, order by, int count)
 {
@@ -349,11 +390,13 @@ static void add_maxima(circle *all, vndf_validation *v, const circle *coarse, or
         if (i < 0)
             return;
         most = size_of(&coarse->at[i], by);
-        add_direction(all, v, sin(coarse->at[i].angle), cos(coarse->at[i].angle));
+        if (!has_direction(all, coarse->at[i].angle))
+            add_direction(all, v, sin(coarse->at[i].angle), cos(coarse->at[i].angle));
     }
 }
 
-static int look_quickly(circle *all, vndf_validation *v)
+/* Areas are as true in a coarse look as in a close one. */
+static int look_quickly(circle *all, vndf_validation *v, double *area)
 {
     vndf_validation coarse;
     circle found = {.count = 0};
@@ -363,6 +406,8 @@ static int look_quickly(circle *all, vndf_validation *v)
         add_maxima(all, v, &found, BY_TV, 3);
         add_maxima(all, v, &found, BY_TV_ABOVE, 2);
         add_maxima(all, v, &found, BY_WEIGHT, 3);
+        for (int i = 0; i < found.count; i++)
+            *area = fmax(*area, found.at[i].found.area_error);
     }
     vndf_validation_free(&coarse);
     return good;
@@ -374,15 +419,16 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table
     vndf_validation v;
     vndf_certificate none = {.max_weight = 1};
     circle all = {.count = 0};
+    double area = 0.0;
     int good = vndf_validation_from(&v, table, profile, vndf_validation_close);
     if (good && quick)
-        good = look_quickly(&all, &v);
+        good = look_quickly(&all, &v, &area);
     else if (good)
         look(&all, &v, &FULL);
     if (good) {
         *c = none;
         take_all(c, &all, profile);
-        c->area_error = fmaxf(c->area_error, (float)area_error(&v));
+        c->area_error = fmaxf(c->area_error, (float)fmax(area, area_error(&v)));
         c->horizon_power = (float)horizon_power(profile);
         c->weight_bounded = (float)is_bounded(profile);
         c->ndf_error = (float)ndf_error(&v);

@@ -16,8 +16,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-const vndf_validation_rule vndf_validation_close = {128, 20, 12, 512, 100};
-const vndf_validation_rule vndf_validation_coarse = {1, 8, 6, 64, 64};
+const vndf_validation_rule vndf_validation_close = {128, VNDF_GAUSS, 20, 12, 512, 100};
+const vndf_validation_rule vndf_validation_coarse = {1, VNDF_GAUSS_COARSE, 6, 6, 32, 64};
 
 enum { FRONT_PANELS_MOST = 12 };
 
@@ -85,9 +85,9 @@ static uint32_t points_in(const vndf_validation *v, uint32_t j, double width)
     return width < 1.0 || is_steep(&v->table->cells[j]) ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
 }
 
-/* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
-static vndf_validation_node node_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
-                                    uint32_t i)
+/* Gauss point i of a stretch without P22 in its mass: X and Z are linear in xi, dR = width/Z^2 dxi. */
+static vndf_validation_node place_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
+                                     uint32_t i)
 {
     int fine = count == VNDF_GAUSS;
     knots k = knots_of(v->table, j);
@@ -96,9 +96,22 @@ static vndf_validation_node node_in(const vndf_validation *v, uint32_t j, double
     double x = (1 - xi) * k.x0 + xi * k.x1, z = (1 - xi) * k.z0 + xi * k.z1, width = k.x1 * k.z0 - k.x0 * k.z1;
     double rounding = FLOAT_ROUNDING * x * z / width;
     vndf_validation_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z), 0.0};
-    node.mass *= vndf_profile_p22(v->profile, node.r);
     node.rounding = rounding > ROUNDING_LEAST * (to - from) ? rounding : 0.0;
     return node;
+}
+
+/* The Gauss points of a stretch. */
+static void nodes_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
+                     vndf_validation_node *node)
+{
+    double r[VNDF_GAUSS] = {0}, p22[VNDF_GAUSS];
+    for (uint32_t i = 0; i < count; i++) {
+        node[i] = place_in(v, j, from, to, count, i);
+        r[i] = node[i].r;
+    }
+    vndf_profile_p22_many(v->profile, r, count, p22);
+    for (uint32_t i = 0; i < count; i++)
+        node[i].mass *= p22[i];
 }
 
 static int add_stretch(vndf_validation *v, uint32_t j, double from, double to)
@@ -115,8 +128,8 @@ static int add_stretch(vndf_validation *v, uint32_t j, double from, double to)
     }
     vndf_validation_stretch made = {from, to, j, (uint32_t)v->node_count, count};
     v->stretch[v->stretch_count++] = made;
-    for (uint32_t i = 0; i < count; i++)
-        v->node[v->node_count++] = node_in(v, j, from, to, count, i);
+    nodes_in(v, j, from, to, count, v->node + v->node_count);
+    v->node_count += count;
     return 1;
 }
 
@@ -213,10 +226,12 @@ static void add_cut(vndf_validation *v, const slice *at, const vndf_engine_piece
                     const vndf_validation_stretch *s)
 {
     double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
-    for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
-        vndf_validation_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
-        add_node(v, at, piece, s->cell, &n);
-    }
+    vndf_validation_node node[VNDF_GAUSS];
+    if (!(to > from))
+        return;
+    nodes_in(v, s->cell, from, to, v->rule.cut_points, node);
+    for (uint32_t i = 0; i < v->rule.cut_points; i++)
+        add_node(v, at, piece, s->cell, &node[i]);
 }
 
 static int is_visible(const slice *at, double r)

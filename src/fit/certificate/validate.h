@@ -22,8 +22,9 @@ typedef struct vndf_validation_weight {
 /* How closely a direction is looked at. The cells of small tables are integrated in parts, at least so many in all, so
  * that the rule errs less than the table. */
 typedef struct vndf_validation_rule {
-    uint32_t radial_parts, azimuth_parts, front_panels; /* front_panels: cells of the quarter towards wi */
-    uint32_t sums, foreseen;                            /* azimuths that are not looked at along the radius */
+    uint32_t radial_parts, cut_points;    /* cut_points: in each part of the cell of the cut */
+    uint32_t azimuth_parts, front_panels; /* front_panels: cells of the quarter towards wi */
+    uint32_t sums, foreseen;              /* azimuths that are not looked at along the radius */
 } vndf_validation_rule;
 
 /* The rule of certificates, and one that costs a twelfth: it finds where errors are large, and not how large to a few

@@ -33,15 +33,17 @@ static size_t panel_of(const vndf_profile *profile, double r)
 /* integral over [a, b] inside a panel of P r dr and P r (r - a) dr. */
 static vndf_moments part(const vndf_profile *profile, double a, double b)
 {
-    double u0 = log(a), du = log(b / a);
+    double u0 = log(a), du = log(b / a), r[VNDF_GAUSS], p22[VNDF_GAUSS];
     vndf_moments sum = {0.0, 0.0};
     if (!(b > a))
         return sum;
+    for (int i = 0; i < VNDF_GAUSS; i++)
+        r[i] = exp(u0 + du * vndf_gauss_node[i]);
+    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
     for (int i = 0; i < VNDF_GAUSS; i++) {
-        double r = exp(u0 + du * vndf_gauss_node[i]);
-        double w = vndf_gauss_weight[i] * du * r * r * vndf_profile_p22(profile, r);
+        double w = vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i];
         sum.m0 += w;
-        sum.m1 += w * (r - a);
+        sum.m1 += w * (r[i] - a);
     }
     return sum;
 }
@@ -122,12 +124,16 @@ static kernel kernel_above(double r, double k)
 /* integral over R in [from, to] of a kernel times P R dR, k <= from < to within one panel: R = k + t^2. */
 static kernel near_panel(const vndf_profile *profile, double k, double from, double to, kernel_function *at)
 {
-    double t0 = sqrt(from - k), dt = sqrt(to - k) - t0;
+    double t0 = sqrt(from - k), dt = sqrt(to - k) - t0, t[VNDF_GAUSS], r[VNDF_GAUSS], p22[VNDF_GAUSS];
     kernel sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
-        double t = t0 + dt * vndf_gauss_node[i], r = k + t * t;
-        double w = vndf_gauss_weight[i] * 2 * t * dt * r * vndf_profile_p22(profile, r);
-        kernel value = at(r, k);
+        t[i] = t0 + dt * vndf_gauss_node[i];
+        r[i] = k + t[i] * t[i];
+    }
+    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double w = vndf_gauss_weight[i] * 2 * t[i] * dt * r[i] * p22[i];
+        kernel value = at(r[i], k);
         sum.mass += w * value.mass;
         sum.slope += w * value.slope;
         sum.curve += w * value.curve;
