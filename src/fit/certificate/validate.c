@@ -487,21 +487,42 @@ static double weight_among(vndf_validation_weight *from, size_t count)
     return 1.0;
 }
 
-/* The mass of the points with a ratio of at least `least`; four sums, which do not wait for one another. */
-static double mass_above(const vndf_validation_points *p, double least)
+/* Buckets for the part of a ratio beyond 1, eight to an octave: its bits without the sign and most of the digits. The
+ * first holds all that is less than 2^-40, the last all that is more than 2^40. */
+enum { BUCKET_SHIFT = 49, BUCKET_FIRST = (1023 - 40) * 8, BUCKETS = 80 * 8 };
+
+static size_t bucket_of(double beyond)
 {
-    const double *reference = p->reference, *drawn = p->drawn;
-    double sum[4] = {0, 0, 0, 0};
-    size_t i = 0;
-    for (; i + 4 <= p->count; i += 4) {
-        sum[0] += reference[i] >= least * drawn[i] ? reference[i] : 0.0;
-        sum[1] += reference[i + 1] >= least * drawn[i + 1] ? reference[i + 1] : 0.0;
-        sum[2] += reference[i + 2] >= least * drawn[i + 2] ? reference[i + 2] : 0.0;
-        sum[3] += reference[i + 3] >= least * drawn[i + 3] ? reference[i + 3] : 0.0;
+    uint64_t bits;
+    memcpy(&bits, &beyond, sizeof bits);
+    bits >>= BUCKET_SHIFT;
+    return !(beyond > 0) || bits < BUCKET_FIRST ? 0
+           : bits < BUCKET_FIRST + BUCKETS      ? (size_t)(bits - BUCKET_FIRST)
+                                                : BUCKETS - 1;
+}
+
+/* Where a bucket begins. */
+static double beyond_of(size_t bucket)
+{
+    uint64_t bits = (uint64_t)(bucket + BUCKET_FIRST) << BUCKET_SHIFT;
+    double beyond;
+    memcpy(&beyond, &bits, sizeof beyond);
+    return beyond;
+}
+
+/* A ratio above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies; 0 if no ratio above 1 is. */
+static double least_that_counts(const vndf_validation_points *p)
+{
+    double mass[BUCKETS] = {0}, sum = 0.0;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->reference[i] > p->drawn[i])
+            mass[bucket_of(ratio(p->reference[i], p->drawn[i]) - 1)] += p->reference[i];
+    for (size_t i = BUCKETS - 1; i > 0; i--) {
+        sum += mass[i];
+        if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
+            return (1 + beyond_of(i)) * (1 - 1e-12);
     }
-    for (; i < p->count; i++)
-        sum[0] += reference[i] >= least * drawn[i] ? reference[i] : 0.0;
-    return sum[0] + sum[1] + sum[2] + sum[3];
+    return 0.0;
 }
 
 /* Whether there is room for another weight after n. */
@@ -520,23 +541,17 @@ static int has_room(vndf_validation *v, size_t n)
     return 1;
 }
 
-/* The largest weight of points. Only those count that, with all larger ones, hold more than VNDF_VALIDATION_LEFT_OUT of
- * the mass: a bound that begins at what the last direction had finds them without a division. */
+/* The largest weight of points. Only those few are sorted that count. */
 static double weight_of(vndf_validation *v, const vndf_validation_points *p)
 {
-    double beyond = 2 * v->beyond;
+    double least = least_that_counts(p);
     size_t n = 0;
-    while (beyond > 1e-12 && !(mass_above(p, 1 + beyond) > 1.01 * VNDF_VALIDATION_LEFT_OUT))
-        beyond /= 2;
-    double least = beyond > 1e-12 ? 1 + beyond : 0.0;
     for (size_t i = 0; i < p->count; i++)
         if (p->reference[i] >= least * p->drawn[i] && has_room(v, n)) {
             vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
             v->weights[n++] = one;
         }
-    double weight = weight_among(v->weights, n);
-    v->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
-    return weight;
+    return weight_among(v->weights, n);
 }
 
 /* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
@@ -691,7 +706,7 @@ int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, con
 {
     size_t cells = table->above.cell_count + table->below.cell_count + rule.front_panels;
     size_t parts = cells + 3 * (size_t)rule.azimuth_parts;
-    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .beyond = 1e-3};
+    vndf_validation made = {.table = table, .profile = profile, .rule = rule};
     *v = made;
     if (!add_stretches(v) || !add_lines(v))
         return 0;

@@ -161,6 +161,16 @@ static kernel near_panels(const vndf_profile *profile, double k, double from, do
     return sum;
 }
 
+/* Whether all that lies beyond the inner edge of a panel, which is at 3 k or more, changes no bit of a sum: it is less
+ * than half of the last digit. The kernels are at most R, pi/2 + R and 1/(2 k) there. */
+static int is_lost(const vndf_panel *p, double k, const kernel *sum)
+{
+    const double part = 0x1p-55;
+    double first = 2 * (p->s + p->r * p->t0), none = 2 * p->t0;
+    return first < part * sum->mass && HALF_PI * none + first < part * sum->slope &&
+           none < part * 2 * k * sum->curve;
+}
+
 /* Integral from k outwards. Up to 3 k the root of the kernel shows, and the panels are integrated anew. */
 static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
 {
@@ -173,8 +183,9 @@ static kernel beyond(const vndf_profile *profile, double k, kernel_function *at)
         if (profile->panel[i + 1].r > from)
             add_kernel(&sum, near_panels(profile, k, from, profile->panel[i + 1].r, at), 1.0);
     }
-    for (i *= VNDF_GAUSS; i < count * VNDF_GAUSS; i++)
-        add_kernel(&sum, at(profile->point[i].r, k), profile->point[i].weight);
+    for (; i < count && !is_lost(&profile->panel[i], k, &sum); i++)
+        for (size_t n = i * VNDF_GAUSS; n < (i + 1) * VNDF_GAUSS; n++)
+            add_kernel(&sum, at(profile->point[n].r, k), profile->point[n].weight);
     return sum;
 }
 
