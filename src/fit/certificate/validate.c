@@ -256,43 +256,73 @@ static void add_blur(vndf_validation *v, const slice *at, const vndf_engine_piec
         v->blur += at->weight * weight[i] * fabs(v->beside[i] - density[i]);
 }
 
-/* All points of a cell at once, which are visible. */
-static void add_nodes(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
-                      const vndf_validation_cell *cell)
+/* Samples of successive cells that hold densities so far, and the points that they belong to. */
+typedef struct run {
+    size_t point, sample, count;
+} run;
+
+/* Turns the densities of a run into masses. */
+static void end_run(vndf_validation *v, const slice *at, run *of)
 {
     const vndf_validation_lines *lines = &v->lines;
-    vndf_engine_places places = places_of(&lines->at, cell);
-    const double *restrict weight = lines->weight + cell->first, *restrict mass = lines->mass + cell->first;
-    const double *restrict r = lines->r + cell->first;
-    double *restrict drawn = v->samples.drawn + v->samples.count;
-    double *restrict reference = v->samples.reference + v->samples.count;
+    const double *restrict weight = lines->weight + of->point, *restrict mass = lines->mass + of->point;
+    const double *restrict r = lines->r + of->point;
+    double *restrict drawn = v->samples.drawn + of->sample, *restrict reference =
+                                                                v->samples.reference + of->sample;
     double c = at->drawn.c, k = at->drawn.k, part = at->weight, per_area = at->weight / v->area;
-    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &places, drawn);
-    if (cell->rounded)
-        add_blur(v, at, piece, cell, drawn);
-    for (uint32_t i = 0; i < cell->count; i++) {
+    for (size_t i = 0; i < of->count; i++) {
         drawn[i] = part * weight[i] * drawn[i];
         reference[i] = mass[i] * (c + k * r[i]) * per_area;
     }
+    of->count = 0;
+}
+
+/* All points of a cell at once, which are visible. */
+static void add_nodes(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                      const vndf_validation_cell *cell, run *of)
+{
+    vndf_engine_places places = places_of(&v->lines.at, cell);
+    double *drawn = v->samples.drawn + v->samples.count;
+    if (of->count == 0) {
+        of->point = cell->first;
+        of->sample = v->samples.count;
+    }
+    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &places, drawn);
+    if (cell->rounded)
+        add_blur(v, at, piece, cell, drawn);
+    of->count += cell->count;
     v->samples.count += cell->count;
 }
 
-static void add_cell(vndf_validation *v, const slice *at, uint32_t j)
+/* All points of a cell that are seen, one by one. */
+static void add_cell_slowly(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j)
+{
+    const vndf_validation_cell *cell = v->cells + j;
+    if (j == at->drawn.cut)
+        for (uint32_t n = 0; n < cell->stretches; n++)
+            add_cut(v, at, piece, v->stretch + cell->first_stretch + n);
+    else
+        for (uint32_t i = 0; i < cell->count; i++)
+            add_node(v, at, piece, j, v->node + cell->first + i);
+}
+
+static void add_cell(vndf_validation *v, const slice *at, uint32_t j, run *of)
 {
     const vndf_validation_cell *cell = v->cells + j;
     const vndf_validation_node *node = v->node + cell->first;
     vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
-    if (!(piece.mass > CELL_LEAST * at->drawn.mass))
+    int empty = !(piece.mass > CELL_LEAST * at->drawn.mass);
+    int whole = j != at->drawn.cut && is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
+                v->samples.count + cell->count <= v->samples.capacity;
+    if (!empty && whole) {
+        add_nodes(v, at, &piece, cell, of);
+        return;
+    }
+    end_run(v, at, of);
+    if (empty)
         v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
-    else if (j == at->drawn.cut)
-        for (uint32_t n = 0; n < cell->stretches; n++)
-            add_cut(v, at, &piece, v->stretch + cell->first_stretch + n);
-    else if (is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
-             v->samples.count + cell->count <= v->samples.capacity)
-        add_nodes(v, at, &piece, cell);
     else
-        for (uint32_t i = 0; i < cell->count; i++)
-            add_node(v, at, &piece, j, node + i);
+        add_cell_slowly(v, at, &piece, j);
 }
 
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
@@ -306,8 +336,10 @@ static void add_azimuth(vndf_validation *v, const slice *at)
         return;
     uint32_t from = beyond ? r->cut : 0,
              end = inside && r->cut < v->table->radial_count ? r->cut + 1 : v->table->radial_count;
+    run of = {0, 0, 0};
     for (uint32_t j = from; r->mass > 0 && j < end; j++)
-        add_cell(v, at, j);
+        add_cell(v, at, j, &of);
+    end_run(v, at, &of);
 }
 
 /* A quarter turn on the cells of a row with an aspect. */
