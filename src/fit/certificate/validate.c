@@ -542,19 +542,31 @@ static double beyond_of(size_t bucket)
     return beyond;
 }
 
-/* A ratio above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies; 0 if no ratio above 1 is. */
-static double least_that_counts(const vndf_validation_points *p)
+/* A ratio of at least 1 + beyond above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies, or 0. */
+static double least_beyond(const vndf_validation_points *p, double beyond)
 {
-    double mass[BUCKETS] = {0}, sum = 0.0;
+    double mass[BUCKETS] = {0}, sum = 0.0, least = 1 + beyond;
     for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] > p->drawn[i])
+        if (p->reference[i] > least * p->drawn[i])
             mass[bucket_of(ratio(p->reference[i], p->drawn[i]) - 1)] += p->reference[i];
-    for (size_t i = BUCKETS - 1; i > 0; i--) {
+    for (size_t i = BUCKETS - 1; i > bucket_of(beyond); i--) {
         sum += mass[i];
         if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
             return (1 + beyond_of(i)) * (1 - 1e-12);
     }
     return 0.0;
+}
+
+/* The same, 0 if no ratio above 1 is. Begins near what the last direction had: the fewer points are beyond that, the
+ * faster it is. */
+static double least_that_counts(const vndf_validation_points *p, double last)
+{
+    double beyond = last / 4, least = 0.0;
+    while (least == 0.0 && beyond > 1e-12) {
+        least = least_beyond(p, beyond);
+        beyond /= 32;
+    }
+    return least;
 }
 
 /* Whether there is room for another weight after n. */
@@ -576,14 +588,16 @@ static int has_room(vndf_validation *v, size_t n)
 /* The largest weight of points. Only those few are sorted that count. */
 static double weight_of(vndf_validation *v, const vndf_validation_points *p)
 {
-    double least = least_that_counts(p);
+    double least = least_that_counts(p, v->beyond);
     size_t n = 0;
     for (size_t i = 0; i < p->count; i++)
         if (p->reference[i] >= least * p->drawn[i] && has_room(v, n)) {
             vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
             v->weights[n++] = one;
         }
-    return weight_among(v->weights, n);
+    double weight = weight_among(v->weights, n);
+    v->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
+    return weight;
 }
 
 /* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
@@ -738,7 +752,7 @@ int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, con
 {
     size_t cells = table->above.cell_count + table->below.cell_count + rule.front_panels;
     size_t parts = cells + 3 * (size_t)rule.azimuth_parts;
-    vndf_validation made = {.table = table, .profile = profile, .rule = rule};
+    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .beyond = 1e-3};
     *v = made;
     if (!add_stretches(v) || !add_lines(v))
         return 0;

@@ -80,9 +80,10 @@ typedef struct vndf_validation {
     vndf_validation_weight *weights; /* those that may be the largest */
     double *beside;                  /* the densities of a cell at moved points */
     size_t slice_count, slice_capacity, weight_capacity;
-    double area; /* true area of the direction, for s + |c| = 1 */
-    double lack; /* the drawn mass that the samples leave out */
-    double blur; /* by how much rounding of normals to float changes the drawn density, all together */
+    double beyond; /* by how much the last largest weight exceeded 1 */
+    double area;   /* true area of the direction, for s + |c| = 1 */
+    double lack;   /* the drawn mass that the samples leave out */
+    double blur;   /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_validation;
 
 typedef struct vndf_finding {
