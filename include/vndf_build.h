@@ -121,9 +121,9 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * Quick. Most of a build's time is spent on its certificate, which looks at some two hundred directions. With
  * quick = 1 the builder looks at fewer, coarsely, and measures the worst of them. That is for programs that build where
  * they run, in tens of milliseconds. The table is the same, byte for byte but for the certificate, whose tv, tv_above,
- * max_weight - 1, area_error and ndf_error may stand below the full ones: in tests by a factor of 1.5 at most. Where
- * the size of the table depends on a total variation that the quick certificate does not decide, the full one is
- * measured, and stands in the table: with max_tv, as a rule. vndf_certify measures a full certificate later. */
+ * max_weight - 1, area_error, consistency and ndf_error may stand below the full ones: in tests by a factor of 1.5 at
+ * most. Where the size of the table depends on a total variation that the quick certificate does not decide, the full
+ * one is measured, and stands in the table: with max_tv, as a rule. vndf_certify measures a full certificate later. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 16384, see above */
     double max_tv;    /* build the smallest table that reaches this total variation; 0: the best that fits */
@@ -188,7 +188,7 @@ typedef struct vndf_family_options {
  * of a family with one number may stand alone, "student-t". Mixtures are linear in p, or in 1/p where low > 0 and that
  * makes the distance smaller by a quarter at least. Parameters of knots have seven digits, and the table of a knot is
  * the one that vndf_build makes there. NULL and an error as for vndf_build; VNDF_ERROR_TARGET if 256 knots do not reach
- * the distance. Takes a build for each knot, 0.5 to 0.9 s. Free the result with vndf_family_free. */
+ * the distance. Takes a build for each knot, 0.2 to 0.5 s. Free the result with vndf_family_free. */
 VNDF_API vndf_family *vndf_build_family(const char *specification, double low, double high,
                                         const vndf_family_options *options, vndf_error *error);
 

@@ -84,6 +84,7 @@ static int claims_agree(vndf_certificate full, vndf_certificate quick)
     return TEST(is_near(full.tv, quick.tv)) & TEST(is_near(full.tv_above, quick.tv_above)) &
            TEST(is_near(full.max_weight - 1, quick.max_weight - 1)) &
            TEST(is_near(full.area_error, quick.area_error)) & TEST(is_near(full.ndf_error, quick.ndf_error)) &
+           TEST(is_near(full.consistency, quick.consistency)) & TEST(quick.consistency >= 4e-8f) &
            TEST(full.weight_bounded == quick.weight_bounded) & TEST(full.horizon_power == quick.horizon_power) &
            TEST(full.hidden == quick.hidden) & TEST(full.finest == quick.finest);
 }

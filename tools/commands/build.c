@@ -37,7 +37,7 @@ static const char help[] =
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384; up to 32768 where that brings\n"
     "                  the total variation below 1e-3, and no --max-tv is given)\n"
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
-    "  --certificate quick|full    how the table is measured (default full). quick takes a tenth of the time, looks\n"
+    "  --certificate quick|full    how the table is measured (default full). quick takes a quarter of the time, looks\n"
     "                  at fewer directions, and may find two thirds of the error; the table is the same, and says so\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
