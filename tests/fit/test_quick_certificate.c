@@ -49,6 +49,9 @@ static const struct subject {
     {"step(2-r)*step(r-1)", 2048, 0},
     {"step(1-r)+0.1*step(3-r)", 16384, 0},
     {"max(0,1-r)", 4096, 0},
+    {"max(0,1-r)", 16384, 0}, /* a narrow maximum of the weight between two rows */
+    {"exp(-((r-1)/0.01)^2)", 2048, 0},
+    {"mix:(0.5,1,ggx)+(0.5,0.0001,ggx)", 16384, 0},
     {"sqrt(max(0,1-r^2))", 4096, 0},
     {"r^4*exp(-r^2)", 4096, 0},
     {"exp(-r^0.3)", 4096, 0},

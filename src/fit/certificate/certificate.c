@@ -109,7 +109,7 @@ typedef struct survey {
     int weighed;       /* every so many by the weight */
 } survey;
 
-static const survey FULL = {0, 1, 1, SPANS_MOST, 8, PEAKS, 6, BETWEEN, 11}, QUICK = {1, 2, 3, 12, 2, 2, 3, 12, 2};
+static const survey FULL = {0, 1, 1, SPANS_MOST, 8, PEAKS, 6, BETWEEN, 11}, QUICK = {1, 2, 3, 12, 4, 3, 4, 16, 2};
 
 static void add_direction(circle *all, vndf_validation *v, double s, double c)
 {
@@ -409,7 +409,7 @@ static int look_quickly(circle *all, vndf_validation *v, double *area)
         look(&found, &coarse, &QUICK);
         add_maxima(all, v, &found, BY_TV, 3);
         add_maxima(all, v, &found, BY_TV_ABOVE, 2);
-        add_maxima(all, v, &found, BY_WEIGHT, 3);
+        add_maxima(all, v, &found, BY_WEIGHT, 4);
         for (int i = 0; i < found.count; i++)
             *area = fmax(*area, found.at[i].found.area_error);
     }
