@@ -121,9 +121,10 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * Quick. Most of a build's time is spent on its certificate, which looks at some two hundred directions. With
  * quick = 1 the builder looks at fewer, coarsely, and measures the worst of them. That is for programs that build where
  * they run, in tens of milliseconds. The table is the same, byte for byte but for the certificate, whose tv, tv_above,
- * max_weight - 1, area_error and ndf_error may stand below the full ones: in tests by a factor of 1.5 at most, as
- * consistency does but for 1e-7. Where the size of the table depends on a total variation that the quick certificate does not decide, the full
- * one is measured, and stands in the table: with max_tv, as a rule. vndf_certify measures a full certificate later. */
+ * max_weight - 1, area_error and ndf_error may stand below the full ones: in tests by a factor of 1.5 at most;
+ * consistency, an error of 1e-7, by more. Where the size of the table depends on a total variation that the quick
+ * certificate does not decide, the full one is measured, and stands in the table: with max_tv, as a rule. vndf_certify
+ * measures a full certificate later. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 16384, see above */
     double max_tv;    /* build the smallest table that reaches this total variation; 0: the best that fits */
