@@ -135,6 +135,7 @@ typedef struct vndf_certificate {
     float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
     float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, where the angular grid of a
                            * host cannot resolve it; 0 if D is bounded there */
+    float quick;          /* 1 if only few directions were measured (vndf_build_options.quick), else 0 */
 } vndf_certificate;
 
 /* What a distribution is. The strings belong to the distribution. */

@@ -26,9 +26,9 @@ static const double FADE_OF_SMALL = 0.05;
 /* In the first cell f begins at 0. Only this cell is drawn to first order, so it stays small. */
 static const double POLE_CELL = 1.0 / 512;
 
-/* ---- refining ---- */
+/* ---- beginning ---- */
 
-static int refine_radial(vndf_plan *plan, size_t limit)
+static int begin_radial(vndf_plan *plan, size_t limit)
 {
     const vndf_radial_fit *fit = &plan->radial_fit;
     double *start = malloc((fit->jump_count + 5) * sizeof *start);
@@ -41,8 +41,8 @@ static int refine_radial(vndf_plan *plan, size_t limit)
     for (size_t i = 0; i < fit->jump_count; i++)
         start[n++] = fit->jump[i];
     start[n++] = HUGE_VAL;
-    int good = vndf_refine(&plan->radial, start, n, limit, plan->finest, vndf_fit_middle, vndf_fit_cell_error,
-                           &plan->radial_fit);
+    int good =
+        vndf_refine_begin(&plan->radial, start, n, limit, vndf_fit_middle, vndf_fit_cell_error, &plan->radial_fit);
     free(start);
     return good;
 }
@@ -50,18 +50,18 @@ static int refine_radial(vndf_plan *plan, size_t limit)
 /* If everything visible below the horizon lies beyond this y, rows begin at the edge of the visible part. */
 static const double ROWS_END = 1.0 / 32;
 
-static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit, double enough)
+static int begin_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit)
 {
     double least = vndf_side_least(&fit->side);
     const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
     int ends = least > ROWS_END;
-    return vndf_refine(rows, ends ? seen : whole, ends ? 4 : 3, limit, enough, NULL, vndf_wedge_row_error, fit);
+    return vndf_refine_begin(rows, ends ? seen : whole, ends ? 4 : 3, limit, NULL, vndf_wedge_row_error, fit);
 }
 
-static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, double enough)
+static int begin_area(vndf_refinement *area, vndf_side *side, size_t limit)
 {
     static const double start[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-    return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_area_fit_error, side);
+    return vndf_refine_begin(area, start, sizeof start / sizeof *start, limit, NULL, vndf_area_fit_error, side);
 }
 
 /* The most cells of an azimuth row: each takes at most a few per cent of the bytes. */
@@ -87,17 +87,15 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
         return 0;
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
-    double area = area_error(max_bytes, plan->finest);
     vndf_guard_stage(profile->guard, 0.1, "radial cells");
-    int good = refine_radial(plan, cell_limit);
+    int good = begin_radial(plan, cell_limit);
     vndf_guard_stage(profile->guard, 0.2, "azimuth rows above the horizon");
-    good = good && refine_rows(&plan->above_rows, &plan->above_fit, row_limit, plan->finest);
+    good = good && begin_rows(&plan->above_rows, &plan->above_fit, row_limit);
     vndf_guard_stage(profile->guard, 0.4, "azimuth rows below the horizon");
-    good = good && refine_rows(&plan->below_rows, &plan->below_fit, row_limit, plan->finest);
+    good = good && begin_rows(&plan->below_rows, &plan->below_fit, row_limit);
     vndf_guard_stage(profile->guard, 0.6, "projected area");
-    good = good && refine_area(&plan->above_area, &plan->above_fit.side, knot_limit, area) &&
-           refine_area(&plan->below_area, &plan->below_fit.side, knot_limit, area);
-    vndf_guard_stage(profile->guard, 0.8, "certificate");
+    good = good && begin_area(&plan->above_area, &plan->above_fit.side, knot_limit) &&
+           begin_area(&plan->below_area, &plan->below_fit.side, knot_limit);
     return good && !vndf_guard_stopped(profile->guard);
 }
 
@@ -115,10 +113,24 @@ void vndf_plan_free(vndf_plan *plan)
 
 /* ---- cutting a table ---- */
 
-vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
+/* With all cells that were placed, whatever a table took since. */
+static void refine_rows_to(const vndf_plan *plan, vndf_refinement *rows, vndf_wedge_fit *fit, double error)
+{
+    if (vndf_refinement_reaches(rows, error))
+        return;
+    vndf_wedge_fit_use(fit, vndf_wedge_fit_cells(fit, 2 * plan->finest));
+    vndf_refine_to(rows, error);
+}
+
+vndf_table_size vndf_plan_size(vndf_plan *plan, double error)
 {
     double area = area_error(plan->max_bytes, error);
     vndf_table_size size;
+    vndf_refine_to(&plan->radial, fmax(error / RADIAL_BETTER, plan->finest));
+    refine_rows_to(plan, &plan->above_rows, &plan->above_fit, error);
+    refine_rows_to(plan, &plan->below_rows, &plan->below_fit, error);
+    vndf_refine_to(&plan->above_area, area);
+    vndf_refine_to(&plan->below_area, area);
     size.radial = vndf_refinement_needed(&plan->radial, error / RADIAL_BETTER) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);

@@ -13,16 +13,16 @@ typedef struct vndf_plan {
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
     size_t max_bytes;
-    double finest; /* the error down to which the fits were refined */
+    double finest; /* the least error of which sizes are asked */
 } vndf_plan;
 
-/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the guard of the profile stopped
- * the build. */
+/* Begins all fits. 0 if there is no memory or the guard of the profile stopped the build. */
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
 void vndf_plan_free(vndf_plan *plan);
 
-/* The counts of the table whose parts each err by less than `error`. */
-vndf_table_size vndf_plan_size(const vndf_plan *plan, double error);
+/* The counts of the table whose parts each err by less than `error`, which is no less than `finest`. Refines the fits
+ * that far. */
+vndf_table_size vndf_plan_size(vndf_plan *plan, double error);
 
 /* The table of this size, complete but for its certificate and texts; NULL if there is no memory. */
 vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size);

@@ -107,11 +107,40 @@ static double width_of(vndf_fit_knot a, vndf_fit_knot b)
     return (double)b.x * a.z - (double)a.x * b.z;
 }
 
-/* f at xi: P X width/Z^4. */
+/* A place in a cell. */
+typedef struct spot {
+    double x, z;
+} spot;
+
+static spot spot_at(vndf_fit_knot a, vndf_fit_knot b, double xi)
+{
+    spot at = {a.x + xi * ((double)b.x - a.x), a.z + xi * ((double)b.z - a.z)};
+    return at;
+}
+
+/* f: P X width/Z^4. */
+static double f_of(spot at, double p22, double width)
+{
+    return p22 * at.x * width / (at.z * at.z * at.z * at.z);
+}
+
 static double f_at(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, double xi)
 {
-    double x = a.x + xi * ((double)b.x - a.x), z = a.z + xi * ((double)b.z - a.z);
-    return vndf_profile_p22(fit->profile, x / z) * x * width_of(a, b) / (z * z * z * z);
+    spot at = spot_at(a, b, xi);
+    return f_of(at, vndf_profile_p22(fit->profile, at.x / at.z), width_of(a, b));
+}
+
+/* f at the VNDF_GAUSS places xi. */
+static void f_rule(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_knot b, const double *xi, double *f)
+{
+    double r[VNDF_GAUSS], p22[VNDF_GAUSS];
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        spot at = spot_at(a, b, xi[i]);
+        r[i] = at.x / at.z;
+    }
+    vndf_profile_p22_many(fit->profile, r, VNDF_GAUSS, p22);
+    for (int i = 0; i < VNDF_GAUSS; i++)
+        f[i] = f_of(spot_at(a, b, xi[i]), p22[i], width_of(a, b));
 }
 
 /* f at an end of the cell: where P jumps its value inside the cell, at the horizon its limit. */
@@ -191,15 +220,20 @@ static law_error measure(const vndf_radial_fit *fit, vndf_fit_knot a, vndf_fit_k
 {
     law_error e = {0, 0, 0, 0, 0};
     double mass = 0.0, lack;
-    for (int i = 0; i < pieces * VNDF_GAUSS; i++) {
-        double xi = (i / VNDF_GAUSS + vndf_gauss_node[i % VNDF_GAUSS]) / pieces;
-        double w = 0.5 * vndf_gauss_weight[i % VNDF_GAUSS] / pieces, f = f_at(fit, a, b, xi);
-        e.all += w * miss(cell, a.z, b.z, f, xi);
-        e.grazing += w * miss(cell, a.x, b.x, f, xi);
-        e.cut_inside += w * miss(cell, 0, 1, f, xi);
-        e.cut_outside += w * miss(cell, 1, 0, f, xi);
-        e.cubic += w * miss_cubic(cell, f, xi);
-        mass += 2 * w * f;
+    for (int piece = 0; piece < pieces; piece++) {
+        double xi[VNDF_GAUSS], f[VNDF_GAUSS];
+        for (int i = 0; i < VNDF_GAUSS; i++)
+            xi[i] = (piece + vndf_gauss_node[i]) / pieces;
+        f_rule(fit, a, b, xi, f);
+        for (int i = 0; i < VNDF_GAUSS; i++) {
+            double w = 0.5 * vndf_gauss_weight[i] / pieces;
+            e.all += w * miss(cell, a.z, b.z, f[i], xi[i]);
+            e.grazing += w * miss(cell, a.x, b.x, f[i], xi[i]);
+            e.cut_inside += w * miss(cell, 0, 1, f[i], xi[i]);
+            e.cut_outside += w * miss(cell, 1, 0, f[i], xi[i]);
+            e.cubic += w * miss_cubic(cell, f[i], xi[i]);
+            mass += 2 * w * f[i];
+        }
     }
     lack = fabs(mass / ((double)cell->mu0 + cell->mu1) - 1.0);
     e.all += lack;

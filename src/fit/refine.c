@@ -21,7 +21,7 @@ typedef struct interval {
 
 /* A complete binary tree over the intervals: node i sums up nodes 2i and 2i + 1, node leaves + i is interval i. A
  * change costs one path to the root. It adds the sums anew and subtracts nothing, so that no sum loses digits. */
-typedef struct tournament {
+typedef struct vndf_tournament {
     size_t count, leaves;
     summary *node; /* 2 leaves; node 1 is the root */
     interval *interval;
@@ -36,7 +36,6 @@ static summary together(summary l, summary r)
 
 static int tournament_from(tournament *t, size_t most)
 {
-    t->count = 0;
     for (t->leaves = 1; t->leaves < most;)
         t->leaves *= 2;
     t->node = calloc(2 * t->leaves, sizeof *t->node);
@@ -46,17 +45,21 @@ static int tournament_from(tournament *t, size_t most)
 
 static void tournament_free(tournament *t)
 {
-    free(t->node);
-    free(t->interval);
+    if (t) {
+        free(t->node);
+        free(t->interval);
+    }
+    free(t);
 }
 
 /* In a default table some fifty intervals have shares that matter, so an error met alone counts as fifty
  * shares. */
 static const double SHARERS = 50;
 
-static void put(tournament *t, size_t place, interval at, vndf_interval_error *error, void *user)
+static void put(const vndf_refinement *r, size_t place, interval at)
 {
-    vndf_interval_miss miss = error(at.a, at.b, user);
+    tournament *t = r->tournament;
+    vndf_interval_miss miss = r->measure(at.a, at.b, r->user);
     double shared = SHARERS * miss.share;
     summary leaf = {miss.share, miss.alone, shared > miss.alone ? shared : miss.alone, place};
     size_t i = t->leaves + place;
@@ -73,44 +76,59 @@ static double arithmetic_middle(double a, double b)
     return a + (b - a) / 2;
 }
 
-/* Halves intervals until there is a reason to stop. */
-static void halve_the_worst(vndf_refinement *r, tournament *t, size_t limit, double enough,
-                            vndf_interval_middle *middle, vndf_interval_error *error, void *user)
+static void note_error(vndf_refinement *r)
 {
-    for (;;) {
-        summary all = t->node[1];
-        r->error[r->count] = all.share + all.alone;
-        if (r->count == limit || r->error[r->count] <= enough || all.urgency <= 0.0)
-            return;
-        interval whole = t->interval[all.next];
-        double at = middle(whole.a, whole.b);
+    summary all = r->tournament->node[1];
+    r->error[r->count] = all.share + all.alone;
+}
+
+static int begin(vndf_refinement *r, const double *start)
+{
+    tournament *t = r->tournament;
+    if (!t || !tournament_from(t, r->start - 1 + r->limit) || !r->knot || !r->error)
+        return 0;
+    memcpy(r->knot, start, r->start * sizeof *start);
+    while (t->count + 1 < r->start) {
+        interval given = {start[t->count], start[t->count + 1]};
+        put(r, t->count++, given);
+    }
+    note_error(r);
+    return 1;
+}
+
+int vndf_refine_begin(vndf_refinement *r, const double *start, size_t start_count, size_t limit,
+                      vndf_interval_middle *middle, vndf_interval_error *error, void *user)
+{
+    vndf_refinement made = {.start = start_count,
+                            .limit = limit,
+                            .middle = middle ? middle : arithmetic_middle,
+                            .measure = error,
+                            .user = user};
+    *r = made;
+    r->knot = malloc((start_count + limit) * sizeof *r->knot);
+    r->error = malloc((limit + 1) * sizeof *r->error);
+    r->tournament = calloc(1, sizeof *r->tournament);
+    return begin(r, start);
+}
+
+void vndf_refine_to(vndf_refinement *r, double enough)
+{
+    tournament *t = r->tournament;
+    while (r->count < r->limit && r->error[r->count] > enough && t->node[1].urgency > 0.0) {
+        size_t next = t->node[1].next;
+        interval whole = t->interval[next];
+        double at = r->middle(whole.a, whole.b);
         interval left = {whole.a, at}, right = {at, whole.b};
         r->knot[r->start + r->count++] = at;
-        put(t, all.next, left, error, user);
-        put(t, t->count++, right, error, user);
+        put(r, next, left);
+        put(r, t->count++, right);
+        note_error(r);
     }
 }
 
-int vndf_refine(vndf_refinement *r, const double *start, size_t start_count, size_t limit, double enough,
-                vndf_interval_middle *middle, vndf_interval_error *error, void *user)
+int vndf_refinement_reaches(const vndf_refinement *r, double enough)
 {
-    tournament t;
-    int good = tournament_from(&t, start_count - 1 + limit);
-    r->start = start_count;
-    r->count = 0;
-    r->knot = malloc((start_count + limit) * sizeof *r->knot);
-    r->error = malloc((limit + 1) * sizeof *r->error);
-    if (good && r->knot && r->error) {
-        memcpy(r->knot, start, start_count * sizeof *start);
-        while (t.count + 1 < start_count) {
-            interval given = {start[t.count], start[t.count + 1]};
-            put(&t, t.count++, given, error, user);
-        }
-        halve_the_worst(r, &t, limit, enough, middle ? middle : arithmetic_middle, error, user);
-    } else
-        good = 0;
-    tournament_free(&t);
-    return good;
+    return r->error[r->count] <= enough;
 }
 
 uint32_t vndf_refinement_needed(const vndf_refinement *r, double error)
@@ -131,5 +149,6 @@ void vndf_refinement_free(vndf_refinement *r)
 {
     free(r->knot);
     free(r->error);
+    tournament_free(r->tournament);
     memset(r, 0, sizeof *r);
 }

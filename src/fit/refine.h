@@ -1,6 +1,6 @@
 /* Puts knots where the error is: halves intervals one at a time, the worst first, and records the error after each
  * step. The order is nested, so one run serves every size of table: a table with n knots takes the first n of the
- * list. */
+ * list. The list grows when it is asked for a smaller error, so that nobody pays for knots that no table takes. */
 #ifndef VNDF_FIT_REFINE_H
 #define VNDF_FIT_REFINE_H
 
@@ -22,11 +22,22 @@ typedef struct vndf_refinement {
     size_t count;  /* and points added after them, in order of need */
     double *knot;  /* start + count */
     double *error; /* count + 1: sum of the shares plus the largest alone, after n added points */
+    struct vndf_tournament *tournament; /* the intervals now, */
+    size_t limit;                       /* and what it takes to go on */
+    vndf_interval_middle *middle;
+    vndf_interval_error *measure;
+    void *user;
 } vndf_refinement;
 
-/* Adds points until `limit` or until the error is below `enough`. 0 if there is no memory. */
-int vndf_refine(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit, double enough,
-                vndf_interval_middle *middle, vndf_interval_error *error, void *user);
+/* Begins with the given knots; at most `limit` points will be added. 0 if there is no memory; free it either way. */
+int vndf_refine_begin(vndf_refinement *refinement, const double *start, size_t start_count, size_t limit,
+                      vndf_interval_middle *middle, vndf_interval_error *error, void *user);
+
+/* Adds points until the limit or until the error is at most `enough`. */
+void vndf_refine_to(vndf_refinement *refinement, double enough);
+
+/* Whether the recorded error is at most `enough` already. */
+int vndf_refinement_reaches(const vndf_refinement *refinement, double enough);
 
 /* How many knots, with the given ones, bring the recorded error below `error`; all if no number does. */
 uint32_t vndf_refinement_needed(const vndf_refinement *refinement, double error);

@@ -148,7 +148,11 @@ static int place_cells(vndf_wedge_fit *fit, uint32_t most_cells, double enough)
     bench judges = {fit, {{{0, 0, 0}, 0, 0, 0}}};
     for (int i = 0; i < JUDGE_COUNT; i++)
         judges.judges[i] = judge_at(fit, (i + 0.5) / JUDGE_COUNT);
-    return vndf_refine(&fit->q, start, START, most_cells + 1 - START, enough, NULL, worst_miss, &judges);
+    if (!vndf_refine_begin(&fit->q, start, START, most_cells + 1 - START, NULL, worst_miss, &judges))
+        return 0;
+    vndf_refine_to(&fit->q, enough);
+    fit->q.user = NULL; /* the judges end here */
+    return 1;
 }
 
 static void forget_rows(vndf_wedge_fit *fit)

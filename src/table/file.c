@@ -1,5 +1,6 @@
 #include "table/file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,9 +50,16 @@ static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
     write_array(w, wedge->curve, knots, 1);
 }
 
+/* The order of the numbers in the file and in memory. */
+static void write_certificate(vndf_writer *w, vndf_certificate c)
+{
+    if (c.quick > 0)
+        c.weight_bounded = c.weight_bounded > 0 ? 2.0f : -0.0f;
+    write_array(w, &c.tv, VNDF_CERTIFICATE_FLOATS, 1);
+}
+
 static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
 {
-    const vndf_certificate *c = &table->certificate;
     vndf_frame_begin(&FRAME, w, size);
     vndf_write_f64(w, table->normalization);
     vndf_write_f64(w, table->scale);
@@ -62,7 +70,7 @@ static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t 
     vndf_write_u32(w, table->below.cell_count);
     vndf_write_u32(w, table->below.row_count);
     vndf_write_u32(w, table->below.knot_count);
-    write_array(w, &c->tv, sizeof *c / sizeof(float), 1);
+    write_certificate(w, table->certificate);
     vndf_write_text(w, table->source);
     vndf_write_text(w, table->tool);
 }
@@ -148,11 +156,19 @@ static int counts_valid(vndf_table_size s)
            within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
 }
 
+static void read_certificate(vndf_reader *r, vndf_certificate *c)
+{
+    read_array(r, &c->tv, VNDF_CERTIFICATE_FLOATS, 1);
+    c->quick =
+        c->weight_bounded == 2.0f || (c->weight_bounded == 0.0f && signbit(c->weight_bounded)) ? 1.0f : 0.0f;
+    if (c->quick > 0)
+        c->weight_bounded = c->weight_bounded > 0 ? 1.0f : 0.0f;
+}
+
 /* Reads everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
 static int read_body(vndf_reader *r, vndf_distribution *table)
 {
-    vndf_certificate *c = &table->certificate;
-    read_array(r, &c->tv, sizeof *c / sizeof(float), 1);
+    read_certificate(r, &table->certificate);
     table->source = vndf_read_text(r);
     table->tool = vndf_read_text(r);
     if (!table->source || !table->tool)

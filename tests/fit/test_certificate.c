@@ -131,7 +131,7 @@ static void test_dense(const struct subject *s, const vndf_source *source, const
     vndf_validation v;
     if (!TEST(profile != NULL))
         return;
-    if (TEST(vndf_validation_from(&v, table, profile))) {
+    if (TEST(vndf_validation_from(&v, table, profile, vndf_validation_close))) {
         worst w = look_all(&v, count);
         int good = TEST(w.tv <= 1.1 * (double)claim->tv + 1e-7) &
                    TEST(w.above <= 1.1 * (double)claim->tv_above + 1e-7) &

@@ -28,7 +28,7 @@ static const char help[] =
     "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
     "\n"
     "  certificate  the numbers stored in the table against a new measurement from its source; more than\n"
-    "               20% (and 1e-7) worse fails. Closed forms have none.\n"
+    "               20% (and 1e-7) worse fails, 50% if the stored one is quick. Closed forms have none.\n"
     "  consistency  at 200000 random views (0 to 180 degrees, roughness 1e-3 to 1): normals are unit, above the\n"
     "               surface and face the incident direction; where the projected area exceeds 1e-12, pdf gives\n"
     "               the density that sample returned within 1e-5, and invert, then sample, gives the normal\n"
@@ -63,10 +63,10 @@ static const char *verdict(int good)
 
 /* ---- certificate --------------------------------------------------------------------------------- */
 
-/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio. */
-static int compare(const char *what, float stored, float measured, double floor)
+/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may be. */
+static int compare(const char *what, float stored, float measured, double floor, double factor)
 {
-    double allowed = floor + 1.2 * ((double)stored - floor) + 1e-7;
+    double allowed = floor + factor * ((double)stored - floor) + 1e-7;
     int good = (double)measured <= allowed;
     printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
            verdict(good));
@@ -75,15 +75,16 @@ static int compare(const char *what, float stored, float measured, double floor)
 
 static int compare_certificates(const vndf_certificate *stored, const vndf_certificate *measured)
 {
-    int good = compare("tv", stored->tv, measured->tv, 0);
-    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0);
-    good &= compare("max_weight", stored->max_weight, measured->max_weight, 1);
-    good &= compare("area_error", stored->area_error, measured->area_error, 0);
-    good &= compare("consistency", stored->consistency, measured->consistency, 0);
-    good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0);
-    good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0);
-    good &= compare("hidden", stored->hidden, measured->hidden, 0);
-    good &= compare("finest", stored->finest, measured->finest, 0);
+    double factor = stored->quick > 0 ? 1.5 : 1.2;
+    int good = compare("tv", stored->tv, measured->tv, 0, factor);
+    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0, factor);
+    good &= compare("max_weight", stored->max_weight, measured->max_weight, 1, factor);
+    good &= compare("area_error", stored->area_error, measured->area_error, 0, factor);
+    good &= compare("consistency", stored->consistency, measured->consistency, 0, factor);
+    good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0, factor);
+    good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0, factor);
+    good &= compare("hidden", stored->hidden, measured->hidden, 0, factor);
+    good &= compare("finest", stored->finest, measured->finest, 0, factor);
     return good;
 }
 

@@ -32,6 +32,8 @@ static const char help[] =
     "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
     "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
+    "  certificate    full; or quick, for vndf build --certificate quick: tv, tv_above, max_weight, area_error and\n"
+    "                 ndf_error of a full one may be larger by a factor of 1.5\n"
     "\n"
     "Of a family of tables (vndf build --parameter), which is used between its knots as a mixture of neighbours:\n"
     "  source, tool, bytes, memory    as above, memory of all tables together\n"
@@ -66,6 +68,7 @@ void describe_certificate(const vndf_certificate *certificate)
     printf("hidden %.4g\n", (double)certificate->hidden);
     printf("finest %.4g\n", (double)certificate->finest);
     printf("horizon_power %.4g\n", (double)certificate->horizon_power);
+    printf("certificate %s\n", certificate->quick > 0 ? "quick" : "full");
 }
 
 void describe_info(const vndf_info *info)

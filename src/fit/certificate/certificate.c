@@ -9,13 +9,38 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Relative error of D at a slope; 0 in the mass left out at either end. */
+/* The slope at an even place inside a cell. */
+enum { PLACES = 24 };
+static double slope_at(const vndf_validation *v, size_t place)
+{
+    return vndf_validation_slope(v->table, (uint32_t)(place / (PLACES - 1)), 1 + (uint32_t)(place % (PLACES - 1)),
+                                 PLACES);
+}
+
+/* The first place that has more than `end` of the mass before it, or the first beyond which there is no more. */
+static size_t place_of_mass(const vndf_validation *v, double end, int beyond)
+{
+    size_t low = 0, high = v->table->radial_count * (size_t)(PLACES - 1);
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        double r = slope_at(v, middle);
+        int more =
+            (beyond ? vndf_profile_moments(v->profile, r, HUGE_VAL) : vndf_profile_moments(v->profile, 0, r)).m0 >
+            end;
+        if (more == beyond)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Relative error of D at a slope, 0 where next to nothing is. */
 static double ndf_miss(const vndf_validation *v, double r)
 {
     const vndf_profile *p = v->profile;
-    double z = 1 / (1 + r), reference = vndf_profile_p22(p, r), end = VNDF_VALIDATION_LEFT_OUT / 2 * p->f0;
-    if (!(reference * r * r > 1e-6 * p->f0 && vndf_profile_moments(p, 0, r).m0 > end &&
-          vndf_profile_moments(p, r, HUGE_VAL).m0 > end))
+    double z = 1 / (1 + r), reference = vndf_profile_p22(p, r);
+    if (!(reference * r * r > 1e-6 * p->f0))
         return 0.0;
     return fabs(vndf_engine_p22_over_z4(v->table, r * z, z) * z * z * z * z / reference - 1);
 }
@@ -23,11 +48,10 @@ static double ndf_miss(const vndf_validation *v, double r)
 /* The largest over the slopes that hold all but VNDF_VALIDATION_LEFT_OUT of the mass, at even places of every cell. */
 static double ndf_error(const vndf_validation *v)
 {
-    enum { PLACES = 24 };
-    double worst = 0.0;
-    for (uint32_t j = 0; j < v->table->radial_count; j++)
-        for (uint32_t i = 1; i < PLACES; i++)
-            worst = fmax(worst, ndf_miss(v, vndf_validation_slope(v->table, j, i, PLACES)));
+    double worst = 0.0, left_out = VNDF_VALIDATION_LEFT_OUT / 2 * v->profile->f0;
+    size_t end = place_of_mass(v, left_out, 1);
+    for (size_t i = place_of_mass(v, left_out, 0); i < end; i++)
+        worst = fmax(worst, ndf_miss(v, slope_at(v, i)));
     return worst;
 }
 
@@ -56,9 +80,8 @@ enum {
     ELEVATION_COUNT = sizeof ELEVATIONS / sizeof *ELEVATIONS,
     PEAK_COUNT = sizeof ROW_PEAKS / sizeof *ROW_PEAKS,
     LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS,
-    SPANS_MOST = 40, /* of rows on a side, and of radial cells: if there are more, takes every second, third ... */
+    SPANS_MOST = 40, /* of rows on a side, and of radial cells */
     PEAKS = 4,       /* of the weight, on a side */
-    PLACES = 8,      /* between two knots, where the weight is foreseen */
     BETWEEN = 44,
     DIRECTIONS_MOST = ANGLE_COUNT + 2 * ELEVATION_COUNT + 2 * PEAK_COUNT * SPANS_MOST + SPANS_MOST + LEVEL_COUNT +
                       2 * PEAKS + BETWEEN
@@ -74,6 +97,20 @@ typedef struct circle {
     int count;
 } circle;
 
+/* How many directions are looked at. */
+typedef struct survey {
+    int first, angles; /* the first of ANGLES, and every so many */
+    int elevations;    /* every so many of ELEVATIONS */
+    uint32_t spans;    /* of rows on a side, and of radial cells: if there are more, every second, third ... */
+    uint32_t places;   /* between two knots, where the weight is foreseen */
+    int peaks;         /* of the weight, on a side */
+    int thirds;        /* that are cut off a peak */
+    int between;       /* directions between two others, */
+    int weighed;       /* every so many by the weight */
+} survey;
+
+static const survey FULL = {0, 1, 1, SPANS_MOST, 8, PEAKS, 6, BETWEEN, 11}, QUICK = {1, 2, 3, 12, 4, 3, 4, 16, 2};
+
 static void add_direction(circle *all, vndf_validation *v, double s, double c)
 {
     double length = hypot(s, c);
@@ -84,13 +121,13 @@ static void add_direction(circle *all, vndf_validation *v, double s, double c)
     all->at[i] = made;
 }
 
-static void add_grid(circle *all, vndf_validation *v)
+static void add_grid(circle *all, vndf_validation *v, const survey *s)
 {
-    for (int i = 0; i < ANGLE_COUNT; i++) {
+    for (int i = s->first; i < ANGLE_COUNT; i += s->angles) {
         double theta = ANGLES[i] * PI / 180;
         add_direction(all, v, sin(theta) * v->profile->scale, ANGLES[i] == 90 ? 0 : cos(theta));
     }
-    for (int i = 0; i < 2 * ELEVATION_COUNT; i++)
+    for (int i = 0; i < 2 * ELEVATION_COUNT; i += s->elevations)
         add_direction(all, v, 1, ELEVATIONS[i / 2] * (i % 2 ? -1 : 1));
 }
 
@@ -102,35 +139,42 @@ static void add_side(circle *all, vndf_validation *v, const vndf_wedge *side, do
 }
 
 /* Between the knots of a side's azimuth rows. */
-static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side)
+static void add_rows(circle *all, vndf_validation *v, const vndf_wedge *side, uint32_t most)
 {
-    uint32_t spans = side->row_count / 2, step = (spans + SPANS_MOST - 1) / SPANS_MOST;
+    uint32_t spans = side->row_count / 2, step = (spans + most - 1) / most;
     for (uint32_t i = 0; i < spans; i += step)
         for (int n = 0; n < PEAK_COUNT; n++)
             add_side(all, v, side, side->row_y[i] + ROW_PEAKS[n] * ((double)side->row_y[i + 1] - side->row_y[i]));
 }
 
 /* Cuts in the radial cells, as long as something beyond the cut is claimed. */
-static void add_cuts(circle *all, vndf_validation *v)
+static void add_cuts(circle *all, vndf_validation *v, uint32_t most)
 {
     const vndf_distribution *d = v->table;
     uint32_t last = 0;
     while (last + 1 < d->radial_count && vndf_profile_s(v->profile, vndf_validation_slope(d, last + 1, 0, 1)) >
                                              vndf_profile_claimed(v->profile) * v->profile->f1)
         last++;
-    uint32_t step = last / SPANS_MOST + 1;
+    uint32_t step = last / most + 1;
     for (uint32_t j = 0; j <= last; j += step)
         add_direction(all, v, 1, -vndf_validation_slope(d, j, 1, 3));
 }
 
+/* The part of the area at grazing incidence that is visible; from the table it costs nothing. */
+static double seen_from(const vndf_validation *v, double angle, int by_table)
+{
+    double s = sin(angle), c = cos(angle);
+    return by_table ? vndf_unit_area(v->table, s, c) / (2 * v->profile->f1) : vndf_profile_seen(v->profile, s, c);
+}
+
 /* The area falls from 90 to 180 degrees. */
-static void add_levels(circle *all, vndf_validation *v)
+static void add_levels(circle *all, vndf_validation *v, int by_table)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
         double low = PI / 2, high = PI, level = pow(vndf_profile_claimed(v->profile), LEVELS[i]);
         for (int step = 0; step < 40 && !vndf_guard_stopped(v->profile->guard); step++) {
             double angle = (low + high) / 2;
-            if (vndf_profile_seen(v->profile, sin(angle), cos(angle)) > level)
+            if (seen_from(v, angle, by_table) > level)
                 low = angle;
             else
                 high = angle;
@@ -167,20 +211,20 @@ typedef struct seen {
 } seen;
 
 /* The i-th of even places between all knots of a side's rows; past the last one its end. */
-static seen seen_at(vndf_validation *v, const vndf_wedge *side, uint32_t i)
+static seen seen_at(vndf_validation *v, const vndf_wedge *side, uint32_t i, uint32_t places)
 {
-    uint32_t span = i / PLACES;
+    uint32_t span = i / places;
     if (span == side->row_count / 2)
         return (seen){side->row_y[span], 0.0};
-    double y0 = side->row_y[span], y = y0 + (side->row_y[span + 1] - y0) * (i % PLACES + 0.5) / PLACES;
+    double y0 = side->row_y[span], y = y0 + (side->row_y[span + 1] - y0) * (i % places + 0.5) / places;
     return (seen){y, foreseen(v, side, y)};
 }
 
-static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest)
+static void find_peaks(vndf_validation *v, const vndf_wedge *side, uint32_t places, peak *largest)
 {
     seen before = {side->row_y[0], 0.0}, here = before;
-    for (uint32_t i = 0; i <= side->row_count / 2 * PLACES; i++) {
-        seen next = seen_at(v, side, i);
+    for (uint32_t i = 0; i <= side->row_count / 2 * places; i++) {
+        seen next = seen_at(v, side, i, places);
         peak found = {before.y, next.y, here.weight};
         if (here.weight >= before.weight && here.weight > next.weight)
             keep_peak(largest, found);
@@ -190,9 +234,9 @@ static void find_peaks(vndf_validation *v, const vndf_wedge *side, peak *largest
 }
 
 /* Thirds of a peak that hold no maximum are cut off; below the horizon nothing is claimed where y is small. */
-static double top_of(vndf_validation *v, const vndf_wedge *side, peak p)
+static double top_of(vndf_validation *v, const vndf_wedge *side, peak p, int thirds)
 {
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < thirds; i++) {
         double low = p.from + (p.to - p.from) / 3, high = p.to - (p.to - p.from) / 3;
         if (foreseen(v, side, low) > foreseen(v, side, high))
             p.to = high;
@@ -203,12 +247,12 @@ static double top_of(vndf_validation *v, const vndf_wedge *side, peak p)
 }
 
 /* The maxima of the foreseen weight. */
-static void add_peaks(circle *all, vndf_validation *v, const vndf_wedge *side)
+static void add_peaks(circle *all, vndf_validation *v, const vndf_wedge *side, const survey *s)
 {
     peak largest[PEAKS] = {{0, 0, 0}};
-    find_peaks(v, side, largest);
-    for (int i = 0; i < PEAKS && largest[i].weight > 0; i++)
-        add_side(all, v, side, top_of(v, side, largest[i]));
+    find_peaks(v, side, s->places, largest);
+    for (int i = 0; i < s->peaks && largest[i].weight > 0; i++)
+        add_side(all, v, side, top_of(v, side, largest[i], s->thirds));
 }
 
 /* Adds directions between the two neighbours that promise the largest total variation, or weight. */
@@ -256,8 +300,8 @@ static double area_error(const vndf_validation *v)
     for (uint32_t i = 0; i + 1 < below->knot_count; i++)
         for (unsigned n = 0; n < sizeof places / sizeof *places && !vndf_guard_stopped(v->profile->guard); n++) {
             double y0 = below->knot_y[i], y = y0 + places[n] * (below->knot_y[i + 1] - y0);
-            double area = vndf_profile_area(v->profile, y, y - 1);
-            if (vndf_profile_seen(v->profile, y, y - 1) > vndf_profile_claimed(v->profile))
+            double area = vndf_validation_claimed(v, y, y - 1);
+            if (area > 0)
                 worst = fmax(worst, fabs(vndf_unit_area(v->table, y, y - 1) / area - 1));
         }
     return worst;
@@ -283,32 +327,120 @@ static int is_bounded(const vndf_profile *profile)
     return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
 }
 
-int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile)
+/* Looks at all directions of a survey. */
+static void look(circle *all, vndf_validation *v, const survey *s)
+{
+    const vndf_distribution *table = v->table;
+    all->count = 0;
+    add_grid(all, v, s);
+    add_rows(all, v, &table->above, s->spans);
+    add_rows(all, v, &table->below, s->spans);
+    add_cuts(all, v, s->spans);
+    add_levels(all, v, s == &QUICK);
+    add_peaks(all, v, &table->above, s);
+    add_peaks(all, v, &table->below, s);
+    for (int i = 0; i < s->between; i++)
+        add_between(all, v, i % s->weighed == s->weighed - 1);
+}
+
+static void take_all(vndf_certificate *c, const circle *all, const vndf_profile *profile)
+{
+    for (int i = 0; i < all->count; i++) /* the angle at alpha 1 */
+        take(c, all->at[i].found, atan2(sin(all->at[i].angle), cos(all->at[i].angle) * profile->scale) * 180 / PI);
+}
+
+/* ---- quick ---- */
+
+typedef enum order { BY_TV, BY_TV_ABOVE, BY_WEIGHT } order;
+
+static double size_of(const direction *at, order by)
+{
+    if (!at->found.measured || (by == BY_TV_ABOVE && at->angle > PI / 2))
+        return 0.0;
+    return by == BY_WEIGHT ? at->found.max_weight : at->found.tv;
+}
+
+/* The index of the largest local maximum below `most`, or -1. */
+static int next_maximum(const circle *all, order by, double most)
+{
+    int best = -1;
+    for (int i = 0; i < all->count; i++) {
+        double size = size_of(&all->at[i], by), before = i > 0 ? size_of(&all->at[i - 1], by) : 0.0;
+        double after = i + 1 < all->count ? size_of(&all->at[i + 1], by) : 0.0;
+        if (size > before && size >= after && size < most && (best < 0 || size > size_of(&all->at[best], by)))
+            best = i;
+    }
+    return best;
+}
+
+static int has_direction(const circle *all, double angle)
+{
+    for (int i = 0; i < all->count; i++)
+        if (fabs(all->at[i].angle - angle) < 1e-12)
+            return 1;
+    return 0;
+}
+
+/* Measures the largest maxima of a coarse survey closely. */
+static void add_maxima(circle *all, vndf_validation *v, const circle *coarse, order by, int count)
+{
+    double most = HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+        int i = next_maximum(coarse, by, most);
+        if (i < 0)
+            return;
+        most = size_of(&coarse->at[i], by);
+        if (!has_direction(all, coarse->at[i].angle))
+            add_direction(all, v, sin(coarse->at[i].angle), cos(coarse->at[i].angle));
+    }
+}
+
+/* What rounding of masses to float adds to the integral of a pdf in some direction of any table: a few directions need
+ * not meet it. */
+static const float ROUNDED_MASSES = 4e-8f;
+
+/* Areas are as true in a coarse look as in a close one. */
+static int look_quickly(circle *all, vndf_validation *v, double *area)
+{
+    vndf_validation coarse;
+    circle found = {.count = 0};
+    int good = vndf_validation_from(&coarse, v->table, v->profile, vndf_validation_coarse);
+    if (good) {
+        look(&found, &coarse, &QUICK);
+        add_maxima(all, v, &found, BY_TV, 3);
+        add_maxima(all, v, &found, BY_TV_ABOVE, 2);
+        add_maxima(all, v, &found, BY_WEIGHT, 4);
+        for (int i = 0; i < found.count; i++)
+            *area = fmax(*area, found.at[i].found.area_error);
+    }
+    vndf_validation_free(&coarse);
+    return good;
+}
+
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *table, const vndf_profile *profile,
+                             int quick)
 {
     vndf_validation v;
     vndf_certificate none = {.max_weight = 1};
     circle all = {.count = 0};
-    int good = vndf_validation_from(&v, table, profile);
+    double area = 0.0;
+    int good = vndf_validation_from(&v, table, profile, vndf_validation_close);
+    if (good && quick)
+        good = look_quickly(&all, &v, &area);
+    else if (good)
+        look(&all, &v, &FULL);
     if (good) {
-        add_grid(&all, &v);
-        add_rows(&all, &v, &table->above);
-        add_rows(&all, &v, &table->below);
-        add_cuts(&all, &v);
-        add_levels(&all, &v);
-        add_peaks(&all, &v, &table->above);
-        add_peaks(&all, &v, &table->below);
-        for (int i = 0; i < BETWEEN; i++)
-            add_between(&all, &v, i % 11 == 10);
         *c = none;
-        for (int i = 0; i < all.count; i++) /* the angle at alpha 1 */
-            take(c, all.at[i].found,
-                 atan2(sin(all.at[i].angle), cos(all.at[i].angle) * profile->scale) * 180 / PI);
-        c->area_error = fmaxf(c->area_error, (float)area_error(&v));
+        take_all(c, &all, profile);
+        c->area_error = fmaxf(c->area_error, (float)fmax(area, area_error(&v)));
         c->horizon_power = (float)horizon_power(profile);
         c->weight_bounded = (float)is_bounded(profile);
         c->ndf_error = (float)ndf_error(&v);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
+        c->quick = (float)quick;
+        if (quick)
+            c->consistency = fmaxf(c->consistency, ROUNDED_MASSES);
     }
     vndf_validation_free(&v);
     return good;

@@ -6,8 +6,9 @@
 #include "fit/profile/profile.h"
 #include "table/table.h"
 
-/* 0 if there is no memory. */
+/* A quick certificate is measured in the directions where a coarse look found most, a full one in all directions of a
+ * survey ten times as dense. 0 if there is no memory. */
 int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
-                             const vndf_profile *profile);
+                             const vndf_profile *profile, int quick);
 
 #endif

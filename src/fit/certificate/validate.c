@@ -16,15 +16,10 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The cells of small tables are integrated in parts, at least this many in all, so that the rule errs less than
- * the table. */
-enum {
-    RADIAL_PARTS_LEAST = 128,
-    AZIMUTH_PARTS_LEAST = 20,
-    AZIMUTHS_LEAST = 512,
-    AZIMUTHS_FORESEEN = 100,
-    FRONT_PANELS = 12
-};
+const vndf_validation_rule vndf_validation_close = {128, VNDF_GAUSS, 20, 12, 512, 100};
+const vndf_validation_rule vndf_validation_coarse = {1, VNDF_GAUSS_COARSE, 6, 6, 32, 64};
+
+enum { FRONT_PANELS_MOST = 12 };
 
 /* Panels together are a feature of their own if they are narrower than this part of a stretch and hold more than
  * that part of the cell's mass. */
@@ -90,9 +85,9 @@ static uint32_t points_in(const vndf_validation *v, uint32_t j, double width)
     return width < 1.0 || is_steep(&v->table->cells[j]) ? VNDF_GAUSS : VNDF_GAUSS_COARSE;
 }
 
-/* Gauss point i of a stretch: X and Z are linear in xi, dR = width/Z^2 dxi. */
-static vndf_validation_node node_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
-                                    uint32_t i)
+/* Gauss point i of a stretch without P22 in its mass: X and Z are linear in xi, dR = width/Z^2 dxi. */
+static vndf_validation_node place_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
+                                     uint32_t i)
 {
     int fine = count == VNDF_GAUSS;
     knots k = knots_of(v->table, j);
@@ -101,9 +96,22 @@ static vndf_validation_node node_in(const vndf_validation *v, uint32_t j, double
     double x = (1 - xi) * k.x0 + xi * k.x1, z = (1 - xi) * k.z0 + xi * k.z1, width = k.x1 * k.z0 - k.x0 * k.z1;
     double rounding = FLOAT_ROUNDING * x * z / width;
     vndf_validation_node node = {xi, weight, x / z, weight * width * (x / z) / (z * z), 0.0};
-    node.mass *= vndf_profile_p22(v->profile, node.r);
     node.rounding = rounding > ROUNDING_LEAST * (to - from) ? rounding : 0.0;
     return node;
+}
+
+/* The Gauss points of a stretch. */
+static void nodes_in(const vndf_validation *v, uint32_t j, double from, double to, uint32_t count,
+                     vndf_validation_node *node)
+{
+    double r[VNDF_GAUSS] = {0}, p22[VNDF_GAUSS];
+    for (uint32_t i = 0; i < count; i++) {
+        node[i] = place_in(v, j, from, to, count, i);
+        r[i] = node[i].r;
+    }
+    vndf_profile_p22_many(v->profile, r, count, p22);
+    for (uint32_t i = 0; i < count; i++)
+        node[i].mass *= p22[i];
 }
 
 static int add_stretch(vndf_validation *v, uint32_t j, double from, double to)
@@ -120,8 +128,8 @@ static int add_stretch(vndf_validation *v, uint32_t j, double from, double to)
     }
     vndf_validation_stretch made = {from, to, j, (uint32_t)v->node_count, count};
     v->stretch[v->stretch_count++] = made;
-    for (uint32_t i = 0; i < count; i++)
-        v->node[v->node_count++] = node_in(v, j, from, to, count, i);
+    nodes_in(v, j, from, to, count, v->node + v->node_count);
+    v->node_count += count;
     return 1;
 }
 
@@ -178,7 +186,7 @@ static int add_last(vndf_validation *v, size_t *panel)
 
 static int add_stretches(vndf_validation *v)
 {
-    uint32_t parts = parts_for(v->table->radial_count, RADIAL_PARTS_LEAST);
+    uint32_t parts = parts_for(v->table->radial_count, v->rule.radial_parts);
     size_t panel = 0;
     int good = 1;
     for (uint32_t i = 0; i < (v->table->radial_count - 1) * parts && good; i++) {
@@ -199,13 +207,14 @@ typedef struct slice {
 static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
                      const vndf_validation_node *n)
 {
+    vndf_validation_points *to = &v->samples;
     double mask = at->drawn.c + at->drawn.k * n->r;
-    if (mask > 0 && v->count < v->capacity) {
+    if (mask > 0 && to->count < to->capacity) {
         double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
-        vndf_validation_point one = {at->weight * n->mass * mask / v->area, at->weight * n->weight * drawn};
-        v->samples[v->count++] = one;
+        to->reference[to->count] = n->mass * mask * (at->weight / v->area);
+        to->drawn[to->count++] = at->weight * n->weight * drawn;
         if (n->rounding > 0) {
-            double xi = fmax(fmin(n->xi + (v->count % 2 ? 1 : -1) * n->rounding, 1), 0);
+            double xi = fmax(fmin(n->xi + (to->count % 2 ? 1 : -1) * n->rounding, 1), 0);
             double moved = vndf_engine_piece_density(&at->drawn, piece, j, xi, 1 - xi);
             v->blur += at->weight * n->weight * fabs(moved - drawn);
         }
@@ -217,27 +226,103 @@ static void add_cut(vndf_validation *v, const slice *at, const vndf_engine_piece
                     const vndf_validation_stretch *s)
 {
     double from = fmax(s->from, piece->begin), to = fmin(s->to, piece->begin + piece->length);
-    for (uint32_t i = 0; i < VNDF_GAUSS && to > from; i++) {
-        vndf_validation_node n = node_in(v, s->cell, from, to, VNDF_GAUSS, i);
-        add_node(v, at, piece, s->cell, &n);
-    }
+    vndf_validation_node node[VNDF_GAUSS];
+    if (!(to > from))
+        return;
+    nodes_in(v, s->cell, from, to, v->rule.cut_points, node);
+    for (uint32_t i = 0; i < v->rule.cut_points; i++)
+        add_node(v, at, piece, s->cell, &node[i]);
 }
 
-/* The stretches of a cell, from s on. */
-static void add_cell(vndf_validation *v, const slice *at, const vndf_validation_stretch *s, uint32_t count)
+static int is_visible(const slice *at, double r)
 {
-    uint32_t j = s->cell;
+    return at->drawn.c + at->drawn.k * r > 0;
+}
+
+static vndf_engine_places places_of(const vndf_validation_places *p, const vndf_validation_cell *cell)
+{
+    vndf_engine_places places = {p->xi + cell->first, p->eta + cell->first, p->x + cell->first, cell->count};
+    return places;
+}
+
+/* What rounding of normals changes in a cell whose densities are known. */
+static void add_blur(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                     const vndf_validation_cell *cell, const double *density)
+{
+    const double *weight = v->lines.weight + cell->first;
+    vndf_engine_places moved = places_of(&v->lines.moved[v->samples.count % 2], cell);
+    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &moved, v->beside);
+    for (uint32_t i = 0; i < cell->count; i++)
+        v->blur += at->weight * weight[i] * fabs(v->beside[i] - density[i]);
+}
+
+/* Samples of successive cells that hold densities so far, and the points that they belong to. */
+typedef struct run {
+    size_t point, sample, count;
+} run;
+
+/* Turns the densities of a run into masses. */
+static void end_run(vndf_validation *v, const slice *at, run *of)
+{
+    const vndf_validation_lines *lines = &v->lines;
+    const double *restrict weight = lines->weight + of->point, *restrict mass = lines->mass + of->point;
+    const double *restrict r = lines->r + of->point;
+    double *restrict drawn = v->samples.drawn + of->sample, *restrict reference =
+                                                                v->samples.reference + of->sample;
+    double c = at->drawn.c, k = at->drawn.k, part = at->weight, per_area = at->weight / v->area;
+    for (size_t i = 0; i < of->count; i++) {
+        drawn[i] = part * weight[i] * drawn[i];
+        reference[i] = mass[i] * (c + k * r[i]) * per_area;
+    }
+    of->count = 0;
+}
+
+/* All points of a cell at once, which are visible. */
+static void add_nodes(vndf_validation *v, const slice *at, const vndf_engine_piece *piece,
+                      const vndf_validation_cell *cell, run *of)
+{
+    vndf_engine_places places = places_of(&v->lines.at, cell);
+    double *drawn = v->samples.drawn + v->samples.count;
+    if (of->count == 0) {
+        of->point = cell->first;
+        of->sample = v->samples.count;
+    }
+    vndf_engine_piece_densities(&at->drawn, piece, (uint32_t)(cell - v->cells), &places, drawn);
+    if (cell->rounded)
+        add_blur(v, at, piece, cell, drawn);
+    of->count += cell->count;
+    v->samples.count += cell->count;
+}
+
+/* All points of a cell that are seen, one by one. */
+static void add_cell_slowly(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j)
+{
+    const vndf_validation_cell *cell = v->cells + j;
+    if (j == at->drawn.cut)
+        for (uint32_t n = 0; n < cell->stretches; n++)
+            add_cut(v, at, piece, v->stretch + cell->first_stretch + n);
+    else
+        for (uint32_t i = 0; i < cell->count; i++)
+            add_node(v, at, piece, j, v->node + cell->first + i);
+}
+
+static void add_cell(vndf_validation *v, const slice *at, uint32_t j, run *of)
+{
+    const vndf_validation_cell *cell = v->cells + j;
+    const vndf_validation_node *node = v->node + cell->first;
     vndf_engine_piece piece = vndf_engine_piece_of(&at->drawn, j);
-    if (!(piece.mass > CELL_LEAST * at->drawn.mass)) {
-        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
+    int empty = !(piece.mass > CELL_LEAST * at->drawn.mass);
+    int whole = j != at->drawn.cut && is_visible(at, node->r) && is_visible(at, node[cell->count - 1].r) &&
+                v->samples.count + cell->count <= v->samples.capacity;
+    if (!empty && whole) {
+        add_nodes(v, at, &piece, cell, of);
         return;
     }
-    for (uint32_t n = 0; n < count; n++)
-        if (j == at->drawn.cut)
-            add_cut(v, at, &piece, s + n);
-        else
-            for (uint32_t i = 0; i < s[n].count; i++)
-                add_node(v, at, &piece, j, v->node + s[n].first + i);
+    end_run(v, at, of);
+    if (empty)
+        v->lack += at->weight * at->drawn.azimuth * (at->drawn.mass > 0 ? piece.mass / at->drawn.mass : 0);
+    else
+        add_cell_slowly(v, at, &piece, j);
 }
 
 static const double POINT_OPERATIONS = 2; /* of a density at a point */
@@ -249,13 +334,12 @@ static void add_azimuth(vndf_validation *v, const slice *at)
     int inside = r->c > 0, beyond = r->c < 0;
     if (!vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->node_count))
         return;
-    for (size_t i = 0, next; i < v->stretch_count; i = next) {
-        uint32_t j = v->stretch[i].cell;
-        for (next = i + 1; next < v->stretch_count && v->stretch[next].cell == j;)
-            next++;
-        if (r->mass > 0 && !(inside && j > r->cut) && !(beyond && j < r->cut))
-            add_cell(v, at, v->stretch + i, (uint32_t)(next - i));
-    }
+    uint32_t from = beyond ? r->cut : 0,
+             end = inside && r->cut < v->table->radial_count ? r->cut + 1 : v->table->radial_count;
+    run of = {0, 0, 0};
+    for (uint32_t j = from; r->mass > 0 && j < end; j++)
+        add_cell(v, at, j, &of);
+    end_run(v, at, &of);
 }
 
 /* A quarter turn on the cells of a row with an aspect. */
@@ -281,17 +365,19 @@ static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, u
 /* Adds an azimuth to the sums: its normals together, so that no radius has to be looked at. */
 static void add_sum(vndf_validation *v, const slice *at)
 {
-    vndf_validation_point one = {at->weight * at->drawn.mass / v->area, at->weight * at->drawn.azimuth};
-    if (v->sum_count < v->sum_capacity)
-        v->sums[v->sum_count++] = one;
+    vndf_validation_points *to = &v->sums;
+    if (to->count < to->capacity) {
+        to->reference[to->count] = at->weight * at->drawn.mass / v->area;
+        to->drawn[to->count++] = at->weight * at->drawn.azimuth;
+    }
 }
 
 /* Adds an azimuth to the samples. */
 static void add_slice_of(vndf_validation *v, const slice *at)
 {
-    size_t first = v->count;
+    size_t first = v->samples.count;
     add_azimuth(v, at);
-    vndf_validation_slice made = {first, v->count - first, 0, 0};
+    vndf_validation_slice made = {first, v->samples.count - first, 0, 0};
     if (v->slice_count < v->slice_capacity)
         v->slices[v->slice_count++] = made;
 }
@@ -319,8 +405,8 @@ static const double SHARE_ENDS[VNDF_GAUSS_COARSE] = {0.17392742256872693, 0.5, 0
 /* Gives every slice of a quarter turn its sums: those that are nearer to it than to others. */
 static void share_sums(vndf_validation *v, const quarter *turn, size_t first_slice, size_t first_sum)
 {
-    uint32_t parts = parts_for(turn->cells, AZIMUTH_PARTS_LEAST), fine = parts_for(turn->cells, AZIMUTHS_LEAST);
-    size_t n = 0, sums = v->sum_count - first_sum;
+    uint32_t parts = parts_for(turn->cells, v->rule.azimuth_parts), fine = parts_for(turn->cells, v->rule.sums);
+    size_t n = 0, sums = v->sums.count - first_sum;
     for (size_t i = 0; first_slice + i < v->slice_count; i++) {
         vndf_validation_slice *part = v->slices + first_slice + i;
         double end = ((double)(i / VNDF_GAUSS_COARSE) + SHARE_ENDS[i % VNDF_GAUSS_COARSE]) / parts;
@@ -336,15 +422,15 @@ static void share_sums(vndf_validation *v, const quarter *turn, size_t first_sli
  * are steep. Without the radius many more cost little. */
 static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
-    size_t first_slice = v->slice_count, first_sum = v->sum_count;
-    double taken = add_azimuths(v, view, turn, AZIMUTH_PARTS_LEAST, add_slice_of);
-    v->lack += add_azimuths(v, view, turn, AZIMUTHS_LEAST, add_sum) - taken;
+    size_t first_slice = v->slice_count, first_sum = v->sums.count;
+    double taken = add_azimuths(v, view, turn, v->rule.azimuth_parts, add_slice_of);
+    v->lack += add_azimuths(v, view, turn, v->rule.sums, add_sum) - taken;
     share_sums(v, turn, first_slice, first_sum);
 }
 
 static void add_sums(vndf_validation *v, const vndf_view *view, const quarter *turn)
 {
-    add_azimuths(v, view, turn, AZIMUTHS_FORESEEN, add_sum);
+    add_azimuths(v, view, turn, v->rule.foreseen, add_sum);
 }
 
 typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *turn);
@@ -352,10 +438,11 @@ typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *
 /* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
 static void add_front(vndf_validation *v, const vndf_view *view, add_turn *add)
 {
-    float node[FRONT_PANELS + 1];
-    quarter turn = {node, FRONT_PANELS, 1, 1, 0};
-    for (int i = 0; i <= FRONT_PANELS; i++) {
-        double w = (double)i / FRONT_PANELS;
+    uint32_t cells = v->rule.front_panels;
+    float node[FRONT_PANELS_MOST + 1];
+    quarter turn = {node, cells, 1, 1, 0};
+    for (uint32_t i = 0; i <= cells; i++) {
+        double w = (double)i / cells;
         node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
     }
     add(v, view, &turn);
@@ -366,7 +453,7 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
 {
     vndf_view view = view_of(v->table, s, c);
     v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
-    v->count = v->slice_count = v->sum_count = 0;
+    v->samples.count = v->sums.count = v->slice_count = 0;
     v->lack = v->blur = 0.0;
     if (c >= 0)
         add_front(v, &view, add);
@@ -377,22 +464,24 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
         add(v, &view, &wedge);
 }
 
-static double ratio_of(vndf_validation_point a)
+/* ---- the largest weight ---- */
+
+static double ratio(double reference, double drawn)
 {
-    return a.drawn > 0 ? a.reference / a.drawn : a.reference > 0 ? HUGE_VAL : 0.0;
+    return drawn > 0 ? reference / drawn : reference > 0 ? HUGE_VAL : 0.0;
 }
 
-/* Moves samples with a ratio of `pivot` or more to the front; their count. */
-static size_t split_at(vndf_validation_point *samples, size_t count, double pivot, double *mass)
+/* Moves weights of `pivot` or more to the front; their count. */
+static size_t split_at(vndf_validation_weight *weights, size_t count, double pivot, double *mass)
 {
     size_t n = 0;
     *mass = 0.0;
     for (size_t i = 0; i < count; i++)
-        if (ratio_of(samples[i]) >= pivot) {
-            vndf_validation_point swap = samples[n];
-            *mass += samples[i].reference;
-            samples[n++] = samples[i];
-            samples[i] = swap;
+        if (weights[i].ratio >= pivot) {
+            vndf_validation_weight swap = weights[n];
+            *mass += weights[i].mass;
+            weights[n++] = weights[i];
+            weights[i] = swap;
         }
     return n;
 }
@@ -402,13 +491,13 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-/* The largest reference/drawn, leaving out the points with the largest ratios that together hold
- * VNDF_VALIDATION_LEFT_OUT of the mass. Splits the rest until it is one value. */
-static double weight_of(vndf_validation_point *from, size_t count)
+/* The largest ratio, leaving out the largest ones that together hold VNDF_VALIDATION_LEFT_OUT of the mass. Splits the
+ * rest until it is one value. */
+static double weight_among(vndf_validation_weight *from, size_t count)
 {
     double left = VNDF_VALIDATION_LEFT_OUT, mass;
     while (count > 0) {
-        double pivot = middle_of_three(ratio_of(from[0]), ratio_of(from[count / 2]), ratio_of(from[count - 1]));
+        double pivot = middle_of_three(from[0].ratio, from[count / 2].ratio, from[count - 1].ratio);
         size_t larger = 0;
         mass = 0.0;
         if (pivot < HUGE_VAL)
@@ -430,6 +519,87 @@ static double weight_of(vndf_validation_point *from, size_t count)
     return 1.0;
 }
 
+/* Buckets for the part of a ratio beyond 1, eight to an octave: its bits without the sign and most of the digits. The
+ * first holds all that is less than 2^-40, the last all that is more than 2^40. */
+enum { BUCKET_SHIFT = 49, BUCKET_FIRST = (1023 - 40) * 8, BUCKETS = 80 * 8 };
+
+static size_t bucket_of(double beyond)
+{
+    uint64_t bits;
+    memcpy(&bits, &beyond, sizeof bits);
+    bits >>= BUCKET_SHIFT;
+    return !(beyond > 0) || bits < BUCKET_FIRST ? 0
+           : bits < BUCKET_FIRST + BUCKETS      ? (size_t)(bits - BUCKET_FIRST)
+                                                : BUCKETS - 1;
+}
+
+/* Where a bucket begins. */
+static double beyond_of(size_t bucket)
+{
+    uint64_t bits = (uint64_t)(bucket + BUCKET_FIRST) << BUCKET_SHIFT;
+    double beyond;
+    memcpy(&beyond, &bits, sizeof beyond);
+    return beyond;
+}
+
+/* A ratio of at least 1 + beyond above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies, or 0. */
+static double least_beyond(const vndf_validation_points *p, double beyond)
+{
+    double mass[BUCKETS] = {0}, sum = 0.0, least = 1 + beyond;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->reference[i] > least * p->drawn[i])
+            mass[bucket_of(ratio(p->reference[i], p->drawn[i]) - 1)] += p->reference[i];
+    for (size_t i = BUCKETS - 1; i > bucket_of(beyond); i--) {
+        sum += mass[i];
+        if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
+            return (1 + beyond_of(i)) * (1 - 1e-12);
+    }
+    return 0.0;
+}
+
+/* The same, 0 if no ratio above 1 is. Begins near what the last direction had: the fewer points are beyond that, the
+ * faster it is. */
+static double least_that_counts(const vndf_validation_points *p, double last)
+{
+    double beyond = last / 4, least = 0.0;
+    while (least == 0.0 && beyond > 1e-12) {
+        least = least_beyond(p, beyond);
+        beyond /= 32;
+    }
+    return least;
+}
+
+/* Whether there is room for another weight after n. */
+static int has_room(vndf_validation *v, size_t n)
+{
+    if (n < v->weight_capacity)
+        return 1;
+    size_t capacity = v->weight_capacity ? 2 * v->weight_capacity : 1024;
+    vndf_validation_weight *weights = realloc(v->weights, capacity * sizeof *weights);
+    if (!weights) {
+        v->profile->guard->starved = 1;
+        return 0;
+    }
+    v->weights = weights;
+    v->weight_capacity = capacity;
+    return 1;
+}
+
+/* The largest weight of points. Only those few are sorted that count. */
+static double weight_of(vndf_validation *v, const vndf_validation_points *p)
+{
+    double least = least_that_counts(p, v->beyond);
+    size_t n = 0;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->reference[i] >= least * p->drawn[i] && has_room(v, n)) {
+            vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
+            v->weights[n++] = one;
+        }
+    double weight = weight_among(v->weights, n);
+    v->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
+    return weight;
+}
+
 /* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
  * Gauss point would hold about VNDF_VALIDATION_LEFT_OUT, and chance would decide the largest weight. */
 static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part)
@@ -437,10 +607,10 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
     const double uneven = 1.02, little = 100 * VNDF_VALIDATION_LEFT_OUT;
     double least = HUGE_VAL, most = 0.0, mass = 0.0;
     for (size_t i = 0; i < part->sums && mass < little; i++) {
-        vndf_validation_point sum = v->sums[part->first_sum + i];
-        least = sum.reference + sum.drawn > 0 ? fmin(least, ratio_of(sum)) : least;
-        most = fmax(most, ratio_of(sum));
-        mass += sum.reference;
+        double reference = v->sums.reference[part->first_sum + i], drawn = v->sums.drawn[part->first_sum + i];
+        least = reference + drawn > 0 ? fmin(least, ratio(reference, drawn)) : least;
+        most = fmax(most, ratio(reference, drawn));
+        mass += reference;
     }
     return mass < little && most > uneven * least;
 }
@@ -448,9 +618,13 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
 /* Replaces the samples of a slice by its sums: beside them the radius matters little there. */
 static void take_sums(vndf_validation *v, const vndf_validation_slice *part)
 {
-    memset(v->samples + part->first, 0, part->count * sizeof *v->samples);
-    for (size_t i = 0; i < part->sums && v->count < v->capacity; i++)
-        v->samples[v->count++] = v->sums[part->first_sum + i];
+    vndf_validation_points *to = &v->samples;
+    memset(to->reference + part->first, 0, part->count * sizeof *to->reference);
+    memset(to->drawn + part->first, 0, part->count * sizeof *to->drawn);
+    for (size_t i = 0; i < part->sums && to->count < to->capacity; i++) {
+        to->reference[to->count] = v->sums.reference[part->first_sum + i];
+        to->drawn[to->count++] = v->sums.drawn[part->first_sum + i];
+    }
 }
 
 static double largest_weight(vndf_validation *v)
@@ -458,13 +632,16 @@ static double largest_weight(vndf_validation *v)
     for (size_t i = 0; i < v->slice_count; i++)
         if (is_uneven(v, v->slices + i))
             take_sums(v, v->slices + i);
-    return weight_of(v->samples, v->count);
+    return weight_of(v, &v->samples);
 }
 
-static int is_claimed(const vndf_validation *v, double s, double c)
+/* ---- directions ---- */
+
+double vndf_validation_claimed(const vndf_validation *v, double s, double c)
 {
-    return vndf_profile_seen(v->profile, s, c) > vndf_profile_claimed(v->profile) &&
-           !vndf_guard_stopped(v->profile->guard);
+    const vndf_profile *p = v->profile;
+    double area = vndf_profile_area(p, s, c), seen = area / (2 * p->f1 * hypot(s, c));
+    return seen > vndf_profile_claimed(p) && !vndf_guard_stopped(p->guard) ? area : 0.0;
 }
 
 vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
@@ -472,16 +649,16 @@ vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
-    double area = vndf_profile_area(v->profile, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
-    if (!is_claimed(v, s, c))
+    double area = vndf_validation_claimed(v, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
+    if (!(area > 0))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
     add_turns(v, s, c, area, add_quarter);
-    for (size_t i = 0; i < v->count; i++) {
-        drawn += v->samples[i].drawn;
-        reference += v->samples[i].reference;
-        miss += fabs(v->samples[i].drawn - v->samples[i].reference);
+    for (size_t i = 0; i < v->samples.count; i++) {
+        drawn += v->samples.drawn[i];
+        reference += v->samples.reference[i];
+        miss += fabs(v->samples.drawn[i] - v->samples.reference[i]);
     }
     f.tv = fmin((miss + fabs(reference - 1) + v->blur) / 2, 1); /* mass that no point meets is missed, too */
     f.consistency = fabs(drawn + v->lack - 1);
@@ -493,35 +670,112 @@ double vndf_validation_foreseen(vndf_validation *v, double s, double c)
 {
     s = (float)s;
     c = (float)c;
-    if (!is_claimed(v, s, c))
+    double area = vndf_validation_claimed(v, s, c);
+    if (!(area > 0))
         return 0.0;
-    add_turns(v, s, c, vndf_profile_area(v->profile, s, c), add_sums);
-    vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sum_count);
-    return weight_of(v->sums, v->sum_count);
+    add_turns(v, s, c, area, add_sums);
+    vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sums.count);
+    return weight_of(v, &v->sums);
 }
 
-int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile)
+/* ---- memory ---- */
+
+static int room_for(vndf_validation_points *points, size_t capacity)
 {
-    size_t cells = table->above.cell_count + table->below.cell_count + FRONT_PANELS;
-    size_t parts = cells + 3 * AZIMUTH_PARTS_LEAST;
-    vndf_validation made = {.table = table, .profile = profile};
-    *v = made;
-    if (!add_stretches(v))
+    points->capacity = capacity;
+    points->reference = malloc(2 * capacity * sizeof *points->reference);
+    points->drawn = points->reference ? points->reference + capacity : NULL;
+    return points->reference != NULL;
+}
+
+static int places_for(vndf_validation_places *p, size_t n)
+{
+    p->xi = malloc(3 * n * sizeof *p->xi);
+    p->eta = p->xi ? p->xi + n : NULL;
+    p->x = p->xi ? p->eta + n : NULL;
+    return p->xi != NULL;
+}
+
+static void put_place(const vndf_validation *v, const vndf_validation_places *p, uint32_t cell, size_t i,
+                      double xi)
+{
+    const vndf_knot *at = v->table->knots.at + cell;
+    p->xi[i] = xi;
+    p->eta[i] = 1 - xi;
+    p->x[i] = p->eta[i] * at[0].x + xi * at[1].x;
+}
+
+/* Point i, which belongs to a cell. */
+static void put_point(vndf_validation *v, vndf_validation_cell *cell, size_t i)
+{
+    const vndf_validation_lines *lines = &v->lines;
+    const vndf_validation_node *node = v->node + i;
+    uint32_t j = (uint32_t)(cell - v->cells);
+    put_place(v, &lines->at, j, i, node->xi);
+    for (size_t n = 0; n < 2; n++) {
+        double way = (i - cell->first + n) % 2 ? -node->rounding : node->rounding;
+        put_place(v, &lines->moved[n], j, i, fmax(fmin(node->xi + way, 1), 0));
+    }
+    lines->weight[i] = node->weight;
+    lines->mass[i] = node->mass;
+    lines->r[i] = node->r;
+    cell->rounded |= node->rounding > 0;
+}
+
+/* The points once more, number by number, and where each cell has its own. */
+static int add_lines(vndf_validation *v)
+{
+    vndf_validation_lines *lines = &v->lines;
+    size_t n = v->node_count;
+    v->cells = calloc(v->table->radial_count, sizeof *v->cells);
+    v->beside = malloc(n * sizeof *v->beside);
+    lines->weight = malloc(3 * n * sizeof *lines->weight);
+    if (!places_for(&lines->at, n) || !places_for(&lines->moved[0], n) || !places_for(&lines->moved[1], n) ||
+        !v->cells || !v->beside || !lines->weight)
         return 0;
-    v->capacity = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
-    v->samples = malloc(v->capacity * sizeof *v->samples);
-    v->sum_capacity = (cells + 3 * AZIMUTHS_LEAST) * VNDF_GAUSS_COARSE;
-    v->sums = malloc(v->sum_capacity * sizeof *v->sums);
+    lines->mass = lines->weight + n;
+    lines->r = lines->mass + n;
+    for (size_t i = 0; i < v->stretch_count; i++) {
+        const vndf_validation_stretch *s = v->stretch + i;
+        vndf_validation_cell *cell = v->cells + s->cell;
+        cell->first_stretch = cell->stretches++ ? cell->first_stretch : (uint32_t)i;
+        cell->first = cell->count ? cell->first : s->first;
+        cell->count += s->count;
+        for (size_t k = s->first; k < s->first + s->count; k++)
+            put_point(v, cell, k);
+    }
+    return 1;
+}
+
+int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, const vndf_profile *profile,
+                         vndf_validation_rule rule)
+{
+    size_t cells = table->above.cell_count + table->below.cell_count + rule.front_panels;
+    size_t parts = cells + 3 * (size_t)rule.azimuth_parts;
+    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .beyond = 1e-3};
+    *v = made;
+    if (!add_stretches(v) || !add_lines(v))
+        return 0;
+    size_t samples = parts * VNDF_GAUSS_COARSE * (v->node_count + VNDF_GAUSS);
+    size_t sums =
+        (cells + 3 * (size_t)(rule.sums > rule.foreseen ? rule.sums : rule.foreseen)) * VNDF_GAUSS_COARSE;
     v->slice_capacity = parts * VNDF_GAUSS_COARSE;
     v->slices = malloc(v->slice_capacity * sizeof *v->slices);
-    return v->samples && v->sums && v->slices;
+    return room_for(&v->samples, samples) && room_for(&v->sums, sums) && v->slices;
 }
 
 void vndf_validation_free(vndf_validation *v)
 {
     free(v->stretch);
     free(v->node);
-    free(v->samples);
-    free(v->sums);
+    free(v->cells);
+    free(v->lines.at.xi);
+    free(v->lines.moved[0].xi);
+    free(v->lines.moved[1].xi);
+    free(v->lines.weight);
+    free(v->beside);
+    free(v->samples.reference);
+    free(v->sums.reference);
     free(v->slices);
+    free(v->weights);
 }

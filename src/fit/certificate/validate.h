@@ -8,10 +8,28 @@
 /* The part of the mass that the largest weight and the error of D leave out. */
 #define VNDF_VALIDATION_LEFT_OUT 1e-6
 
-/* One Gauss point of a direction: its parts of the true and of the drawn mass. */
-typedef struct vndf_validation_point {
-    double reference, drawn;
-} vndf_validation_point;
+/* Gauss points of a direction: their parts of the true and of the drawn mass. */
+typedef struct vndf_validation_points {
+    double *reference, *drawn; /* one block */
+    size_t count, capacity;
+} vndf_validation_points;
+
+/* The ratio of both at a point that may be the largest. */
+typedef struct vndf_validation_weight {
+    double ratio, mass;
+} vndf_validation_weight;
+
+/* How closely a direction is looked at. The cells of small tables are integrated in parts, at least so many in all, so
+ * that the rule errs less than the table. */
+typedef struct vndf_validation_rule {
+    uint32_t radial_parts, cut_points;    /* cut_points: in each part of the cell of the cut */
+    uint32_t azimuth_parts, front_panels; /* front_panels: cells of the quarter towards wi */
+    uint32_t sums, foreseen;              /* azimuths that are not looked at along the radius */
+} vndf_validation_rule;
+
+/* The rule of certificates, and one that costs a twelfth: it finds where errors are large, and not how large to a few
+ * per cent. */
+extern const vndf_validation_rule vndf_validation_close, vndf_validation_coarse;
 
 /* A stretch of a radial cell, in xi, and its Gauss points. The stretches of all cells stand in order. */
 typedef struct vndf_validation_stretch {
@@ -25,6 +43,23 @@ typedef struct vndf_validation_node {
     double xi, weight, r, mass, rounding;
 } vndf_validation_node;
 
+/* Places number by number: xi, 1 - xi, and the X of the slope; one block, which begins at xi. */
+typedef struct vndf_validation_places {
+    double *xi, *eta, *x;
+} vndf_validation_places;
+
+/* The same points number by number; and moved by rounding, every second one inwards and the others outwards. */
+typedef struct vndf_validation_lines {
+    vndf_validation_places at, moved[2]; /* moved[0]: the first of a cell outwards */
+    double *weight, *mass, *r;           /* one block, which begins at weight */
+} vndf_validation_lines;
+
+/* The stretches and points of a radial cell, and whether rounding matters at any. */
+typedef struct vndf_validation_cell {
+    uint32_t first_stretch, stretches, first, count;
+    int rounded;
+} vndf_validation_cell;
+
 /* An azimuth that is looked at along the radius: its samples, and the sums that it stands for. */
 typedef struct vndf_validation_slice {
     size_t first, count, first_sum, sums;
@@ -33,16 +68,22 @@ typedef struct vndf_validation_slice {
 typedef struct vndf_validation {
     const vndf_distribution *table;
     const vndf_profile *profile;
+    vndf_validation_rule rule;
     vndf_validation_stretch *stretch;
     vndf_validation_node *node;
     size_t stretch_count, node_count;
-    vndf_validation_point *samples; /* of one direction after the other */
-    vndf_validation_point *sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
+    vndf_validation_cell *cells;
+    vndf_validation_lines lines;
+    vndf_validation_points samples; /* of one direction after the other */
+    vndf_validation_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
     vndf_validation_slice *slices;
-    size_t count, capacity, sum_count, sum_capacity, slice_count, slice_capacity;
-    double area; /* true area of the direction, for s + |c| = 1 */
-    double lack; /* the drawn mass that the samples leave out */
-    double blur; /* by how much rounding of normals to float changes the drawn density, all together */
+    vndf_validation_weight *weights; /* those that may be the largest */
+    double *beside;                  /* the densities of a cell at moved points */
+    size_t slice_count, slice_capacity, weight_capacity;
+    double beyond; /* by how much the last largest weight exceeded 1 */
+    double area;   /* true area of the direction, for s + |c| = 1 */
+    double lack;   /* the drawn mass that the samples leave out */
+    double blur;   /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_validation;
 
 typedef struct vndf_finding {
@@ -51,11 +92,15 @@ typedef struct vndf_finding {
 } vndf_finding;
 
 /* 0 if there is no memory; free it either way. */
-int vndf_validation_from(vndf_validation *validation, const vndf_distribution *table, const vndf_profile *profile);
+int vndf_validation_from(vndf_validation *validation, const vndf_distribution *table, const vndf_profile *profile,
+                         vndf_validation_rule rule);
 void vndf_validation_free(vndf_validation *validation);
 
 /* The direction (s, 0, c) of the unit problem. */
 vndf_finding vndf_validation_direction(vndf_validation *validation, double s, double c);
+
+/* The true area of a direction, 0 where nothing is claimed. */
+double vndf_validation_claimed(const vndf_validation *validation, double s, double c);
 
 /* About the largest weight there, from the sums alone: costs a fiftieth. */
 double vndf_validation_foreseen(vndf_validation *validation, double s, double c);

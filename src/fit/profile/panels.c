@@ -23,25 +23,51 @@ static double floor_at(const vndf_profile *profile, double r)
     return profile->floor / (q * q);
 }
 
-/* P at r, which is finite or stops the build. */
-static double density(const vndf_profile *profile, double r)
+/* P must be finite: where it is not, it overflowed here, not in the source. */
+static double finite(const vndf_profile *profile, double r, double p)
 {
-    double p = vndf_profile_p22(profile, r);
-    if (!(p < HUGE_VAL)) /* it overflowed here, not in the source */
+    if (!(p < HUGE_VAL))
         vndf_guard_note(profile->guard, r * profile->scale, p);
     return p;
 }
 
-double vndf_profile_p22(const vndf_profile *profile, double r)
+static double density(const vndf_profile *profile, double r)
 {
-    double scale = profile->scale, given = 0.0;
-    if (vndf_guard_spend(profile->guard, profile->source->operations))
-        given = profile->source->p22(profile->source, r * scale);
+    return finite(profile, r, vndf_profile_p22(profile, r));
+}
+
+/* P at r from what the source gives there. */
+static double p22_of(const vndf_profile *profile, double r, double given)
+{
+    double scale = profile->scale;
     if (!(given >= 0.0 && given < HUGE_VAL)) {
         vndf_guard_note(profile->guard, r * scale, given);
         given = 0.0;
     }
     return profile->normalization * scale * scale * given + floor_at(profile, r);
+}
+
+double vndf_profile_p22(const vndf_profile *profile, double r)
+{
+    int going = vndf_guard_spend(profile->guard, profile->source->operations);
+    return p22_of(profile, r, going ? profile->source->p22(profile->source, r * profile->scale) : 0.0);
+}
+
+void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22)
+{
+    const vndf_source *source = profile->source;
+    double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY] = {0.0};
+    if (!source->p22_many) {
+        for (size_t i = 0; i < count; i++)
+            p22[i] = vndf_profile_p22(profile, r[i]);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        at[i] = r[i] * profile->scale;
+    if (vndf_guard_spend(profile->guard, (double)count * source->operations))
+        source->p22_many(source, at, count, given);
+    for (size_t i = 0; i < count; i++)
+        p22[i] = p22_of(profile, r[i], given[i]);
 }
 
 /* The moments of a panel by ten points, and how far rounding of the points and of P may move m0. */
@@ -51,14 +77,19 @@ typedef struct estimate {
 
 static estimate rule(vndf_profile *profile, double u0, double u1)
 {
-    double r0 = exp(u0), least = HUGE_VAL, most = 0.0;
+    double r0 = exp(u0), least = HUGE_VAL, most = 0.0, beyond[VNDF_GAUSS], at[VNDF_GAUSS], p22[VNDF_GAUSS];
     estimate sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < VNDF_GAUSS; i++) {
         /* not as a difference: panels get as narrow as 1e-13 r */
-        double beyond = r0 * expm1((u1 - u0) * vndf_gauss_node[i]), r = r0 + beyond;
-        double p = density(profile, r), w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
+        beyond[i] = r0 * expm1((u1 - u0) * vndf_gauss_node[i]);
+        at[i] = r0 + beyond[i];
+    }
+    vndf_profile_p22_many(profile, at, VNDF_GAUSS, p22);
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double r = at[i], p = finite(profile, r, p22[i]);
+        double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
         sum.m0 += w;
-        sum.m1 += w * beyond;
+        sum.m1 += w * beyond[i];
         least = fmin(least, f);
         most = fmax(most, f);
     }

@@ -62,6 +62,9 @@ void vndf_profile_free(vndf_profile *profile);
 /* P(R) at canonical scale; only the floor once the guard has stopped the build. */
 double vndf_profile_p22(const vndf_profile *profile, double r);
 
+/* The same at up to VNDF_SOURCE_MANY slopes. */
+void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22);
+
 /* integral over [a, b] of P r dr and of P r (r - a) dr; b may be infinite. */
 typedef struct vndf_moments {
     double m0, m1;

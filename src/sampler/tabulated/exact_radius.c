@@ -129,7 +129,7 @@ static double density_over(const vndf_engine_piece *p, vndf_exact_place at)
 
 /* Mass per xi over X at a place where the normal has the weight w. Where f begins at 0, the mass per xi does so as X
  * does, and their quotient is finite. */
-static double density_over_x(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at, double w)
+VNDF_INLINE double density_over_x(const vndf_azimuth_slice *law, const vndf_engine_piece *p, place at, double w)
 {
     inner in = inner_of(p, at.in, w);
     double per = in.per / p->length;
@@ -173,6 +173,46 @@ double vndf_engine_piece_density(const vndf_azimuth_slice *law, const vndf_engin
     return w > 0.0 && p->length > 0.0 && law->mass > 0.0
                ? law->azimuth * slope.x * density_over_x(law, p, at, w) / law->mass
                : 0.0;
+}
+
+/* Many places of a piece that is not cut and whose density does not begin at 0, without a branch: compilers make lanes
+ * of it. The bits are those of one place. */
+static void densities_plain(const vndf_azimuth_slice *law, const vndf_engine_piece *p,
+                            const vndf_engine_places *at, double *restrict density)
+{
+    const double *restrict xi = at->xi, *restrict eta = at->eta, *restrict x = at->x;
+    const vndf_exact_cell cell = cell_of(p);
+    const double azimuth = law->azimuth, mass = law->mass;
+    for (size_t i = 0; i < at->count; i++) {
+        vndf_exact_place in = {xi[i], eta[i]};
+        density[i] = azimuth * x[i] * (vndf_exact_cell_density(&cell, in) / x[i]) / mass;
+    }
+}
+
+static void densities_weighted(const vndf_azimuth_slice *law, const vndf_engine_piece *p,
+                               const vndf_engine_places *at, double *restrict density)
+{
+    const double *restrict xi = at->xi, *restrict eta = at->eta, *restrict x = at->x;
+    const vndf_exact_cell cell = cell_of(p);
+    const double azimuth = law->azimuth, mass = law->mass, v0 = p->v0, v1 = p->v1, per = 1.0 / (v0 + v1);
+    for (size_t i = 0; i < at->count; i++) {
+        double v = v0 * eta[i] + v1 * xi[i];
+        vndf_exact_place in = {xi[i] * ((v0 + v) * per), eta[i] * ((v + v1) * per)};
+        density[i] = azimuth * x[i] * (2.0 * v * per * vndf_exact_cell_density(&cell, in) / x[i]) / mass;
+    }
+}
+
+void vndf_engine_piece_densities(const vndf_azimuth_slice *law, const vndf_engine_piece *p, uint32_t j,
+                                 const vndf_engine_places *at, double *density)
+{
+    int plain = p->length == 1.0 && p->begin == 0.0 && law->mass > 0.0 && !(j == 0 && p->e0 == 0.0);
+    if (!plain)
+        for (size_t i = 0; i < at->count; i++)
+            density[i] = vndf_engine_piece_density(law, p, j, at->xi[i], at->eta[i]);
+    else if (p->weighted)
+        densities_weighted(law, p, at, density);
+    else
+        densities_plain(law, p, at, density);
 }
 
 /* ---- mass ---- */

@@ -102,6 +102,16 @@ vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *slice, uint32_t
 double vndf_engine_piece_density(const vndf_azimuth_slice *slice, const vndf_engine_piece *piece, uint32_t cell,
                                  double xi, double eta);
 
+/* Places of a cell: xi, eta = 1 - xi, and the X of their slopes, eta X_j + xi X_(j+1). */
+typedef struct vndf_engine_places {
+    const double *xi, *eta, *x;
+    size_t count;
+} vndf_engine_places;
+
+/* The same at places that are all visible, in the cell of the piece. */
+void vndf_engine_piece_densities(const vndf_azimuth_slice *slice, const vndf_engine_piece *piece, uint32_t cell,
+                                 const vndf_engine_places *places, double *density);
+
 /* The uniform numbers that give a normal (X cos a, X sin a, Z) of the turned frame, of any length, but for some steps
  * of 2^-24. Returns whether these steps are known to move it by no more than 1e-5; if not, sampler/nearest.h improves
  * them. */

@@ -66,7 +66,7 @@ static double combine(const vndf_instruction *instruction, double x, double y)
     case VNDF_SUBTRACT: return x - y;
     case VNDF_MULTIPLY: return x * y;
     case VNDF_DIVIDE: return x / y;
-    case VNDF_POWER: return pow(x, y);
+    case VNDF_POWER: return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
     default: return instruction->function->two(x, y);
     }
 }
@@ -92,6 +92,59 @@ double vndf_expression_run(const vndf_expression *expression, size_t count, cons
     if (below)
         *below = top > 1 ? stack[top - 2] : 0;
     return stack[top - 1];
+}
+
+typedef struct row {
+    double at[VNDF_SOURCE_MANY];
+} row;
+
+static void combine_rows(const vndf_instruction *instruction, row *x, const row *y, size_t count)
+{
+    switch (instruction->operation) {
+    case VNDF_ADD:
+        for (size_t i = 0; i < count; i++)
+            x->at[i] += y->at[i];
+        return;
+    case VNDF_SUBTRACT:
+        for (size_t i = 0; i < count; i++)
+            x->at[i] -= y->at[i];
+        return;
+    case VNDF_MULTIPLY:
+        for (size_t i = 0; i < count; i++)
+            x->at[i] *= y->at[i];
+        return;
+    default:
+        for (size_t i = 0; i < count; i++)
+            x->at[i] = combine(instruction, x->at[i], y->at[i]);
+    }
+}
+
+static void apply_to_row(const vndf_instruction *instruction, row *x, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        x->at[i] = instruction->operation == VNDF_NEGATE ? -x->at[i] : instruction->function->one(x->at[i]);
+}
+
+void vndf_expression_run_many(const vndf_expression *expression, double (*variables)[VNDF_SOURCE_MANY],
+                              size_t count, double *values)
+{
+    row stack[VNDF_EXPRESSION_STACK];
+    size_t top = 0; /* number of operands */
+    for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
+        if (at->operation == VNDF_PUSH_NUMBER)
+            for (size_t i = 0; i < count; i++)
+                stack[top].at[i] = at->number;
+        else if (at->operation == VNDF_PUSH_VARIABLE)
+            memcpy(stack[top].at, variables[at->variable], count * sizeof(double));
+        else if (at->operation == VNDF_NEGATE || (at->operation == VNDF_CALL && at->function->one))
+            apply_to_row(at, &stack[top - 1], count);
+        else {
+            top--;
+            combine_rows(at, &stack[top - 1], &stack[top], count);
+        }
+        top += at->operation == VNDF_PUSH_NUMBER || at->operation == VNDF_PUSH_VARIABLE;
+    }
+    memcpy(values, stack[top - 1].at, count * sizeof *values);
 }
 
 void vndf_expression_free(vndf_expression *expression)

@@ -14,6 +14,7 @@
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
 #include "source/interval/jet.h"
+#include "source/source.h"
 #include "vndf_build.h"
 
 enum {
@@ -77,6 +78,11 @@ void vndf_expression_free(vndf_expression *expression);
  * receives the one under it (0 if there is none). All instructions: the value of the formula. */
 double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables,
                            double *below);
+
+/* The values of the formula at up to VNDF_SOURCE_MANY points, the same bits; variables[i] are the values of variable
+ * i there. An instruction is looked at once for all. */
+void vndf_expression_run_many(const vndf_expression *expression, double (*variables)[VNDF_SOURCE_MANY],
+                              size_t count, double *values);
 
 /* The function of this name, NULL if there is none; the names of all, separated by blanks. */
 const vndf_function *vndf_function_find(const char *name, size_t size);

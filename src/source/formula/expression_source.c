@@ -24,6 +24,7 @@ typedef struct form {
     size_t count;
     vndf_variables_of_slope *variables;
     double (*p22)(const vndf_expression *expression, double r);
+    void (*p22_many)(const vndf_expression *expression, const double *r, size_t count, double *p22);
     vndf_jet (*jet)(const vndf_expression *expression, const vndf_jet *r);
 } form;
 
@@ -57,6 +58,29 @@ static double ndf_p22(const vndf_expression *expression, double r)
     ndf_variables(r, variables);
     double c2 = variables[0] * variables[0];
     return vndf_expression_run(expression, expression->count, variables, NULL) * c2 * c2;
+}
+
+static void slope_p22_many(const vndf_expression *expression, const double *r, size_t count, double *p22)
+{
+    double variables[1][VNDF_SOURCE_MANY];
+    for (size_t i = 0; i < count; i++)
+        variables[0][i] = r[i];
+    vndf_expression_run_many(expression, variables, count, p22);
+}
+
+static void ndf_p22_many(const vndf_expression *expression, const double *r, size_t count, double *p22)
+{
+    double variables[3][VNDF_SOURCE_MANY], here[3];
+    for (size_t i = 0; i < count; i++) {
+        ndf_variables(r[i], here);
+        for (size_t n = 0; n < 3; n++)
+            variables[n][i] = here[n];
+    }
+    vndf_expression_run_many(expression, variables, count, p22);
+    for (size_t i = 0; i < count; i++) {
+        double c2 = variables[0][i] * variables[0][i];
+        p22[i] = p22[i] * c2 * c2;
+    }
 }
 
 /* P22 over jets of r. */
@@ -94,6 +118,15 @@ static double p22(const vndf_source *self, double r)
     double low = vndf_interval_low(jet.at[0]), high = vndf_interval_high(jet.at[0]);
     double size = fmax(fabs(low), fabs(high));
     return isfinite(size) && high - low <= fmax(TIGHT * size, 8 * DBL_MIN) ? fmax(low, 0) : value;
+}
+
+static void p22_many(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    const expression_source *source = (const expression_source *)self;
+    source->form->p22_many(&source->expression, r, count, values);
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            values[i] = p22(self, r[i]);
 }
 
 static void destroy(vndf_source *self)
@@ -160,6 +193,7 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
         return NULL;
     }
     source->base = (vndf_source){.p22 = p22,
+                                 .p22_many = p22_many,
                                  .destroy = destroy,
                                  .description = description,
                                  .rebuildable = 1,
@@ -177,13 +211,13 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
 vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                         vndf_error *error)
 {
-    static const form ndf = {"--ndf", {"c", "theta", "t"}, 3, ndf_variables, ndf_p22, ndf_jet};
+    static const form ndf = {"--ndf", {"c", "theta", "t"}, 3, ndf_variables, ndf_p22, ndf_p22_many, ndf_jet};
     return make(&ndf, text, parameters, count, error);
 }
 
 vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                           vndf_error *error)
 {
-    static const form slope = {"--slope", {"r"}, 1, slope_variables, slope_p22, slope_jet};
+    static const form slope = {"--slope", {"r"}, 1, slope_variables, slope_p22, slope_p22_many, slope_jet};
     return make(&slope, text, parameters, count, error);
 }
