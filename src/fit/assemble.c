@@ -4,24 +4,53 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors. Each azimuth row may miss by `error`. All radial cells together may miss by half of it:
- * they cost less than rows, and a view from below the horizon sees several cells that are judged one at a time.
- * Areas may miss by a sixtieth, which costs a spline of fifth order few knots. Floats hold no area better than
- * AREA_FINEST. A table of half the default size or more keeps the promise for areas, 2e-6, whatever its error
- * is. */
-static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
-enum { PROMISE_BYTES = 8192 };
+#include "fit/even.h"
 
-static double area_error(size_t max_bytes, double error)
+/* ---- the budget of errors ----
+ *
+ * Each azimuth row may miss by `error`. All radial cells together may miss by half of it: they cost less than rows,
+ * and a view from below the horizon sees several cells that are judged one at a time. Areas may miss by a sixtieth,
+ * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST. A table of half the
+ * default size or more keeps the promise for areas, 2e-6, whatever its error is.
+ *
+ * From the default size on, all directions count alike. Smaller tables cannot serve the whole sphere, and most views
+ * are above the horizon: there errors below the horizon count less and less, a twenty-third as much at 2 KiB, and a
+ * third of that where 1e-5 of the area is left. What such a table holds at the same error costs more areas than the
+ * TV that they are worth, so these come down to a tenth of the error; below the horizon, to half of it. */
+enum { EVEN_BYTES = 16384, PROMISE_BYTES = 8192, SMALL_BYTES = 6000 };
+static const double AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
+
+/* For the whole sphere. In a small table errors deep below the horizon count less, a third where 1e-10 of the area is
+ * left. */
+static vndf_budget budget_for_sphere(size_t max_bytes)
 {
-    double most = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
-    return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
+    vndf_budget budget = {.radial = 2, .areas = 60, .finest = AREA_FINEST, .below = 1, .below_areas = 1};
+    budget.promised = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
+    budget.fade = max_bytes < SMALL_BYTES ? 0.05 : 0.0;
+    budget.even = max_bytes < EVEN_BYTES;
+    return budget;
 }
 
-/* A small table spends its bytes where most is visible: errors deep below the horizon count less, a third where
- * 1e-10 of the area is left. */
-enum { SMALL_BYTES = 6000 };
-static const double FADE_OF_SMALL = 0.05;
+static vndf_budget budget_for(size_t max_bytes, int sphere)
+{
+    vndf_budget budget = budget_for_sphere(max_bytes);
+    double part = (double)max_bytes / EVEN_BYTES;
+    if (sphere || part >= 1)
+        return budget;
+    budget.radial = 1;
+    budget.below = pow(part, 1.5);
+    budget.fade = -0.05 * log2(part) * 0.8;
+    if (max_bytes < PROMISE_BYTES) {
+        budget.areas = 10;
+        budget.below_areas = 0.2;
+    }
+    return budget;
+}
+
+static double area_error(const vndf_budget *budget, double error)
+{
+    return fmin(fmax(error / budget->areas, budget->finest), budget->promised);
+}
 
 /* In the first cell f begins at 0. Only this cell is drawn to first order, so it stays small. */
 static const double POLE_CELL = 1.0 / 512;
@@ -54,8 +83,11 @@ static int refine_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit,
 {
     double least = vndf_side_least(&fit->side);
     const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
-    int ends = least > ROWS_END;
-    return vndf_refine(rows, ends ? seen : whole, ends ? 4 : 3, limit, enough, NULL, vndf_wedge_row_error, fit);
+    const double few[] = {0.0, 1.0}, few_seen[] = {0.0, least, 1.0};
+    int ends = least > ROWS_END, all = fit->side.weight >= 1;
+    const double *start = all ? (ends ? seen : whole) : ends ? few_seen : few;
+    return vndf_refine(rows, start, 2 + (size_t)ends + (size_t)all, limit, enough, NULL, vndf_wedge_row_error,
+                       fit);
 }
 
 static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, double enough)
@@ -70,24 +102,33 @@ static uint32_t most_cells_for(size_t max_bytes)
     return max_bytes < SMALL_BYTES ? 12 : 32;
 }
 
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)
+/* The least error that this size may reach. */
+static double finest_for(size_t max_bytes)
+{
+    double part = (double)max_bytes / EVEN_BYTES;
+    return fmax(1e-7, 2e-5 * pow(1 / part, part < 1 ? 1 : 2));
+}
+
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, int sphere)
 {
     uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
-    double fade = max_bytes < SMALL_BYTES ? FADE_OF_SMALL : 0.0;
-    vndf_side above = {profile, 0, fade}, below = {profile, 1, fade};
+    vndf_budget budget = budget_for(max_bytes, sphere);
+    vndf_side above = {profile, 0, 1.0, 0.0, 1.0},
+              below = {profile, 1, budget.below, budget.fade, budget.below_areas};
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
-    plan->max_bytes = max_bytes;
-    plan->radial_fit.fade = fade;
-    plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
+    plan->budget = budget;
+    plan->radial_fit.below = budget.below;
+    plan->radial_fit.fade = budget.fade;
+    plan->finest = finest_for(max_bytes);
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
         !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
         !vndf_wedge_fit_from(&plan->below_fit, below, row_cells, 2 * plan->finest))
         return 0;
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
-    double area = area_error(max_bytes, plan->finest);
+    double area = area_error(&budget, plan->finest);
     vndf_guard_stage(profile->guard, 0.1, "radial cells");
     int good = refine_radial(plan, cell_limit);
     vndf_guard_stage(profile->guard, 0.2, "azimuth rows above the horizon");
@@ -117,9 +158,9 @@ void vndf_plan_free(vndf_plan *plan)
 
 vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
-    double area = area_error(plan->max_bytes, error);
+    double area = area_error(&plan->budget, error);
     vndf_table_size size;
-    size.radial = vndf_refinement_needed(&plan->radial, error / RADIAL_BETTER) - 1;
+    size.radial = vndf_refinement_needed(&plan->radial, error / plan->budget.radial) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
     size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
@@ -129,10 +170,20 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     return size;
 }
 
-static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
+/* The knots of the radial cells; those that were given stay where they are. 0 if there is no memory. */
+static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
+{
+    const vndf_refinement *radial = &plan->radial;
+    vndf_refinement_knots(radial, count, knots);
+    return !plan->budget.even || vndf_even_knots(knots, count, radial->knot, radial->start, vndf_fit_place,
+                                                 vndf_fit_cell_error, &plan->radial_fit);
+}
+
+static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
 {
     uint32_t n = table->radial_count;
-    vndf_refinement_knots(&plan->radial, n + 1, knots);
+    if (!radial_knots(plan, n + 1, knots))
+        return 0;
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
@@ -141,6 +192,7 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
         a = b;
     }
     table->knots.at[n] = (vndf_knot){a.x, a.z};
+    return 1;
 }
 
 static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
@@ -154,11 +206,27 @@ static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t
     }
 }
 
-static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
+static double place_between(double a, double b, double part)
+{
+    return a + (b - a) * part;
+}
+
+/* Where rows stand; the edge of the visible part stays where it is. 0 if there is no memory. */
+static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_wedge_fit *fit, uint32_t count,
+                     double *knots)
+{
+    double edge = vndf_side_least(&fit->side);
+    vndf_refinement_knots(rows, count, knots);
+    return !plan->budget.even || vndf_even_knots(knots, count, &edge, 1, place_between, vndf_wedge_row_error, fit);
+}
+
+static int fill_rows(const vndf_plan *plan, vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit,
+                     double *knots)
 {
     uint32_t count = vndf_row_knots(wedge->row_count);
     vndf_wedge_fit_use(fit, wedge->cell_count);
-    vndf_refinement_knots(rows, count, knots);
+    if (!row_knots(plan, rows, fit, count, knots))
+        return 0;
     memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
     for (uint32_t i = 0; i < count; i++) {
         const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
@@ -214,10 +282,10 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
     vndf_distribution *table = vndf_table_allocate(size);
     size_t most = size.radial + size.above_rows + size.below_rows + size.above_knots + size.below_knots + 8;
     double *knots = malloc(most * sizeof *knots);
-    int good = table && knots && fill_rows(&table->above, &plan->above_rows, &plan->above_fit, knots) &&
-               fill_rows(&table->below, &plan->below_rows, &plan->below_fit, knots);
+    int good = table && knots && fill_rows(plan, &table->above, &plan->above_rows, &plan->above_fit, knots) &&
+               fill_rows(plan, &table->below, &plan->below_rows, &plan->below_fit, knots) &&
+               fill_radial(plan, table, knots);
     if (good) {
-        fill_radial(plan, table, knots);
         fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
         fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;

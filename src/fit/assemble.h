@@ -7,18 +7,29 @@
 #include "fit/wedge_fit.h"
 #include "table/layout.h"
 
+/* How the parts of a table share one error. */
+typedef struct vndf_budget {
+    double radial;        /* so many times smaller is the error of all radial cells together, */
+    double areas, finest; /* and that of areas, but no smaller than this, */
+    double promised;      /* and no larger than this */
+    double below;         /* weight of errors below the horizon: vndf_side, */
+    double fade;
+    double below_areas; /* and of the areas there */
+    int even;           /* knots of a table that is cut are moved: fit/even.h */
+} vndf_budget;
+
 typedef struct vndf_plan {
     const vndf_profile *profile;
     vndf_radial_fit radial_fit;
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
-    size_t max_bytes;
+    vndf_budget budget;
     double finest; /* the error down to which the fits were refined */
 } vndf_plan;
 
-/* Refines all fits as far as max_bytes may ever need. 0 if there is no memory or the guard of the profile stopped
- * the build. */
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
+/* Refines all fits as far as max_bytes may ever need, for the whole sphere alike or, in a small table, above the
+ * horizon first. 0 if there is no memory or the guard of the profile stopped the build. */
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, int sphere);
 void vndf_plan_free(vndf_plan *plan);
 
 /* The counts of the table whose parts each err by less than `error`. */

@@ -133,12 +133,13 @@ static vndf_distribution *cut_table(vndf_plan *plan, size_t max_bytes, double ma
     return max_tv > 0.0 ? build_to_tv(plan, best, max_tv, error) : finish(plan, best, error);
 }
 
-static vndf_distribution *build_within(const vndf_profile *profile, size_t max_bytes, double max_tv,
+/* max_tv bounds all directions, so the table for it serves all of them alike. */
+static vndf_distribution *build_within(const vndf_profile *profile, size_t max_bytes, double max_tv, int sphere,
                                        vndf_error *error)
 {
     vndf_plan plan;
     vndf_distribution *table = NULL;
-    if (vndf_plan_make(&plan, profile, max_bytes))
+    if (vndf_plan_make(&plan, profile, max_bytes, sphere || max_tv > 0.0))
         table = cut_table(&plan, max_bytes, max_tv, error);
     else if (!vndf_guard_stopped(profile->guard))
         profile->guard->starved = 1;
@@ -150,7 +151,7 @@ static vndf_distribution *build_default(const vndf_profile *profile, vndf_error 
 {
     vndf_distribution *table = NULL;
     for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
-        vndf_distribution *larger = build_within(profile, BYTES_TRIED[i], 0.0, error);
+        vndf_distribution *larger = build_within(profile, BYTES_TRIED[i], 0.0, 0, error);
         int good = larger && larger->certificate.tv <= TV_DEFAULT, taken = good || !table;
         vndf_free(taken ? table : larger);
         table = taken ? larger : table;
@@ -189,7 +190,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     if (!profile)
         return NULL;
     vndf_distribution *table = given.max_bytes || given.max_tv > 0.0
-                                   ? build_within(profile, max_bytes, given.max_tv, error)
+                                   ? build_within(profile, max_bytes, given.max_tv, given.sphere, error)
                                    : build_default(profile, error);
     if (vndf_guard_status(&guard, error) != VNDF_OK) {
         vndf_free(table);
