@@ -10,17 +10,13 @@ vndf_area_value vndf_side_area(const vndf_side *side, double y)
     return side->below ? vndf_profile_area_below(side->profile, y) : vndf_profile_area_above(side->profile, y);
 }
 
-static double fade_at(const vndf_side *side, double y, double mass)
-{
-    return vndf_profile_fade(side->profile, mass / (side->profile->f1 * hypot(y, 1 - y)), side->fade);
-}
-
 double vndf_side_share(const vndf_side *side, double y)
 {
     double mass = vndf_side_area(side, y).mass;
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
-    return side->weight * fade_at(side, y, mass);
+    double seen = mass / (side->profile->f1 * hypot(y, 1 - y));
+    return side->weight * vndf_profile_fade(side->profile, seen, side->fade);
 }
 
 double vndf_side_least(const vndf_side *side)
@@ -65,7 +61,7 @@ static double whole_at(const vndf_side *side, double y, double mass)
     double seen = mass + 0.1 * vndf_profile_claimed(side->profile) * side->profile->f1;
     if (!side->below)
         return mass / vndf_side_share(side, y);
-    return side->areas < 1 ? fmin(seen / (side->areas * fade_at(side, y, mass)), mass + (1 - y) / 2) : seen;
+    return side->areas < 1 ? fmin(seen / side->areas, mass + (1 - y) / 2) : seen;
 }
 
 vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)

@@ -12,7 +12,7 @@ typedef struct vndf_side {
     int below;     /* 1: the horizon; 0: above it */
     double weight; /* of errors below the horizon, */
     double fade;   /* and how it falls with what is seen: power of vndf_profile_fade */
-    double areas;  /* the same weight for errors of the area; 1: all areas count alike */
+    double areas;  /* weight of errors of the area below the horizon; 1: all areas count alike */
 } vndf_side;
 
 /* Mass of the wedge per (s + |c|), with its derivatives by y. */

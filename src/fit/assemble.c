@@ -13,10 +13,10 @@
  * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST. A table of half the
  * default size or more keeps the promise for areas, 2e-6, whatever its error is.
  *
- * From the default size on, all directions count alike. Smaller tables cannot serve the whole sphere, and most views
- * are above the horizon: there errors below the horizon count less and less, a twenty-third as much at 2 KiB, and a
- * third of that where 1e-5 of the area is left. What such a table holds at the same error costs more areas than the
- * TV that they are worth, so these come down to a tenth of the error; below the horizon, to half of it. */
+ * A smaller table than the default cannot serve the whole sphere well, and most views are above the horizon. So an
+ * error below the horizon counts less: a 23rd at 2 KiB, an 8th at 4 KiB; and less where less is seen, a tenth of that
+ * at 2 KiB where 1e-10 of the area is left. Radial cells miss by `error` there, since few of them are for views from
+ * below. If the promise for areas is not kept anyway, areas miss by a tenth, those below the horizon by `error`. */
 enum { EVEN_BYTES = 16384, PROMISE_BYTES = 8192, SMALL_BYTES = 6000 };
 static const double AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
 
@@ -27,7 +27,7 @@ static vndf_budget budget_for_sphere(size_t max_bytes)
     vndf_budget budget = {.radial = 2, .areas = 60, .finest = AREA_FINEST, .below = 1, .below_areas = 1};
     budget.promised = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
     budget.fade = max_bytes < SMALL_BYTES ? 0.05 : 0.0;
-    budget.even = max_bytes < EVEN_BYTES;
+    budget.even_rows = max_bytes < EVEN_BYTES;
     return budget;
 }
 
@@ -38,11 +38,12 @@ static vndf_budget budget_for(size_t max_bytes, int sphere)
     if (sphere || part >= 1)
         return budget;
     budget.radial = 1;
+    budget.even_cells = 1;
     budget.below = pow(part, 1.5);
-    budget.fade = -0.05 * log2(part) * 0.8;
+    budget.fade = log2(1 / part) / 30;
     if (max_bytes < PROMISE_BYTES) {
         budget.areas = 10;
-        budget.below_areas = 0.2;
+        budget.below_areas = 0.1;
     }
     return budget;
 }
@@ -170,13 +171,26 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     return size;
 }
 
+/* Beyond this part of the area, few views see anything: there the cells are for views from deep below the horizon. */
+static const double MANY_SEE = 1e-2;
+
+/* How many of these knots there are up to the last that many views see. */
+static size_t many_see(const vndf_plan *plan, size_t count, const double *knots)
+{
+    size_t n = 2;
+    while (n < count && vndf_profile_s(plan->profile, knots[n - 1]) > MANY_SEE * plan->profile->f1)
+        n++;
+    return n;
+}
+
 /* The knots of the radial cells; those that were given stay where they are. 0 if there is no memory. */
 static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
 {
     const vndf_refinement *radial = &plan->radial;
     vndf_refinement_knots(radial, count, knots);
-    return !plan->budget.even || vndf_even_knots(knots, count, radial->knot, radial->start, vndf_fit_place,
-                                                 vndf_fit_cell_error, &plan->radial_fit);
+    return !plan->budget.even_cells ||
+           vndf_even_knots(knots, many_see(plan, count, knots), radial->knot, radial->start, vndf_fit_place,
+                           vndf_fit_cell_error, &plan->radial_fit);
 }
 
 static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
@@ -217,7 +231,8 @@ static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_we
 {
     double edge = vndf_side_least(&fit->side);
     vndf_refinement_knots(rows, count, knots);
-    return !plan->budget.even || vndf_even_knots(knots, count, &edge, 1, place_between, vndf_wedge_row_error, fit);
+    return !plan->budget.even_rows ||
+           vndf_even_knots(knots, count, &edge, 1, place_between, vndf_wedge_row_error, fit);
 }
 
 static int fill_rows(const vndf_plan *plan, vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit,

@@ -15,7 +15,8 @@ typedef struct vndf_budget {
     double below;         /* weight of errors below the horizon: vndf_side, */
     double fade;
     double below_areas; /* and of the areas there */
-    int even;           /* knots of a table that is cut are moved: fit/even.h */
+    int even_rows;      /* knots of a table that is cut are moved: fit/even.h */
+    int even_cells;
 } vndf_budget;
 
 typedef struct vndf_plan {
