@@ -15,8 +15,9 @@
  *
  * A smaller table than the default cannot serve the whole sphere well, and most views are above the horizon. So an
  * error below the horizon counts less: a 23rd at 2 KiB, an 8th at 4 KiB; and less where less is seen, a tenth of that
- * at 2 KiB where 1e-10 of the area is left. Radial cells miss by `error` there, since few of them are for views from
- * below. If the promise for areas is not kept anyway, areas miss by a tenth, those below the horizon by `error`. */
+ * at 2 KiB where 1e-10 of the area is left. There, what was measured is best where rows above the horizon may miss by
+ * half of `error`, and radial cells, few of which are for views from below, by all of it. Where no promise for areas is
+ * kept, areas miss by a tenth, those below the horizon by `error`. */
 enum { EVEN_BYTES = 16384, PROMISE_BYTES = 8192, SMALL_BYTES = 6000 };
 static const double AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
 
@@ -24,7 +25,8 @@ static const double AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
  * left. */
 static vndf_budget budget_for_sphere(size_t max_bytes)
 {
-    vndf_budget budget = {.radial = 2, .areas = 60, .finest = AREA_FINEST, .below = 1, .below_areas = 1};
+    vndf_budget budget = {
+        .rows = 1, .radial = 2, .areas = 60, .finest = AREA_FINEST, .below = 1, .below_areas = 1};
     budget.promised = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
     budget.fade = max_bytes < SMALL_BYTES ? 0.05 : 0.0;
     budget.even_rows = max_bytes < EVEN_BYTES;
@@ -37,6 +39,7 @@ static vndf_budget budget_for(size_t max_bytes, int sphere)
     double part = (double)max_bytes / EVEN_BYTES;
     if (sphere || part >= 1)
         return budget;
+    budget.rows = 2;
     budget.radial = 1;
     budget.even_cells = 1;
     budget.below = pow(part, 1.5);
@@ -164,7 +167,7 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     size.radial = vndf_refinement_needed(&plan->radial, error / plan->budget.radial) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
-    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
+    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error / plan->budget.rows));
     size.below_rows = vndf_row_count(vndf_refinement_needed(&plan->below_rows, error));
     size.above_knots = vndf_refinement_needed(&plan->above_area, area);
     size.below_knots = vndf_refinement_needed(&plan->below_area, area);

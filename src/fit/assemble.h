@@ -9,7 +9,8 @@
 
 /* How the parts of a table share one error. */
 typedef struct vndf_budget {
-    double radial;        /* so many times smaller is the error of all radial cells together, */
+    double rows;          /* so many times smaller is the error of rows above the horizon, */
+    double radial;        /* that of all radial cells together, */
     double areas, finest; /* and that of areas, but no smaller than this, */
     double promised;      /* and no larger than this */
     double below;         /* weight of errors below the horizon: vndf_side, */
