@@ -174,6 +174,9 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     return size;
 }
 
+/* Rounds of moving knots: a round of rows takes a millisecond or two, that of cells a tenth. */
+enum { ROW_ROUNDS = 2, CELL_ROUNDS = 5 };
+
 /* Beyond this part of the area, few views see anything: there the cells are for views from deep below the horizon. */
 static const double MANY_SEE = 1e-2;
 
@@ -190,10 +193,10 @@ static size_t many_see(const vndf_plan *plan, size_t count, const double *knots)
 static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
 {
     const vndf_refinement *radial = &plan->radial;
+    const vndf_even even = {radial->knot,   radial->start,       CELL_ROUNDS,
+                            vndf_fit_place, vndf_fit_cell_error, &plan->radial_fit};
     vndf_refinement_knots(radial, count, knots);
-    return !plan->budget.even_cells ||
-           vndf_even_knots(knots, many_see(plan, count, knots), radial->knot, radial->start, vndf_fit_place,
-                           vndf_fit_cell_error, &plan->radial_fit);
+    return !plan->budget.even_cells || vndf_even_knots(knots, many_see(plan, count, knots), &even);
 }
 
 static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
@@ -233,9 +236,9 @@ static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_we
                      double *knots)
 {
     double edge = vndf_side_least(&fit->side);
+    const vndf_even even = {&edge, 1, ROW_ROUNDS, place_between, vndf_wedge_row_error, fit};
     vndf_refinement_knots(rows, count, knots);
-    return !plan->budget.even_rows ||
-           vndf_even_knots(knots, count, &edge, 1, place_between, vndf_wedge_row_error, fit);
+    return !plan->budget.even_rows || vndf_even_knots(knots, count, &even);
 }
 
 static int fill_rows(const vndf_plan *plan, vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit,

@@ -13,83 +13,86 @@ static const double ORDER = 4;
 /* So small an error does not matter: an interval without any takes some room all the same. */
 static const double NEGLIGIBLE = 1e-9;
 
-enum { ROUNDS = 5 };
-
-typedef struct even {
-    size_t count;  /* of knots */
+/* The knots of one table while they are moved. */
+typedef struct moved {
+    const vndf_even *how;
+    size_t count;
     double *knot;  /* now */
     double *best;  /* with the least error so far */
-    double *moved; /* where they will be */
-    double *piece; /* of each interval */
+    double *piece; /* of the interval after each */
     double least;
-} even;
+} moved;
 
 /* Fills the pieces of all intervals; the error of all. */
-static double measure(even *e, vndf_interval_error *error, void *user)
+static double measure(moved *m)
 {
     double share = 0.0, alone = 0.0;
-    for (size_t i = 0; i + 1 < e->count; i++) {
-        vndf_interval_miss miss = error(e->knot[i], e->knot[i + 1], user);
-        double shared = (double)(e->count - 1) * miss.share;
+    for (size_t i = 0; i + 1 < m->count; i++) {
+        vndf_interval_miss miss = m->how->error(m->knot[i], m->knot[i + 1], m->how->user);
+        double shared = (double)(m->count - 1) * miss.share;
         share += miss.share;
         alone = fmax(alone, miss.alone);
-        e->piece[i] = pow(fmax(shared, miss.alone) + NEGLIGIBLE, 1 / ORDER);
+        m->piece[i] = pow(fmax(shared, miss.alone) + NEGLIGIBLE, 1 / ORDER);
     }
     return share + alone;
 }
 
-static void keep_best(even *e, double error)
+static void keep_best(moved *m)
 {
-    if (error < e->least) {
-        e->least = error;
-        memcpy(e->best, e->knot, e->count * sizeof *e->best);
+    double error = measure(m);
+    if (error < m->least) {
+        m->least = error;
+        memcpy(m->best, m->knot, m->count * sizeof *m->best);
     }
 }
 
-/* The knots between two that are held. */
-static void move_between(even *e, size_t from, size_t to, vndf_interval_place *place)
+/* The knots between two that are held, from where they are in `old`. */
+static void move_between(moved *m, const double *old, size_t from, size_t to)
 {
     double all = 0.0, before = 0.0;
     size_t at = from;
     for (size_t i = from; i < to; i++)
-        all += e->piece[i];
+        all += m->piece[i];
     for (size_t i = from + 1; i < to; i++) {
         double wanted = all * (double)(i - from) / (double)(to - from);
-        while (at + 1 < to && before + e->piece[at] < wanted)
-            before += e->piece[at++];
-        e->moved[i] = place(e->knot[at], e->knot[at + 1], fmin((wanted - before) / e->piece[at], 1.0));
+        while (at + 1 < to && before + m->piece[at] < wanted)
+            before += m->piece[at++];
+        m->knot[i] = m->how->place(old[at], old[at + 1], fmin((wanted - before) / m->piece[at], 1.0));
     }
 }
 
-static void move_all(even *e, const double *held, size_t held_count, vndf_interval_place *place)
+static int is_held(const moved *m, double knot)
+{
+    size_t i = 0;
+    while (i < m->how->held_count && m->how->held[i] < knot)
+        i++;
+    return i < m->how->held_count && m->how->held[i] == knot;
+}
+
+/* Moves all knots from where they are in `old`. */
+static void move_all(moved *m, const double *old)
 {
     size_t from = 0;
-    memcpy(e->moved, e->knot, e->count * sizeof *e->moved);
-    for (size_t i = 1; i < e->count; i++) {
-        size_t h = 0;
-        while (h < held_count && held[h] < e->knot[i])
-            h++;
-        if (i + 1 < e->count && !(h < held_count && held[h] == e->knot[i]))
-            continue;
-        move_between(e, from, i, place);
-        from = i;
-    }
-    memcpy(e->knot, e->moved, e->count * sizeof *e->knot);
+    for (size_t i = 1; i < m->count; i++)
+        if (i + 1 == m->count || is_held(m, old[i])) {
+            move_between(m, old, from, i);
+            from = i;
+        }
 }
 
-int vndf_even_knots(double *knots, size_t count, const double *held, size_t held_count, vndf_interval_place *place,
-                    vndf_interval_error *error, void *user)
+int vndf_even_knots(double *knots, size_t count, const vndf_even *how)
 {
-    double *room = malloc(3 * count * sizeof *room);
+    double *room = malloc(3 * count * sizeof *room), *old = room ? room + 2 * count : NULL;
     if (!room)
         return 0;
-    even e = {count, knots, room, room + count, room + 2 * count, HUGE_VAL};
-    keep_best(&e, measure(&e, error, user));
-    for (int i = 0; i < ROUNDS; i++) {
-        move_all(&e, held, held_count, place);
-        keep_best(&e, measure(&e, error, user));
+    moved m = {how, count, knots, room, room + count, HUGE_VAL};
+    keep_best(&m);
+    for (int i = 0; i < how->rounds; i++) {
+        memcpy(old, knots, count * sizeof *old);
+        move_all(&m, old);
+        keep_best(&m);
     }
-    memcpy(knots, e.best, count * sizeof *knots);
+    memcpy(knots, m.best, count * sizeof *knots);
     free(room);
     return 1;
 }

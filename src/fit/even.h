@@ -8,9 +8,18 @@
 /* The knot at this part of the way from a to b. */
 typedef double vndf_interval_place(double a, double b, double part);
 
-/* Moves all of `count` ascending knots but those that `held` lists, in ascending order; the first and the last are held
- * too. Never makes the error larger: the sum of the shares plus the largest alone. 0 if there is no memory. */
-int vndf_even_knots(double *knots, size_t count, const double *held, size_t held_count, vndf_interval_place *place,
-                    vndf_interval_error *error, void *user);
+/* How knots may be moved. */
+typedef struct vndf_even {
+    const double *held; /* ascending: knots that stay where they are, as the first and the last do */
+    size_t held_count;
+    int rounds; /* each looks at the errors of all intervals once; two do most of it */
+    vndf_interval_place *place;
+    vndf_interval_error *error;
+    void *user; /* of the error */
+} vndf_even;
+
+/* Moves `count` ascending knots. Never makes the error larger: the sum of the shares plus the largest alone. 0 if there
+ * is no memory. */
+int vndf_even_knots(double *knots, size_t count, const vndf_even *how);
 
 #endif
