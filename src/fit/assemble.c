@@ -6,56 +6,6 @@
 
 #include "fit/even.h"
 
-/* ---- the budget of errors ----
- *
- * Each azimuth row may miss by `error`. All radial cells together may miss by half of it: they cost less than rows,
- * and a view from below the horizon sees several cells that are judged one at a time. Areas may miss by a sixtieth,
- * which costs a spline of fifth order few knots. Floats hold no area better than AREA_FINEST. A table of half the
- * default size or more keeps the promise for areas, 2e-6, whatever its error is.
- *
- * A smaller table than the default cannot serve the whole sphere well, and most views are above the horizon. So an
- * error below the horizon counts less: a 23rd at 2 KiB, an 8th at 4 KiB; and less where less is seen, a tenth of that
- * at 2 KiB where 1e-10 of the area is left. There, what was measured is best where rows above the horizon may miss by
- * half of `error`, and radial cells, few of which are for views from below, by all of it. Where no promise for areas is
- * kept, areas miss by a tenth, those below the horizon by `error`. */
-enum { EVEN_BYTES = 16384, PROMISE_BYTES = 8192, SMALL_BYTES = 6000 };
-static const double AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
-
-/* For the whole sphere. In a small table errors deep below the horizon count less, a third where 1e-10 of the area is
- * left. */
-static vndf_budget budget_for_sphere(size_t max_bytes)
-{
-    vndf_budget budget = {
-        .rows = 1, .radial = 2, .areas = 60, .finest = AREA_FINEST, .below = 1, .below_areas = 1};
-    budget.promised = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
-    budget.fade = max_bytes < SMALL_BYTES ? 0.05 : 0.0;
-    budget.even_rows = max_bytes < EVEN_BYTES;
-    return budget;
-}
-
-static vndf_budget budget_for(size_t max_bytes, int sphere)
-{
-    vndf_budget budget = budget_for_sphere(max_bytes);
-    double part = (double)max_bytes / EVEN_BYTES;
-    if (sphere || part >= 1)
-        return budget;
-    budget.rows = 2;
-    budget.radial = 1;
-    budget.even_cells = 1;
-    budget.below = pow(part, 1.5);
-    budget.fade = log2(1 / part) / 30;
-    if (max_bytes < PROMISE_BYTES) {
-        budget.areas = 10;
-        budget.below_areas = 0.1;
-    }
-    return budget;
-}
-
-static double area_error(const vndf_budget *budget, double error)
-{
-    return fmin(fmax(error / budget->areas, budget->finest), budget->promised);
-}
-
 /* In the first cell f begins at 0. Only this cell is drawn to first order, so it stays small. */
 static const double POLE_CELL = 1.0 / 512;
 
@@ -100,24 +50,10 @@ static int refine_area(vndf_refinement *area, vndf_side *side, size_t limit, dou
     return vndf_refine(area, start, sizeof start / sizeof *start, limit, enough, NULL, vndf_area_fit_error, side);
 }
 
-/* The most cells of an azimuth row: each takes at most a few per cent of the bytes. */
-static uint32_t most_cells_for(size_t max_bytes)
-{
-    return max_bytes < SMALL_BYTES ? 12 : 32;
-}
-
-/* The least error that this size may reach. */
-static double finest_for(size_t max_bytes)
-{
-    double part = (double)max_bytes / EVEN_BYTES;
-    return fmax(1e-7, 2e-5 * pow(1 / part, part < 1 ? 1 : 2));
-}
-
 int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, int sphere)
 {
-    uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
-    vndf_budget budget = budget_for(max_bytes, sphere);
+    vndf_budget budget = vndf_budget_for(max_bytes, sphere);
     vndf_side above = {profile, 0, 1.0, 0.0, 1.0},
               below = {profile, 1, budget.below, budget.fade, budget.below_areas};
     memset(plan, 0, sizeof *plan);
@@ -125,14 +61,14 @@ int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_byte
     plan->budget = budget;
     plan->radial_fit.below = budget.below;
     plan->radial_fit.fade = budget.fade;
-    plan->finest = finest_for(max_bytes);
+    plan->finest = budget.finest;
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
-        !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
-        !vndf_wedge_fit_from(&plan->below_fit, below, row_cells, 2 * plan->finest))
+        !vndf_wedge_fit_from(&plan->above_fit, above, budget.row_cells, 2 * plan->finest) ||
+        !vndf_wedge_fit_from(&plan->below_fit, below, budget.row_cells, 2 * plan->finest))
         return 0;
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
-    double area = area_error(&budget, plan->finest);
+    double area = vndf_budget_areas(&budget, plan->finest);
     vndf_guard_stage(profile->guard, 0.1, "radial cells");
     int good = refine_radial(plan, cell_limit);
     vndf_guard_stage(profile->guard, 0.2, "azimuth rows above the horizon");
@@ -162,7 +98,7 @@ void vndf_plan_free(vndf_plan *plan)
 
 vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
 {
-    double area = area_error(&plan->budget, error);
+    double area = vndf_budget_areas(&plan->budget, error);
     vndf_table_size size;
     size.radial = vndf_refinement_needed(&plan->radial, error / plan->budget.radial) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
@@ -172,6 +108,16 @@ vndf_table_size vndf_plan_size(const vndf_plan *plan, double error)
     size.above_knots = vndf_refinement_needed(&plan->above_area, area);
     size.below_knots = vndf_refinement_needed(&plan->below_area, area);
     return size;
+}
+
+/* A cell this narrow, relative to its slope, may not be made narrower. */
+static const double NARROW = 1e-4;
+
+static vndf_interval_miss cell_error(double a, double b, void *fit)
+{
+    vndf_interval_miss miss = vndf_fit_cell_error(a, b, fit);
+    miss.alone = b - a > NARROW * a ? miss.alone : HUGE_VAL;
+    return miss;
 }
 
 /* Rounds of moving knots: a round of rows takes a millisecond or two, that of cells a tenth. */
@@ -193,8 +139,8 @@ static size_t many_see(const vndf_plan *plan, size_t count, const double *knots)
 static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
 {
     const vndf_refinement *radial = &plan->radial;
-    const vndf_even even = {radial->knot,   radial->start,       CELL_ROUNDS,
-                            vndf_fit_place, vndf_fit_cell_error, &plan->radial_fit};
+    const vndf_even even = {radial->knot,   radial->start, CELL_ROUNDS,
+                            vndf_fit_place, cell_error,    &plan->radial_fit};
     vndf_refinement_knots(radial, count, knots);
     return !plan->budget.even_cells || vndf_even_knots(knots, many_see(plan, count, knots), &even);
 }

@@ -2,23 +2,11 @@
 #ifndef VNDF_FIT_ASSEMBLE_H
 #define VNDF_FIT_ASSEMBLE_H
 
+#include "fit/budget.h"
 #include "fit/radial_fit.h"
 #include "fit/refine.h"
 #include "fit/wedge_fit.h"
 #include "table/layout.h"
-
-/* How the parts of a table share one error. */
-typedef struct vndf_budget {
-    double rows;          /* so many times smaller is the error of rows above the horizon, */
-    double radial;        /* that of all radial cells together, */
-    double areas, finest; /* and that of areas, but no smaller than this, */
-    double promised;      /* and no larger than this */
-    double below;         /* weight of errors below the horizon: vndf_side, */
-    double fade;
-    double below_areas; /* and of the areas there */
-    int even_rows;      /* knots of a table that is cut are moved: fit/even.h */
-    int even_cells;
-} vndf_budget;
 
 typedef struct vndf_plan {
     const vndf_profile *profile;
@@ -26,7 +14,7 @@ typedef struct vndf_plan {
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
     vndf_budget budget;
-    double finest; /* the error down to which the fits were refined */
+    double finest; /* the error down to which the fits were refined: that of the budget */
 } vndf_plan;
 
 /* Refines all fits as far as max_bytes may ever need, for the whole sphere alike or, in a small table, above the

@@ -37,13 +37,15 @@ static double measure(moved *m)
     return share + alone;
 }
 
-static void keep_best(moved *m)
+/* Whether knots may be moved from here. */
+static int keep_best(moved *m)
 {
     double error = measure(m);
     if (error < m->least) {
         m->least = error;
         memcpy(m->best, m->knot, m->count * sizeof *m->best);
     }
+    return error < HUGE_VAL;
 }
 
 /* The knots between two that are held, from where they are in `old`. */
@@ -86,11 +88,10 @@ int vndf_even_knots(double *knots, size_t count, const vndf_even *how)
     if (!room)
         return 0;
     moved m = {how, count, knots, room, room + count, HUGE_VAL};
-    keep_best(&m);
-    for (int i = 0; i < how->rounds; i++) {
+    memcpy(m.best, knots, count * sizeof *knots);
+    for (int i = 0; keep_best(&m) && i < how->rounds; i++) {
         memcpy(old, knots, count * sizeof *old);
         move_all(&m, old);
-        keep_best(&m);
     }
     memcpy(knots, m.best, count * sizeof *knots);
     free(room);

@@ -14,8 +14,8 @@ typedef struct vndf_even {
     size_t held_count;
     int rounds; /* each looks at the errors of all intervals once; two do most of it */
     vndf_interval_place *place;
-    vndf_interval_error *error;
-    void *user; /* of the error */
+    vndf_interval_error *error; /* infinite where an interval is too narrow: then all knots stay, or go back */
+    void *user;                 /* of the error */
 } vndf_even;
 
 /* Moves `count` ascending knots. Never makes the error larger: the sum of the shares plus the largest alone. 0 if there
