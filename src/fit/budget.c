@@ -7,7 +7,7 @@
  * error below the horizon counts less: a 23rd at 2 KiB, an 8th at 4 KiB; and less where less is seen, a tenth of that
  * at 2 KiB where 1e-10 of the area is left. There, what was measured is best where rows above the horizon may miss by
  * half of `error`, and radial cells, few of which are for views from below, by all of it. Where no promise for areas is
- * kept, areas miss by a tenth, those below the horizon by `error`. */
+ * kept, areas miss by a tenth, those below the horizon by half of `error`. */
 #include "fit/budget.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ vndf_budget vndf_budget_for(size_t max_bytes, int sphere)
     budget.fade = log2(1 / part) / 30;
     if (max_bytes < PROMISE_BYTES) {
         budget.areas = 10;
-        budget.below_areas = 0.1;
+        budget.below_areas = 0.2;
     }
     return budget;
 }
