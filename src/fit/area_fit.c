@@ -15,7 +15,8 @@ double vndf_side_share(const vndf_side *side, double y)
     double mass = vndf_side_area(side, y).mass;
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
-    return vndf_profile_fade(side->profile, mass / (side->profile->f1 * hypot(y, 1 - y)), side->fade);
+    double seen = mass / (side->profile->f1 * hypot(y, 1 - y));
+    return side->weight * vndf_profile_fade(side->profile, seen, side->fade);
 }
 
 double vndf_side_least(const vndf_side *side)
@@ -54,20 +55,27 @@ void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_kn
     free_end->curve = fmin(fmax(missing * 2 / (h * h), 0.0), CURVE_MOST);
 }
 
+/* What an error of the mass at y counts against. */
+static double whole_at(const vndf_side *side, double y, double mass)
+{
+    double seen = mass + 0.1 * vndf_profile_claimed(side->profile) * side->profile->f1;
+    if (!side->below)
+        return mass / vndf_side_share(side, y);
+    return side->areas < 1 ? fmin(seen / side->areas, mass + (1 - y) / 2) : seen;
+}
+
 vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
 {
     static const double at[] = {0.2, 0.45, 0.7, 0.85};
     const vndf_side *side = user;
     vndf_area_knot from, to;
     double h = b - a, worst = 0.0, piece[VNDF_AREA_ORDER];
-    double negligible = 0.1 * vndf_profile_claimed(side->profile) * side->profile->f1;
     vndf_area_fit_piece(side, a, b, &from, &to);
     vndf_area_piece(h, from, to, piece);
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
         double y = a + at[i] * h, reference = vndf_side_area(side, y).mass;
         double error = fabs(vndf_area_piece_at(piece, at[i]) - reference);
-        double whole = side->below ? reference + negligible : reference / vndf_side_share(side, y);
-        worst = fmax(worst, error / whole);
+        worst = fmax(worst, error / whole_at(side, y, reference));
     }
     vndf_interval_miss found = {0.0, h > 1e-9 ? worst : 0.0};
     return found;

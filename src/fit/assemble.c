@@ -4,24 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The budget of errors. Each azimuth row may miss by `error`. All radial cells together may miss by half of it:
- * they cost less than rows, and a view from below the horizon sees several cells that are judged one at a time.
- * Areas may miss by a sixtieth, which costs a spline of fifth order few knots. Floats hold no area better than
- * AREA_FINEST. A table of half the default size or more keeps the promise for areas, 2e-6, whatever its error
- * is. */
-static const double RADIAL_BETTER = 2, AREAS_BETTER = 60, AREA_FINEST = 2e-7, AREA_PROMISED = 9e-7;
-enum { PROMISE_BYTES = 8192 };
-
-static double area_error(size_t max_bytes, double error)
-{
-    double most = max_bytes < PROMISE_BYTES ? 1.0 : AREA_PROMISED;
-    return fmin(fmax(error / AREAS_BETTER, AREA_FINEST), most);
-}
-
-/* A small table spends its bytes where most is visible: errors deep below the horizon count less, a third where
- * 1e-10 of the area is left. */
-enum { SMALL_BYTES = 6000 };
-static const double FADE_OF_SMALL = 0.05;
+#include "fit/even.h"
 
 /* In the first cell f begins at 0. Only this cell is drawn to first order, so it stays small. */
 static const double POLE_CELL = 1.0 / 512;
@@ -54,8 +37,10 @@ static int begin_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit)
 {
     double least = vndf_side_least(&fit->side);
     const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
-    int ends = least > ROWS_END;
-    return vndf_refine_begin(rows, ends ? seen : whole, ends ? 4 : 3, limit, NULL, vndf_wedge_row_error, fit);
+    const double few[] = {0.0, 1.0}, few_seen[] = {0.0, least, 1.0};
+    int ends = least > ROWS_END, all = fit->side.weight >= 1;
+    const double *start = all ? (ends ? seen : whole) : ends ? few_seen : few;
+    return vndf_refine_begin(rows, start, 2 + (size_t)ends + (size_t)all, limit, NULL, vndf_wedge_row_error, fit);
 }
 
 static int begin_area(vndf_refinement *area, vndf_side *side, size_t limit)
@@ -64,26 +49,21 @@ static int begin_area(vndf_refinement *area, vndf_side *side, size_t limit)
     return vndf_refine_begin(area, start, sizeof start / sizeof *start, limit, NULL, vndf_area_fit_error, side);
 }
 
-/* The most cells of an azimuth row: each takes at most a few per cent of the bytes. */
-static uint32_t most_cells_for(size_t max_bytes)
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, int sphere)
 {
-    return max_bytes < SMALL_BYTES ? 12 : 32;
-}
-
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes)
-{
-    uint32_t row_cells = most_cells_for(max_bytes);
     size_t most_rows = max_bytes / 64, most_cells = max_bytes / 24, most_knots = max_bytes / 12;
-    double fade = max_bytes < SMALL_BYTES ? FADE_OF_SMALL : 0.0;
-    vndf_side above = {profile, 0, fade}, below = {profile, 1, fade};
+    vndf_budget budget = vndf_budget_for(max_bytes, sphere);
+    vndf_side above = {profile, 0, 1.0, 0.0, 1.0},
+              below = {profile, 1, budget.below, budget.fade, budget.below_areas};
     memset(plan, 0, sizeof *plan);
     plan->profile = profile;
-    plan->max_bytes = max_bytes;
-    plan->radial_fit.fade = fade;
-    plan->finest = fmax(1e-7, 2e-5 * pow(16384.0 / (double)max_bytes, 2));
+    plan->budget = budget;
+    plan->radial_fit.below = budget.below;
+    plan->radial_fit.fade = budget.fade;
+    plan->finest = budget.finest;
     if (!vndf_radial_fit_from(&plan->radial_fit, profile) ||
-        !vndf_wedge_fit_from(&plan->above_fit, above, row_cells, 2 * plan->finest) ||
-        !vndf_wedge_fit_from(&plan->below_fit, below, row_cells, 2 * plan->finest))
+        !vndf_wedge_fit_from(&plan->above_fit, above, budget.row_cells, 2 * plan->finest) ||
+        !vndf_wedge_fit_from(&plan->below_fit, below, budget.row_cells, 2 * plan->finest))
         return 0;
     size_t cell_limit = most_cells < 4000 ? most_cells : 4000, row_limit = most_rows < 1000 ? most_rows : 1000;
     size_t knot_limit = most_knots < 1000 ? most_knots : 1000;
@@ -124,27 +104,63 @@ static void refine_rows_to(const vndf_plan *plan, vndf_refinement *rows, vndf_we
 
 vndf_table_size vndf_plan_size(vndf_plan *plan, double error)
 {
-    double area = area_error(plan->max_bytes, error);
+    double area = vndf_budget_areas(&plan->budget, error);
     vndf_table_size size;
-    vndf_refine_to(&plan->radial, fmax(error / RADIAL_BETTER, plan->finest));
-    refine_rows_to(plan, &plan->above_rows, &plan->above_fit, error);
+    vndf_refine_to(&plan->radial, fmax(error / plan->budget.radial, plan->finest));
+    refine_rows_to(plan, &plan->above_rows, &plan->above_fit, fmax(error / plan->budget.rows, plan->finest));
     refine_rows_to(plan, &plan->below_rows, &plan->below_fit, error);
     vndf_refine_to(&plan->above_area, area);
     vndf_refine_to(&plan->below_area, area);
-    size.radial = vndf_refinement_needed(&plan->radial, error / RADIAL_BETTER) - 1;
+    size.radial = vndf_refinement_needed(&plan->radial, error / plan->budget.radial) - 1;
     size.above_cells = vndf_wedge_fit_cells(&plan->above_fit, error);
     size.below_cells = vndf_wedge_fit_cells(&plan->below_fit, error);
-    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error));
+    size.above_rows = vndf_row_count(vndf_refinement_needed(&plan->above_rows, error / plan->budget.rows));
     size.below_rows = vndf_row_count(vndf_refinement_needed(&plan->below_rows, error));
     size.above_knots = vndf_refinement_needed(&plan->above_area, area);
     size.below_knots = vndf_refinement_needed(&plan->below_area, area);
     return size;
 }
 
-static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
+/* A cell this narrow, relative to its slope, may not be made narrower. */
+static const double NARROW = 1e-4;
+
+static vndf_interval_miss cell_error(double a, double b, void *fit)
+{
+    vndf_interval_miss miss = vndf_fit_cell_error(a, b, fit);
+    miss.alone = b - a > NARROW * a ? miss.alone : HUGE_VAL;
+    return miss;
+}
+
+/* Rounds of moving knots: a round of rows takes a millisecond or two, that of cells a tenth. */
+enum { ROW_ROUNDS = 2, CELL_ROUNDS = 5 };
+
+/* Beyond this part of the area, few views see anything: there the cells are for views from deep below the horizon. */
+static const double MANY_SEE = 1e-2;
+
+/* How many of these knots there are up to the last that many views see. */
+static size_t many_see(const vndf_plan *plan, size_t count, const double *knots)
+{
+    size_t n = 2;
+    while (n < count && vndf_profile_s(plan->profile, knots[n - 1]) > MANY_SEE * plan->profile->f1)
+        n++;
+    return n;
+}
+
+/* The knots of the radial cells; those that were given stay where they are. 0 if there is no memory. */
+static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
+{
+    const vndf_refinement *radial = &plan->radial;
+    const vndf_even even = {radial->knot,   radial->start, CELL_ROUNDS,
+                            vndf_fit_place, cell_error,    &plan->radial_fit};
+    vndf_refinement_knots(radial, count, knots);
+    return !plan->budget.even_cells || vndf_even_knots(knots, many_see(plan, count, knots), &even);
+}
+
+static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
 {
     uint32_t n = table->radial_count;
-    vndf_refinement_knots(&plan->radial, n + 1, knots);
+    if (!radial_knots(plan, n + 1, knots))
+        return 0;
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
@@ -153,6 +169,7 @@ static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots
         a = b;
     }
     table->knots.at[n] = (vndf_knot){a.x, a.z};
+    return 1;
 }
 
 static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
@@ -166,11 +183,28 @@ static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t
     }
 }
 
-static int fill_rows(vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit, double *knots)
+static double place_between(double a, double b, double part)
+{
+    return a + (b - a) * part;
+}
+
+/* Where rows stand; the edge of the visible part stays where it is. 0 if there is no memory. */
+static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_wedge_fit *fit, uint32_t count,
+                     double *knots)
+{
+    double edge = vndf_side_least(&fit->side);
+    const vndf_even even = {&edge, 1, ROW_ROUNDS, place_between, vndf_wedge_row_error, fit};
+    vndf_refinement_knots(rows, count, knots);
+    return !plan->budget.even_rows || vndf_even_knots(knots, count, &even);
+}
+
+static int fill_rows(const vndf_plan *plan, vndf_wedge *wedge, const vndf_refinement *rows, vndf_wedge_fit *fit,
+                     double *knots)
 {
     uint32_t count = vndf_row_knots(wedge->row_count);
     vndf_wedge_fit_use(fit, wedge->cell_count);
-    vndf_refinement_knots(rows, count, knots);
+    if (!row_knots(plan, rows, fit, count, knots))
+        return 0;
     memcpy(wedge->q, fit->node, (fit->cells + 1) * sizeof *wedge->q);
     for (uint32_t i = 0; i < count; i++) {
         const vndf_row *row = vndf_wedge_fit_row(fit, knots[i]);
@@ -226,10 +260,10 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
     vndf_distribution *table = vndf_table_allocate(size);
     size_t most = size.radial + size.above_rows + size.below_rows + size.above_knots + size.below_knots + 8;
     double *knots = malloc(most * sizeof *knots);
-    int good = table && knots && fill_rows(&table->above, &plan->above_rows, &plan->above_fit, knots) &&
-               fill_rows(&table->below, &plan->below_rows, &plan->below_fit, knots);
+    int good = table && knots && fill_rows(plan, &table->above, &plan->above_rows, &plan->above_fit, knots) &&
+               fill_rows(plan, &table->below, &plan->below_rows, &plan->below_fit, knots) &&
+               fill_radial(plan, table, knots);
     if (good) {
-        fill_radial(plan, table, knots);
         fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
         fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;

@@ -2,6 +2,7 @@
 #ifndef VNDF_FIT_ASSEMBLE_H
 #define VNDF_FIT_ASSEMBLE_H
 
+#include "fit/budget.h"
 #include "fit/radial_fit.h"
 #include "fit/refine.h"
 #include "fit/wedge_fit.h"
@@ -12,12 +13,13 @@ typedef struct vndf_plan {
     vndf_radial_fit radial_fit;
     vndf_wedge_fit above_fit, below_fit;
     vndf_refinement radial, above_rows, below_rows, above_area, below_area;
-    size_t max_bytes;
-    double finest; /* the least error of which sizes are asked */
+    vndf_budget budget;
+    double finest; /* the least error of which sizes are asked: that of the budget */
 } vndf_plan;
 
-/* Begins all fits. 0 if there is no memory or the guard of the profile stopped the build. */
-int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes);
+/* Begins all fits, for the whole sphere alike or, in a small table, above the horizon first. 0 if there is no memory or
+ * the guard of the profile stopped the build. */
+int vndf_plan_make(vndf_plan *plan, const vndf_profile *profile, size_t max_bytes, int sphere);
 void vndf_plan_free(vndf_plan *plan);
 
 /* The counts of the table whose parts each err by less than `error`, which is no less than `finest`. Refines the fits

@@ -25,7 +25,7 @@ static const char TOOL[] = "vndf " VNDF_VERSION;
 typedef struct request {
     size_t max_bytes;
     double max_tv;
-    int quick;
+    int quick, sphere;
 } request;
 
 static char *copy(const char *text)
@@ -161,11 +161,12 @@ static vndf_distribution *cut_table(vndf_plan *plan, const request *asked, vndf_
     return asked->max_tv > 0.0 ? build_to_tv(plan, best, asked, error) : finish(plan, best, asked->quick, error);
 }
 
+/* max_tv bounds all directions, so the table for it serves all of them alike. */
 static vndf_distribution *build_within(const vndf_profile *profile, const request *asked, vndf_error *error)
 {
     vndf_plan plan;
     vndf_distribution *table = NULL;
-    if (vndf_plan_make(&plan, profile, asked->max_bytes))
+    if (vndf_plan_make(&plan, profile, asked->max_bytes, asked->sphere || asked->max_tv > 0.0))
         table = cut_table(&plan, asked, error);
     else if (!vndf_guard_stopped(profile->guard))
         profile->guard->starved = 1;
@@ -177,7 +178,7 @@ static vndf_distribution *build_default(const vndf_profile *profile, int quick, 
 {
     vndf_distribution *table = NULL;
     for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
-        const request asked = {BYTES_TRIED[i], 0.0, quick};
+        const request asked = {BYTES_TRIED[i], 0.0, quick, 0};
         vndf_distribution *larger = build_within(profile, &asked, error);
         int good = larger && reaches(profile, larger, TV_DEFAULT), taken = good || !table;
         vndf_free(taken ? table : larger);
@@ -202,6 +203,8 @@ static vndf_status check_request(const vndf_source *source, const request *asked
                          "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
     if (asked->quick != 0 && asked->quick != 1)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "quick is %d; 0 and 1 are possible", asked->quick);
+    if (asked->sphere != 0 && asked->sphere != 1)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "sphere is %d; 0 and 1 are possible", asked->sphere);
     return VNDF_OK;
 }
 
@@ -209,7 +212,8 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
                               vndf_certificate *certificate, vndf_error *error)
 {
     vndf_build_options none = {0}, given = options ? *options : none;
-    const request asked = {given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv, given.quick};
+    const request asked = {given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv, given.quick,
+                           given.sphere};
     if (check_request(source, &asked, error) != VNDF_OK)
         return NULL;
     vndf_resolution resolution = {given.breaks, given.break_count, given.finest};

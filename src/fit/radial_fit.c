@@ -94,10 +94,15 @@ vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r)
     return knot;
 }
 
-double vndf_fit_middle(double a, double b)
+double vndf_fit_place(double a, double b, double part)
 {
     double xa = a / (1 + a), za = 1 / (1 + a), xb = b < HUGE_VAL ? b / (1 + b) : 1.0, zb = 1 / (1 + b);
-    return (xa + xb) / (za + zb);
+    return ((1 - part) * xa + part * xb) / ((1 - part) * za + part * zb);
+}
+
+double vndf_fit_middle(double a, double b)
+{
+    return vndf_fit_place(a, b, 0.5);
 }
 
 /* ---- cells ---- */
@@ -254,7 +259,7 @@ static size_t panels_between(const vndf_profile *profile, double a, double b)
  * incidence; it falls to 0 as the slope becomes infinite. */
 static double weight_of_view(const vndf_radial_fit *fit, double seen, double r)
 {
-    return vndf_profile_fade(fit->profile, seen, fit->fade) / (1 + r * 1e-8);
+    return fit->below * vndf_profile_fade(fit->profile, seen, fit->fade) / (1 + r * 1e-8);
 }
 
 /* The weight of a cell's error for views below the horizon whose cut lies before the cell: its share of the mass

@@ -15,7 +15,8 @@ typedef struct vndf_fit_knot {
 
 typedef struct vndf_radial_fit {
     const vndf_profile *profile;
-    double fade;  /* power of vndf_profile_fade */
+    double below; /* weight of errors that only views from below the horizon see, */
+    double fade;  /* and how it falls with what they see: power of vndf_profile_fade */
     double *jump; /* slopes where P jumps, ascending */
     size_t jump_count;
 } vndf_radial_fit;
@@ -26,7 +27,8 @@ void vndf_radial_fit_free(vndf_radial_fit *fit);
 
 vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r);
 
-/* Halfway between two slopes in R/(1 + R): a vndf_interval_middle. */
+/* A part of the way between two slopes in R/(1 + R): a vndf_interval_place. And half of it: a vndf_interval_middle. */
+double vndf_fit_place(double a, double b, double part);
 double vndf_fit_middle(double a, double b);
 
 /* f0, f1, mu0, mu1 of the cell between two knots; the cubic never falls below 0. */

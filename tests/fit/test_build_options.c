@@ -8,9 +8,10 @@
 
 static unsigned char bytes[1 << 20];
 
+/* Of all but the checksum at the end: with it, that of every table is the same. */
 static uint32_t checksum_of(const vndf_distribution *table)
 {
-    return vndf_crc32(0, bytes, vndf_table_encode(table, bytes, sizeof bytes));
+    return vndf_crc32(0, bytes, vndf_table_encode(table, bytes, sizeof bytes) - 4);
 }
 
 static void test_sizes(void)

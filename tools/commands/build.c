@@ -39,6 +39,8 @@ static const char help[] =
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
     "  --certificate quick|full    how the table is measured (default full). quick takes a quarter of the time, looks\n"
     "                  at fewer directions, and may find two thirds of the error; the table is the same, and says so\n"
+    "  --sphere        a table below 16384 bytes serves all directions alike; without it those above the horizon\n"
+    "                  first (--max-tv bounds all directions, and its tables serve them alike)\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
     "With --parameter, tables along a number of a family, in one file: between two of these knots the family is used\n"
@@ -51,7 +53,7 @@ static const char help[] =
     "                  that are visible at grazing incidence weigh the tail: where it is heavy they may be 0.06 off\n"
     "                  (student-t from 1.6; the line `grazing` of vndf info)\n"
     "  --knots N       2 to 256 knots, where that distance is least\n"
-    "  --max-bytes N   of each table\n"
+    "  --max-bytes N   of each table; --sphere as above\n"
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
@@ -60,7 +62,7 @@ static const char help[] =
 
 typedef struct build_words {
     source_words source;
-    words list, bytes, tv, breaks, finest, parameter, knots, certificate, output;
+    words list, bytes, tv, sphere, breaks, finest, parameter, knots, certificate, output;
 } build_words;
 
 static int print_list(void)
@@ -109,6 +111,7 @@ static vndf_distribution *build_table(const vndf_source *source, const build_wor
         !read_resolution(given, breaks, &options) || !read_certificate(given, &options.quick))
         return NULL;
     options.max_bytes = (size_t)bytes;
+    options.sphere = given->sphere.count > 0;
     options.progress = progress_show;
     options.progress_user = &p;
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
@@ -183,7 +186,7 @@ static int check_words(const build_words *given)
 static int build_one_family(const build_words *given)
 {
     const family_words words_of = {given->source.family, given->parameter, given->knots, given->tv,
-                                   given->bytes,         given->output};
+                                   given->bytes,         given->sphere,    given->output};
     unsigned held = output_hold_signals();
     int status = build_family(name, &words_of, held);
     output_release_signals(held);
@@ -207,19 +210,13 @@ int command_build(int argc, char **argv)
     build_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},
-        {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv},
-        {"--family", 1, 1, &given.source.family},
-        {"--list", 0, 1, &given.list},
-        {"--set", 1, WORDS_MAX, &given.source.set},
-        {"--max-bytes", 1, 1, &given.bytes},
-        {"--max-tv", 1, 1, &given.tv},
-        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
-        {"--finest", 1, 1, &given.finest},
-        {"--parameter", 1, 1, &given.parameter},
-        {"--knots", 1, 1, &given.knots},
-        {"--certificate", 1, 1, &given.certificate},
+        {"--ndf", 1, 1, &given.source.ndf},  {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
+        {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
+        {"--sphere", 0, 1, &given.sphere},   {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
+        {"--finest", 1, 1, &given.finest},   {"--parameter", 1, 1, &given.parameter},
+        {"--knots", 1, 1, &given.knots},     {"--certificate", 1, 1, &given.certificate},
         {"-o", 1, 1, &given.output},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};

@@ -36,6 +36,7 @@ static int read_options(const char *command, const family_words *given, vndf_fam
         !option_count(command, "--knots", &given->knots, 2, VNDF_LIMIT_FAMILY_KNOTS, &knots))
         return 0;
     options->max_bytes = (size_t)bytes;
+    options->sphere = given->sphere.count > 0;
     options->knots = (size_t)knots;
     return 1;
 }
