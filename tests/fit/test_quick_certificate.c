@@ -167,7 +167,7 @@ static void test_recipes(void)
 static void test_target(void)
 {
     vndf_certificate full = {.tv = 0}, quick = full;
-    vndf_source *source = oracle_source_of("gtr:1.5", NULL);
+    vndf_source *source = oracle_source_of("epd:0.6", NULL);
     vndf_build_options all = {.max_bytes = 4096, .sphere = 1}; /* as tables for a target are */
     vndf_free(vndf_build(source, &all, &full, NULL));
     all.quick = 1;
