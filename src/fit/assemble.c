@@ -121,46 +121,13 @@ vndf_table_size vndf_plan_size(vndf_plan *plan, double error)
     return size;
 }
 
-/* A cell this narrow, relative to its slope, may not be made narrower. */
-static const double NARROW = 1e-4;
+/* A round takes a millisecond or two. */
+enum { ROW_ROUNDS = 2 };
 
-static vndf_interval_miss cell_error(double a, double b, void *fit)
-{
-    vndf_interval_miss miss = vndf_fit_cell_error(a, b, fit);
-    miss.alone = b - a > NARROW * a ? miss.alone : HUGE_VAL;
-    return miss;
-}
-
-/* Rounds of moving knots: a round of rows takes a millisecond or two, that of cells a tenth. */
-enum { ROW_ROUNDS = 2, CELL_ROUNDS = 5 };
-
-/* Beyond this part of the area, few views see anything: there the cells are for views from deep below the horizon. */
-static const double MANY_SEE = 1e-2;
-
-/* How many of these knots there are up to the last that many views see. */
-static size_t many_see(const vndf_plan *plan, size_t count, const double *knots)
-{
-    size_t n = 2;
-    while (n < count && vndf_profile_s(plan->profile, knots[n - 1]) > MANY_SEE * plan->profile->f1)
-        n++;
-    return n;
-}
-
-/* The knots of the radial cells; those that were given stay where they are. 0 if there is no memory. */
-static int radial_knots(vndf_plan *plan, uint32_t count, double *knots)
-{
-    const vndf_refinement *radial = &plan->radial;
-    const vndf_even even = {radial->knot,   radial->start, CELL_ROUNDS,
-                            vndf_fit_place, cell_error,    &plan->radial_fit};
-    vndf_refinement_knots(radial, count, knots);
-    return !plan->budget.even_cells || vndf_even_knots(knots, many_see(plan, count, knots), &even);
-}
-
-static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
+static void fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
 {
     uint32_t n = table->radial_count;
-    if (!radial_knots(plan, n + 1, knots))
-        return 0;
+    vndf_refinement_knots(&plan->radial, n + 1, knots);
     vndf_fit_knot a = vndf_fit_knot_at(&plan->radial_fit, 0.0);
     for (uint32_t j = 0; j < n; j++) {
         vndf_fit_knot b = vndf_fit_knot_at(&plan->radial_fit, knots[j + 1]);
@@ -169,7 +136,6 @@ static int fill_radial(vndf_plan *plan, vndf_distribution *table, double *knots)
         a = b;
     }
     table->knots.at[n] = (vndf_knot){a.x, a.z};
-    return 1;
 }
 
 static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t cells)
@@ -261,9 +227,9 @@ vndf_distribution *vndf_plan_assemble(vndf_plan *plan, vndf_table_size size)
     size_t most = size.radial + size.above_rows + size.below_rows + size.above_knots + size.below_knots + 8;
     double *knots = malloc(most * sizeof *knots);
     int good = table && knots && fill_rows(plan, &table->above, &plan->above_rows, &plan->above_fit, knots) &&
-               fill_rows(plan, &table->below, &plan->below_rows, &plan->below_fit, knots) &&
-               fill_radial(plan, table, knots);
+               fill_rows(plan, &table->below, &plan->below_rows, &plan->below_fit, knots);
     if (good) {
+        fill_radial(plan, table, knots);
         fill_area(&table->above, &plan->above_area, &plan->above_fit.side, knots);
         fill_area(&table->below, &plan->below_area, &plan->below_fit.side, knots);
         table->normalization = plan->profile->normalization;

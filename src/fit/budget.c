@@ -38,7 +38,6 @@ vndf_budget vndf_budget_for(size_t max_bytes, int sphere)
         return budget;
     budget.rows = 2;
     budget.radial = 1;
-    budget.even_cells = 1;
     budget.below = pow(part, 1.5);
     budget.fade = log2(1 / part) / 30;
     if (max_bytes < PROMISE_BYTES) {

@@ -15,8 +15,7 @@ typedef struct vndf_budget {
     double below;               /* weight of errors below the horizon: vndf_side, */
     double fade;
     double below_areas; /* and of the areas there */
-    int even_rows;      /* knots of a table that is cut are moved: fit/even.h */
-    int even_cells;
+    int even_rows;      /* rows of a table that is cut are moved: fit/even.h */
 } vndf_budget;
 
 /* For tables of at most this size: for the whole sphere alike, or in a small table above the horizon first. */

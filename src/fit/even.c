@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows err by the third power of their distance, radial cells by the fourth. The higher power moves knots less. */
+/* Rows err by the third power of their distance. A higher one moves knots less, and does not overshoot. */
 static const double ORDER = 4;
 
 /* So small an error does not matter: an interval without any takes some room all the same. */

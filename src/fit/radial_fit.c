@@ -94,15 +94,10 @@ vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r)
     return knot;
 }
 
-double vndf_fit_place(double a, double b, double part)
-{
-    double xa = a / (1 + a), za = 1 / (1 + a), xb = b < HUGE_VAL ? b / (1 + b) : 1.0, zb = 1 / (1 + b);
-    return ((1 - part) * xa + part * xb) / ((1 - part) * za + part * zb);
-}
-
 double vndf_fit_middle(double a, double b)
 {
-    return vndf_fit_place(a, b, 0.5);
+    double xa = a / (1 + a), za = 1 / (1 + a), xb = b < HUGE_VAL ? b / (1 + b) : 1.0, zb = 1 / (1 + b);
+    return (xa + xb) / (za + zb);
 }
 
 /* ---- cells ---- */

@@ -27,8 +27,7 @@ void vndf_radial_fit_free(vndf_radial_fit *fit);
 
 vndf_fit_knot vndf_fit_knot_at(const vndf_radial_fit *fit, double r);
 
-/* A part of the way between two slopes in R/(1 + R): a vndf_interval_place. And half of it: a vndf_interval_middle. */
-double vndf_fit_place(double a, double b, double part);
+/* Halfway between two slopes in R/(1 + R): a vndf_interval_middle. */
 double vndf_fit_middle(double a, double b);
 
 /* f0, f1, mu0, mu1 of the cell between two knots; the cubic never falls below 0. */

@@ -213,12 +213,12 @@ static void test_floor(void)
 /* The samples of a small table show the error that its certificate states, and no more. */
 static void test_small_table(const method_reference *reference, const vndf_distribution *small)
 {
-    float claimed = vndf_distribution_info(small).certificate.tv;
+    float claimed = vndf_distribution_info(small).certificate.tv_above;
     method m = method_ours(small, "small", VNDF_INSTRUCTIONS_BEST);
     double worst = 0;
     for (double theta = 0; theta < 90; theta += 15)
         worst = fmax(worst, findings_of(&m, reference, theta, 16).tv);
-    TEST(worst <= 1.02 * (double)claimed && worst > 0.02 * (double)claimed);
+    TEST(worst <= 1.02 * (double)claimed && worst > 0.1 * (double)claimed);
 }
 
 static void test_fresnel(void)

@@ -129,7 +129,7 @@ static void write_advice(FILE *html, const report_subject *s)
         fputs(" Larger sizes were left out to keep to the time that this page may take (--seconds).", html);
     fputs("<br><code>vndf build ", html);
     svg_escape(html, s->arguments);
-    fprintf(html, " --max-bytes %zu -o table.vndf</code></p>\n", s->table[s->chosen].asked);
+    fprintf(html, " --max-bytes %zu --sphere -o table.vndf</code></p>\n", s->table[s->chosen].asked);
 }
 
 /* ---- the table ----------------------------------------------------------------------------------- */

@@ -109,7 +109,8 @@ vndf_status report_subject_begin(report_subject *subject, vndf_source *source, c
 static vndf_status build_one(report_subject *subject, size_t bytes, const report_watch *watch, vndf_error *error)
 {
     report_table *t = &subject->table[subject->count];
-    vndf_build_options options = {.max_bytes = bytes, .progress = watch->progress, .progress_user = watch->user};
+    vndf_build_options options = {
+        .max_bytes = bytes, .sphere = 1, .progress = watch->progress, .progress_user = watch->user};
     *t = (report_table){.asked = bytes};
     t->table = vndf_build(subject->source, &options, NULL, error);
     if (!t->table)
