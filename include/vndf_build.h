@@ -109,9 +109,9 @@ typedef int vndf_progress(double done, const char *what, void *user);
  *
  * Directions. From 16384 bytes on, a table serves all directions alike. A smaller one spends its bytes above the
  * horizon first, where the views of single scattering are: at 2048 and 4096 bytes the total variation there (tv_above
- * of vndf_certificate) is about a fifth of what an even table has; deep below the horizon it is two or three times as large, for
- * rings and light tails up to twenty times. With `sphere`, and with max_tv, which bounds all directions, the table is
- * even.
+ * of vndf_certificate) is about a fifth of what an even table has; deep below the horizon it is two or three times as
+ * large, for rings and light tails up to twenty times. With `sphere`, and with max_tv, which bounds all directions, the
+ * table is even.
  *
  * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and looks
  * at every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
