@@ -75,8 +75,10 @@ VNDF_INLINE vndf_bsdf_normal vndf_bsdf_visible(const vndf_bsdf *b, vndf_vec3 wm,
 
 VNDF_INLINE vndf_bsdf_normal vndf_bsdf_draw_visible(const vndf_bsdf *b, float u1, float u2)
 {
-    float density, weight;
-    vndf_vec3 wm = vndf_sample_weight(&b->view, u1, u2, &density, &weight);
+    float density, weight = 1.0f;
+    vndf_vec3 wm = vndf_law_is_exact(b->view.distribution)
+                       ? vndf_sample(&b->view, u1, u2, &density)
+                       : vndf_sample_weight(&b->view, u1, u2, &density, &weight);
     return vndf_bsdf_visible(b, wm, density, weight, u2);
 }
 
