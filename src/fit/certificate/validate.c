@@ -207,7 +207,7 @@ typedef struct slice {
 static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
                      const vndf_validation_node *n)
 {
-    vndf_validation_points *to = &v->samples;
+    vndf_points *to = &v->samples;
     double mask = at->drawn.c + at->drawn.k * n->r;
     if (mask > 0 && to->count < to->capacity) {
         double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
@@ -365,7 +365,7 @@ static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, u
 /* Adds an azimuth to the sums: its normals together, so that no radius has to be looked at. */
 static void add_sum(vndf_validation *v, const slice *at)
 {
-    vndf_validation_points *to = &v->sums;
+    vndf_points *to = &v->sums;
     if (to->count < to->capacity) {
         to->reference[to->count] = at->weight * at->drawn.mass / v->area;
         to->drawn[to->count++] = at->weight * at->drawn.azimuth;
@@ -466,140 +466,6 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
 
 /* ---- the largest weight ---- */
 
-static double ratio(double reference, double drawn)
-{
-    return drawn > 0 ? reference / drawn : reference > 0 ? HUGE_VAL : 0.0;
-}
-
-/* Moves weights of `pivot` or more to the front; their count. */
-static size_t split_at(vndf_validation_weight *weights, size_t count, double pivot, double *mass)
-{
-    size_t n = 0;
-    *mass = 0.0;
-    for (size_t i = 0; i < count; i++)
-        if (weights[i].ratio >= pivot) {
-            vndf_validation_weight swap = weights[n];
-            *mass += weights[i].mass;
-            weights[n++] = weights[i];
-            weights[i] = swap;
-        }
-    return n;
-}
-
-static double middle_of_three(double a, double b, double c)
-{
-    return fmax(fmin(a, b), fmin(fmax(a, b), c));
-}
-
-/* The largest ratio, leaving out the largest ones that together hold VNDF_VALIDATION_LEFT_OUT of the mass. Splits the
- * rest until it is one value. */
-static double weight_among(vndf_validation_weight *from, size_t count)
-{
-    double left = VNDF_VALIDATION_LEFT_OUT, mass;
-    while (count > 0) {
-        double pivot = middle_of_three(from[0].ratio, from[count / 2].ratio, from[count - 1].ratio);
-        size_t larger = 0;
-        mass = 0.0;
-        if (pivot < HUGE_VAL)
-            larger = split_at(from, count, nextafter(pivot, HUGE_VAL), &mass);
-        if (mass > left) {
-            count = larger;
-            continue;
-        }
-        left -= mass;
-        from += larger;
-        count -= larger;
-        size_t equal = split_at(from, count, pivot, &mass);
-        if (mass > left)
-            return pivot;
-        left -= mass;
-        from += equal;
-        count -= equal;
-    }
-    return 1.0;
-}
-
-/* Buckets for the part of a ratio beyond 1, eight to an octave: its bits without the sign and most of the digits. The
- * first holds all that is less than 2^-40, the last all that is more than 2^40. */
-enum { BUCKET_SHIFT = 49, BUCKET_FIRST = (1023 - 40) * 8, BUCKETS = 80 * 8 };
-
-static size_t bucket_of(double beyond)
-{
-    uint64_t bits;
-    memcpy(&bits, &beyond, sizeof bits);
-    bits >>= BUCKET_SHIFT;
-    return !(beyond > 0) || bits < BUCKET_FIRST ? 0
-           : bits < BUCKET_FIRST + BUCKETS      ? (size_t)(bits - BUCKET_FIRST)
-                                                : BUCKETS - 1;
-}
-
-/* Where a bucket begins. */
-static double beyond_of(size_t bucket)
-{
-    uint64_t bits = (uint64_t)(bucket + BUCKET_FIRST) << BUCKET_SHIFT;
-    double beyond;
-    memcpy(&beyond, &bits, sizeof beyond);
-    return beyond;
-}
-
-/* A ratio of at least 1 + beyond above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies, or 0. */
-static double least_beyond(const vndf_validation_points *p, double beyond)
-{
-    double mass[BUCKETS] = {0}, sum = 0.0, least = 1 + beyond;
-    for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] > least * p->drawn[i])
-            mass[bucket_of(ratio(p->reference[i], p->drawn[i]) - 1)] += p->reference[i];
-    for (size_t i = BUCKETS - 1; i > bucket_of(beyond); i--) {
-        sum += mass[i];
-        if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
-            return (1 + beyond_of(i)) * (1 - 1e-12);
-    }
-    return 0.0;
-}
-
-/* The same, 0 if no ratio above 1 is. Begins near what the last direction had: the fewer points are beyond that, the
- * faster it is. */
-static double least_that_counts(const vndf_validation_points *p, double last)
-{
-    double beyond = last / 4, least = 0.0;
-    while (least == 0.0 && beyond > 1e-12) {
-        least = least_beyond(p, beyond);
-        beyond /= 32;
-    }
-    return least;
-}
-
-/* Whether there is room for another weight after n. */
-static int has_room(vndf_validation *v, size_t n)
-{
-    if (n < v->weight_capacity)
-        return 1;
-    size_t capacity = v->weight_capacity ? 2 * v->weight_capacity : 1024;
-    vndf_validation_weight *weights = realloc(v->weights, capacity * sizeof *weights);
-    if (!weights) {
-        v->profile->guard->starved = 1;
-        return 0;
-    }
-    v->weights = weights;
-    v->weight_capacity = capacity;
-    return 1;
-}
-
-/* The largest weight of points. Only those few are sorted that count. */
-static double weight_of(vndf_validation *v, const vndf_validation_points *p)
-{
-    double least = least_that_counts(p, v->beyond);
-    size_t n = 0;
-    for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] >= least * p->drawn[i] && has_room(v, n)) {
-            vndf_validation_weight one = {ratio(p->reference[i], p->drawn[i]), p->reference[i]};
-            v->weights[n++] = one;
-        }
-    double weight = weight_among(v->weights, n);
-    v->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
-    return weight;
-}
-
 /* Whether a slice stands for little mass of which the weight changes. Where the azimuths end that see anything, one
  * Gauss point would hold about VNDF_VALIDATION_LEFT_OUT, and chance would decide the largest weight. */
 static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part)
@@ -608,8 +474,8 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
     double least = HUGE_VAL, most = 0.0, mass = 0.0;
     for (size_t i = 0; i < part->sums && mass < little; i++) {
         double reference = v->sums.reference[part->first_sum + i], drawn = v->sums.drawn[part->first_sum + i];
-        least = reference + drawn > 0 ? fmin(least, ratio(reference, drawn)) : least;
-        most = fmax(most, ratio(reference, drawn));
+        least = reference + drawn > 0 ? fmin(least, vndf_weight_ratio(reference, drawn)) : least;
+        most = fmax(most, vndf_weight_ratio(reference, drawn));
         mass += reference;
     }
     return mass < little && most > uneven * least;
@@ -618,7 +484,7 @@ static int is_uneven(const vndf_validation *v, const vndf_validation_slice *part
 /* Replaces the samples of a slice by its sums: beside them the radius matters little there. */
 static void take_sums(vndf_validation *v, const vndf_validation_slice *part)
 {
-    vndf_validation_points *to = &v->samples;
+    vndf_points *to = &v->samples;
     memset(to->reference + part->first, 0, part->count * sizeof *to->reference);
     memset(to->drawn + part->first, 0, part->count * sizeof *to->drawn);
     for (size_t i = 0; i < part->sums && to->count < to->capacity; i++) {
@@ -632,7 +498,7 @@ static double largest_weight(vndf_validation *v)
     for (size_t i = 0; i < v->slice_count; i++)
         if (is_uneven(v, v->slices + i))
             take_sums(v, v->slices + i);
-    return weight_of(v, &v->samples);
+    return vndf_largest_weight(&v->weights, &v->samples, &v->profile->guard->starved);
 }
 
 /* ---- directions ---- */
@@ -675,12 +541,12 @@ double vndf_validation_foreseen(vndf_validation *v, double s, double c)
         return 0.0;
     add_turns(v, s, c, area, add_sums);
     vndf_guard_spend(v->profile->guard, POINT_OPERATIONS * (double)v->sums.count);
-    return weight_of(v, &v->sums);
+    return vndf_largest_weight(&v->weights, &v->sums, &v->profile->guard->starved);
 }
 
 /* ---- memory ---- */
 
-static int room_for(vndf_validation_points *points, size_t capacity)
+static int room_for(vndf_points *points, size_t capacity)
 {
     points->capacity = capacity;
     points->reference = malloc(2 * capacity * sizeof *points->reference);
@@ -752,7 +618,7 @@ int vndf_validation_from(vndf_validation *v, const vndf_distribution *table, con
 {
     size_t cells = table->above.cell_count + table->below.cell_count + rule.front_panels;
     size_t parts = cells + 3 * (size_t)rule.azimuth_parts;
-    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .beyond = 1e-3};
+    vndf_validation made = {.table = table, .profile = profile, .rule = rule, .weights.beyond = 1e-3};
     *v = made;
     if (!add_stretches(v) || !add_lines(v))
         return 0;
@@ -777,5 +643,5 @@ void vndf_validation_free(vndf_validation *v)
     free(v->samples.reference);
     free(v->sums.reference);
     free(v->slices);
-    free(v->weights);
+    free(v->weights.that_count);
 }

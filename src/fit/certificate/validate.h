@@ -2,22 +2,9 @@
 #ifndef VNDF_FIT_CERTIFICATE_VALIDATE_H
 #define VNDF_FIT_CERTIFICATE_VALIDATE_H
 
+#include "fit/certificate/largest_weight.h"
 #include "fit/profile/profile.h"
 #include "table/table.h"
-
-/* The part of the mass that the largest weight and the error of D leave out. */
-#define VNDF_VALIDATION_LEFT_OUT 1e-6
-
-/* Gauss points of a direction: their parts of the true and of the drawn mass. */
-typedef struct vndf_validation_points {
-    double *reference, *drawn; /* one block */
-    size_t count, capacity;
-} vndf_validation_points;
-
-/* The ratio of both at a point that may be the largest. */
-typedef struct vndf_validation_weight {
-    double ratio, mass;
-} vndf_validation_weight;
 
 /* How closely a direction is looked at. The cells of small tables are integrated in parts, at least so many in all, so
  * that the rule errs less than the table. */
@@ -74,16 +61,15 @@ typedef struct vndf_validation {
     size_t stretch_count, node_count;
     vndf_validation_cell *cells;
     vndf_validation_lines lines;
-    vndf_validation_points samples; /* of one direction after the other */
-    vndf_validation_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
+    vndf_points samples; /* of one direction after the other */
+    vndf_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
     vndf_validation_slice *slices;
-    vndf_validation_weight *weights; /* those that may be the largest */
-    double *beside;                  /* the densities of a cell at moved points */
-    size_t slice_count, slice_capacity, weight_capacity;
-    double beyond; /* by how much the last largest weight exceeded 1 */
-    double area;   /* true area of the direction, for s + |c| = 1 */
-    double lack;   /* the drawn mass that the samples leave out */
-    double blur;   /* by how much rounding of normals to float changes the drawn density, all together */
+    vndf_weights weights;
+    double *beside; /* the densities of a cell at moved points */
+    size_t slice_count, slice_capacity;
+    double area; /* true area of the direction, for s + |c| = 1 */
+    double lack; /* the drawn mass that the samples leave out */
+    double blur; /* by how much rounding of normals to float changes the drawn density, all together */
 } vndf_validation;
 
 typedef struct vndf_finding {
