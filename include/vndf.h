@@ -394,8 +394,9 @@ typedef struct vndf_affine_view {
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
  * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. That is, beside what is
  * invalid for vndf_view_from, a matrix with a singular value, times the scale of the distribution, outside [1e-18,
- * 1e18], or a mean slope above 1e6. The density that comes with a sample is that of vndf_affine_pdf, to 1e-5. Numbers
- * u1 and u2 mean what they mean along the principal axes, seen from wi'. */
+ * 1e18], or a mean slope above 1e6. The density that comes with a sample is that of vndf_affine_pdf, to 1e-5. The
+ * roughness along the principal axes is rounded to float, which moves D of Beckmann by up to 2^-23 of the squared slope
+ * over roughness. Numbers u1 and u2 mean what they mean along the principal axes, seen from wi'. */
 VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);
 VNDF_API float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm);
