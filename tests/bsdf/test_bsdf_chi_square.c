@@ -51,7 +51,7 @@ static int sphere_draw(const sphere_map *map, unsigned long long *state, double 
     float u[3];
     bsdf_numbers(state, u);
     vndf_bsdf_sample(map->bsdf, u, &s);
-    *z = along(map->z, s.wo);
+    *z = fmax(fmin(along(map->z, s.wo), 1 - 1e-7), 1e-7 - 1); /* rounding may bring it to the pole */
     *phi = remainder(atan2(along(map->y, s.wo), along(map->x, s.wo)) - map->centre, 2 * PI);
     return s.lobe == VNDF_LOBE_REFLECTION || s.lobe == VNDF_LOBE_TRANSMISSION;
 }
@@ -77,6 +77,8 @@ static void sphere_place(grid *g, const sphere_map *map, unsigned long long *sta
         count += (size_t)sphere_draw(map, state, &z[count], &phi[count]);
     grid_quantiles(g->x, g->rows, z, count);
     grid_quantiles(g->y, g->columns, phi, count);
+    for (size_t i = 1; i < g->rows; i++) /* beside the pole rows would be as narrow as the rounding of z */
+        g->x[i] = 1 - fabs(g->x[i]) < 1e-6 ? copysign(1, g->x[i]) : g->x[i];
     for (size_t i = 1; i < g->rows; i++)
         if (fabs(g->x[i]) < fabs(g->x[nearest]))
             nearest = i;

@@ -232,7 +232,9 @@ void oracle_effects_name(const vndf_effects *e, char text[ORACLE_EFFECTS_TEXT])
     static const char *const fresnel[] = {"no-fresnel", "schlick", "dielectric", "conductor"};
     static const char *const masking[] = {"correlated", "separable", "v-cavities", "unmasked"};
     static const char *const normals[] = {"visible", "bounded", "all", "v-cavity"};
-    static const char *const transport[] = {"radiance", "importance"}, *const axes[] = {"fixed", "rotated"};
+    static const char *const transport[] = {"radiance", "importance"}, *const axes[] = {"fixed", "rotated",
+                                                                                        "matrix", "affine",
+                                                                                        "mixture"};
     const char *words[] = {lobes[e->lobes],
                            fresnel[e->fresnel],
                            masking[e->masking],
