@@ -301,10 +301,9 @@ typedef struct vndf_normals {
 
 /* Element i equals, to the bit, the result of the call for one element: vndf_sample, vndf_pdf and so on, with the
  * view or the surface of element i. An array of results may be an array of inputs that is not shared; apart from
- * that arrays must not overlap. `pdf` of vndf_sample_n and
- * vndf_sample_weight_n may be NULL. If direction and roughness are shared, the
- * view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as
- * their direction. */
+ * that arrays must not overlap. `pdf` of vndf_sample_n and vndf_sample_weight_n may be NULL. If direction and roughness
+ * are shared, the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n
+ * take wi as their direction. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
                             float *pdf);
 VNDF_API void vndf_sample_weight_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,

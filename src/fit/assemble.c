@@ -149,17 +149,12 @@ static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t
     }
 }
 
-static double place_between(double a, double b, double part)
-{
-    return a + (b - a) * part;
-}
-
 /* Where rows stand; the edge of the visible part stays where it is. 0 if there is no memory. */
 static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_wedge_fit *fit, uint32_t count,
                      double *knots)
 {
     double edge = vndf_side_least(&fit->side);
-    const vndf_even even = {&edge, 1, ROW_ROUNDS, place_between, vndf_wedge_row_error, fit};
+    const vndf_even even = {&edge, 1, ROW_ROUNDS, vndf_wedge_row_error, fit};
     vndf_refinement_knots(rows, count, knots);
     return !plan->budget.even_rows || vndf_even_knots(knots, count, &even);
 }

@@ -5,9 +5,9 @@
  *
  * A smaller table than the default cannot serve the whole sphere well, and most views are above the horizon. So an
  * error below the horizon counts less: a 23rd at 2 KiB, an 8th at 4 KiB; and less where less is seen, a tenth of that
- * at 2 KiB where 1e-10 of the area is left. There, what was measured is best where rows above the horizon may miss by
- * half of `error`, and radial cells, few of which are for views from below, by all of it. Where no promise for areas is
- * kept, areas miss by a tenth, those below the horizon by half of `error`. */
+ * at 2 KiB where 1e-10 of the area is left. Rows above the horizon then miss by half of `error`, and all radial cells
+ * together by all of it, since few of them are for views from below: no other split that was tried did better. Where no
+ * promise for areas is kept, areas miss by a tenth of `error`, those below the horizon by half. */
 #include "fit/budget.h"
 
 #include <math.h>

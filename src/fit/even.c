@@ -59,7 +59,7 @@ static void move_between(moved *m, const double *old, size_t from, size_t to)
         double wanted = all * (double)(i - from) / (double)(to - from);
         while (at + 1 < to && before + m->piece[at] < wanted)
             before += m->piece[at++];
-        m->knot[i] = m->how->place(old[at], old[at + 1], fmin((wanted - before) / m->piece[at], 1.0));
+        m->knot[i] = old[at] + (old[at + 1] - old[at]) * fmin((wanted - before) / m->piece[at], 1.0);
     }
 }
 

@@ -5,15 +5,11 @@
 
 #include "fit/refine.h"
 
-/* The knot at this part of the way from a to b. */
-typedef double vndf_interval_place(double a, double b, double part);
-
 /* How knots may be moved. */
 typedef struct vndf_even {
     const double *held; /* ascending: knots that stay where they are, as the first and the last do */
     size_t held_count;
-    int rounds; /* each looks at the errors of all intervals once; two do most of it */
-    vndf_interval_place *place;
+    int rounds;                 /* each looks at the errors of all intervals once; two do most of it */
     vndf_interval_error *error; /* infinite where an interval is too narrow: then all knots stay, or go back */
     void *user;                 /* of the error */
 } vndf_even;

@@ -15,11 +15,6 @@ typedef struct law {
     int shared;
 } law;
 
-static double place(double a, double b, double part)
-{
-    return a + (b - a) * part;
-}
-
 static vndf_interval_miss error_of(double a, double b, void *user)
 {
     const law *l = user;
@@ -52,7 +47,7 @@ static void test_known(void)
     for (size_t i = 0; i < 8; i++) {
         law l = {powers[i / 2], 0, i % 2};
         double knot[COUNT], start[COUNT], known = 1.0 / (COUNT - 1);
-        const vndf_even even = {NULL, 0, 20, place, error_of, &l};
+        const vndf_even even = {NULL, 0, 20, error_of, &l};
         fill(knot);
         fill(start);
         TEST(vndf_even_knots(knot, COUNT, &even));
@@ -73,7 +68,7 @@ static void test_held(void)
     law l = {4, 0, 0};
     double knot[COUNT];
     const double held[] = {0.2, 0.5};
-    const vndf_even even = {held, 2, 3, place, error_of, &l};
+    const vndf_even even = {held, 2, 3, error_of, &l};
     fill(knot);
     double before = error_of_all(knot, &l);
     TEST(vndf_even_knots(knot, COUNT, &even));
@@ -86,7 +81,7 @@ static void test_narrow(void)
 {
     law stays = {4, 0.2, 0}, returns = {4, 0.08, 0};
     double knot[COUNT], start[COUNT];
-    vndf_even even = {NULL, 0, 12, place, error_of, &stays};
+    vndf_even even = {NULL, 0, 12, error_of, &stays};
     fill(knot);
     fill(start);
     TEST(vndf_even_knots(knot, COUNT, &even));

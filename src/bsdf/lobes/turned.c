@@ -43,13 +43,13 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     return fabs(off) < 1e-3 && b->material->unturned->prepare(b, r, to_axes(b, wi));
 }
 
-/* The normal of a sample in its axes; walks have none. */
+/* The normal of a sample in its axes, turned up; a walk has none, and takes the half vector. */
 static vndf_bsdf_normal normal_of(const vndf_bsdf *b, const vndf_scattered *s, float u2)
 {
-    vndf_bsdf_normal n = {s->wm, s->density, 0.0f, 0.0f, u2};
+    vndf_vec3 wm = vndf_mirrored(s->wm, b->side);
     if (b->material->is.effects.scattering == VNDF_SCATTERING_MULTIPLE)
-        n.wm = vndf_vec3_from(vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side)).wm);
-    n.facing = vndf_dot(b->view.wi, vndf_mirrored(n.wm, b->side));
+        wm = vndf_vec3_from(vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side)).wm);
+    vndf_bsdf_normal n = {wm, s->density, vndf_dot(b->view.wi, wm), 0.0f, u2};
     return n;
 }
 
