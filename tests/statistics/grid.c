@@ -78,7 +78,7 @@ static double adaptive(const integrand *f, const double x[2], const double y[2],
 /* Where a bin is cut first: towards neighbours that are much narrower, and where nothing was found in it towards those
  * that hold something. What is there may reach into it by less than the points of a rule are apart. Returns how many
  * parts there are. */
-enum { CUTS = 5, WIDE = 8 };
+enum { CUTS = 7, WIDE = 8 };
 
 static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int before, int after)
 {
@@ -86,12 +86,14 @@ static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int 
     size_t parts = 0;
     cut[parts++] = from;
     if (before) {
+        cut[parts++] = from + width / 8192;
         cut[parts++] = from + width / 512;
         cut[parts++] = from + width / 32;
     }
     if (after) {
         cut[parts++] = to - width / 32;
         cut[parts++] = to - width / 512;
+        cut[parts++] = to - width / 8192;
     }
     cut[parts] = to;
     return parts;
