@@ -137,10 +137,13 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
     for (uint32_t i = 0; i < count; i += VNDF_LANES)
         lanes_store_u(s->span + i, vndf_wedge_span(&d->above, vndf_sorted_incidence(from, first + i).c));
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        lanes_lines lines = lanes_lines_from(&d->above.row_span->begin, VNDF_ROW_SPAN_FLOATS, s->span + i);
+        const float *span = &d->above.row_span->begin;
+        const lanes_source source[2] = {{span, VNDF_ROW_SPAN_FLOATS}, {span + 4, VNDF_ROW_SPAN_FLOATS}};
+        lanes_four row_span[2];
+        lanes_load_fours(row_span, source, 2, s->span + i);
         vndf_azimuth_range range = vndf_sorted_range(from, first + i);
         s->rows[g] = vndf_wedge_row_from(&d->above, vndf_sorted_incidence(from, first + i).c,
-                                         lanes_load_u(s->span + i), &lines);
+                                         lanes_load_u(s->span + i), row_span);
         lanes_store(s->first + i, s->rows[g].first);
         lanes_store(s->middle + i, s->rows[g].middle);
         lanes_store(s->last + i, s->rows[g].last);
@@ -160,8 +163,7 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, c
     lanes_u cell = lanes_load_u(s->cell + i);
     if (vndf_has_one_row(d, from))
         return vndf_mixed_cell_of(&s->mixed, cell);
-    lanes_lines lines = lanes_lines_from(&d->above.row_line->before, 4, s->at + i);
-    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, &lines);
+    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, s->at + i);
 }
 
 #endif

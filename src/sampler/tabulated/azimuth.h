@@ -138,13 +138,16 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, floa
 
 #else
 
-/* Cells j, loaded from their row lines. */
-VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j,
-                                                   const lanes_lines *lines)
+/* Cells j, loaded from their row lines; `at` is their index among the cells of all rows. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j, const uint32_t *at)
 {
-    const size_t stride = 4 * (size_t)row->wedge->cell_count;
-    vndf_azimuth_parts parts = {lanes_load_four(lines, 0), lanes_load_four(lines, stride),
-                                lanes_load_four(lines, 2 * stride)};
+    const vndf_wedge *wedge = row->wedge;
+    const float *first = &wedge->row_line->before;
+    const size_t stride = 4 * (size_t)wedge->cell_count;
+    const lanes_source source[3] = {{first, 4}, {first + stride, 4}, {first + 2 * stride, 4}};
+    lanes_four from[3];
+    lanes_load_fours(from, source, 3, at);
+    vndf_azimuth_parts parts = {from[0], from[1], from[2]};
     return vndf_azimuth_mix(row, j, &parts);
 }
 

@@ -85,11 +85,11 @@ VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
     return vndf_guide_lanes(&wedge->row_guide, y);
 }
 
-/* The row for the coordinate y in span i, loaded from `lines`. Its mass is 1. */
+/* The row for the coordinate y in span i, whose numbers are `from`. Its mass is 1. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
-                                                 const lanes_lines *lines)
+                                                 const lanes_four from[2])
 {
-    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, 4); /* begin, per_width, p, r */
+    const lanes_four a = from[0], b = from[1]; /* begin, per_width, p, r */
     lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
     lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
     lanes_f p = u * a.c + v * a.d + t * b.a, r = u * b.b + v * b.c + t * b.d;
@@ -104,7 +104,8 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 {
     lanes_u i = vndf_wedge_span(wedge, y);
     lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, VNDF_ROW_SPAN_FLOATS, i);
-    return vndf_wedge_row_from(wedge, y, i, &lines);
+    const lanes_four from[2] = {lanes_load_four(&lines, 0), lanes_load_four(&lines, 4)};
+    return vndf_wedge_row_from(wedge, y, i, from);
 }
 
 /* The mass `apart` is counted from the side of wi to an azimuth. The result is the part of the wedge's mass from that
