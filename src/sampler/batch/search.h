@@ -34,6 +34,7 @@ VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *
 VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
+#pragma GCC unroll 4
     for (uint32_t i = 0; i < count; i++) {
         uint32_t first = s->cell[i];
         s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
@@ -60,12 +61,12 @@ typedef struct vndf_mixed_row {
     uint32_t count;
 } vndf_mixed_row;
 
-/* For each sample the span of its row, the row with its weights, the part before the azimuth, the cell, and the index
- * of the cell among the cells of all rows. */
+/* For each sample the span of its row, the row with its weights, the part before the azimuth, the cell, the mass before
+ * it, and its index among the cells of all rows. */
 typedef struct vndf_row_search {
     uint32_t span[VNDF_BLOCK_SAMPLES], row[VNDF_BLOCK_SAMPLES], cell[VNDF_BLOCK_SAMPLES], at[VNDF_BLOCK_SAMPLES];
     float first[VNDF_BLOCK_SAMPLES], middle[VNDF_BLOCK_SAMPLES], last[VNDF_BLOCK_SAMPLES];
-    float part[VNDF_BLOCK_SAMPLES];
+    float part[VNDF_BLOCK_SAMPLES], before[VNDF_BLOCK_SAMPLES];
     vndf_azimuth_row rows[VNDF_BLOCK_GROUPS];
     vndf_mixed_row mixed;
 } vndf_row_search;
@@ -130,19 +131,39 @@ VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sor
     }
 }
 
-/* The same, each sample in the row of its direction. */
-VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
-                                    uint32_t count, vndf_row_search *s)
+/* The same, each sample in the row of its direction, where rows are so few that registers hold them. */
+VNDF_INLINE void vndf_find_in_few_rows(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                       uint32_t count, vndf_row_search *s)
 {
-    for (uint32_t i = 0; i < count; i += VNDF_LANES)
-        lanes_store_u(s->span + i, vndf_wedge_span(&d->above, vndf_sorted_incidence(from, first + i).c));
+    const vndf_wedge *wedge = &d->above;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        const float *span = &d->above.row_span->begin;
-        const lanes_source source[2] = {{span, VNDF_ROW_SPAN_FLOATS}, {span + 4, VNDF_ROW_SPAN_FLOATS}};
+        vndf_azimuth_range range = vndf_sorted_range(from, first + i);
+        lanes_f y = vndf_sorted_incidence(from, first + i).c, before;
+        lanes_f part = vndf_wedge_part(lanes_abs(range.apart), range.mass);
+        lanes_u span = vndf_wedge_span(wedge, y);
+        s->rows[g] = vndf_wedge_row_few(wedge, y, span);
+        lanes_u cell = vndf_azimuth_find_few(&s->rows[g], span, part, &before);
+        lanes_store(s->part + i, part);
+        lanes_store(s->before + i, before);
+        lanes_store_u(s->cell + i, cell);
+        lanes_store_u(s->at + i, s->rows[g].row * (wedge->cell_count + 1) + cell);
+    }
+}
+
+/* The same whatever the number of rows, one sample after the other. */
+VNDF_INLINE void vndf_find_in_rows(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                   uint32_t count, vndf_row_search *s)
+{
+    const vndf_wedge *wedge = &d->above;
+    const float *span = &wedge->row_span->begin;
+    const lanes_source source[2] = {{span, VNDF_ROW_SPAN_FLOATS}, {span + 4, VNDF_ROW_SPAN_FLOATS}};
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(s->span + i, vndf_wedge_span(wedge, vndf_sorted_incidence(from, first + i).c));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         lanes_four row_span[2];
         lanes_load_fours(row_span, source, 2, s->span + i);
         vndf_azimuth_range range = vndf_sorted_range(from, first + i);
-        s->rows[g] = vndf_wedge_row_from(&d->above, vndf_sorted_incidence(from, first + i).c,
+        s->rows[g] = vndf_wedge_row_from(wedge, vndf_sorted_incidence(from, first + i).c,
                                          lanes_load_u(s->span + i), row_span);
         lanes_store(s->first + i, s->rows[g].first);
         lanes_store(s->middle + i, s->rows[g].middle);
@@ -151,9 +172,25 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
         lanes_store_u(s->row + i, s->rows[g].row);
     }
     for (uint32_t i = 0; i < count; i++) {
-        s->cell[i] = vndf_azimuth_find(&d->above, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
-        s->at[i] = s->row[i] * d->above.cell_count + s->cell[i];
+        uint32_t j = vndf_azimuth_find(wedge, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
+        const float *cdf = wedge->cdf + (size_t)s->row[i] * wedge->stride + j;
+        s->before[i] =
+            s->first[i] * cdf[0] + s->middle[i] * cdf[wedge->stride] + s->last[i] * cdf[2 * wedge->stride];
+        s->cell[i] = j;
+        s->at[i] = s->row[i] * (wedge->cell_count + 1) + j;
     }
+}
+
+/* The cells of the azimuths of samples from `first` on. */
+VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                    uint32_t count, vndf_row_search *s)
+{
+    if (vndf_has_one_row(d, from))
+        vndf_find_in_one_row(d, from, first, count, s);
+    else if (d->above.few_cdf)
+        vndf_find_in_few_rows(d, from, first, count, s);
+    else
+        vndf_find_in_rows(d, from, first, count, s);
 }
 
 /* The cells of the group from sample `i` on. */
@@ -163,7 +200,7 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, c
     lanes_u cell = lanes_load_u(s->cell + i);
     if (vndf_has_one_row(d, from))
         return vndf_mixed_cell_of(&s->mixed, cell);
-    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, s->at + i);
+    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, lanes_load(s->before + i), s->at + i);
 }
 
 #endif

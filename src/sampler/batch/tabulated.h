@@ -99,10 +99,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                              int weighted, wedges *w, vndf_results *to)
 {
-    if (vndf_has_one_row(d, from))
-        vndf_find_in_one_row(d, from, first, count, &w->azimuths);
-    else
-        vndf_find_azimuths(d, from, first, count, &w->azimuths);
+    vndf_find_azimuths(d, from, first, count, &w->azimuths);
     draw_azimuths(d, from, first, count, w);
     draw_radii(d, from, first, count, weighted, w);
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {

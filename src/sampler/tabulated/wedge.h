@@ -97,6 +97,21 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_
     return made;
 }
 
+#if VNDF_LANES > 1
+
+/* The same where rows are so few that registers hold them. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row_few(const vndf_wedge *wedge, lanes_f y, lanes_u i)
+{
+    const uint32_t n = wedge->row_count / 2 + 1;
+    const float *p = wedge->few_aspects, *r = p + 2 * n;
+    const lanes_four from[2] = {
+        {lanes_few(wedge->row_y, n, i), lanes_few(p + 4 * n, n, i), lanes_few(p, n, i), lanes_few(p + n, n, i)},
+        {lanes_few(p + 1, n, i), lanes_few(r, n, i), lanes_few(r + n, n, i), lanes_few(r + 1, n, i)}};
+    return vndf_wedge_row_from(wedge, y, i, from);
+}
+
+#endif
+
 enum { VNDF_ROW_SPAN_FLOATS = sizeof(vndf_row_span) / sizeof(float) };
 
 /* The row is not part of the view, since most samples are in front. */
