@@ -96,7 +96,7 @@ static void place_knots(room *r, vndf_distribution *table)
     table->bends = take(r, table->radial_count, sizeof *table->bends);
 }
 
-/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW numbers at once. */
+/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW_CELLS numbers at once. */
 static size_t place_all(vndf_distribution *table, char *block)
 {
     room r = {block, 0};
@@ -108,7 +108,7 @@ static size_t place_all(vndf_distribution *table, char *block)
     place_knots(&r, table);
     place_rows(&r, &table->above, 1);
     place_rows(&r, &table->below, 0);
-    take(&r, VNDF_FEW, sizeof(float));
+    take(&r, VNDF_FEW_CELLS, sizeof(float));
     return r.used;
 }
 

@@ -34,7 +34,8 @@ enum {
     VNDF_RATIOS = 18,       /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13, /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_PADDING = 8,       /* arrays that are counted through are padded to a multiple of this */
-    VNDF_FEW = 16,          /* so many numbers are looked up in registers */
+    VNDF_FEW = 16,          /* so many numbers are looked up in registers, */
+    VNDF_FEW_CELLS = 64,    /* and with AVX-512 the sums of so many radial cells */
     VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */
     VNDF_AREA_SPAN = 8,     /* doubles from piece to piece */
     VNDF_GUIDE_SHIFT = 16   /* bits of a guide's entry below the index of a knot */

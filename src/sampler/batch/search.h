@@ -7,22 +7,27 @@
 
 /* ---- cells of radii ---- */
 
-/* Weights and targets. `cell` holds the codes of windows first, then the cells. */
+/* Weights and targets of samples. `cell` holds the codes of windows first, then the cells. */
 typedef struct vndf_radial_search {
     float c[VNDF_BLOCK_SAMPLES], k[VNDF_BLOCK_SAMPLES], target[VNDF_BLOCK_SAMPLES];
     uint32_t cell[VNDF_BLOCK_SAMPLES];
 } vndf_radial_search;
 
-/* Stores the search of the group from sample `i` on. Wide windows are few; they are narrowed at once. */
-VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t i,
-                                const vndf_azimuth_sample *b, lanes_f u2)
+/* Stores the search of the group from sample `i` on. */
+VNDF_INLINE void vndf_ask_radii(vndf_radial_search *s, uint32_t i, const vndf_azimuth_sample *b, lanes_f u2)
 {
-    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(b->code, narrow)));
     lanes_store(s->c + i, b->c);
     lanes_store(s->k + i, b->k);
     lanes_store(s->target + i, u2 * b->total);
-    lanes_store_u(s->cell + i, b->code);
+}
+
+/* Looks up the windows of a group. Wide windows are few; they are narrowed at once. */
+VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, uint32_t i, lanes_f u2)
+{
+    lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), u2);
+    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
+    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
+    lanes_store_u(s->cell + i, code);
     for (; wide != 0; wide &= wide - 1) {
         uint32_t at = i + (uint32_t)__builtin_ctz(wide);
         vndf_window window = vndf_window_from(s->cell[at]);
@@ -30,16 +35,55 @@ VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *
     }
 }
 
-/* Turns codes into cells. `whole` says that c, k >= 0. */
-VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t count, int whole)
+/* Turns the searches of `count` samples into cells. `whole` says that c, k >= 0. */
+VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                 uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        vndf_open_windows(d, s, i, lanes_load(u2 + i));
 #pragma GCC unroll 4
     for (uint32_t i = 0; i < count; i++) {
         uint32_t first = s->cell[i];
         s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
                                     : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
     }
+}
+
+#if VNDF_LANES == 16
+
+/* The last knots with sums of no more than `target` before them, c, k >= 0, where cells are few. Sums ascend, so a
+ * window finds the same. */
+VNDF_INLINE lanes_u vndf_find_in_few_cells(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f target)
+{
+    const float *f0 = d->knots.f0, *f1 = d->knots.f1;
+    lanes_u eighth = lanes_set_u(0);
+    for (uint32_t n = 8; n < d->radial_count; n += 8)
+        eighth = lanes_count(eighth, lanes_at_most(c * f0[n] + k * f1[n], target));
+    lanes_u j = eighth << 3;
+    for (uint32_t step = 4; step > 0; step /= 2) {
+        lanes_u next = j + step;
+        lanes_f sum = c * lanes_of_64(f0, next) + k * lanes_of_64(f1, next);
+        j = lanes_pick_u(lanes_at_most(sum, target), next, j);
+    }
+    return j;
+}
+
+#endif
+
+/* The same for c, k >= 0: in registers, if they hold the sums of all knots. */
+VNDF_INLINE void vndf_find_radii_in_front(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                          uint32_t count)
+{
+#if VNDF_LANES == 16
+    if (d->radial_count <= VNDF_FEW_CELLS) {
+        for (uint32_t i = 0; i < count; i += VNDF_LANES)
+            lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
+                                                              lanes_load(s->target + i)));
+        return;
+    }
+#endif
+    vndf_find_radii(d, s, u2, count, 1);
 }
 
 VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
