@@ -134,12 +134,14 @@ static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block
     vndf_sorted sorted;
     vndf_origin from[VNDF_BLOCK_GROUPS];
     vndf_results front, wedge;
-    fronts in_front;
-    wedges in_wedge;
+    union {
+        fronts in_front;
+        wedges in_wedge;
+    } work; /* one after the other, in the same lines of the cache */
     uint32_t end = whole_groups(b->count), border = vndf_sort_block(d, b, &sorted, from);
     uint32_t count = whole_groups(end - border);
-    draw_fronts(d, &sorted, whole_groups(border), b->weight != NULL, &in_front, &front);
-    draw_wedges(d, &sorted, end - count, count, b->weight != NULL, &in_wedge, &wedge);
+    draw_fronts(d, &sorted, whole_groups(border), b->weight != NULL, &work.in_front, &front);
+    draw_wedges(d, &sorted, end - count, count, b->weight != NULL, &work.in_wedge, &wedge);
     vndf_unsort_block(b, from, &front, &wedge);
 }
 
