@@ -77,11 +77,11 @@ typedef struct vndf_knots {
  * front of wi reads these 32 bytes of its cell, half a line of the cache, beside the knots. before0 and before1 repeat
  * knots.f0 and knots.f1: they cost 8 bytes and save a load. */
 typedef struct vndf_radial_cell {
-    float f0, f1, mu0, mu1;
-    float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
     /* smooth: 1 if no law with c, k >= 0 changes much in the cell, 2 if that is so of its neighbours too and D does not
      * jump at its ends */
     float width, smooth;
+    float f0, f1, mu0, mu1; /* four loads of four begin at width, at f0 and at mu0 */
+    float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
 } vndf_radial_cell;
 
 /* a and b of a cell: samples behind wi read them. */

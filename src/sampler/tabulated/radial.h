@@ -43,9 +43,9 @@ typedef struct vndf_radial_lanes {
  * reads. */
 VNDF_INLINE vndf_radial_lanes vndf_radial_of_fours(const lanes_four from[5])
 {
-    const lanes_four f = from[0], whole = from[1], knots = from[2], bend = from[3], sums = from[4];
-    vndf_radial_lanes cell = {f.a,     f.b,     f.c,     f.d,     knots.a, knots.c, knots.b, knots.d,
-                              whole.a, whole.b, whole.c, whole.d, bend.a,  bend.b,  sums.a,  sums.b};
+    const lanes_four ends = from[0], mass = from[1], knots = from[2], bend = from[3], sums = from[4];
+    vndf_radial_lanes cell = {ends.c, ends.d, mass.a, mass.b, knots.a, knots.c, knots.b, knots.d,
+                              mass.c, mass.d, ends.a, ends.b, bend.a,  bend.b,  sums.a,  sums.b};
     return cell;
 }
 
@@ -55,7 +55,7 @@ enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
 
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-    lanes_lines cells = lanes_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, j);
+    lanes_lines cells = lanes_lines_at(&d->cells->width, VNDF_CELL_FLOATS, j);
     lanes_lines at = lanes_lines_at(&d->knots.at->x, 2, j), bends = lanes_lines_at(&d->bends->a, 2, j);
     lanes_lines pole = lanes_lines_at(&d->knots.pole->e, 2, j);
     const lanes_four from[5] = {lanes_load_four(&cells, 0), lanes_load_four(&cells, 4), lanes_load_four(&at, 0),
@@ -68,8 +68,8 @@ VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes
 /* The same for cells that were stored long before (lanes_load_fours). */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load_from(const vndf_distribution *d, const uint32_t *j)
 {
-    const lanes_source source[5] = {{&d->cells->f0, VNDF_CELL_FLOATS},
-                                    {&d->cells->before0, VNDF_CELL_FLOATS},
+    const lanes_source source[5] = {{&d->cells->width, VNDF_CELL_FLOATS},
+                                    {&d->cells->mu0, VNDF_CELL_FLOATS},
                                     {&d->knots.at->x, 2},
                                     {&d->bends->a, 2},
                                     {&d->knots.pole->e, 2}};
