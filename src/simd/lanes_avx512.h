@@ -196,4 +196,10 @@ VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
     return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
 }
 
+/* Lane i where bit i is set; other bits are not read. */
+VNDF_INLINE lanes_m lanes_of_mask_bits(uint32_t bits)
+{
+    return (lanes_m)bits;
+}
+
 #endif

@@ -5,7 +5,7 @@
 
 static double reflect_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
-    return vndf_height_correlated(b, e);
+    return vndf_height_correlated(e->cos_i, e->cos_o, (double)b->area, (double)vndf_bsdf_area(b, e->wo));
 }
 
 static double exact_area(const vndf_bsdf *b, vndf_vec3 w)

@@ -11,11 +11,19 @@
 #include "bsdf/routines.h"
 #include "sampler/law.h"
 
+/* Height-correlated, from both areas. At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
+VNDF_INLINE doubles vndf_height_correlated(doubles cos_i, doubles cos_o, doubles area_i, doubles area_o)
+{
+    return 1.0 / (cos_o * area_i + cos_i * doubles_positive(area_o - cos_o));
+}
+
+#if VNDF_LANES == 1
+
 /* A(w), w.z > 0, with the roughness of the hit. */
 VNDF_INLINE float vndf_bsdf_area(const vndf_bsdf *b, vndf_vec3 w)
 {
     int ready;
-    float area = vndf_law_area_above(b->view.distribution, b->view.ax, b->view.ay, w, &ready);
+    float area = vndf_law_area_above(b->view.distribution, b->view.ax, b->view.ay, w.x, w.y, w.z, &ready);
     return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, w);
 }
 
@@ -27,14 +35,8 @@ VNDF_INLINE float vndf_bsdf_view_area(const vndf_bsdf *b)
     return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, b->view.wi);
 }
 
-/* At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
-VNDF_INLINE double vndf_height_correlated(const vndf_bsdf *b, const vndf_event *e)
-{
-    double below = vndf_bsdf_area(b, e->wo) - e->cos_o;
-    return 1.0 / (e->cos_o * b->area + e->cos_i * (below > 0.0 ? below : 0.0));
-}
-
 extern const vndf_masking_routine vndf_masking_height_correlated, vndf_masking_separable, vndf_masking_v_cavities,
     vndf_masking_none;
 
+#endif
 #endif
