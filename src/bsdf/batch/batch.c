@@ -168,12 +168,15 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
 
 #if VNDF_HAS_LANES
 
-/* F of a steep conductor is evaluated at each direction, and other masking has no lanes. */
+/* F of a steep conductor is evaluated at each direction. Other masking has no lanes, nor have both lobes with another F,
+ * or with light that goes straight on. */
 static int has_lanes(const vndf_bsdf_batch *b)
 {
     const vndf_material *m = b->material;
-    return b->count > 1 && m->routines->kind != VNDF_BLOCK_NONE && m->routines->kind != VNDF_BLOCK_BOTH &&
-           !m->steep && m->masking == &vndf_masking_height_correlated &&
+    int bends = m->is.effects.fresnel == VNDF_FRESNEL_DIELECTRIC && m->is.eta != 1.0f;
+    if (m->routines->kind == VNDF_BLOCK_NONE || (m->routines->kind == VNDF_BLOCK_BOTH && !bends))
+        return 0;
+    return b->count > 1 && !m->steep && m->masking == &vndf_masking_height_correlated &&
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 
@@ -207,7 +210,7 @@ static void read_block(vndf_scatter_block *block, const vndf_bsdf_batch *b, cons
                                               b->wi_z,
                                               u[1],
                                               u[2]};
-    for (int n = block->hit ? VNDF_SCATTER_U2 : 0; n < VNDF_SCATTER_INPUTS; n++) {
+    for (int n = 0; n < VNDF_SCATTER_INPUTS; n++) {
         int is_shared = n <= VNDF_SCATTER_ALPHA_Y ? alpha : n <= VNDF_SCATTER_WI_Z ? wi : 0;
         block->in[n] = input_at(from[n], is_shared, first, block->count, own->of[n]);
     }

@@ -13,6 +13,7 @@
 
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/normals.h"
+#include "bsdf/terms/refraction.h"
 #include "bsdf/trust.h"
 
 VNDF_INLINE vndf_vec3 vndf_vec3_from(vndf_normal n)
@@ -57,36 +58,17 @@ VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
 
 VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
-    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
-    vndf_normal n = {w.x * per, w.y * per, w.z * per};
-    return n;
+    return vndf_unit_of(vndf_normal_of(w));
 }
-
-/* Where wi meets a microfacet, in double: wm stays the normal of wi and wo only if the cosine is exact. */
-typedef struct vndf_meeting {
-    vndf_normal wi, wm; /* of unit length */
-    double facing;
-} vndf_meeting;
 
 VNDF_INLINE vndf_meeting vndf_meeting_of(vndf_vec3 wi, vndf_vec3 wm)
 {
-    vndf_normal i = vndf_unit(wi), m = vndf_unit(wm);
-    vndf_meeting at = {i, m, i.x * m.x + i.y * m.y + i.z * m.z};
-    return at;
-}
-
-/* wi refracted by the index ratio eta, times eta: wo is this much of wm less wi. */
-VNDF_INLINE double vndf_bend_along(const vndf_meeting *at, double beyond, double eta)
-{
-    return at->facing - eta * beyond;
+    return vndf_meet(vndf_normal_of(wi), vndf_normal_of(wm));
 }
 
 VNDF_INLINE vndf_vec3 vndf_refracted(const vndf_meeting *at, double along, double eta)
 {
-    double per = 1.0 / eta;
-    vndf_normal wi = at->wi, wm = at->wm;
-    vndf_normal wo = {(along * wm.x - wi.x) * per, (along * wm.y - wi.y) * per, (along * wm.z - wi.z) * per};
-    return vndf_vec3_from(wo);
+    return vndf_vec3_from(vndf_bent(at, along, eta));
 }
 
 /* ---- two directions give the normal ---- */
@@ -216,19 +198,17 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
                              vndf_outcome *out)
 {
     double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
-    double sum = at->facing + eta * beyond;
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(at, along, eta);
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)fabs(along / eta) * n->wm.z;
+    float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
     vndf_incident from = vndf_incident_of(b);
-    if (rise != 0.0 && !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING &&
-                         vndf_is_settled(&from, n, gain)))
+    if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain)))
         return vndf_refract_exactly(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->wo = wo;
     out->facing = at->facing;
-    out->density = vndf_density_from(n->density * (eta * eta * beyond) * (sum * sum) / (rise * rise));
+    out->density = vndf_density_from(vndf_bent_density(at, n->density, beyond, eta));
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
     out->settled = 1;
     return 1;

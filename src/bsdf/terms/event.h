@@ -61,6 +61,12 @@ VNDF_INLINE lanes_m vndf_is_settled(const vndf_incident *at, const vndf_bsdf_nor
     return lanes_both(turns, lanes_less(n->u2, lanes_set(VNDF_TRUST_LAST)));
 }
 
+/* How far a refraction turns with wm, by which vndf_is_settled asks; `turn` = |along|/eta. */
+VNDF_INLINE lanes_f vndf_refraction_gain(lanes_f turn, lanes_f z)
+{
+    return VNDF_TRUST_REFRACTION_GAIN * turn * z;
+}
+
 /* Whether the sample takes the density of its normal, and whether it is trusted with any density in float. */
 typedef struct vndf_reflection_trust {
     lanes_m as_drawn, trusted;

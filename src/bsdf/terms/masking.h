@@ -9,12 +9,19 @@
 #define VNDF_BSDF_TERMS_MASKING_H
 
 #include "bsdf/routines.h"
+#include "bsdf/trust.h"
 #include "sampler/law.h"
 
 /* Height-correlated, from both areas. At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
 VNDF_INLINE doubles vndf_height_correlated(doubles cos_i, doubles cos_o, doubles area_i, doubles area_o)
 {
     return 1.0 / (cos_o * area_i + cos_i * doubles_positive(area_o - cos_o));
+}
+
+/* Whether areas in float will not do for the Beta function of a transmission; i and o are A/cos. */
+VNDF_INLINE doubles_m vndf_needs_exact_areas(doubles i, doubles o)
+{
+    return doubles_less(doubles_set(VNDF_TRUST_BETA), i + o);
 }
 
 #if VNDF_LANES == 1
