@@ -9,30 +9,9 @@
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
-#  include "bsdf/terms/beta.h"
-#  include "bsdf/terms/event.h"
-#  include "bsdf/terms/fresnel.h"
-#  include "bsdf/terms/masking.h"
+#  include "bsdf/batch/lanes_hits.h"
 #  include "bsdf/terms/refraction.h"
-#  include "sampler/area.h"
 #  include "sampler/batch/density_of.h"
-
-/* ---- bits ---- */
-
-VNDF_INLINE void clear_bits(vndf_sample_bits *bits)
-{
-    memset(bits, 0, sizeof *bits);
-}
-
-VNDF_INLINE void set_bits(vndf_sample_bits *bits, uint32_t first, uint32_t mask)
-{
-    bits->of[first / 32] |= mask << first % 32;
-}
-
-VNDF_INLINE uint32_t bits_at(const vndf_sample_bits *bits, uint32_t first)
-{
-    return bits->of[first / 32] >> first % 32;
-}
 
 /* ---- results ---- */
 
@@ -62,60 +41,6 @@ VNDF_INLINE void store_direction(vndf_normals to, uint32_t i, lanes_m m, vndf_ve
     lanes_store(to.z + i, lanes_pick(m, z, lanes_set(otherwise)));
 }
 
-VNDF_INLINE lanes_f finite(lanes_f x)
-{
-    const lanes_f most = lanes_set(FLT_MAX);
-    return lanes_pick(lanes_less(x, most), x, lanes_keep(lanes_less(lanes_set(0.0f), x), most));
-}
-
-VNDF_INLINE lanes_f positive(lanes_f x)
-{
-    return lanes_least(lanes_most(x, lanes_set(FLT_MIN)), lanes_set(FLT_MAX));
-}
-
-/* ---- hits ---- */
-
-/* A group's hits: which of them see the surface, and which of these float knows. */
-typedef struct hits {
-    vndf_incident at;
-    lanes_f side;
-    lanes_m seen, known;
-} hits;
-
-VNDF_INLINE hits shared_hits(const vndf_bsdf *b)
-{
-    const vndf_view *v = &b->view;
-    hits h = {{v->distribution,
-               {lanes_set(v->wi.x), lanes_set(v->wi.y), lanes_set(v->wi.z)},
-               lanes_set(v->ax),
-               lanes_set(v->ay),
-               lanes_set(b->area),
-               b->material->turn,
-               v->trusted ? lanes_all() : lanes_none()},
-              lanes_set(b->side),
-              lanes_all(),
-              lanes_all()};
-    return h;
-}
-
-VNDF_INLINE hits hits_at(const vndf_scatter_block *b, uint32_t i)
-{
-    const vndf_material *m = b->material;
-    const vndf_distribution *d = m->is.distribution;
-    float scale = vndf_unit_scale_float(d);
-    lanes_f x = lanes_load(b->in[VNDF_SCATTER_WI_X] + i), y = lanes_load(b->in[VNDF_SCATTER_WI_Y] + i);
-    lanes_f z = lanes_load(b->in[VNDF_SCATTER_WI_Z] + i), one = lanes_set(1.0f);
-    lanes_f up = m->two_sided ? lanes_abs(z) : z, square = x * x + y * y + up * up;
-    hits h = {.at = {.distribution = d, .wi = {x, y, up}, .turn = m->turn, .trusted = lanes_all()}};
-    h.at.ax = lanes_load(b->in[VNDF_SCATTER_ALPHA_X] + i) * scale;
-    h.at.ay = lanes_load(b->in[VNDF_SCATTER_ALPHA_Y] + i) * scale;
-    h.side = m->two_sided ? lanes_pick(lanes_less(z, lanes_set(0.0f)), -one, one) : one;
-    h.at.area = vndf_law_seen_area(d, h.at.ax, h.at.ay, x, y, up, &h.at.trusted);
-    h.seen = lanes_both(vndf_is_near_unit_square(square), lanes_less(lanes_set(0.0f), up));
-    h.known = lanes_both(h.seen, h.at.trusted);
-    return h;
-}
-
 VNDF_INLINE vndf_bsdf_normal normals_at(const vndf_scatter_block *b, const vndf_incident *at, uint32_t i)
 {
     const vndf_drawn_block *d = b->drawn;
@@ -135,7 +60,7 @@ typedef struct reflections {
     lanes_m good, left;
 } reflections;
 
-VNDF_INLINE reflections reflect(const hits *h, const vndf_bsdf_normal *n, vndf_choice choice)
+VNDF_INLINE reflections reflect(const vndf_hits *h, const vndf_bsdf_normal *n, vndf_choice choice)
 {
     reflections r;
     lanes_m ready;
@@ -155,53 +80,44 @@ static void scatter_bare(vndf_scatter_block *b)
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
     const vndf_scattered_n *to = &b->to;
-    hits shared;
+    vndf_hits shared;
     if (b->hit)
-        shared = shared_hits(b->hit);
+        shared = vndf_shared_hits(b->hit);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        hits h = b->hit ? shared : hits_at(b, i);
+        vndf_hits h = b->hit ? shared : vndf_hits_at(b->material, b->in, i);
         vndf_bsdf_normal n = normals_at(b, &h.at, i);
         reflections r = reflect(&h, &n, choice);
-        lanes_f weight = finite(r.wo.z * n.quotient / vndf_unmasked(&h.at, r.wo, r.area));
+        lanes_f weight = vndf_finite_lanes(r.wo.z * n.quotient / vndf_unmasked(&h.at, r.wo, r.area));
         weight = lanes_keep(r.good, weight);
         for (int k = 0; k < b->material->is.wavelengths; k++)
             lanes_store(to->weight[k] + i, weight);
-        lanes_store(to->density + i, lanes_keep(r.good, positive(r.density)));
+        lanes_store(to->density + i, lanes_keep(r.good, vndf_positive_lanes(r.density)));
         store_direction(to->wo, i, r.good, r.wo, r.wo.z, 1.0f);
         if (to->wm.x)
             store_direction(to->wm, i, r.good, n.wm, n.wm.z, 0.0f);
         store_lobes(to->lobe + i, r.good, lanes_none());
-        set_bits(&b->left, i, lanes_mask_bits(r.left));
+        vndf_set_bits(&b->left, i, lanes_mask_bits(r.left));
     }
 }
 
 /* ---- what loops leave to the next ---- */
 
 typedef struct work {
-    float side[VNDF_SCATTER_BLOCK], cos_i[VNDF_SCATTER_BLOCK], area_i[VNDF_SCATTER_BLOCK];
-    float cos_o[VNDF_SCATTER_BLOCK], area_o[VNDF_SCATTER_BLOCK]; /* of wo turned up */
-    float facing[VNDF_SCATTER_BLOCK], quotient[VNDF_SCATTER_BLOCK];
-    float weight[VNDF_SCATTER_BLOCK];                 /* without its part by wavelength, */
-    float part[VNDF_WAVELENGTHS][VNDF_SCATTER_BLOCK]; /* which is here */
+    float side[VNDF_HIT_BLOCK], cos_i[VNDF_HIT_BLOCK], area_i[VNDF_HIT_BLOCK];
+    float cos_o[VNDF_HIT_BLOCK], area_o[VNDF_HIT_BLOCK]; /* of wo turned up */
+    float facing[VNDF_HIT_BLOCK], quotient[VNDF_HIT_BLOCK];
+    float weight[VNDF_HIT_BLOCK];                 /* without its part by wavelength, */
+    float part[VNDF_WAVELENGTHS][VNDF_HIT_BLOCK]; /* which is here */
     vndf_sample_bits good;
 } work;
 
-VNDF_INLINE void keep_hits(work *w, uint32_t i, const hits *h, const vndf_bsdf_normal *n)
+VNDF_INLINE void keep_hits(work *w, uint32_t i, const vndf_hits *h, const vndf_bsdf_normal *n)
 {
     lanes_store(w->side + i, h->side);
     lanes_store(w->cos_i + i, h->at.wi.z);
     lanes_store(w->area_i + i, h->at.area);
     lanes_store(w->facing + i, n->facing);
     lanes_store(w->quotient + i, n->quotient);
-}
-
-/* The index ratio from the side of wi (vndf_bsdf). */
-VNDF_INLINE doubles eta_at(const vndf_material *m, const work *w, uint32_t i)
-{
-    const doubles above = doubles_set(m->two_sided ? (double)m->is.eta : 1.0);
-    if (!m->two_sided)
-        return above;
-    return doubles_pick(doubles_less(doubles_load(w->side + i), doubles_set(0.0)), 1.0 / above, above);
 }
 
 /* Masking of reflections over both cosines. */
@@ -222,8 +138,9 @@ static void store_weights(const vndf_scatter_block *b, const work *w, int parts)
 {
     for (int k = 0; k < b->material->is.wavelengths; k++)
         for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-            lanes_f weight = finite(lanes_load(w->weight + i) * lanes_load(w->part[k < parts ? k : 0] + i));
-            lanes_store(b->to.weight[k] + i, lanes_keep(lanes_of_mask_bits(bits_at(&w->good, i)), weight));
+            lanes_f weight =
+                vndf_finite_lanes(lanes_load(w->weight + i) * lanes_load(w->part[k < parts ? k : 0] + i));
+            lanes_store(b->to.weight[k] + i, lanes_keep(lanes_of_mask_bits(vndf_bits_at(&w->good, i)), weight));
         }
 }
 
@@ -233,23 +150,23 @@ static void reflect_block(vndf_scatter_block *b, work *w)
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
     const vndf_scattered_n *to = &b->to;
-    hits shared;
+    vndf_hits shared;
     if (b->hit)
-        shared = shared_hits(b->hit);
+        shared = vndf_shared_hits(b->hit);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        hits h = b->hit ? shared : hits_at(b, i);
+        vndf_hits h = b->hit ? shared : vndf_hits_at(b->material, b->in, i);
         vndf_bsdf_normal n = normals_at(b, &h.at, i);
         reflections r = reflect(&h, &n, choice);
         keep_hits(w, i, &h, &n);
         lanes_store(w->cos_o + i, r.wo.z);
         lanes_store(w->area_o + i, r.area);
-        lanes_store(to->density + i, lanes_keep(r.good, positive(r.density)));
+        lanes_store(to->density + i, lanes_keep(r.good, vndf_positive_lanes(r.density)));
         store_direction(to->wo, i, r.good, r.wo, h.side * r.wo.z, 1.0f);
         if (to->wm.x)
             store_direction(to->wm, i, r.good, n.wm, h.side * n.wm.z, 0.0f);
         store_lobes(to->lobe + i, r.good, lanes_none());
-        set_bits(&w->good, i, lanes_mask_bits(r.good));
-        set_bits(&b->left, i, lanes_mask_bits(r.left));
+        vndf_set_bits(&w->good, i, lanes_mask_bits(r.good));
+        vndf_set_bits(&b->left, i, lanes_mask_bits(r.left));
     }
 }
 
@@ -257,19 +174,19 @@ static void weigh_reflections(vndf_scatter_block *b, work *w)
 {
     const vndf_material *m = b->material;
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        doubles facing = doubles_load(w->facing + i), eta = eta_at(m, w, i);
+        doubles facing = doubles_load(w->facing + i), eta = vndf_eta_at(m, w->side + i);
         store_weight(w, i, reflection_masking_at(w, i));
         for (int k = 0; k < m->is.wavelengths; k++)
             doubles_store_f(w->part[k] + i, doubles_narrow(vndf_reflectance_lanes(m, k, facing, eta)));
         uint32_t lost = doubles_mask_bits(vndf_loses_reflectance(facing, eta));
-        set_bits(&b->left, i, lost & bits_at(&w->good, i));
+        vndf_set_bits(&b->left, i, lost & vndf_bits_at(&w->good, i));
     }
 }
 
 static void scatter_reflection(vndf_scatter_block *b)
 {
     work w;
-    clear_bits(&w.good);
+    vndf_clear_bits(&w.good);
     reflect_block(b, &w);
     weigh_reflections(b, &w);
     store_weights(b, &w, VNDF_WAVELENGTHS);
@@ -277,27 +194,27 @@ static void scatter_reflection(vndf_scatter_block *b)
 
 /* ---- both lobes ---- */
 
-enum { GROUPS = VNDF_SCATTER_BLOCK / VNDF_LANES };
+enum { GROUPS = VNDF_HIT_BLOCK / VNDF_LANES };
 
 /* The hits and normals of a block, the lobe that each sample takes, and where refraction takes it. */
 typedef struct lobes {
     work w;
-    hits hits[GROUPS];
+    vndf_hits hits[GROUPS];
     vndf_bsdf_normal normals[GROUPS];
-    float x[VNDF_SCATTER_BLOCK], y[VNDF_SCATTER_BLOCK];          /* of wi */
-    float wo[3][VNDF_SCATTER_BLOCK];                             /* refracted, its density, */
-    float density[VNDF_SCATTER_BLOCK], turn[VNDF_SCATTER_BLOCK]; /* and how far it turns */
-    float share[VNDF_SCATTER_BLOCK];                             /* of the samples, takes the lobe */
-    vndf_sample_bits through, trusted; /* the lobe; whether cosines and F may be rounded */
+    float x[VNDF_HIT_BLOCK], y[VNDF_HIT_BLOCK];          /* of wi */
+    float wo[3][VNDF_HIT_BLOCK];                         /* refracted, its density, */
+    float density[VNDF_HIT_BLOCK], turn[VNDF_HIT_BLOCK]; /* and how far it turns */
+    float share[VNDF_HIT_BLOCK];                         /* of the samples, takes the lobe */
+    vndf_sample_bits through, trusted;                   /* the lobe; whether cosines and F may be rounded */
 } lobes;
 
 static void find_hits(const vndf_scatter_block *b, lobes *l)
 {
-    hits shared;
+    vndf_hits shared;
     if (b->hit)
-        shared = shared_hits(b->hit);
+        shared = vndf_shared_hits(b->hit);
     for (uint32_t i = 0, g = 0; i < b->count; i += VNDF_LANES, g++) {
-        hits h = b->hit ? shared : hits_at(b, i);
+        vndf_hits h = b->hit ? shared : vndf_hits_at(b->material, b->in, i);
         vndf_bsdf_normal n = normals_at(b, &h.at, i);
         keep_hits(&l->w, i, &h, &n);
         lanes_store(l->x + i, h.at.wi.x);
@@ -313,15 +230,6 @@ VNDF_INLINE vndf_meeting meeting_at(const vndf_scatter_block *b, const lobes *l,
     vndf_normal wi = {doubles_load(l->x + i), doubles_load(l->y + i), doubles_load(l->w.cos_i + i)};
     vndf_normal wm = {doubles_load(d->x + i), doubles_load(d->y + i), doubles_load(d->z + i)};
     return vndf_meet(wi, wm);
-}
-
-/* F is the same of all wavelengths; its mean is summed as vndf_mean_of sums it. */
-VNDF_INLINE doubles mean_of(const vndf_material *m, doubles f)
-{
-    doubles sum = f;
-    for (int k = 1; k < m->is.wavelengths; k++)
-        sum += f;
-    return sum * m->per_wavelength;
 }
 
 VNDF_INLINE void refract(const vndf_scatter_block *b, lobes *l, uint32_t i, const vndf_meeting *at, doubles beyond,
@@ -342,10 +250,10 @@ static void choose_lobes(const vndf_scatter_block *b, lobes *l)
 {
     const vndf_material *m = b->material;
     const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
-    int radiance = m->is.effects.transport == VNDF_TRANSPORT_RADIANCE;
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
         vndf_meeting at = meeting_at(b, l, i);
-        doubles eta = eta_at(m, &l->w, i), f = vndf_reflectance_lanes(m, 0, at.facing, eta), part = mean_of(m, f);
+        doubles eta = vndf_eta_at(m, l->w.side + i), f = vndf_reflectance_lanes(m, 0, at.facing, eta),
+                part = vndf_mean_lanes(m, f);
         doubles square = vndf_refracted_square(at.facing, eta), beyond = doubles_root(square);
         doubles_m passes = doubles_both(doubles_less(part, one), doubles_less(nothing, square));
         doubles_m back = doubles_both(doubles_less(nothing, part),
@@ -353,14 +261,13 @@ static void choose_lobes(const vndf_scatter_block *b, lobes *l)
         doubles_m through = doubles_without(passes, back), loses = vndf_loses_reflectance(at.facing, eta);
         doubles share = doubles_pick(through, 1.0 - part, part),
                 weight = doubles_pick(through, 1.0 - f, f) / share;
-        if (radiance)
-            weight = doubles_pick(through, 1.0 / (eta * eta) * weight, weight);
+        weight = doubles_pick(through, vndf_carried_at(m, eta) * weight, weight);
         uint32_t bits = doubles_mask_bits(through), bent = doubles_mask_bits(vndf_trusts_refraction(&at, beyond));
         doubles_store_f(l->share + i, doubles_narrow(share));
         doubles_store_f(l->w.part[0] + i, doubles_narrow(weight));
-        set_bits(&l->through, i, bits);
-        set_bits(&l->trusted, i,
-                 (bits & bent) | (~(bits | doubles_mask_bits(loses)) & ((1u << VNDF_DOUBLES) - 1)));
+        vndf_set_bits(&l->through, i, bits);
+        vndf_set_bits(&l->trusted, i,
+                      (bits & bent) | (~(bits | doubles_mask_bits(loses)) & ((1u << VNDF_DOUBLES) - 1)));
         refract(b, l, i, &at, beyond, eta);
     }
 }
@@ -372,10 +279,10 @@ static void follow_lobes(vndf_scatter_block *b, lobes *l)
     const vndf_scattered_n *to = &b->to;
     const lanes_f nothing = lanes_set(0.0f);
     for (uint32_t i = 0, g = 0; i < b->count; i += VNDF_LANES, g++) {
-        const hits *h = &l->hits[g];
+        const vndf_hits *h = &l->hits[g];
         const vndf_bsdf_normal *n = &l->normals[g];
-        lanes_m through = lanes_of_mask_bits(bits_at(&l->through, i)), ready;
-        lanes_m trusted = lanes_of_mask_bits(bits_at(&l->trusted, i));
+        lanes_m through = lanes_of_mask_bits(vndf_bits_at(&l->through, i)), ready;
+        lanes_m trusted = lanes_of_mask_bits(vndf_bits_at(&l->trusted, i));
         vndf_vec3_lanes back = vndf_reflected(h->at.wi, n->wm, n->facing);
         vndf_vec3_lanes up = {lanes_pick(through, lanes_load(l->wo[0] + i), back.x),
                               lanes_pick(through, lanes_load(l->wo[1] + i), back.y),
@@ -392,65 +299,37 @@ static void follow_lobes(vndf_scatter_block *b, lobes *l)
         lanes_f side = lanes_pick(through, nothing - h->side, h->side);
         lanes_store(l->w.cos_o + i, up.z);
         lanes_store(l->w.area_o + i, area);
-        lanes_store(to->density + i, lanes_keep(good, positive(density * lanes_load(l->share + i))));
+        lanes_store(to->density + i, lanes_keep(good, vndf_positive_lanes(density * lanes_load(l->share + i))));
         store_direction(to->wo, i, good, up, side * up.z, 1.0f);
         if (to->wm.x)
             store_direction(to->wm, i, good, n->wm, h->side * n->wm.z, 0.0f);
         store_lobes(to->lobe + i, lanes_without(good, through), lanes_both(good, through));
-        set_bits(&l->w.good, i, lanes_mask_bits(good));
-        set_bits(&b->left, i,
-                 lanes_mask_bits(lanes_either(lanes_without(h->seen, h->known), lanes_without(met, good))));
+        vndf_set_bits(&l->w.good, i, lanes_mask_bits(good));
+        vndf_set_bits(&b->left, i,
+                      lanes_mask_bits(lanes_either(lanes_without(h->seen, h->known), lanes_without(met, good))));
     }
 }
 
-VNDF_INLINE doubles at_least_one(doubles x)
-{
-    const doubles one = doubles_set(1.0);
-    return doubles_pick(doubles_less(one, x), x, one);
-}
-
-/* The areas over their cosines in double. */
-VNDF_INLINE void exact_slants(const vndf_scatter_block *b, const lobes *l, uint32_t at, doubles *i, doubles *o)
-{
-    const vndf_distribution *d = b->material->is.distribution;
-    double scale = vndf_unit_scale(d);
-    doubles cos_i = doubles_load(l->w.cos_i + at), cos_o = doubles_load(l->w.cos_o + at);
-    doubles ax = doubles_load(b->in[VNDF_SCATTER_ALPHA_X] + at) * scale;
-    doubles ay = doubles_load(b->in[VNDF_SCATTER_ALPHA_Y] + at) * scale;
-    if (b->hit) {
-        ax = doubles_set(b->hit->view.alpha_x);
-        ay = doubles_set(b->hit->view.alpha_y);
-    }
-    vndf_direction wi = {ax, ay, doubles_load(l->x + at), doubles_load(l->y + at), cos_i};
-    vndf_direction wo = {ax, ay, doubles_load(l->wo[0] + at), doubles_load(l->wo[1] + at), cos_o};
-    *i = doubles_widen(vndf_area_of(d, &wi)) / cos_i;
-    *o = doubles_widen(vndf_area_of(d, &wo)) / cos_o;
-}
-
-/* Masking of transmissions over both cosines (terms/masking.c). Clears *ready where Beta is not for lanes. */
-VNDF_INLINE doubles transmission_masking_at(const vndf_scatter_block *b, const lobes *l, uint32_t at,
+VNDF_INLINE doubles transmission_masking_at(const vndf_scatter_block *b, const lobes *l, uint32_t i,
                                             doubles_m *ready)
 {
-    doubles cos_i = doubles_load(l->w.cos_i + at), cos_o = doubles_load(l->w.cos_o + at), exact_i, exact_o;
-    doubles i = doubles_load(l->w.area_i + at) / cos_i, o = doubles_load(l->w.area_o + at) / cos_o;
-    doubles_m exact = doubles_both(*ready, vndf_needs_exact_areas(i, o));
-    if (doubles_any(exact)) {
-        exact_slants(b, l, at, &exact_i, &exact_o);
-        i = doubles_pick(exact, exact_i, i);
-        o = doubles_pick(exact, exact_o, o);
-    }
-    return vndf_beta_lanes(at_least_one(i), at_least_one(o), ready) / (cos_i * cos_o);
+    const vndf_slants_of of = {{l->x + i, l->y + i, l->w.cos_i + i},
+                               {l->wo[0] + i, l->wo[1] + i, l->w.cos_o + i},
+                               l->w.area_i + i,
+                               l->w.area_o + i};
+    doubles cos_i = doubles_load(l->w.cos_i + i), cos_o = doubles_load(l->w.cos_o + i);
+    return vndf_transmission_masking(b->material->is.distribution, b->in, i, &of, cos_i, cos_o, ready);
 }
 
 static void weigh_lobes(vndf_scatter_block *b, lobes *l)
 {
     for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        uint32_t bits = bits_at(&l->through, i) & bits_at(&l->w.good, i) & ((1u << VNDF_DOUBLES) - 1);
+        uint32_t bits = vndf_bits_at(&l->through, i) & vndf_bits_at(&l->w.good, i) & ((1u << VNDF_DOUBLES) - 1);
         doubles masking = reflection_masking_at(&l->w, i);
         if (bits) {
             doubles_m through = doubles_of_mask_bits(bits), ready = through;
             masking = doubles_pick(through, transmission_masking_at(b, l, i, &ready), masking);
-            set_bits(&b->left, i, bits & ~doubles_mask_bits(ready));
+            vndf_set_bits(&b->left, i, bits & ~doubles_mask_bits(ready));
         }
         store_weight(&l->w, i, masking);
     }
@@ -459,9 +338,9 @@ static void weigh_lobes(vndf_scatter_block *b, lobes *l)
 static void scatter_both(vndf_scatter_block *b)
 {
     lobes l;
-    clear_bits(&l.w.good);
-    clear_bits(&l.through);
-    clear_bits(&l.trusted);
+    vndf_clear_bits(&l.w.good);
+    vndf_clear_bits(&l.through);
+    vndf_clear_bits(&l.trusted);
     find_hits(b, &l);
     choose_lobes(b, &l);
     follow_lobes(b, &l);
@@ -475,7 +354,7 @@ void vndf_scatter_block_avx512(vndf_scatter_block *b)
 void vndf_scatter_block_avx2(vndf_scatter_block *b)
 #  endif
 {
-    clear_bits(&b->left);
+    vndf_clear_bits(&b->left);
     switch (b->material->routines->kind) {
     case VNDF_BLOCK_NONE: break;
     case VNDF_BLOCK_BARE: scatter_bare(b); break;

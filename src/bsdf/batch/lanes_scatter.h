@@ -4,32 +4,16 @@
 #ifndef VNDF_BSDF_BATCH_LANES_SCATTER_H
 #define VNDF_BSDF_BATCH_LANES_SCATTER_H
 
-#include "bsdf/routines.h"
+#include "bsdf/batch/block.h"
 
-enum { VNDF_SCATTER_BLOCK = 256 };
-
-/* The inputs of a block, which lanes may read to the end of the last group. */
-enum {
-    VNDF_SCATTER_ALPHA_X,
-    VNDF_SCATTER_ALPHA_Y,
-    VNDF_SCATTER_WI_X,
-    VNDF_SCATTER_WI_Y,
-    VNDF_SCATTER_WI_Z,
-    VNDF_SCATTER_U2,
-    VNDF_SCATTER_U3,
-    VNDF_SCATTER_INPUTS
-};
+/* The inputs of a block beside those of its hits. */
+enum { VNDF_SCATTER_U2 = VNDF_HIT_INPUTS, VNDF_SCATTER_U3, VNDF_SCATTER_INPUTS };
 
 /* Normals, their densities and weights (vndf_sample_weight_n). */
 typedef struct vndf_drawn_block {
-    float x[VNDF_SCATTER_BLOCK], y[VNDF_SCATTER_BLOCK], z[VNDF_SCATTER_BLOCK];
-    float density[VNDF_SCATTER_BLOCK], weight[VNDF_SCATTER_BLOCK];
+    float x[VNDF_HIT_BLOCK], y[VNDF_HIT_BLOCK], z[VNDF_HIT_BLOCK];
+    float density[VNDF_HIT_BLOCK], weight[VNDF_HIT_BLOCK];
 } vndf_drawn_block;
-
-/* One bit for each sample. */
-typedef struct vndf_sample_bits {
-    uint32_t of[VNDF_SCATTER_BLOCK / 32];
-} vndf_sample_bits;
 
 typedef struct vndf_scatter_block {
     const vndf_material *material;

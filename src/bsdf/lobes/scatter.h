@@ -11,9 +11,9 @@
 #ifndef VNDF_BSDF_LOBES_SCATTER_H
 #define VNDF_BSDF_LOBES_SCATTER_H
 
+#include "bsdf/terms/facet.h"
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/normals.h"
-#include "bsdf/terms/refraction.h"
 #include "bsdf/trust.h"
 
 VNDF_INLINE vndf_vec3 vndf_vec3_from(vndf_normal n)
@@ -80,42 +80,23 @@ typedef struct vndf_half {
     double jacobian; /* dwm/dwo */
 } vndf_half;
 
-VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
+VNDF_INLINE vndf_half vndf_half_of(const vndf_facet *f, vndf_vec3 wo)
 {
-    double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    return wm;
+    vndf_event e = {wo, f->cos_i, f->cos_o, f->facing_i, f->facing_o, f->wm.z};
+    vndf_half half = {f->wm, e, f->jacobian};
+    return half;
 }
 
-/* wi and wo keep their lengths: for a sampled wo the half vector is then wm, rounding included. Where both graze, wi.wm
- * is as small as the errors of these lengths and might be 0 or less, so they are made 1. There exact.c evaluates all
- * samples. */
 VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
-    vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
-    double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
-    if (facing < VNDF_TRUST_LENGTHS) {
-        i = vndf_unit(wi);
-        wm = vndf_halfway(i, vndf_unit(wo));
-        facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
-    }
-    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
-    vndf_half half = {wm, e, 0.25 / facing};
-    return half;
+    vndf_facet f = vndf_facet_reflecting(vndf_normal_of(wi), vndf_normal_of(wo));
+    return vndf_half_of(&f, wo);
 }
 
-/* Where wi + r wo is small an error of a length matters, so both lengths are made 1. */
 VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
 {
-    vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
-    double rise = eta - 1.0, x = rise * o.x + (i.x + o.x), y = rise * o.y + (i.y + o.y),
-           z = rise * o.z + (i.z + o.z);
-    double square = x * x + y * y + z * z, per = copysign(1.0 / sqrt(square), z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    double facing_i = i.x * wm.x + i.y * wm.y + i.z * wm.z, facing_o = -(o.x * wm.x + o.y * wm.y + o.z * wm.z);
-    vndf_event e = {vndf_mirrored(wo, -1.0f), i.z, -o.z, facing_i, facing_o, wm.z};
-    vndf_half half = {wm, e, eta * eta * facing_o / square};
-    return half;
+    vndf_facet f = vndf_facet_refracting(vndf_normal_of(wi), vndf_normal_of(wo), eta);
+    return vndf_half_of(&f, vndf_mirrored(wo, -1.0f));
 }
 
 /* ---- densities of two directions ---- */

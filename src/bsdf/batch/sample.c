@@ -1,75 +1,11 @@
 /* The calls of many. Visible normals are drawn in lanes (sampler/batch/sample.c), a block at a time, and scattered in
  * lanes (lanes_scatter.h) where the effects are of their kinds. The rest is done for one sample after the other by the
  * code of the call of one. */
+#include "bsdf/batch/elements.h"
 #include "bsdf/batch/lanes_scatter.h"
-#include "bsdf/terms/masking.h"
-#include "math/vector.h"
 #include "sampler/surface.h"
 
-/* ---- elements ---- */
-
-VNDF_INLINE size_t at_of(const vndf_bsdf_batch *b, size_t i, unsigned shared)
-{
-    return b->shared & shared ? 0 : i;
-}
-
-VNDF_INLINE vndf_vec3 wi_at(const vndf_bsdf_batch *b, size_t i)
-{
-    size_t at = at_of(b, i, VNDF_SHARED_WI);
-    return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
-}
-
-VNDF_INLINE vndf_roughness roughness_at(const vndf_bsdf_batch *b, size_t i)
-{
-    size_t at = at_of(b, i, VNDF_SHARED_ALPHA);
-    vndf_roughness r = b->material->roughness;
-    if (b->alpha_x) {
-        r.alpha_x = b->alpha_x[at];
-        r.alpha_y = b->alpha_y[at];
-    }
-    if (b->cos_rotation) {
-        r.cos_rotation = b->cos_rotation[at];
-        r.sin_rotation = b->sin_rotation[at];
-    }
-    return r;
-}
-
-VNDF_INLINE int is_one_shape(const vndf_bsdf_batch *b)
-{
-    return (b->shared & VNDF_SHARED_ALPHA) || (!b->alpha_x && !b->cos_rotation && !b->affine && !b->mixture);
-}
-
-/* Whether all elements are one hit. */
-static int is_one_hit(const vndf_bsdf_batch *b)
-{
-    return (b->shared & VNDF_SHARED_WI) && is_one_shape(b);
-}
-
-VNDF_INLINE void hit_at(vndf_bsdf *hit, const vndf_bsdf_batch *b, size_t i)
-{
-    size_t at = at_of(b, i, VNDF_SHARED_ALPHA);
-    vndf_roughness r;
-    switch (b->material->is.effects.shape) {
-    case VNDF_SHAPE_ALIGNED:
-    case VNDF_SHAPE_ROTATED: break;
-    case VNDF_SHAPE_MATRIX:
-    case VNDF_SHAPE_AFFINE:
-        vndf_bsdf_affine(hit, b->material, b->affine ? b->affine + at : NULL, wi_at(b, i));
-        return;
-    case VNDF_SHAPE_MIXTURE:
-        vndf_bsdf_mixture(hit, b->material, b->mixture ? b->mixture + at : NULL, wi_at(b, i));
-        return;
-    }
-    r = roughness_at(b, i);
-    vndf_bsdf_hit(hit, b->material, &r, wi_at(b, i));
-}
-
-VNDF_INLINE vndf_vec3 direction_at(vndf_normals w, size_t i)
-{
-    return vndf_vec3_of(w.x[i], w.y[i], w.z[i]);
-}
-
-/* ---- sample ---- */
+/* ---- one by one ---- */
 
 VNDF_INLINE void put(const vndf_scattered_n *to, size_t i, const vndf_scattered *s, int wavelengths)
 {
@@ -89,13 +25,13 @@ VNDF_INLINE void put(const vndf_scattered_n *to, size_t i, const vndf_scattered 
 
 static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
 {
-    int one = is_one_hit(b);
+    int one = vndf_elements_share_hit(b);
     vndf_bsdf hit;
     for (size_t i = 0; i < b->count; i++) {
         const float numbers[3] = {u[0][i], u[1][i], u[2][i]};
         vndf_scattered s;
         if (i == 0 || !one)
-            hit_at(&hit, b, i);
+            vndf_element_hit(&hit, b, i);
         vndf_bsdf_sample(&hit, numbers, &s);
         put(to, i, &s, b->material->is.wavelengths);
     }
@@ -104,19 +40,19 @@ static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3],
 /* The normals of a block, and the heights of its directions. */
 typedef struct drawn_part {
     vndf_drawn_block drawn;
-    float up[VNDF_SCATTER_BLOCK];
+    float up[VNDF_HIT_BLOCK];
 } drawn_part;
 
 /* The elements from `first` on, turned up for the sampler. */
 static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, float *up)
 {
     const vndf_material *m = b->material;
-    size_t wi = at_of(b, first, VNDF_SHARED_WI), heights = b->shared & VNDF_SHARED_WI ? 1 : count;
+    size_t wi = vndf_element_index(b, first, VNDF_SHARED_WI), heights = b->shared & VNDF_SHARED_WI ? 1 : count;
     vndf_batch part = {m->is.distribution,    count,        b->shared,    b->limit,    &m->roughness.alpha_x,
                        &m->roughness.alpha_y, b->wi_x + wi, b->wi_y + wi, b->wi_z + wi};
     if (b->alpha_x) {
-        part.alpha_x = b->alpha_x + at_of(b, first, VNDF_SHARED_ALPHA);
-        part.alpha_y = b->alpha_y + at_of(b, first, VNDF_SHARED_ALPHA);
+        part.alpha_x = b->alpha_x + vndf_element_index(b, first, VNDF_SHARED_ALPHA);
+        part.alpha_y = b->alpha_y + vndf_element_index(b, first, VNDF_SHARED_ALPHA);
     } else
         part.shared |= VNDF_SHARED_ALPHA;
     for (size_t i = 0; i < heights; i++)
@@ -148,72 +84,40 @@ VNDF_INLINE void scatter_one(const vndf_bsdf_batch *b, const vndf_bsdf *hit, con
 
 static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
 {
-    int one = is_one_hit(b);
+    int one = vndf_elements_share_hit(b);
     drawn_part own;
     vndf_bsdf hit;
-    for (size_t first = 0; first < b->count; first += VNDF_SCATTER_BLOCK) {
-        size_t count = b->count - first < VNDF_SCATTER_BLOCK ? b->count - first : VNDF_SCATTER_BLOCK;
+    for (size_t first = 0; first < b->count; first += VNDF_HIT_BLOCK) {
+        size_t count = b->count - first < VNDF_HIT_BLOCK ? b->count - first : VNDF_HIT_BLOCK;
         draw_block(b, u, first, count, &own);
         for (size_t i = 0; i < count; i++) {
             vndf_scattered s;
             if (first + i == 0 || !one)
-                hit_at(&hit, b, first + i);
+                vndf_element_hit(&hit, b, first + i);
             scatter_one(b, &hit, &own.drawn, u, first, i, &s);
             put(to, first + i, &s, b->material->is.wavelengths);
         }
     }
 }
 
-/* ---- sample in lanes ---- */
+/* ---- in lanes ---- */
 
 #if VNDF_HAS_LANES
 
-/* F of a steep conductor is evaluated at each direction. Other masking has no lanes, nor have both lobes with another F,
- * or with light that goes straight on. */
-static int has_lanes(const vndf_bsdf_batch *b)
-{
-    const vndf_material *m = b->material;
-    int bends = m->is.effects.fresnel == VNDF_FRESNEL_DIELECTRIC && m->is.eta != 1.0f;
-    if (m->routines->kind == VNDF_BLOCK_NONE || (m->routines->kind == VNDF_BLOCK_BOTH && !bends))
-        return 0;
-    return b->count > 1 && !m->steep && m->masking == &vndf_masking_height_correlated &&
-           vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
-}
-
 enum { RESULTS = VNDF_WAVELENGTHS + 7 };
 
-/* Copies of the inputs that lanes cannot read in place: a number that all samples share, and the last block of a batch,
- * whose last group would read past the end. Results of that block wait here. */
+/* Copies of inputs (elements.h). Results of the last block wait here. */
 typedef struct copies {
-    float of[VNDF_SCATTER_INPUTS][VNDF_SCATTER_BLOCK], result[RESULTS][VNDF_SCATTER_BLOCK];
-    uint8_t lobe[VNDF_SCATTER_BLOCK];
+    float of[VNDF_SCATTER_INPUTS][VNDF_HIT_BLOCK], result[RESULTS][VNDF_HIT_BLOCK];
+    uint8_t lobe[VNDF_HIT_BLOCK];
 } copies;
-
-static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
-{
-    if (!is_shared && count == VNDF_SCATTER_BLOCK)
-        return from + first;
-    for (uint32_t i = 0; i < VNDF_SCATTER_BLOCK && !(is_shared && first > 0); i++)
-        copy[i] = is_shared ? from[0] : i < count ? from[first + i] : 0.0f;
-    return copy;
-}
 
 static void read_block(vndf_scatter_block *block, const vndf_bsdf_batch *b, const float *const u[3], size_t first,
                        copies *own)
 {
-    const vndf_roughness *r = &b->material->roughness;
-    int alpha = (b->shared & VNDF_SHARED_ALPHA) || !b->alpha_x, wi = (b->shared & VNDF_SHARED_WI) != 0;
-    const float *from[VNDF_SCATTER_INPUTS] = {b->alpha_x ? b->alpha_x : &r->alpha_x,
-                                              b->alpha_x ? b->alpha_y : &r->alpha_y,
-                                              b->wi_x,
-                                              b->wi_y,
-                                              b->wi_z,
-                                              u[1],
-                                              u[2]};
-    for (int n = 0; n < VNDF_SCATTER_INPUTS; n++) {
-        int is_shared = n <= VNDF_SCATTER_ALPHA_Y ? alpha : n <= VNDF_SCATTER_WI_Z ? wi : 0;
-        block->in[n] = input_at(from[n], is_shared, first, block->count, own->of[n]);
-    }
+    vndf_block_hits(b, first, block->count, block->in, own->of);
+    for (int n = VNDF_SCATTER_U2; n <= VNDF_SCATTER_U3; n++)
+        block->in[n] = vndf_block_input(u[1 + n - VNDF_SCATTER_U2], 0, first, block->count, own->of[n]);
 }
 
 /* All arrays of floats of some results, one after the other, those that are NULL too. */
@@ -231,7 +135,7 @@ static void place_results(vndf_scatter_block *block, const vndf_bsdf_batch *b, c
                           size_t first, copies *own)
 {
     float **array[RESULTS];
-    int whole = block->count == VNDF_SCATTER_BLOCK;
+    int whole = block->count == VNDF_HIT_BLOCK;
     block->to = *to;
     block->to.lobe = whole ? to->lobe + first : own->lobe;
     results_of(&block->to, array);
@@ -243,7 +147,7 @@ static void place_results(vndf_scatter_block *block, const vndf_bsdf_batch *b, c
 static void move_results(vndf_scatter_block *block, const vndf_bsdf_batch *b, vndf_scattered_n to, size_t first)
 {
     float **from[RESULTS], **array[RESULTS];
-    if (block->count == VNDF_SCATTER_BLOCK)
+    if (block->count == VNDF_HIT_BLOCK)
         return;
     results_of(&block->to, from);
     results_of(&to, array);
@@ -265,7 +169,7 @@ static void scatter_left(const vndf_scatter_block *block, const vndf_bsdf_batch 
             if (i >= block->count)
                 break;
             if (!block->hit)
-                hit_at(&own, b, first + i);
+                vndf_element_hit(&own, b, first + i);
             scatter_one(b, block->hit ? block->hit : &own, block->drawn, u, first, i, &s);
             put(&block->to, i, &s, b->material->is.wavelengths);
         }
@@ -279,17 +183,17 @@ static void sample_in_lanes(const vndf_bsdf_batch *b, const float *const u[3], c
     copies own;
     drawn_part drawn;
     work.material = b->material;
-    work.hit = is_one_hit(b) ? &hit : NULL;
+    work.hit = vndf_elements_share_hit(b) ? &hit : NULL;
     work.drawn = &drawn.drawn;
     if (work.hit)
-        hit_at(&hit, b, 0);
+        vndf_element_hit(&hit, b, 0);
     if (work.hit && hit.material != b->material) { /* nothing is seen */
         sample_one_by_one(b, u, to);
         return;
     }
     for (size_t first = 0; first < b->count; first += work.count) {
         size_t rest = b->count - first;
-        work.count = rest < VNDF_SCATTER_BLOCK ? (uint32_t)rest : VNDF_SCATTER_BLOCK;
+        work.count = rest < VNDF_HIT_BLOCK ? (uint32_t)rest : VNDF_HIT_BLOCK;
         read_block(&work, b, u, first, &own);
         place_results(&work, b, to, first, &own);
         draw_block(b, u, first, work.count, &drawn);
@@ -304,12 +208,6 @@ static void sample_in_lanes(const vndf_bsdf_batch *b, const float *const u[3], c
 
 #else
 
-static int has_lanes(const vndf_bsdf_batch *b)
-{
-    (void)b;
-    return 0;
-}
-
 static void sample_in_lanes(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
 {
     sample_in_blocks(b, u, to);
@@ -319,49 +217,10 @@ static void sample_in_lanes(const vndf_bsdf_batch *b, const float *const u[3], c
 
 void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_scattered_n scattered)
 {
-    if (has_lanes(b))
+    if (vndf_elements_have_lanes(b))
         sample_in_lanes(b, u, &scattered);
     else if (b->material->routines->scatter)
         sample_in_blocks(b, u, &scattered);
     else
         sample_one_by_one(b, u, &scattered);
-}
-
-/* ---- eval, pdf ---- */
-
-static void look_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value,
-                   float *pdf)
-{
-    int one = is_one_hit(b);
-    vndf_bsdf hit;
-    for (size_t i = 0; i < b->count; i++) {
-        float f[VNDF_WAVELENGTHS];
-        if (i == 0 || !one)
-            hit_at(&hit, b, i);
-        hit.material->routines->eval(&hit, direction_at(wo, i), seed ? seed[i] : 0, f, pdf ? pdf + i : NULL);
-        for (int n = 0; n < b->material->is.wavelengths; n++)
-            value[n][i] = f[n];
-    }
-}
-
-void vndf_bsdf_eval_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value)
-{
-    look_n(b, wo, seed, value, NULL);
-}
-
-void vndf_bsdf_eval_pdf_n(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed, float *const *value,
-                          float *pdf)
-{
-    look_n(b, wo, seed, value, pdf);
-}
-
-void vndf_bsdf_pdf_n(const vndf_bsdf_batch *b, vndf_normals wo, float *pdf)
-{
-    int one = is_one_hit(b);
-    vndf_bsdf hit;
-    for (size_t i = 0; i < b->count; i++) {
-        if (i == 0 || !one)
-            hit_at(&hit, b, i);
-        pdf[i] = vndf_bsdf_pdf(&hit, direction_at(wo, i));
-    }
 }
