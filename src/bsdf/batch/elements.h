@@ -71,8 +71,8 @@ VNDF_INLINE void vndf_element_hit(vndf_bsdf *hit, const vndf_bsdf_batch *b, size
 
 /* ---- blocks ---- */
 
-/* Whether lanes do a batch. F of a steep conductor is evaluated at each direction. Other masking has no lanes, nor have both lobes with another F,
- * or with light that goes straight on. */
+/* Whether lanes do a batch. F of a steep conductor is evaluated at each direction. Other masking has no lanes, nor
+ * have both lobes with another F, or with light that goes straight on. */
 VNDF_INLINE int vndf_elements_have_lanes(const vndf_bsdf_batch *b)
 {
     const vndf_material *m = b->material;
@@ -83,8 +83,8 @@ VNDF_INLINE int vndf_elements_have_lanes(const vndf_bsdf_batch *b)
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-/* An array of a block: in place, or copied where lanes cannot read it there, as a number that all elements share, and the
- * last block of a batch, whose last group would read past the end. */
+/* An array of a block: in place, or copied where lanes cannot read it there, as a number that all elements share,
+ * and the last block of a batch, whose last group would read past the end. */
 VNDF_INLINE const float *vndf_block_input(const float *from, int is_shared, size_t first, uint32_t count,
                                           float *copy)
 {

@@ -1,5 +1,5 @@
-/* See lanes_look.h. Lanes past the end of a block work on numbers that are in memory, and nobody reads what they make of
- * them. */
+/* See lanes_look.h. Lanes past the end of a block work on numbers that are in memory, and nobody reads what they
+ * make of them. */
 #include "bsdf/batch/lanes_look.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1

@@ -1,7 +1,7 @@
 /* Values and densities of bare reflection, of reflection and of both lobes in lanes: one source, lanes_look.c, is
- * compiled for each instruction set. The facet between the two directions is terms/facet.h, as for the call of one; its D
- * and its density are answered as batches of vndf.h are (sampler/batch/lanes_eval.h). What lanes may not answer they
- * leave to the call of one. */
+ * compiled for each instruction set. The facet between the two directions is terms/facet.h, as for the call of one;
+ * its D and its density are answered as batches of vndf.h are (sampler/batch/lanes_eval.h). What lanes may not
+ * answer they leave to the call of one. */
 #ifndef VNDF_BSDF_BATCH_LANES_LOOK_H
 #define VNDF_BSDF_BATCH_LANES_LOOK_H
 

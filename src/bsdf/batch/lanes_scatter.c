@@ -1,10 +1,10 @@
 /* See lanes_scatter.h. Lanes past the end of a block work on numbers that are in memory, and nobody reads what they
  * make of them.
  *
- * Directions and densities of reflections are float; refractions, Fresnel terms and masking are double. So a block goes
- * through loops in turns: bare reflection through one in float; reflection through one that reflects, one in double that
- * weighs, and one that stores weights; both lobes through one for hits, one in double that chooses the lobe and refracts,
- * one that reflects, and the last two. */
+ * Directions and densities of reflections are float; refractions, Fresnel terms and masking are double. So a block
+ * goes through loops in turns: bare reflection through one in float; reflection through one that reflects, one in
+ * double that weighs, and one that stores weights; both lobes through one for hits, one in double that chooses the
+ * lobe and refracts, one that reflects, and the last two. */
 #include "bsdf/batch/lanes_scatter.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
