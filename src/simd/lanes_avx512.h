@@ -205,4 +205,10 @@ VNDF_INLINE lanes_f lanes_of_64(const float *table, lanes_u index)
     return _mm512_mask_blend_ps(is_high, low, high);
 }
 
+/* Lane i where bit i is set; other bits are not read. */
+VNDF_INLINE lanes_m lanes_of_mask_bits(uint32_t bits)
+{
+    return (lanes_m)bits;
+}
+
 #endif
