@@ -45,6 +45,14 @@ VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low,
                                   lanes_load(high + (split->high - 16)));
 }
 
+/* Appends `first` + i for each lane i of the mask to a list of `count` with room for all lanes; returns the count. */
+VNDF_INLINE uint32_t lanes_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first)
+{
+    const __m512i lane = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    lanes_store_u(list + count, (lanes_u)_mm512_maskz_compress_epi32(m, lane) + first);
+    return count + (uint32_t)__builtin_popcount(m);
+}
+
 #elif VNDF_LANES == 8
 
 /* For each mask of eight lanes: the lane of each place, and the place of each lane; byte i is for place i or lane i. A
@@ -102,6 +110,14 @@ VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low,
     __m256 in = _mm256_permutevar8x32_ps(lanes_load(low + split->low), split->place);
     __m256 out = _mm256_permutevar8x32_ps(lanes_load(high + (split->high - 8)), split->place);
     return lanes_pick(split->mask, in, out);
+}
+
+VNDF_INLINE uint32_t lanes_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first)
+{
+    uint32_t bits = lanes_mask_bits(m);
+    __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&LANES_ORDER[bits]));
+    lanes_store_u(list + count, (lanes_u)order + first);
+    return count + (uint32_t)__builtin_popcount(bits);
 }
 
 #endif

@@ -21,17 +21,22 @@ VNDF_INLINE void vndf_ask_radii(vndf_radial_search *s, uint32_t i, const vndf_az
     lanes_store(s->target + i, u2 * b->total);
 }
 
-/* Looks up the windows of a group. Wide windows are few; they are narrowed at once. */
-VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, uint32_t i, lanes_f u2)
+/* Looks up the first cells of windows. Wide windows are few; they are listed and narrowed last, so that no branch on
+ * them is mispredicted. */
+VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                   uint32_t count)
 {
-    lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), u2);
     lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
-    lanes_store_u(s->cell + i, code);
-    for (; wide != 0; wide &= wide - 1) {
-        uint32_t at = i + (uint32_t)__builtin_ctz(wide);
-        vndf_window window = vndf_window_from(s->cell[at]);
-        s->cell[at] = vndf_radial_narrow(&d->knots, window, s->c[at], s->k[at], s->target[at]);
+    uint32_t list[VNDF_BLOCK_SAMPLES + VNDF_LANES], wide = 0;
+    for (uint32_t i = 0; i < count; i += VNDF_LANES) {
+        lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), lanes_load(u2 + i));
+        lanes_store_u(s->cell + i, code);
+        wide = lanes_append(list, wide, lanes_without(lanes_all(), lanes_at_most_u(code, narrow)), i);
+    }
+    for (uint32_t n = 0; n < wide; n++) {
+        uint32_t i = list[n];
+        vndf_window window = vndf_window_from(s->cell[i]);
+        s->cell[i] = vndf_radial_narrow(&d->knots, window, s->c[i], s->k[i], s->target[i]);
     }
 }
 
@@ -40,8 +45,7 @@ VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search 
                                  uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
-    for (uint32_t i = 0; i < count; i += VNDF_LANES)
-        vndf_open_windows(d, s, i, lanes_load(u2 + i));
+    vndf_open_windows(d, s, u2, count);
 #pragma GCC unroll 4
     for (uint32_t i = 0; i < count; i++) {
         uint32_t first = s->cell[i];
