@@ -54,40 +54,34 @@ VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search 
     }
 }
 
-#if VNDF_LANES == 16
-
-/* The last knots with sums of no more than `target` before them, c, k >= 0, where cells are few. Sums ascend, so a
- * window finds the same. */
+/* The last knots with sums of no more than `target` before them, c, k >= 0: among every eighth knot, then among the
+ * seven behind that. Sums ascend, so a window finds the same. */
 VNDF_INLINE lanes_u vndf_find_in_few_cells(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f target)
 {
-    const float *f0 = d->knots.f0, *f1 = d->knots.f1;
-    lanes_u eighth = lanes_set_u(0);
-    for (uint32_t n = 8; n < d->radial_count; n += 8)
-        eighth = lanes_count(eighth, lanes_at_most(c * f0[n] + k * f1[n], target));
-    lanes_u j = eighth << 3;
-    for (uint32_t step = 4; step > 0; step /= 2) {
-        lanes_u next = j + step;
-        lanes_f sum = c * lanes_of_64(f0, next) + k * lanes_of_64(f1, next);
-        j = lanes_pick_u(lanes_at_most(sum, target), next, j);
+    const uint32_t steps = vndf_step_count(d);
+    const float *f0 = d->few_sums, *f1 = f0 + (VNDF_STEP - 1) * steps;
+    lanes_u step = lanes_set_u(0);
+    for (uint32_t n = VNDF_STEP; n < d->radial_count; n += VNDF_STEP)
+        step = lanes_count(step, lanes_at_most(c * d->knots.f0[n] + k * d->knots.f1[n], target));
+    lanes_u cell = step * VNDF_STEP;
+    for (uint32_t t = 1; t < VNDF_STEP; t++, f0 += steps, f1 += steps) {
+        lanes_f sum = c * lanes_few(f0, VNDF_LANES, step) + k * lanes_few(f1, VNDF_LANES, step);
+        cell = lanes_count(cell, lanes_at_most(sum, target));
     }
-    return j;
+    return cell;
 }
 
-#endif
-
-/* The same for c, k >= 0: in registers, if they hold the sums of all knots. */
+/* The same for c, k >= 0: in registers, if each number of every eighth knot fits one. */
 VNDF_INLINE void vndf_find_radii_in_front(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
                                           uint32_t count)
 {
-#if VNDF_LANES == 16
-    if (d->radial_count <= VNDF_FEW_CELLS) {
-        for (uint32_t i = 0; i < count; i += VNDF_LANES)
-            lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
-                                                              lanes_load(s->target + i)));
+    if (vndf_step_count(d) > VNDF_LANES) {
+        vndf_find_radii(d, s, u2, count, 1);
         return;
     }
-#endif
-    vndf_find_radii(d, s, u2, count, 1);
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
+                                                          lanes_load(s->target + i)));
 }
 
 VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
