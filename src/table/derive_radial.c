@@ -114,6 +114,17 @@ static void pad_knots(vndf_knots *k, uint32_t from)
     }
 }
 
+static void derive_few_sums(vndf_distribution *table)
+{
+    const uint32_t steps = vndf_step_count(table);
+    float *to = table->few_sums;
+    for (uint32_t t = 1; to && t < VNDF_STEP; t++)
+        for (uint32_t i = 0; i < steps; i++, to++) {
+            to[0] = table->knots.f0[VNDF_STEP * i + t];
+            to[(VNDF_STEP - 1) * steps] = table->knots.f1[VNDF_STEP * i + t];
+        }
+}
+
 static void derive_blocks(vndf_distribution *table)
 {
     const vndf_knots *k = &table->knots;
@@ -179,6 +190,7 @@ int vndf_derive_radial(vndf_distribution *table)
     derive_tail(table);
     derive_copies(table);
     pad_knots(&table->knots, table->radial_count + 1);
+    derive_few_sums(table);
     derive_blocks(table);
     derive_steepness(table);
     return vndf_windows_make(table) && derive_slopes(table);
