@@ -31,34 +31,41 @@ VNDF_INLINE doubles vndf_rounded(doubles x)
     return doubles_widen(doubles_narrow(x));
 }
 
-/* vndf_analytic_frame and vndf_normal_to_unit (frame.h). */
+/* The frame of vndf_analytic_frame (frame.h), and the normal times its heading's square and ax ay, which needs no
+ * division. A direction along z has no heading; x is it. */
 VNDF_INLINE vndf_unit_query vndf_unit_query_of(const vndf_query *g)
 {
     const doubles nothing = doubles_set(0.0), one = doubles_set(1.0);
-    doubles x = g->wi.ax * g->wi.x, y = g->wi.ay * g->wi.y, across2 = x * x + y * y,
-            across = doubles_root(across2);
-    doubles per = 1.0 / doubles_root(across2 + g->wi.z * g->wi.z);
+    doubles ax = g->wi.ax, ay = g->wi.ay, x = ax * g->wi.x, y = ay * g->wi.y, z = g->wi.z, across2 = x * x + y * y;
+    doubles across = doubles_root(across2), length = doubles_root(across2 + z * z);
+    doubles both = 1.0 / (across * length), per = across * both, per_across = length * both;
     doubles_m leans = doubles_less(nothing, across);
-    doubles per_across = doubles_pick(leans, 1.0 / across, nothing);
-    doubles a = vndf_rounded(doubles_pick(leans, x * per_across, one)), b = vndf_rounded(y * per_across);
-    doubles scale = 1.0 / (a * a + b * b), mx = g->x * scale / g->wi.ax, my = g->y * scale / g->wi.ay;
-    vndf_unit_query q = {
-        vndf_rounded(across * per), vndf_rounded(g->wi.z * per + 0.0), {a * mx + b * my, a * my - b * mx, g->z}};
+    doubles a = vndf_rounded(doubles_pick(leans, x * per_across, one));
+    doubles b = vndf_rounded(doubles_pick(leans, y * per_across, nothing));
+    doubles mx = ay * g->x, my = ax * g->y;
+    vndf_unit_query q = {vndf_rounded(doubles_pick(leans, across * per, nothing)),
+                         vndf_rounded(doubles_pick(leans, z * per, doubles_sign(one, z))),
+                         {a * mx + b * my, a * my - b * mx, ax * ay * (a * a + b * b) * g->z}};
     return q;
 }
 
 /* ---- GGX ---- */
 
-/* sine and cosine of theta/2 times sqrt(2) 2^30: vndf_half_angle_of (ggx.h). */
+/* Sine and cosine of theta/2 times sqrt(2) 2^30: vndf_half_angle_of (ggx.h); and one over the cosine, or 0. */
 typedef struct vndf_half_angles {
-    doubles sine, cosine;
+    doubles sine, cosine, per_cosine;
 } vndf_half_angles;
 
 VNDF_INLINE vndf_half_angles vndf_half_angles_of(doubles s, doubles c)
 {
-    doubles root = doubles_root(0x1p60 + 0x1p60 * doubles_abs(c)), other = 0x1p60 * s / root;
-    doubles_m below = doubles_less(c, doubles_set(0.0));
-    vndf_half_angles h = {doubles_pick(below, root, other), doubles_pick(below, other, root)};
+    const doubles nothing = doubles_set(0.0), one = doubles_set(1.0);
+    doubles root = doubles_root(0x1p60 + 0x1p60 * doubles_abs(c)), product = 0x1p60 * s;
+    doubles_m below = doubles_less(c, nothing), leans = doubles_less(nothing, s);
+    doubles with = doubles_pick(leans, product, one), both = 1.0 / (root * with);
+    doubles per_root = with * both, other = product * per_root;
+    doubles per_other = doubles_pick(leans, root * (root * both), nothing);
+    vndf_half_angles h = {doubles_pick(below, root, other), doubles_pick(below, other, root),
+                          doubles_pick(below, per_other, per_root)};
     return h;
 }
 
@@ -67,14 +74,12 @@ VNDF_INLINE vndf_half_angles vndf_half_angles_of(doubles s, doubles c)
  * u2, and 1 - v those of a small 1 - u2, where one step of 2^-24 moves the normals of the far tail by 1e-4. */
 VNDF_INLINE vndf_uniforms vndf_ggx_inverse(const vndf_unit_query *q)
 {
-    const doubles nothing = doubles_set(0.0);
     vndf_half_angles h = vndf_half_angles_of(q->s, q->c);
     vndf_normal n = q->n;
     doubles s2 = h.sine * h.sine, c2 = h.cosine * h.cosine;
-    doubles per_cosine = doubles_pick(doubles_less(nothing, h.cosine), 1.0 / h.cosine, nothing);
     doubles facing = h.sine * h.cosine * n.x + 0.5 * (c2 - s2) * n.z; /* the w that the sampler uses */
-    doubles scale = 2.0 * facing * per_cosine / (n.x * n.x + n.y * n.y + n.z * n.z);
-    doubles across = scale * n.x - h.sine, aside = scale * n.y, v = scale * n.z * per_cosine;
+    doubles scale = 2.0 * facing * h.per_cosine / (n.x * n.x + n.y * n.y + n.z * n.z);
+    doubles across = scale * n.x - h.sine, aside = scale * n.y, v = scale * n.z * h.per_cosine;
     doubles from_top = (across * across + aside * aside) / (s2 + v * c2);
     vndf_uniforms u = {vndf_uniform_of(0.5 + 0.5 * vndf_inverse_pi * vndf_atan2(aside, across)),
                        vndf_uniform_of(doubles_pick(doubles_less(v, doubles_set(0.5)), 1.0 - v, from_top))};
@@ -91,8 +96,8 @@ typedef struct vndf_slope_law {
 
 VNDF_INLINE vndf_slope_law vndf_slope_law_at(doubles s, doubles c)
 {
-    const doubles nothing = doubles_set(0.0), least = doubles_set((double)1e-30f);
-    doubles bound = c / doubles_pick(doubles_less(least, s), s, doubles_set(1e-30)), square = bound * bound;
+    const doubles nothing = doubles_set(0.0), least = doubles_set(1e-30); /* of a float */
+    doubles bound = c / doubles_pick(doubles_less(least, s), s, least), square = bound * bound;
     doubles n = vndf_erfc_remainder(doubles_abs(bound)), part = n / (n + doubles_abs(bound));
     doubles_m around = doubles_less(bound, doubles_set(1.25)), seen = doubles_less(nothing, bound);
     doubles line = doubles_pick(seen, 2.0 * vndf_root_pi * bound, nothing);
@@ -121,16 +126,18 @@ VNDF_INLINE doubles vndf_slope_half_erfc(doubles x)
     return doubles_pick(doubles_less(x, doubles_set(0.0)), 1.0 - tail, tail);
 }
 
-/* d = (w . n)/(s n.z) keeps digits that K - x would lose. */
+/* d = (w . n)/(s n.z) keeps digits that K - x would lose. Slopes of more than 1e30 do not show. */
 VNDF_INLINE vndf_uniforms vndf_beckmann_inverse(const vndf_unit_query *q)
 {
-    const doubles least = doubles_set(1e-30), nothing = doubles_set(0.0);
+    const doubles nothing = doubles_set(0.0);
+    vndf_normal n = q->n;
     vndf_slope_law law = vndf_slope_law_at(q->s, q->c);
-    doubles z = doubles_pick(doubles_less(least, q->n.z), q->n.z, least);
-    doubles s = doubles_pick(doubles_less(doubles_set((double)1e-30f), q->s), q->s, least);
-    doubles front = (q->s * q->n.x + q->c * q->n.z) / (s * z);
-    vndf_uniforms u = {vndf_uniform_of(vndf_slope_part(&law, (nothing - q->n.x) / z, doubles_positive(front))),
-                       vndf_uniform_of(vndf_slope_half_erfc(q->n.y / z))};
+    doubles least = 1e-30 * (doubles_abs(n.x) + doubles_abs(n.y) + n.z);
+    doubles z = doubles_pick(doubles_less(least, n.z), n.z, least);
+    doubles s = doubles_pick(doubles_less(doubles_set(1e-30), q->s), q->s, doubles_set(1e-30));
+    doubles front = (q->s * n.x + q->c * n.z) / (s * z);
+    vndf_uniforms u = {vndf_uniform_of(vndf_slope_part(&law, (nothing - n.x) / z, doubles_positive(front))),
+                       vndf_uniform_of(vndf_slope_half_erfc(n.y / z))};
     return u;
 }
 

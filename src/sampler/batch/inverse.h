@@ -46,18 +46,34 @@ VNDF_INLINE doubles_m inverse_query_is_valid(const vndf_query *g)
     return doubles_both(doubles_both(vndf_direction_is_valid(&g->wi), usable), doubles_at_most(nothing, g->z));
 }
 
+/* Groups that take each step in turn, so that roots and divisions of one do not wait for those of another. */
+enum { INVERSE_GROUPS = 8 };
+
 /* `inverse` is vndf_ggx_inverse or vndf_beckmann_inverse. */
-VNDF_INLINE void inverse_closed(vndf_invert_block *b, vndf_uniforms (*inverse)(const vndf_unit_query *))
+VNDF_INLINE void inverse_closed_groups(vndf_invert_block *b, uint32_t first, uint32_t groups,
+                                       vndf_uniforms (*inverse)(const vndf_unit_query *))
 {
-    for (uint32_t i = 0; i < b->count; i += VNDF_DOUBLES) {
-        vndf_query g = inverse_query_at(b, i);
-        vndf_unit_query q = vndf_unit_query_of(&g);
-        vndf_uniforms u = inverse(&q);
-        uint32_t valid = doubles_mask_bits(inverse_query_is_valid(&g));
-        doubles_store_f(b->u1 + i, u.u1);
-        doubles_store_f(b->u2 + i, u.u2);
+    vndf_unit_query q[INVERSE_GROUPS];
+    for (uint32_t g = 0; g < groups; g++) {
+        uint32_t i = first + g * VNDF_DOUBLES;
+        vndf_query query = inverse_query_at(b, i);
+        uint32_t valid = doubles_mask_bits(inverse_query_is_valid(&query));
+        q[g] = vndf_unit_query_of(&query);
         b->left_count = vndf_invert_append(b->left, b->left_count, ~valid & VNDF_EVERY_DOUBLE, i, b->count);
     }
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_uniforms u = inverse(&q[g]);
+        doubles_store_f(b->u1 + first + g * VNDF_DOUBLES, u.u1);
+        doubles_store_f(b->u2 + first + g * VNDF_DOUBLES, u.u2);
+    }
+}
+
+VNDF_INLINE void inverse_closed(vndf_invert_block *b, vndf_uniforms (*inverse)(const vndf_unit_query *))
+{
+    uint32_t groups = (b->count + VNDF_DOUBLES - 1) / VNDF_DOUBLES;
+    for (uint32_t g = 0; g < groups; g += INVERSE_GROUPS)
+        inverse_closed_groups(b, g * VNDF_DOUBLES, groups - g < INVERSE_GROUPS ? groups - g : INVERSE_GROUPS,
+                              inverse);
 }
 
 static inline void vndf_invert_ggx(vndf_invert_block *b)
