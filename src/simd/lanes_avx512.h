@@ -201,4 +201,5 @@ VNDF_INLINE lanes_m lanes_of_mask_bits(uint32_t bits)
 {
     return (lanes_m)bits;
 }
+
 #endif
