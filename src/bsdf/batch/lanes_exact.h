@@ -1,5 +1,5 @@
-/* The samples of a block whose density and weight are those of the rounded wo (lobes/exact.c), in lanes of doubles: they
- * are gathered side by side, so a block with few of them has few groups. For lanes_scatter.c. */
+/* The samples of a block whose density and weight are those of the rounded wo (lobes/exact.c), in lanes of doubles:
+ * they are gathered side by side, so a block with few of them has few groups. For lanes_scatter.c. */
 #ifndef VNDF_BSDF_BATCH_LANES_EXACT_H
 #define VNDF_BSDF_BATCH_LANES_EXACT_H
 
