@@ -201,10 +201,4 @@ VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
     return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
 }
 
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    const __m256d sign = _mm256_set1_pd(-0.0);
-    return _mm256_or_pd(_mm256_and_pd(sign, y), _mm256_andnot_pd(sign, x));
-}
-
 #endif

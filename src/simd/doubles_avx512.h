@@ -209,10 +209,4 @@ VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
     return (doubles_m)bits;
 }
 
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    const __m512d sign = _mm512_set1_pd(-0.0);
-    return _mm512_or_pd(_mm512_and_pd(sign, y), _mm512_andnot_pd(sign, x));
-}
-
 #endif

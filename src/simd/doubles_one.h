@@ -148,10 +148,4 @@ VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
     return x;
 }
 
-/* |x| with the sign of y. */
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    return copysign(x, y);
-}
-
 #endif

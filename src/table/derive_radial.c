@@ -174,6 +174,14 @@ static void add_steepness(vndf_distribution *d, uint32_t j, double xi)
     d->fold_steepness = fold > d->fold_steepness ? fold : d->fold_steepness;
 }
 
+/* Brings the mass of most cells near 1. With more than 2^12, masses near 1 would overflow. */
+static void derive_lift(vndf_distribution *table)
+{
+    table->lift = 4.0f;
+    while (table->lift < 4096.0f && table->lift < 4.0f * (float)table->radial_count)
+        table->lift *= 2.0f;
+}
+
 static void derive_steepness(vndf_distribution *table)
 {
     table->steepness = table->fold_steepness = table->steep_from = 0.0;
@@ -193,5 +201,6 @@ int vndf_derive_radial(vndf_distribution *table)
     derive_few_sums(table);
     derive_blocks(table);
     derive_steepness(table);
+    derive_lift(table);
     return vndf_windows_make(table) && derive_slopes(table);
 }

@@ -110,7 +110,7 @@ typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
 
-/* The same in float: 32 bytes. */
+/* The same in float, as powers of y - begin: 32 bytes. */
 typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
@@ -182,6 +182,7 @@ struct vndf_distribution {
     vndf_kind kind;
     uint32_t radial_count;    /* cells */
     float f0_total, f1_total; /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
+    float lift;               /* draws multiply their laws by this power of two (math/rational_cell.h) */
     vndf_knots knots;         /* radial_count + 1 and padding: all searches of cells read them */
     vndf_knots blocks;        /* the first knot of each block, padded too: draws below the horizon read them */
     vndf_radial_cell *cells;  /* radial_count: draws and densities of all kinds read them (tabulated/radial.h) */
