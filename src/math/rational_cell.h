@@ -40,9 +40,9 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* A place in a cell: xi = over/under, 1 - xi = rest/under, and the mass per unit of xi there, root under^2/below. Callers
- * form these quotients together with their own, or do without. `below` is of the fifth degree in the cell's mass, and
- * underflows where that is 1e-8. */
+/* A place in a cell: xi = over/under, 1 - xi = rest/under, and the mass per unit of xi there, root under^2/below.
+ * Callers form these quotients together with their own, or do without. `below` is of the fifth degree in the cell's
+ * mass, and underflows where that is 1e-8. */
 typedef struct vndf_rational_place {
     lanes_f over, rest, under, root, below;
 } vndf_rational_place;
@@ -50,8 +50,8 @@ typedef struct vndf_rational_place {
 /* The xi with mass t >= 0 before it; a t that rounding made larger than the mass counts as the mass. xi is the
  * root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b. The discriminant b^2 + 4 a t is
  * written as (b - 2 t)^2 + 4 t (m - t), a shorter chain. Its root is the derivative of a xi^2 + b xi, hence F'(xi)
- * = root/(1 + (k - 2) xi eta). xi/eta is 2 t/(root + b - 2 t) or, seen from the other end, (root - b + 2 t)/(2 (m - t)).
- * The code holds b - 2 t, root and both pairs times m. */
+ * = root/(1 + (k - 2) xi eta). xi/eta is 2 t/(root + b - 2 t) or, seen from the other end, (root - b + 2 t)/
+ * (2 (m - t)). The code holds b - 2 t, root and both pairs times m. */
 VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, lanes_f t)
 {
     lanes_f m = cell->mass;

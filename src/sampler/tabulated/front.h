@@ -3,10 +3,10 @@
  *
  *     A b + B (1 - cos b).
  *
- * To find the b with a given mass R is Kepler's equation. With g b^2/2 for 1 - cos b its root is b = 2 R/(A + sqrt(A^2 +
- * 2 B g R)); g = 1 - 0.185 R/whole leaves b within 8e-3. (The code multiplies all by the whole mass, which spares a
- * division.) One step of Halley's method in b, made by turning (sin b, cos b), leaves an error of 1.2e-8 of the mass, so
- * A + B cos a is the density of the sample to float precision.
+ * To find the b with a given mass R is Kepler's equation. With g b^2/2 for 1 - cos b its root is
+ * b = 2 R/(A + sqrt(A^2 + 2 B g R)); g = 1 - 0.185 R/whole leaves b within 8e-3. (The code multiplies all by the whole
+ * mass, which spares a division.) One step of Halley's method in b, made by turning (sin b, cos b), leaves an error of
+ * 1.2e-8 of the mass, so A + B cos a is the density of the sample to float precision.
  *
  * Polynomials in b^2 stand for sin b and 1 - cos b. The inverse, which is given an azimuth, has y = sin(b/2), and
  *

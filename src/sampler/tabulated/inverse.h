@@ -120,14 +120,13 @@ typedef struct vndf_inverse_cell {
 
 VNDF_INLINE vndf_inverse_cell vndf_inverse_cell_of(const vndf_wedge *w, const vndf_shares *s, doubles_u j)
 {
-    const size_t row = 4 * (size_t)w->cell_count;
-    doubles_lines lines = doubles_lines_at(&w->row_line->before, 4, s->row * w->cell_count + j);
-    doubles_four a = doubles_load_four(&lines, 0), b = doubles_load_four(&lines, row);
-    doubles_four c = doubles_load_four(&lines, 2 * row);
-    vndf_inverse_cell cell = {
-        s->first * a.a + s->middle * b.a + s->last * c.a, s->first * a.b + s->middle * b.b + s->last * c.b,
-        s->first * a.c + s->middle * b.c + s->last * c.c, s->first * a.d + s->middle * b.d + s->last * c.d};
-    return cell;
+    const float *first = w->cdf, *middle = first + w->stride, *last = middle + w->stride;
+    vndf_mixed_cell cell = vndf_shares_cell(w, s, j);
+    doubles_u at = s->row * w->stride + j;
+    doubles before = s->first * doubles_gather(first, at) + s->middle * doubles_gather(middle, at) +
+                     s->last * doubles_gather(last, at);
+    vndf_inverse_cell row = {before, cell.mass, cell.begin, cell.end};
+    return row;
 }
 
 /* Rows count their mass from the far side. */
