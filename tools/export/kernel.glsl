@@ -871,18 +871,20 @@ struct vndf_mixture_view {
     float area;
 };
 
+// Copies, here and below, since some languages index no parameter.
 vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi) {
+    vndf_mixture lobes = mixture;
     vndf_mixture_view view;
     float weight = 0.0;
-    view.count = mixture.count;
+    view.count = lobes.count;
     view.area = 0.0;
-    for (int i = 0; i < mixture.count; i += 1) {
-        view.lobe[i] = vndf_view_of(mixture.lobe[i], wi);
-        view.share[i] = mixture.weight[i] * vndf_projected_area(view.lobe[i]);
+    for (int i = 0; i < lobes.count; i += 1) {
+        view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
+        view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
         view.area = view.area + view.share[i];
-        weight = weight + mixture.weight[i];
+        weight = weight + lobes.weight[i];
     }
-    for (int j = 0; j < mixture.count; j += 1) {
+    for (int j = 0; j < lobes.count; j += 1) {
         view.share[j] = vndf_ratio(view.share[j], view.area);
     }
     view.area = vndf_ratio(view.area, weight);
@@ -890,48 +892,52 @@ vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi) {
 }
 
 float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm) {
+    vndf_mixture_view lobes = view;
     float density = 0.0;
-    for (int i = 0; i < view.count; i += 1) {
-        density = density + view.share[i] * vndf_pdf(view.lobe[i], wm);
+    for (int i = 0; i < lobes.count; i += 1) {
+        density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
     }
     return density;
 }
 
 float vndf_mixture_visible(vndf_mixture_view view, vec3 wm) {
+    vndf_mixture_view lobes = view;
     float density = 0.0;
-    for (int i = 0; i < view.count; i += 1) {
-        density = density + view.share[i] * vndf_visible(view.lobe[i], wm);
+    for (int i = 0; i < lobes.count; i += 1) {
+        density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
     }
     return density;
 }
 
 // u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole.
 vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2) {
+    vndf_mixture_view lobes = view;
     float before = 0.0;
     int drawn = 0;
-    for (int i = 0; i + 1 < view.count; i += 1) {
-        if (drawn == i && u1 >= before + view.share[i]) {
-            before = before + view.share[i];
+    for (int i = 0; i + 1 < lobes.count; i += 1) {
+        if (drawn == i && u1 >= before + lobes.share[i]) {
+            before = before + lobes.share[i];
             drawn = i + 1;
         }
     }
-    float u = clamp(vndf_ratio(u1 - before, view.share[drawn]), 0.0, 1.0);
-    vndf_sampled sampled = vndf_sample(view.lobe[drawn], u, u2);
-    float density = view.share[drawn] * sampled.pdf;
-    for (int j = 0; j < view.count; j += 1) {
+    float u = clamp(vndf_ratio(u1 - before, lobes.share[drawn]), 0.0, 1.0);
+    vndf_sampled sampled = vndf_sample(lobes.lobe[drawn], u, u2);
+    float density = lobes.share[drawn] * sampled.pdf;
+    for (int j = 0; j < lobes.count; j += 1) {
         if (j != drawn) {
-            density = density + view.share[j] * vndf_pdf(view.lobe[j], sampled.wm);
+            density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], sampled.wm);
         }
     }
     return vndf_sampled(sampled.wm, density);
 }
 
 float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm) {
+    vndf_mixture lobes = mixture;
     float weight = 0.0;
     float density = 0.0;
-    for (int i = 0; i < mixture.count; i += 1) {
-        weight = weight + mixture.weight[i];
-        density = density + mixture.weight[i] * vndf_ndf(mixture.lobe[i], wm);
+    for (int i = 0; i < lobes.count; i += 1) {
+        weight = weight + lobes.weight[i];
+        density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
     }
     return vndf_ratio(density, weight);
 }

@@ -1,0 +1,258 @@
+/* vndf export: the sampler and tables as one file for another language or processor. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "cli/output.h"
+#include "cli/subject.h"
+#include "command.h"
+#include "export/document.h"
+
+static const char name[] = "vndf export";
+
+static const char help[] =
+    "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
+    "\n"
+    "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
+    "sample with density, density of a normal, D, Lambda, G1, G2, projected area; alpha, matrices with mean slopes,\n"
+    "mixtures; directions on either side. It computes in float, without recursion and allocation.\n"
+    "\n"
+    "  --language NAME  the language of OUT\n"
+    "  -o OUT           the file; - for stdout\n"
+    "  --embed          the numbers of the tables stand in OUT (the default); refused where there are too many for\n"
+    "                   the language: opencl and msl 16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
+    "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, 4 bytes each,\n"
+    "                   little-endian (at run time vndf_numbers writes the same)\n"
+    "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
+    "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
+    "  --notice TEXT    a notice for the head of OUT, such as your licence; --notice @FILE takes it from a file\n"
+    "\n"
+    "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
+    "shows what to call from which host.\n"
+    "\n"
+    "exit status: 0 good, 2 wrong use\n"
+    "\n"
+    "example: vndf export tables/student-t-2.5-small.vndf --language glsl -o normals.glsl\n"
+    "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n";
+
+typedef struct export_words {
+    words tables, language, output, embed, buffer, prefix, lobes, notice;
+} export_words;
+
+/* ---- words --------------------------------------------------------------------------------------- */
+
+static int read_language(const export_words *given, export_document *document)
+{
+    const char *wanted = only_word(&given->language);
+    size_t count = 0;
+    while (language_names()[count])
+        count++;
+    document->as.to = wanted ? language_named(wanted) : NULL;
+    if (document->as.to)
+        return 1;
+    const char *hint = wanted ? nearest_word(wanted, language_names(), count) : NULL;
+    if (!wanted)
+        complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl");
+    else if (hint)
+        complain(name, "--language '%s': there is none; did you mean '%s'?", wanted, hint);
+    else
+        complain(name, "--language '%s': c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl are known", wanted);
+    return 0;
+}
+
+enum { NOTICE_MAX = 1 << 16 };
+
+/* The text of a file, or NULL after a complaint. */
+static char *read_notice_file(const char *path)
+{
+    FILE *file = input_named(name, path) ? fopen(path, "rb") : NULL;
+    char *text = file ? malloc(NOTICE_MAX + 1) : NULL;
+    size_t length = text ? fread(text, 1, NOTICE_MAX + 1, file) : 0;
+    int bad = !text || ferror(file) || length > NOTICE_MAX || memchr(text, '\0', length);
+    if (file)
+        fclose(file);
+    if (!bad) {
+        text[length] = '\0';
+        return text;
+    }
+    complain(name, "--notice '@%s': a text file of at most %d bytes is needed", path, NOTICE_MAX);
+    free(text);
+    return NULL;
+}
+
+/* *owned is to be freed. */
+static int read_notice(const export_words *given, export_document *document, char **owned)
+{
+    const char *notice = only_word(&given->notice);
+    document->notice = notice;
+    if (notice && notice[0] == '@')
+        document->notice = *owned = read_notice_file(notice + 1);
+    for (const char *at = document->notice; at && *at; at++)
+        if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t') {
+            complain(name, "--notice: it has a control character");
+            return 0;
+        }
+    return !notice || document->notice;
+}
+
+static int read_settings(const export_words *given, export_document *document)
+{
+    const char *prefix = only_word(&given->prefix);
+    unsigned long long lobes = 4;
+    if (!read_language(given, document))
+        return 0;
+    if (!translation_prefix(&document->as, prefix ? prefix : "vndf")) {
+        complain(name, "--prefix '%s': a lower-case letter, then up to %d letters, digits and '_'", prefix,
+                 PREFIX_MAX - 1);
+        return 0;
+    }
+    if (!option_count(name, "--lobes", &given->lobes, 1, 8, &lobes))
+        return 0;
+    document->lobes = (long)lobes;
+    document->embeds = given->buffer.count == 0;
+    document->as.by_pointer = !document->embeds && document->as.to->buffer == BUFFER_PARAMETER;
+    if (given->embed.count && given->buffer.count) {
+        complain(name, "--embed and --buffer exclude each other");
+        return 0;
+    }
+    if (given->output.count)
+        return 1;
+    complain(name, "-o is missing");
+    return 0;
+}
+
+/* ---- tables -------------------------------------------------------------------------------------- */
+
+static int is_named_before(const export_document *document, const exported_table *table)
+{
+    static const char *const taken[] = {"GGX", "BECKMANN", "LOBES", "NUMBERS", "KERNEL"};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+        if (strcmp(taken[i], table->name) == 0)
+            return 1;
+    for (const exported_table *t = document->table; t < table; t++)
+        if (strcmp(t->name, table->name) == 0)
+            return 1;
+    return 0;
+}
+
+static int open_table(export_document *document, chosen_distribution *chosen, const char *file)
+{
+    exported_table *table = &document->table[document->tables];
+    if (!distribution_open(chosen, name, file))
+        return 0;
+    table->distribution = chosen->distribution;
+    table->file = file;
+    table->size = vndf_numbers(table->distribution, NULL, 0);
+    table->base = document->count;
+    document->tables++;
+    document->count += table->size;
+    if (table->size == 0)
+        complain(name, "'%s' is a closed form: every kernel has it", file);
+    else if (!document_name_table(table) || is_named_before(document, table))
+        complain(name, "'%s': its constant would be %s%s, which is taken; rename the file", file,
+                 document->as.upper, table->name);
+    else if (document->count > (size_t)1 << 24)
+        complain(name, "'%s': the tables have more than 2^24 numbers, which a float cannot count", file);
+    else
+        return 1;
+    return 0;
+}
+
+static int fits(const export_document *document)
+{
+    const language *as = document->as.to;
+    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+        return 1;
+    complain(name, "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE", document->count, as->title,
+             as->why, as->most_embedded);
+    return 0;
+}
+
+static int fill_numbers(export_document *document)
+{
+    document->numbers = malloc((document->count + 1) * sizeof *document->numbers);
+    if (!document->numbers) {
+        complain(name, "no memory");
+        return 0;
+    }
+    for (size_t i = 0; i < document->tables; i++) {
+        const exported_table *t = &document->table[i];
+        vndf_numbers(t->distribution, document->numbers + t->base, t->size);
+    }
+    return 1;
+}
+
+/* ---- work ---------------------------------------------------------------------------------------- */
+
+static int write_raw(const export_document *document, FILE *file)
+{
+    for (size_t i = 0; i < document->count; i++) {
+        unsigned bits;
+        memcpy(&bits, &document->numbers[i], sizeof bits);
+        for (int byte = 0; byte < 4; byte++)
+            if (fputc((int)(bits >> 8 * byte & 255u), file) == EOF)
+                return 0;
+    }
+    return 1;
+}
+
+static int write_all(const export_words *given, const export_document *document)
+{
+    const char *path = only_word(&given->output), *raw = only_word(&given->buffer);
+    output_file text, numbers;
+    if (raw && output_is_stdout(raw))
+        return complain(name, "--buffer '-': a file is needed");
+    if (raw && !output_open(&numbers, name, raw))
+        return STATUS_USE;
+    if (!output_open(&text, name, path)) {
+        if (raw)
+            output_discard(&numbers);
+        return STATUS_USE;
+    }
+    if (!document_write(document, text.file) || (raw && !write_raw(document, numbers.file))) {
+        if (raw)
+            output_discard(&numbers);
+        return output_give_up(&text, "no memory, or no place on the disk");
+    }
+    int of_raw = raw ? output_commit(&numbers) : STATUS_GOOD, of_text = output_commit(&text);
+    return of_raw != STATUS_GOOD ? of_raw : of_text;
+}
+
+static int run(const export_words *given, export_document *document)
+{
+    chosen_distribution chosen[EXPORT_TABLES_MAX];
+    size_t opened = 0;
+    int good = 1, status = STATUS_USE;
+    for (size_t i = 0; good && i < given->tables.count; i++) {
+        chosen[opened].owned = NULL;
+        good = open_table(document, &chosen[opened++], given->tables.item[i]);
+    }
+    if (good && fits(document) && fill_numbers(document))
+        status = write_all(given, document);
+    for (size_t i = 0; i < opened; i++)
+        distribution_close(&chosen[i]);
+    free(document->numbers);
+    return status;
+}
+
+int command_export(int argc, char **argv)
+{
+    export_words given = {0};
+    export_document document = {0};
+    char *notice = NULL;
+    const option_form options[] = {
+        {"--language", 1, 1, &given.language}, {"-o", 1, 1, &given.output},       {"--embed", 0, 1, &given.embed},
+        {"--buffer", 1, 1, &given.buffer},     {"--prefix", 1, 1, &given.prefix}, {"--lobes", 1, 1, &given.lobes},
+        {"--notice", 1, 1, &given.notice},
+    };
+    const command_form form = {name,   help, options,          sizeof options / sizeof options[0],
+                               "FILE", 1,    EXPORT_TABLES_MAX};
+    int parsed = parse_arguments(&form, argc, argv, &given.tables);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    int good = read_settings(&given, &document) && read_notice(&given, &document, &notice);
+    int status = good ? run(&given, &document) : STATUS_USE;
+    free(notice);
+    return status;
+}
