@@ -48,10 +48,11 @@ typedef struct language {
     const char *numbers_before; /* declares embedded numbers: before their name */
     const char *numbers_open, *numbers_close; /* %N in both is their count */
     const char *pointer;                      /* type of the pointer, for BUFFER_PARAMETER */
-    const char *bound;                        /* declaration of the buffer, for BUFFER_BOUND; %s is its name */
-    size_t most_embedded;                     /* numbers; 0 for no limit */
-    const char *why;                          /* the limit */
-    renamed names[RENAMED_MAX];               /* types, and functions of the language */
+    const char *bound;          /* declares the buffer, for BUFFER_BOUND; before a name % stands for the prefix */
+    const char *fetched;        /* number i of it */
+    size_t most_embedded;       /* numbers; 0 for no limit */
+    const char *why;            /* the limit */
+    renamed names[RENAMED_MAX]; /* types, and functions of the language */
 } language;
 
 /* NULL if there is none of that name. */
