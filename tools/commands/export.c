@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/arguments.h"
+#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
@@ -22,7 +23,7 @@ static const char help[] =
     "  -o OUT           the file; - for stdout\n"
     "  --embed          the numbers of the tables stand in OUT (the default); refused where there are too many for\n"
     "                   the language: opencl and msl 16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
-    "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, 4 bytes each,\n"
+    "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, as 4 bytes,\n"
     "                   little-endian (at run time vndf_numbers writes the same)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
@@ -203,6 +204,8 @@ static int write_all(const export_words *given, const export_document *document)
     output_file text, numbers;
     if (raw && output_is_stdout(raw))
         return complain(name, "--buffer '-': a file is needed");
+    if (raw && !output_is_stdout(path) && files_same(path, raw))
+        return complain(name, "--buffer and -o both name '%s'", raw);
     if (raw && !output_open(&numbers, name, raw))
         return STATUS_USE;
     if (!output_open(&text, name, path)) {
