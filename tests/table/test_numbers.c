@@ -1,5 +1,6 @@
 /* vndf_numbers gives the numbers of an exported kernel: as many as it says, no more than there is room for, the same
- * each time. The counts and places that they begin with lead into them, and what they say of D is what the table says. */
+ * each time. The counts and places that they begin with lead into them, and what they say of D is what the table
+ * says. */
 #include <stdlib.h>
 #include <string.h>
 
