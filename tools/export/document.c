@@ -151,10 +151,19 @@ static void put_bound(FILE *to, const export_document *document)
 static const char vec3_text[] = "struct vndf_vec3 {\n    float x, y, z;\n};\n\n"
                                 "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"
                                 "    return vndf_vec3(x, y, z);\n}\n\n";
+static const char limits_text[] = "float vndf_min(float a, float b) {\n    return a < b ? a : b;\n}\n\n"
+                                  "float vndf_max(float a, float b) {\n    return a > b ? a : b;\n}\n\n";
 static const char clamp_text[] = "float vndf_clamp(float x, float low, float high) {\n"
                                  "    return min(max(x, low), high);\n}\n\n";
 static const char fetch_begin[] = "float vndf_fetch(int i) {\n    return ";
 static const char fetch_end[] = ";\n}\n\n";
+
+/* Whether a function of the language is one of ours. */
+static int has_own(const language *as, const char *function)
+{
+    const char *own = language_word(as, function, strlen(function));
+    return own && strncmp(own, "vndf_", 5) == 0;
+}
 
 /* What stands before the kernel, and the kernel, as one text to translate; NULL if there is no memory. */
 static char *whole_text(const export_document *document)
@@ -163,8 +172,12 @@ static char *whole_text(const export_document *document)
     const char *fetched = document->embeds          ? "VNDF_NUMBERS[i]"
                           : document->as.by_pointer ? "numbers[i]"
                                                     : as->fetched;
-    const char *parts[] = {as->vec3_is_ours ? vec3_text : "", language_word(as, "clamp", 5) ? clamp_text : "",
-                           fetch_begin, fetched, fetch_end};
+    const char *parts[] = {as->vec3_is_ours ? vec3_text : "",
+                           has_own(as, "min") ? limits_text : "",
+                           has_own(as, "clamp") ? clamp_text : "",
+                           fetch_begin,
+                           fetched,
+                           fetch_end};
     size_t size = 1;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         size += strlen(parts[i]);

@@ -386,10 +386,9 @@ vndf_place vndf_piece_place(vndf_piece piece, vndf_place zeta) {
     return vndf_place(piece.begin + xi * per, hidden + eta * per);
 }
 
-// The slope with the part u of the mass before it.
-vndf_slope vndf_law_draw(vndf_table table, vndf_law law, float u) {
+// The cell in which the mass `goal` ends: before a place where c >= 0, beyond it where c < 0.
+int vndf_law_find(vndf_table table, vndf_law law, float goal) {
     bool above = law.c >= 0.0;
-    float goal = law.mass * vndf_pick(above, u, 1.0 - u);
     int low = 0;
     int high = table.cells;
     if (!above && law.cut < table.cells) {
@@ -406,15 +405,17 @@ vndf_slope vndf_law_draw(vndf_table table, vndf_law law, float u) {
             high = middle;
         }
     }
-    vndf_piece piece = vndf_piece_of(table, law, low);
-    float rest = goal - vndf_law_sum(table, law, vndf_law_side(law, low));
-    float before = vndf_pick(above, rest, piece.cell.mass - rest);
-    return vndf_slope(low, vndf_piece_place(piece, vndf_cell_invert(piece.cell, before)));
+    return low;
 }
 
-// The density of a slope per X Z^2 dR, where the weight W of the normal, before scaling, is w.
-float vndf_law_density(vndf_table table, vndf_law law, vndf_slope slope, float w) {
-    vndf_piece piece = vndf_piece_of(table, law, slope.cell);
+// The place in cell j, which is `piece`, with that mass before or beyond it.
+vndf_place vndf_law_draw(vndf_table table, vndf_law law, int j, vndf_piece piece, float goal) {
+    float rest = goal - vndf_law_sum(table, law, vndf_law_side(law, j));
+    return vndf_piece_place(piece, vndf_cell_invert(piece.cell, vndf_pick(law.c >= 0.0, rest, piece.cell.mass - rest)));
+}
+
+// The density of a slope per X Z^2 dR, whose cell is `piece`; the weight W of the normal, before scaling, is w.
+float vndf_law_density(vndf_table table, vndf_law law, vndf_slope slope, vndf_piece piece, float w) {
     float xi = slope.at.xi;
     float eta = slope.at.eta;
     float per = vndf_ratio(vndf_ratio(1.0, piece.size), law.mass);
@@ -709,10 +710,13 @@ vndf_sampled vndf_table_sample(vndf_view view, float u1, float u2) {
     vndf_azimuth azimuth = vndf_view_azimuth(view, table, abs(side));
     float k = view.s * azimuth.cosine;
     vndf_law law = vndf_law_of(table, view.c, k);
-    vndf_slope slope = vndf_law_draw(table, law, u2);
+    float goal = law.mass * vndf_pick(view.c >= 0.0, u2, 1.0 - u2);
+    int cell = vndf_law_find(table, law, goal);
+    vndf_piece piece = vndf_piece_of(table, law, cell);
+    vndf_slope slope = vndf_slope(cell, vndf_law_draw(table, law, cell, piece, goal));
     float x = vndf_slope_x(table, slope);
     float z = vndf_slope_z(table, slope);
-    float density = azimuth.density * vndf_law_density(table, law, slope, view.c * z + k * x);
+    float density = azimuth.density * vndf_law_density(table, law, slope, piece, view.c * z + k * x);
     float y = x * vndf_pick(side < 0.0, -azimuth.sine, azimuth.sine);
     return vndf_sampled_at(view, vec3(x * azimuth.cosine, y, z), density);
 }
@@ -790,7 +794,8 @@ float vndf_table_pdf(vndf_view view, vec3 n, float facing) {
     vndf_law law = vndf_law_of(table, view.c, view.s * cosine);
     float scale = 1.0 / (x + n.z);
     vndf_slope slope = vndf_slope_seen(table, law, vndf_slope_of(table, x * scale, n.z * scale));
-    density = density * vndf_law_density(table, law, slope, facing * scale / view.size);
+    vndf_piece piece = vndf_piece_of(table, law, slope.cell);
+    density = density * vndf_law_density(table, law, slope, piece, facing * scale / view.size);
     return density * (scale * scale) * (scale / vndf_determinant(view.surface));
 }
 
