@@ -47,7 +47,8 @@ static float pdf_nothing(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0f;
 }
 
-static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing, pdf_nothing, NULL};
+static const vndf_routines nothing = {prepare_nothing, sample_nothing, eval_nothing,
+                                      pdf_nothing,     NULL,           VNDF_BLOCK_NONE};
 const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {
     {.routines = &nothing, .is = {.wavelengths = 3}},
     {.routines = &nothing, .is = {.wavelengths = 1}},

@@ -11,6 +11,14 @@
 #include "sampler/analytic_density.h"
 #include "vndf_bsdf.h"
 
+/* How lanes scatter a block of a batch (batch/lanes_scatter.h). */
+typedef enum vndf_block_kind {
+    VNDF_BLOCK_NONE, /* they do not */
+    VNDF_BLOCK_BARE,
+    VNDF_BLOCK_REFLECTION,
+    VNDF_BLOCK_BOTH
+} vndf_block_kind;
+
 /* `prepare` finds material, eta, side and carried set, and sets the members that the other routines read; 0 if nothing
  * can be seen from there. */
 typedef struct vndf_routines {
@@ -22,14 +30,23 @@ typedef struct vndf_routines {
     /* `sample` after vndf_sample_weight drew wm; NULL if it draws otherwise */
     void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, const float u[3],
                     vndf_scattered *scattered);
+    vndf_block_kind kind;
 } vndf_routines;
 
 /* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
+VNDF_INLINE lanes_m vndf_is_near_unit_square(lanes_f square)
+{
+    return lanes_both(lanes_less(lanes_set(0.25f), square), lanes_less(square, lanes_set(4.0f)));
+}
+
+#if VNDF_LANES == 1
+
 VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
 {
-    float square = w.x * w.x + w.y * w.y + w.z * w.z;
-    return square > 0.25f && square < 4.0f;
+    return vndf_is_near_unit_square(w.x * w.x + w.y * w.y + w.z * w.z);
 }
+
+#endif
 
 /* Of shapes with a roughness; 0 if nothing is scattered from there. */
 int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);

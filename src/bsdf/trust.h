@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "core/inline.h"
+#include "simd/lanes.h"
 
 /* ---- the budget ---- */
 
@@ -48,19 +48,18 @@ VNDF_INLINE float vndf_turn_for(double steepness)
 static const float VNDF_TRUST_STEEPER = 3.5f;
 
 /* `turn` is that of the law. */
-VNDF_INLINE int vndf_trusts_turn(float ax, float ay, float gain, float turn)
+VNDF_INLINE lanes_m vndf_trusts_turn(lanes_f ax, lanes_f ay, lanes_f gain, lanes_f turn)
 {
-    float least = ax < ay ? ax : ay;
-    return (least < 1.0f ? least : 1.0f) * gain > turn;
+    return lanes_less(turn, lanes_least(lanes_least(ax, ay), lanes_set(1.0f)) * gain);
 }
 
 /* The sine of the normal times how far wo turns with it: beside the pole the rounding of wo turns the azimuth of the
  * normal, and what a table draws there changes with the azimuth. */
 static const float VNDF_TRUST_POLE = 1e-2f;
 
-VNDF_INLINE int vndf_trusts_pole(float x, float y, float gain)
+VNDF_INLINE lanes_m vndf_trusts_pole(lanes_f x, lanes_f y, lanes_f gain)
 {
-    return (x * x + y * y) * (gain * gain) > VNDF_TRUST_POLE * VNDF_TRUST_POLE;
+    return lanes_less(lanes_set(VNDF_TRUST_POLE * VNDF_TRUST_POLE), (x * x + y * y) * (gain * gain));
 }
 
 /* The cosine to the normal: rounding moves it by 1e-7, and F over it. */
@@ -123,10 +122,10 @@ static const double VNDF_TRUST_LENGTHS = 0.04;
  * nearly all surfaces are on one side of it, so that the branch is foreseen. */
 static const float VNDF_TRUST_GGX_ROUGH = 0.4f;
 
-VNDF_INLINE int vndf_trusts_drawn_ggx(float ax, float ay, float facing)
+VNDF_INLINE lanes_m vndf_trusts_drawn_ggx(lanes_f ax, lanes_f ay, lanes_f facing)
 {
-    return (ax > VNDF_TRUST_GGX_ROUGH) & (ay > VNDF_TRUST_GGX_ROUGH) &
-           vndf_trusts_turn(ax, ay, facing, VNDF_TRUST_TURN);
+    lanes_m rough = lanes_less(lanes_set(VNDF_TRUST_GGX_ROUGH), lanes_least(ax, ay));
+    return lanes_both(rough, vndf_trusts_turn(ax, ay, facing, lanes_set(VNDF_TRUST_TURN)));
 }
 
 #endif

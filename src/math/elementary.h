@@ -37,6 +37,16 @@ VNDF_INLINE doubles vndf_exp_near(doubles x)
     return (1.0 + (r + r2 * (low + r4 * (middle + r4 * high)))) * doubles_power_of_two(shifted);
 }
 
+/* x > 0, finite and not denormal. */
+VNDF_INLINE doubles vndf_log(doubles x)
+{
+    doubles k, m = doubles_mantissa(x, &k), f = (m - 1.0) / (m + 1.0), s = f * f, s2 = s * s;
+    doubles low =
+        (0.333333333333333485 + s * 0.199999999999494453) + s2 * (0.142857143131269188 + s * 0.111111055446897481);
+    doubles high = (0.090914462162684356 + s * 0.0766580586102750395) + s2 * 0.0730890357670866241;
+    return k * vndf_log2_high + (2.0 * f + (2.0 * f * s * (low + s2 * s2 * high) + k * vndf_log2_low));
+}
+
 #if VNDF_LANES == 1 /* the rest is for one lane */
 
 /* Any x: infinity above 1400, where exp(x/2) squared overflows, 0 below -1400, NaN for NaN. */
@@ -49,23 +59,6 @@ static inline double vndf_exp_far(double x)
 VNDF_INLINE double vndf_exp(double x)
 {
     return fabs(x) <= 700.0 ? vndf_exp_near(x) : vndf_exp_far(x);
-}
-
-/* x > 0, finite and not denormal. Subtracting the bits of 1/sqrt(2) from the bits of x leaves k in the
- * exponent. */
-VNDF_INLINE double vndf_log(double x)
-{
-    uint64_t bits, least = 0x3FE6A09E667F3BCDu;
-    memcpy(&bits, &x, sizeof bits);
-    int k = (int)((bits - least + ((uint64_t)1023 << 52)) >> 52) - 1023;
-    bits -= (uint64_t)k << 52;
-    double m;
-    memcpy(&m, &bits, sizeof m);
-    double f = (m - 1.0) / (m + 1.0), s = f * f, s2 = s * s;
-    double low =
-        (0.333333333333333485 + s * 0.199999999999494453) + s2 * (0.142857143131269188 + s * 0.111111055446897481);
-    double high = (0.090914462162684356 + s * 0.0766580586102750395) + s2 * 0.0730890357670866241;
-    return k * vndf_log2_high + (2.0 * f + (2.0 * f * s * (low + s2 * s2 * high) + k * vndf_log2_low));
 }
 
 /* x >= 0, finite. */

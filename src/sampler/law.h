@@ -114,6 +114,58 @@ VNDF_INLINE doubles_m vndf_law_trusts_rounding(const vndf_distribution *d, const
     VNDF_NO_OTHER_KIND();
 }
 
+/* A(w) for a unit w = (wx, wy, wz), wz > 0, where ax, ay is the roughness times the distribution's scale; relative
+ * error below 2e-6. Where *trusted is 0 the caller computes it in double. */
+VNDF_INLINE lanes_f vndf_law_area_above(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy,
+                                        lanes_f wz, lanes_m *trusted)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, wx, wy, wz, trusted);
+    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, wx, wy, wz, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, wx, wy, wz, trusted);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* The area of the view of w (vndf_law_view_area). Clears *trusted where float does not make that view; elsewhere the
+ * view is valid, and trusted. */
+VNDF_INLINE lanes_f vndf_law_seen_area(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy,
+                                       lanes_f wz, lanes_m *trusted)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return vndf_table_seen_area(d, ax, ay, wx, wy, wz, trusted);
+    case VNDF_KIND_GGX: return vndf_ggx_seen_area(ax, ay, wx, wy, wz, trusted);
+    case VNDF_KIND_BECKMANN: return vndf_beckmann_seen_area(ax, ay, wx, wy, wz, trusted);
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* Whether a unit normal is where hardly any samples are, and the bound of vndf_law_steepness does not hold. */
+VNDF_INLINE lanes_m vndf_law_is_steeper(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f x, lanes_f y)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return lanes_none();
+    case VNDF_KIND_GGX: return lanes_none();
+    case VNDF_KIND_BECKMANN: {
+        lanes_f p = ay * x, q = ax * y, product = ax * ay;
+        return lanes_less(2.25f * (product * product) * (1.0f - (x * x + y * y)), p * p + q * q);
+    }
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+/* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
+ * trusted: vndf_ggx_density_of (bsdf/terms/event.h). */
+VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: return 0;
+    case VNDF_KIND_GGX: return 1;
+    case VNDF_KIND_BECKMANN: return 0;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
 #if VNDF_LANES == 1
 
 /* ---- views and their samples ---- */
@@ -277,28 +329,17 @@ VNDF_INLINE double vndf_law_pdf_all(const vndf_distribution *d, double ax, doubl
 
 /* ---- areas of one direction ---- */
 
-/* A(w) for a unit w, w.z > 0, where ax, ay is the roughness times the distribution's scale; relative error below 2e-6.
- * Where *trusted is 0 the caller computes it in double. */
-VNDF_INLINE float vndf_law_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
-{
-    switch (d->kind) {
-    case VNDF_KIND_TABLE: return vndf_table_area_above(d, ax, ay, w, trusted);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(ax, ay, w, trusted);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(ax, ay, w, trusted);
-    }
-    VNDF_NO_OTHER_KIND();
-}
-
-/* The same for a view's own direction; a table's view holds it. */
+/* A(w) of a view's own direction; a table's view holds it. */
 VNDF_INLINE float vndf_law_view_area(const vndf_view *view, int *trusted)
 {
     *trusted = 1;
     switch (view->distribution->kind) {
     case VNDF_KIND_TABLE: return vndf_table_view_area(view);
-    case VNDF_KIND_GGX: return vndf_ggx_area_above(view->ax, view->ay, view->wi, trusted);
-    case VNDF_KIND_BECKMANN: return vndf_beckmann_area_above(view->ax, view->ay, view->wi, trusted);
+    case VNDF_KIND_GGX: break;
+    case VNDF_KIND_BECKMANN: break;
     }
-    VNDF_NO_OTHER_KIND();
+    return vndf_law_area_above(view->distribution, view->ax, view->ay, view->wi.x, view->wi.y, view->wi.z,
+                               trusted);
 }
 
 /* The stretched direction, with the length that the law uses. */
@@ -337,32 +378,6 @@ VNDF_INLINE double vndf_law_steepness(const vndf_distribution *d)
     case VNDF_KIND_TABLE: return d->steepness;
     case VNDF_KIND_GGX: return 2.0;
     case VNDF_KIND_BECKMANN: return 3.0; /* 2 R; R exceeds 1.5 in 10% of samples */
-    }
-    VNDF_NO_OTHER_KIND();
-}
-
-/* Whether a unit normal is where hardly any samples are, and that bound does not hold. */
-VNDF_INLINE int vndf_law_is_steeper(const vndf_distribution *d, float ax, float ay, float x, float y)
-{
-    switch (d->kind) {
-    case VNDF_KIND_TABLE: return 0;
-    case VNDF_KIND_GGX: return 0;
-    case VNDF_KIND_BECKMANN: {
-        float p = ay * x, q = ax * y, product = ax * ay;
-        return p * p + q * q > 2.25f * (product * product) * (1.0f - (x * x + y * y));
-    }
-    }
-    VNDF_NO_OTHER_KIND();
-}
-
-/* Whether the density of a reflection, D of a half vector of any length, keeps its digits in float where the view is
- * trusted: vndf_ggx_density_of (bsdf/lobes/scatter.h). */
-VNDF_INLINE int vndf_law_is_ggx(const vndf_distribution *d)
-{
-    switch (d->kind) {
-    case VNDF_KIND_TABLE: return 0;
-    case VNDF_KIND_GGX: return 1;
-    case VNDF_KIND_BECKMANN: return 0;
     }
     VNDF_NO_OTHER_KIND();
 }

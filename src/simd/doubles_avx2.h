@@ -177,4 +177,28 @@ VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
     return made;
 }
 
+/* The numbers k + 1023 appear in the low bits of 2^52. */
+VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
+{
+    const __m256i one = _mm256_set1_epi64x(1023), large = _mm256_set1_epi64x(0x4330000000000000);
+    const __m256i least = _mm256_set1_epi64x(0x3FE6A09E667F3BCD);
+    __m256i bits = _mm256_castpd_si256(x), apart = _mm256_sub_epi64(bits, least);
+    __m256i above = _mm256_srli_epi64(_mm256_add_epi64(apart, _mm256_slli_epi64(one, 52)), 52);
+    *k = _mm256_castsi256_pd(_mm256_or_si256(above, large)) - (0x1p52 + 1023.0);
+    return _mm256_castsi256_pd(_mm256_sub_epi64(bits, _mm256_slli_epi64(_mm256_sub_epi64(above, one), 52)));
+}
+
+/* Lane i where bit i is set; other bits are not read. */
+VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
+{
+    const __m256i each = _mm256_set_epi64x(8, 4, 2, 1);
+    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
+}
+
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    return _mm256_or_pd(_mm256_and_pd(sign, y), _mm256_andnot_pd(sign, x));
+}
+
 #endif

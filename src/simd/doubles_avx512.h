@@ -185,4 +185,27 @@ VNDF_INLINE doubles doubles_few(const double *table, doubles_u index)
     return _mm512_permutex2var_pd(_mm512_loadu_pd(table), at, _mm512_loadu_pd(table + 8));
 }
 
+/* The numbers k + 1023 appear in the low bits of 2^52. */
+VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
+{
+    const __m512i one = _mm512_set1_epi64(1023), large = _mm512_set1_epi64(0x4330000000000000);
+    const __m512i least = _mm512_set1_epi64(0x3FE6A09E667F3BCD);
+    __m512i bits = _mm512_castpd_si512(x), apart = _mm512_sub_epi64(bits, least);
+    __m512i above = _mm512_srli_epi64(_mm512_add_epi64(apart, _mm512_slli_epi64(one, 52)), 52);
+    *k = _mm512_castsi512_pd(_mm512_or_si512(above, large)) - (0x1p52 + 1023.0);
+    return _mm512_castsi512_pd(_mm512_sub_epi64(bits, _mm512_slli_epi64(_mm512_sub_epi64(above, one), 52)));
+}
+
+/* Lane i where bit i is set; other bits are not read. */
+VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
+{
+    return (doubles_m)bits;
+}
+
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    const __m512d sign = _mm512_set1_pd(-0.0);
+    return _mm512_or_pd(_mm512_and_pd(sign, y), _mm512_andnot_pd(sign, x));
+}
+
 #endif

@@ -129,4 +129,23 @@ VNDF_INLINE doubles_u doubles_gather_u(const uint32_t *base, doubles_u index)
     return base[index];
 }
 
+/* m, where x = 2^k m and 1/sqrt(2) <= m < sqrt(2); x > 0, finite and not denormal. Subtracting the bits of 1/sqrt(2)
+ * from the bits of x leaves k in the exponent. */
+VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
+{
+    uint64_t bits, least = 0x3FE6A09E667F3BCDu;
+    memcpy(&bits, &x, sizeof bits);
+    int whole = (int)((bits - least + ((uint64_t)1023 << 52)) >> 52) - 1023;
+    bits -= (uint64_t)whole << 52;
+    memcpy(&x, &bits, sizeof x);
+    *k = whole;
+    return x;
+}
+
+/* |x| with the sign of y. */
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    return copysign(x, y);
+}
+
 #endif

@@ -186,4 +186,11 @@ VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
     return _mm256_blendv_ps(low, high, _mm256_castsi256_ps((__m256i)(index << 28)));
 }
 
+/* Lane i where bit i is set; other bits are not read. */
+VNDF_INLINE lanes_m lanes_of_mask_bits(uint32_t bits)
+{
+    const __m256i each = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
+    return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((int)bits), each), each);
+}
+
 #endif

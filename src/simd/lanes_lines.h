@@ -43,58 +43,73 @@ VNDF_INLINE lanes_lines lanes_lines_at(const float *base, uint32_t stride, lanes
     return lines;
 }
 
-/* The same for indices that have been in memory for long. For indices just made compilers would take the vector
- * apart, or the loads would stall on store forwarding. */
-VNDF_INLINE lanes_lines lanes_lines_from(const float *base, uint32_t stride, const uint32_t *index)
-{
-    lanes_lines lines;
-    for (int i = 0; i < VNDF_LANES; i++)
-        lines.at[i] = base + (size_t)stride * index[i];
-    return lines;
-}
+enum { LANES_QUARTERS = VNDF_LANES / 4 };
 
+/* Four floats from each address, side by side. */
+VNDF_INLINE lanes_f lanes_load_quarters(const float *const at[LANES_QUARTERS])
+{
 #  if VNDF_LANES == 16
-
-/* Lanes i, i + 4, i + 8, i + 12. */
-VNDF_INLINE lanes_f lanes_load_quarters(const lanes_lines *lines, int i, size_t first)
-{
-    __m512 row = _mm512_castps128_ps512(_mm_loadu_ps(lines->at[i] + first));
-    row = _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 4] + first), 1);
-    row = _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 8] + first), 2);
-    return _mm512_insertf32x4(row, _mm_loadu_ps(lines->at[i + 12] + first), 3);
+    __m512 row = _mm512_castps128_ps512(_mm_loadu_ps(at[0]));
+    row = _mm512_mask_broadcast_f32x4(row, 0x00f0, _mm_loadu_ps(at[1]));
+    row = _mm512_mask_broadcast_f32x4(row, 0x0f00, _mm_loadu_ps(at[2]));
+    return _mm512_mask_broadcast_f32x4(row, 0xf000, _mm_loadu_ps(at[3]));
+#  else
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at[0])), _mm_loadu_ps(at[1]), 1);
+#  endif
 }
 
-VNDF_INLINE lanes_four lanes_load_four(const lanes_lines *lines, size_t first)
+/* Row i holds the fours of lanes i, i + 4, ... */
+VNDF_INLINE lanes_four lanes_transposed(const lanes_f row[4])
 {
-    lanes_f r0 = lanes_load_quarters(lines, 0, first), r1 = lanes_load_quarters(lines, 1, first);
-    lanes_f r2 = lanes_load_quarters(lines, 2, first), r3 = lanes_load_quarters(lines, 3, first);
-    lanes_f a = _mm512_unpacklo_ps(r0, r1), b = _mm512_unpackhi_ps(r0, r1);
-    lanes_f c = _mm512_unpacklo_ps(r2, r3), d = _mm512_unpackhi_ps(r2, r3);
+#  if VNDF_LANES == 16
+    lanes_f a = _mm512_unpacklo_ps(row[0], row[1]), b = _mm512_unpackhi_ps(row[0], row[1]);
+    lanes_f c = _mm512_unpacklo_ps(row[2], row[3]), d = _mm512_unpackhi_ps(row[2], row[3]);
     lanes_four four = {_mm512_shuffle_ps(a, c, 0x44), _mm512_shuffle_ps(a, c, 0xee), _mm512_shuffle_ps(b, d, 0x44),
                        _mm512_shuffle_ps(b, d, 0xee)};
-    return four;
-}
-
 #  else
-
-/* Lanes i and i + 4. */
-VNDF_INLINE lanes_f lanes_load_quarters(const lanes_lines *lines, int i, size_t first)
-{
-    __m256 row = _mm256_castps128_ps256(_mm_loadu_ps(lines->at[i] + first));
-    return _mm256_insertf128_ps(row, _mm_loadu_ps(lines->at[i + 4] + first), 1);
+    lanes_f a = _mm256_unpacklo_ps(row[0], row[1]), b = _mm256_unpackhi_ps(row[0], row[1]);
+    lanes_f c = _mm256_unpacklo_ps(row[2], row[3]), d = _mm256_unpackhi_ps(row[2], row[3]);
+    lanes_four four = {_mm256_shuffle_ps(a, c, 0x44), _mm256_shuffle_ps(a, c, 0xee), _mm256_shuffle_ps(b, d, 0x44),
+                       _mm256_shuffle_ps(b, d, 0xee)};
+#  endif
+    return four;
 }
 
 VNDF_INLINE lanes_four lanes_load_four(const lanes_lines *lines, size_t first)
 {
-    lanes_f r0 = lanes_load_quarters(lines, 0, first), r1 = lanes_load_quarters(lines, 1, first);
-    lanes_f r2 = lanes_load_quarters(lines, 2, first), r3 = lanes_load_quarters(lines, 3, first);
-    lanes_f a = _mm256_unpacklo_ps(r0, r1), b = _mm256_unpackhi_ps(r0, r1);
-    lanes_f c = _mm256_unpacklo_ps(r2, r3), d = _mm256_unpackhi_ps(r2, r3);
-    lanes_four four = {_mm256_shuffle_ps(a, c, 0x44), _mm256_shuffle_ps(a, c, 0xee), _mm256_shuffle_ps(b, d, 0x44),
-                       _mm256_shuffle_ps(b, d, 0xee)};
-    return four;
+    lanes_f row[4];
+    for (int i = 0; i < 4; i++) {
+        const float *at[LANES_QUARTERS];
+        for (int q = 0; q < LANES_QUARTERS; q++)
+            at[q] = lines->at[i + 4 * q] + first;
+        row[i] = lanes_load_quarters(at);
+    }
+    return lanes_transposed(row);
 }
 
-#  endif
+/* Where fours stand: `stride` floats from one index to the next. */
+typedef struct lanes_source {
+    const float *base;
+    size_t stride;
+} lanes_source;
+
+/* Loads fours from a few sources, for indices that have been in memory for long: of indices just made compilers would
+ * take the vector apart, or the loads would stall on store forwarding. All fours of a lane are loaded before those of
+ * the next quarter, so that few addresses wait in registers. */
+VNDF_INLINE void lanes_load_fours(lanes_four *to, const lanes_source *from, int count, const uint32_t *index)
+{
+    lanes_f row[8][4];
+#  pragma GCC unroll 4
+    for (int i = 0; i < 4; i++)
+        for (int n = 0; n < count; n++) {
+            const float *at[LANES_QUARTERS];
+            for (int q = 0; q < LANES_QUARTERS; q++)
+                at[q] = from[n].base + from[n].stride * index[i + 4 * q];
+            row[n][i] = lanes_load_quarters(at);
+        }
+    for (int n = 0; n < count; n++)
+        to[n] = lanes_transposed(row[n]);
+}
+
 #endif
 #endif

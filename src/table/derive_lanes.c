@@ -1,21 +1,7 @@
-/* Copies numbers of a wedge into the orders in which lanes load them: cells of rows as lines of four floats; and
- * member by member what is few enough to be looked up in registers. */
+/* Copies numbers of a wedge into the order in which lanes load them: member by member, where they are few enough to be
+ * looked up in registers. */
 #include "table/derive.h"
 #include "table/layout.h"
-
-static void derive_row_lines(vndf_wedge *wedge)
-{
-    vndf_row_line *line = wedge->row_line;
-    for (uint32_t i = 0; i < wedge->row_count; i++) {
-        const vndf_row_cell *cell = vndf_row_cells(wedge, i);
-        for (uint32_t j = 0; j < wedge->cell_count; j++, line++) {
-            line->before = wedge->cdf[(size_t)i * wedge->stride + j];
-            line->mass = cell[j].mass;
-            line->begin = cell[j].density;
-            line->end = cell[j + 1].density;
-        }
-    }
-}
 
 /* Pieces as they are looked up in registers: a member of all side by side. Beyond the last all y are less. */
 static void derive_few_exact(vndf_wedge *wedge)
@@ -56,14 +42,25 @@ static void derive_few_rows(vndf_wedge *wedge)
         wedge->few_aspects[i % 2 * knots + i / 2] = *vndf_aspect_p(wedge, i);
         wedge->few_aspects[(2 + i % 2) * knots + i / 2] = *vndf_aspect_r(wedge, i);
     }
+    for (uint32_t i = 0; i + 1 < knots; i++)
+        wedge->few_aspects[4 * knots + i] = wedge->row_span[i].per_width;
+}
+
+static void derive_few_cdf(vndf_wedge *wedge)
+{
+    const uint32_t knots = vndf_row_knots(wedge->row_count);
+    float *to = wedge->few_cdf;
+    for (uint32_t j = 1; j < wedge->cell_count; j++, to += wedge->row_count)
+        for (uint32_t i = 0; i < wedge->row_count; i++)
+            to[i % 2 * knots + i / 2] = wedge->cdf[(size_t)i * wedge->stride + j];
 }
 
 void vndf_derive_lanes(vndf_wedge *wedge)
 {
-    if (wedge->row_line)
-        derive_row_lines(wedge);
     if (wedge->few_aspects)
         derive_few_rows(wedge);
+    if (wedge->few_cdf)
+        derive_few_cdf(wedge);
     if (wedge->few)
         derive_few(wedge);
     if (wedge->few_exact)

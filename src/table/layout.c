@@ -62,10 +62,9 @@ static void place_pieces(room *r, vndf_wedge *w, int above)
     w->few = above && has_few_pieces(w) ? take(r, few, sizeof *w->few) : NULL;
     w->quick = above ? take(r, w->knot_count - 1, sizeof *w->quick) : NULL;
     w->row_span = take(r, vndf_row_knots(w->row_count), sizeof *w->row_span);
-    w->row_line = above ? take(r, (size_t)w->row_count * w->cell_count, sizeof *w->row_line) : NULL;
 }
 
-static void place_rows(room *r, vndf_wedge *w)
+static void place_rows(room *r, vndf_wedge *w, int above)
 {
     uint32_t knots = vndf_row_knots(w->row_count);
     w->stride = (w->cell_count + VNDF_PADDING - 1) / VNDF_PADDING * VNDF_PADDING;
@@ -73,7 +72,9 @@ static void place_rows(room *r, vndf_wedge *w)
     w->cdf = take(r, (size_t)w->row_count * w->stride, sizeof *w->cdf);
     w->q = take(r, w->cell_count + 1, sizeof *w->q);
     w->row_y = take(r, has_few_rows(w) ? VNDF_FEW + 1 : knots, sizeof *w->row_y);
-    w->few_aspects = has_few_rows(w) ? take(r, 4 * (size_t)knots, sizeof *w->few_aspects) : NULL;
+    w->few_aspects = has_few_rows(w) ? take(r, 5 * (size_t)knots, sizeof *w->few_aspects) : NULL;
+    size_t inner = (size_t)w->row_count * (w->cell_count - 1);
+    w->few_cdf = above && has_few_rows(w) ? take(r, inner, sizeof *w->few_cdf) : NULL;
     w->knot_y = take(r, w->knot_count, sizeof *w->knot_y);
     w->mass = take(r, w->knot_count, sizeof *w->mass);
     w->slope = take(r, w->knot_count, sizeof *w->slope);
@@ -95,7 +96,7 @@ static void place_knots(room *r, vndf_distribution *table)
     table->bends = take(r, table->radial_count, sizeof *table->bends);
 }
 
-/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW numbers at once. */
+/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW_CELLS numbers at once. */
 static size_t place_all(vndf_distribution *table, char *block)
 {
     room r = {block, 0};
@@ -105,9 +106,9 @@ static size_t place_all(vndf_distribution *table, char *block)
     align(&r);
     place_pieces(&r, &table->below, 0);
     place_knots(&r, table);
-    place_rows(&r, &table->above);
-    place_rows(&r, &table->below);
-    take(&r, VNDF_FEW, sizeof(float));
+    place_rows(&r, &table->above, 1);
+    place_rows(&r, &table->below, 0);
+    take(&r, VNDF_FEW_CELLS, sizeof(float));
     return r.used;
 }
 

@@ -34,7 +34,8 @@ enum {
     VNDF_RATIOS = 18,       /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13, /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_PADDING = 8,       /* arrays that are counted through are padded to a multiple of this */
-    VNDF_FEW = 16,          /* so many numbers are looked up in registers */
+    VNDF_FEW = 16,          /* so many numbers are looked up in registers, */
+    VNDF_FEW_CELLS = 64,    /* and with AVX-512 the sums of so many radial cells */
     VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */
     VNDF_AREA_SPAN = 8,     /* doubles from piece to piece */
     VNDF_GUIDE_SHIFT = 16   /* bits of a guide's entry below the index of a knot */
@@ -76,11 +77,11 @@ typedef struct vndf_knots {
  * front of wi reads these 32 bytes of its cell, half a line of the cache, beside the knots. before0 and before1 repeat
  * knots.f0 and knots.f1: they cost 8 bytes and save a load. */
 typedef struct vndf_radial_cell {
-    float f0, f1, mu0, mu1;
-    float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
     /* smooth: 1 if no law with c, k >= 0 changes much in the cell, 2 if that is so of its neighbours too and D does not
      * jump at its ends */
     float width, smooth;
+    float f0, f1, mu0, mu1; /* four loads of four begin at width, at f0 and at mu0 */
+    float before0, before1; /* sums up to the first knot (vndf_knots): F0, F1 */
 } vndf_radial_cell;
 
 /* a and b of a cell: samples behind wi read them. */
@@ -126,11 +127,6 @@ typedef struct vndf_row_cell {
     float mass, density;
 } vndf_row_cell;
 
-/* The same once more, as lanes load it: 16 bytes. */
-typedef struct vndf_row_line {
-    float before, mass, begin, end; /* mass before the cell and in it; density at its ends */
-} vndf_row_line;
-
 /* One side of the horizon. Coordinate y in [0, 1]: c/(s+c) above (pole), s/(s+|c|) below (tail); 0 where
  * the wedge has no mass. Rows of azimuth density in q (sampler/tabulated/azimuth.h) with aspect (p, r): a row at each
  * of the knots row_y, and one between two of them, which is the middle control point of a quadratic Bezier curve from
@@ -146,8 +142,7 @@ typedef struct vndf_wedge {
     float *row_y;            /* where rows 0, 2, 4, ... stand, then 2 where few are looked up: row_span's begin */
     vndf_row_span *row_span; /* (row_count + 1)/2 */
     float *cdf;              /* mass before a cell, each row's mass being 1: searches count through it */
-    vndf_row_cell *row_cell; /* cell_count + 1 to a row: single draws, densities and the file read them */
-    vndf_row_line *row_line; /* cell_count to a row: lanes draw with it; NULL below the horizon, where none draw */
+    vndf_row_cell *row_cell; /* cell_count + 1 to a row */
     float *knot_y; /* knot_count, as many as the next three: the file, its checks and the survey read them */
     float *mass, *slope, *curve; /* curve is the second derivative */
     vndf_area_span *piece;       /* made of them, knot_count - 1: areas and densities read it, in double */
@@ -155,8 +150,11 @@ typedef struct vndf_wedge {
     uint32_t few_pitch;          /* numbers from member to member of the next two: VNDF_FEW, or half of it */
     float *few;                  /* members of quick: lanes read them if there are no more than VNDF_FEW pieces */
     double *few_exact;           /* members of piece: lanes of doubles read them if pieces are so few */
-    float *few_aspects; /* if knots of rows are so few, p of rows 0, 2, 4, ..., then of the rows between, then r:
-                         * lanes of doubles read them */
+    float *
+        few_aspects; /* if knots of rows are so few, p of rows 0, 2, 4, ..., then of the rows between, then r likewise,
+                         * then per_width of spans: lanes read them */
+    float *few_cdf; /* likewise cdf of all rows, cell by cell from the second on: lanes search through it; NULL
+                         * below the horizon, where none draw */
     vndf_guide row_guide, knot_guide;
 } vndf_wedge;
 

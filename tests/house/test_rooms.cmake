@@ -23,7 +23,7 @@ set(shared core/replace_file.h)
 
 set(subs_table family)
 set(subs_sampler tabulated all_normals analytic bounded batch affine)
-set(subs_bsdf terms albedo lobes walk)
+set(subs_bsdf terms albedo lobes walk batch)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate family)
 

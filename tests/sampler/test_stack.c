@@ -1,12 +1,13 @@
 /* Batches stay within the stack that vndf.h states: 300 KiB for mixtures of 8 lobes, 200 KiB for affine and plain
- * surfaces, one call of each kind in a thread whose stack was painted. Unoptimised and sanitized code takes more. */
+ * surfaces, 200 for those of vndf_bsdf.h; one call of each kind in a thread whose stack was painted. Unoptimised and
+ * sanitized code takes more. */
 #if defined(VNDF_TEST_PTHREADS) && defined(__OPTIMIZE__)
 
 #  define _XOPEN_SOURCE 700
 #  include <pthread.h>
 
 #  include "harness/test.h"
-#  include "vndf.h"
+#  include "vndf_bsdf.h"
 
 enum { COUNT = 600, STACK = 1 << 22, PAINT = 0xA5, MATRIX = 6, INPUTS = MATRIX + 6 };
 
@@ -16,6 +17,8 @@ static int lobe[COUNT];
 static vndf_batch plain;
 static vndf_affine_batch affine;
 static vndf_mixture_batch mixture;
+static vndf_material material;
+static vndf_bsdf_batch bsdf;
 
 static vndf_normals normals(void)
 {
@@ -60,6 +63,19 @@ static void *call_mixture(void *unused)
     vndf_mixture_ndf_n(&mixture, normals(), result[0]);
     vndf_mixture_lambda_n(&mixture, result[0]);
     vndf_mixture_invert_n(&mixture, normals(), NULL, result[0], result[1], lobe);
+    return unused;
+}
+
+static void *call_bsdf(void *unused)
+{
+    static float more[6][COUNT];
+    static uint8_t scattered[COUNT];
+    const float *const u[3] = {input[0], input[1], input[MATRIX]};
+    float *const value[VNDF_WAVELENGTHS] = {more[3], more[4], more[5]};
+    const vndf_scattered_n to = {
+        {more[0], more[1], more[2]}, {more[3], more[4], more[5]}, result[0], scattered, normals()};
+    vndf_bsdf_sample_n(&bsdf, u, to);
+    vndf_bsdf_eval_pdf_n(&bsdf, to.wo, NULL, value, result[1]);
     return unused;
 }
 
@@ -111,15 +127,26 @@ static void test_instructions(const vndf_distribution *table, vndf_instructions 
     mixture.wi_z = input[4];
     for (int l = 0; l < VNDF_MIXTURE_LOBES; l++)
         mixture.lobe[l] = (vndf_lobe_batch){of[l % 3], m[0], m[1], m[2], m[3], m[4], m[5], input[5]};
+    vndf_description both = {.distribution = table, .alpha_x = 0.5f, .alpha_y = 0.5f, .eta = 1.5f};
+    both.effects.lobes = VNDF_LOBES_BOTH;
+    both.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+    TEST(vndf_material_resolve(&both, &material, NULL) == VNDF_OK);
+    bsdf =
+        (vndf_bsdf_batch){.material = &material, .count = COUNT, .limit = limit, .alpha_x = m[0], .alpha_y = m[3]};
+    bsdf.wi_x = input[2];
+    bsdf.wi_y = input[3];
+    bsdf.wi_z = input[4];
     double bare = (double)taken(call_nothing) / 1024;
     double of_plain = (double)taken(call_plain) / 1024 - bare,
            of_affine = (double)taken(call_affine) / 1024 - bare;
-    double of_mixture = (double)taken(call_mixture) / 1024 - bare;
-    printf("instructions %d: plain %.0f KiB, affine %.0f, mixture %.0f\n", (int)limit, of_plain, of_affine,
-           of_mixture);
+    double of_mixture = (double)taken(call_mixture) / 1024 - bare,
+           of_bsdf = (double)taken(call_bsdf) / 1024 - bare;
+    printf("instructions %d: plain %.0f KiB, affine %.0f, mixture %.0f, BSDF %.0f\n", (int)limit, of_plain,
+           of_affine, of_mixture, of_bsdf);
     TEST(of_plain <= 200);
     TEST(of_affine <= 200);
     TEST(of_mixture <= 300);
+    TEST(of_bsdf <= 200);
     TEST(of_mixture > 1);
 }
 

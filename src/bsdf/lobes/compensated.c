@@ -96,7 +96,8 @@ static float pdf_single(const vndf_bsdf *b, vndf_vec3 wo)
     return b->material->single->pdf(b, wo);
 }
 
-const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin, pdf_single, NULL};
+const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin,
+                                             pdf_single,      NULL,           VNDF_BLOCK_NONE};
 
 /* ---- Kulla & Conty ---- */
 
@@ -274,5 +275,5 @@ static float pdf_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo)
     return vndf_finite(density_of(b, b->material->single->pdf(b, wo), &a));
 }
 
-const vndf_routines vndf_routines_kulla_conty = {prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty,
-                                                 pdf_kulla_conty, NULL};
+const vndf_routines vndf_routines_kulla_conty = {
+    prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty, pdf_kulla_conty, NULL, VNDF_BLOCK_NONE};

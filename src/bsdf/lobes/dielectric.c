@@ -200,14 +200,16 @@ static void both_v_cavity(const vndf_bsdf *b, const float u[3], vndf_scattered *
 
 const vndf_routines vndf_routines_transmission[VNDF_NORMALS_COUNT] = {
     [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, through_visible, eval_through_visible, pdf_through_visible,
-                              through_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through_all, pdf_through_all, NULL},
+                              through_drawn, VNDF_BLOCK_NONE},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, through_all, eval_through_all, pdf_through_all, NULL, VNDF_BLOCK_NONE},
     [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, through_v_cavity, eval_through_v_cavity, pdf_through_v_cavity,
-                               NULL},
+                               NULL, VNDF_BLOCK_NONE},
 };
 
 const vndf_routines vndf_routines_both[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both_visible, pdf_both_visible, both_drawn},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both_all, pdf_both_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both_v_cavity, pdf_both_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, both_visible, eval_both_visible, pdf_both_visible, both_drawn,
+                              VNDF_BLOCK_BOTH},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, both_all, eval_both_all, pdf_both_all, NULL, VNDF_BLOCK_NONE},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, both_v_cavity, eval_both_v_cavity, pdf_both_v_cavity, NULL,
+                               VNDF_BLOCK_NONE},
 };

@@ -34,7 +34,8 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     }
     float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
     vndf_set_bare(s, wo, wm, weight,
-                  vndf_is_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing : vndf_ggx_density_of(b, wo));
+                  vndf_is_fast_ggx_drawn(b, facing) ? 0.25f * drawn.density / facing
+                                                    : vndf_fast_ggx_density(b, wo));
 }
 
 /* Whether float is trusted for both directions and their half vector. */
@@ -52,7 +53,7 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, 
         vndf_routines_bare[VNDF_NORMALS_VISIBLE].eval(b, wo, seed, value, pdf);
         return;
     }
-    float density = vndf_ggx_density_of(b, wo);
+    float density = vndf_fast_ggx_density(b, wo);
     float f = vndf_finite(density * (b->area / vndf_fast_ggx_unmasked(b, wo)));
     for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = f;
@@ -62,7 +63,7 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, 
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return is_trusted(b, wo) ? vndf_positive(vndf_ggx_density_of(b, wo))
+    return is_trusted(b, wo) ? vndf_positive(vndf_fast_ggx_density(b, wo))
                              : vndf_routines_bare[VNDF_NORMALS_VISIBLE].pdf(b, wo);
 }
 
@@ -72,4 +73,4 @@ static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float weigh
     vndf_routines_bare[VNDF_NORMALS_VISIBLE].scatter(b, wm, density, weight, u, s);
 }
 
-const vndf_routines vndf_routines_bare_ggx = {prepare, sample, eval, pdf, scatter};
+const vndf_routines vndf_routines_bare_ggx = {prepare, sample, eval, pdf, scatter, VNDF_BLOCK_BARE};

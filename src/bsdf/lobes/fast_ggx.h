@@ -10,7 +10,7 @@
 VNDF_INLINE float vndf_fast_ggx_area(const vndf_bsdf *b, vndf_vec3 w)
 {
     int ready;
-    return vndf_ggx_area_above(b->view.ax, b->view.ay, w, &ready);
+    return vndf_ggx_area_above(b->view.ax, b->view.ay, w.x, w.y, w.z, &ready);
 }
 
 /* Sets view and area. Returns 0 and sets nothing where float is not trusted. */
@@ -25,11 +25,22 @@ VNDF_INLINE int vndf_prepare_fast_ggx(vndf_bsdf *b, const vndf_roughness *r, vnd
     return 1;
 }
 
-/* cos_i cos_o/G2, height-correlated (masking.h). */
 VNDF_INLINE float vndf_fast_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    float below = vndf_fast_ggx_area(b, wo) - wo.z;
-    return wo.z * b->area + b->view.wi.z * lanes_positive(below);
+    vndf_incident at = vndf_incident_of(b);
+    return vndf_unmasked(&at, wo, vndf_fast_ggx_area(b, wo));
+}
+
+VNDF_INLINE float vndf_fast_ggx_density(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    vndf_incident at = vndf_incident_of(b);
+    return vndf_ggx_density_of(&at, wo);
+}
+
+/* Whether the sample takes the density of its normal instead. */
+VNDF_INLINE int vndf_is_fast_ggx_drawn(const vndf_bsdf *b, float facing)
+{
+    return vndf_trusts_drawn_ggx(b->view.ax, b->view.ay, facing);
 }
 
 VNDF_INLINE void vndf_set_bare(vndf_scattered *s, vndf_vec3 wo, vndf_vec3 wm, float weight, float density)

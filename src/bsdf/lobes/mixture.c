@@ -214,4 +214,4 @@ static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
     return pdf;
 }
 
-const vndf_routines vndf_routines_mixture = {prepare_roughness, sample, eval, pdf_of, NULL};
+const vndf_routines vndf_routines_mixture = {prepare_roughness, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};

@@ -140,15 +140,19 @@ LOOKS(v_cavity, VNDF_NORMALS_V_CAVITY, 0)
 
 const vndf_routines vndf_routines_bare[VNDF_NORMALS_COUNT] = {
     [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, bare_visible, eval_bare_visible, pdf_bare_visible,
-                              scatter_bare},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare_bounded, pdf_bare_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare_all, pdf_bare_all, NULL},
+                              scatter_bare, VNDF_BLOCK_BARE},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, bare_bounded, eval_bare_bounded, pdf_bare_bounded, NULL,
+                              VNDF_BLOCK_NONE},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, bare_all, eval_bare_all, pdf_bare_all, NULL, VNDF_BLOCK_NONE},
     /* V-cavities have a masking of their own */
 };
 
 const vndf_routines vndf_routines_reflection[VNDF_NORMALS_COUNT] = {
-    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_visible, pdf_visible, scatter_visible},
-    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_bounded, pdf_bounded, NULL},
-    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_all, pdf_all, NULL},
-    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_v_cavity, pdf_v_cavity, NULL},
+    [VNDF_NORMALS_VISIBLE] = {vndf_prepare_visible, sample_visible, eval_visible, pdf_visible, scatter_visible,
+                              VNDF_BLOCK_REFLECTION},
+    [VNDF_NORMALS_BOUNDED] = {vndf_prepare_bounded, sample_bounded, eval_bounded, pdf_bounded, NULL,
+                              VNDF_BLOCK_NONE},
+    [VNDF_NORMALS_ALL] = {vndf_prepare_all, sample_all, eval_all, pdf_all, NULL, VNDF_BLOCK_NONE},
+    [VNDF_NORMALS_V_CAVITY] = {vndf_prepare_all, sample_v_cavity, eval_v_cavity, pdf_v_cavity, NULL,
+                               VNDF_BLOCK_NONE},
 };

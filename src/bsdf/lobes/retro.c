@@ -32,4 +32,4 @@ static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
     return b->material->specular->pdf(b, turned_about(b, wo));
 }
 
-const vndf_routines vndf_routines_retro = {prepare, sample, eval, pdf_of, NULL};
+const vndf_routines vndf_routines_retro = {prepare, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};

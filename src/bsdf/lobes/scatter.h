@@ -11,6 +11,7 @@
 #ifndef VNDF_BSDF_LOBES_SCATTER_H
 #define VNDF_BSDF_LOBES_SCATTER_H
 
+#include "bsdf/terms/facet.h"
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/normals.h"
 #include "bsdf/trust.h"
@@ -55,46 +56,19 @@ VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
 
 /* ---- a normal and a direction give the other direction ---- */
 
-/* wi mirrored at wm. An error of `facing` or of the length of wm is one of the length of wo: wm stays the half
- * vector. Where the surface is smooth 2 facing wm.x is small, and so is its rounding. */
-VNDF_INLINE vndf_vec3 vndf_reflected(vndf_vec3 wi, vndf_vec3 wm, float facing)
-{
-    float twice = 2.0f * facing;
-    return vndf_vec3_of(twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z);
-}
-
 VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
-    double per = 1.0 / sqrt((double)w.x * w.x + (double)w.y * w.y + (double)w.z * w.z);
-    vndf_normal n = {w.x * per, w.y * per, w.z * per};
-    return n;
+    return vndf_unit_of(vndf_normal_of(w));
 }
-
-/* Where wi meets a microfacet, in double: wm stays the normal of wi and wo only if the cosine is exact. */
-typedef struct vndf_meeting {
-    vndf_normal wi, wm; /* of unit length */
-    double facing;
-} vndf_meeting;
 
 VNDF_INLINE vndf_meeting vndf_meeting_of(vndf_vec3 wi, vndf_vec3 wm)
 {
-    vndf_normal i = vndf_unit(wi), m = vndf_unit(wm);
-    vndf_meeting at = {i, m, i.x * m.x + i.y * m.y + i.z * m.z};
-    return at;
-}
-
-/* wi refracted by the index ratio eta, times eta: wo is this much of wm less wi. */
-VNDF_INLINE double vndf_bend_along(const vndf_meeting *at, double beyond, double eta)
-{
-    return at->facing - eta * beyond;
+    return vndf_meet(vndf_normal_of(wi), vndf_normal_of(wm));
 }
 
 VNDF_INLINE vndf_vec3 vndf_refracted(const vndf_meeting *at, double along, double eta)
 {
-    double per = 1.0 / eta;
-    vndf_normal wi = at->wi, wm = at->wm;
-    vndf_normal wo = {(along * wm.x - wi.x) * per, (along * wm.y - wi.y) * per, (along * wm.z - wi.z) * per};
-    return vndf_vec3_from(wo);
+    return vndf_vec3_from(vndf_bent(at, along, eta));
 }
 
 /* ---- two directions give the normal ---- */
@@ -106,42 +80,23 @@ typedef struct vndf_half {
     double jacobian; /* dwm/dwo */
 } vndf_half;
 
-VNDF_INLINE vndf_normal vndf_halfway(vndf_normal i, vndf_normal o)
+VNDF_INLINE vndf_half vndf_half_of(const vndf_facet *f, vndf_vec3 wo)
 {
-    double x = i.x + o.x, y = i.y + o.y, z = i.z + o.z, per = 1.0 / sqrt(x * x + y * y + z * z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    return wm;
+    vndf_event e = {wo, f->cos_i, f->cos_o, f->facing_i, f->facing_o, f->wm.z};
+    vndf_half half = {f->wm, e, f->jacobian};
+    return half;
 }
 
-/* wi and wo keep their lengths: for a sampled wo the half vector is then wm, rounding included. Where both graze, wi.wm
- * is as small as the errors of these lengths and might be 0 or less, so they are made 1. There exact.c evaluates all
- * samples. */
 VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
 {
-    vndf_normal i = vndf_normal_of(wi), wm = vndf_halfway(i, vndf_normal_of(wo));
-    double facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
-    if (facing < VNDF_TRUST_LENGTHS) {
-        i = vndf_unit(wi);
-        wm = vndf_halfway(i, vndf_unit(wo));
-        facing = i.x * wm.x + i.y * wm.y + i.z * wm.z;
-    }
-    vndf_event e = {wo, wi.z, wo.z, facing, facing, wm.z};
-    vndf_half half = {wm, e, 0.25 / facing};
-    return half;
+    vndf_facet f = vndf_facet_reflecting(vndf_normal_of(wi), vndf_normal_of(wo));
+    return vndf_half_of(&f, wo);
 }
 
-/* Where wi + r wo is small an error of a length matters, so both lengths are made 1. */
 VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
 {
-    vndf_normal i = vndf_unit(wi), o = vndf_unit(wo);
-    double rise = eta - 1.0, x = rise * o.x + (i.x + o.x), y = rise * o.y + (i.y + o.y),
-           z = rise * o.z + (i.z + o.z);
-    double square = x * x + y * y + z * z, per = copysign(1.0 / sqrt(square), z);
-    vndf_normal wm = {x * per, y * per, z * per};
-    double facing_i = i.x * wm.x + i.y * wm.y + i.z * wm.z, facing_o = -(o.x * wm.x + o.y * wm.y + o.z * wm.z);
-    vndf_event e = {vndf_mirrored(wo, -1.0f), i.z, -o.z, facing_i, facing_o, wm.z};
-    vndf_half half = {wm, e, eta * eta * facing_o / square};
-    return half;
+    vndf_facet f = vndf_facet_refracting(vndf_normal_of(wi), vndf_normal_of(wo), eta);
+    return vndf_half_of(&f, vndf_mirrored(wo, -1.0f));
 }
 
 /* ---- densities of two directions ---- */
@@ -158,12 +113,6 @@ VNDF_INLINE double vndf_half_density(const vndf_bsdf *b, const vndf_half *half, 
 
 /* ---- samples ---- */
 
-/* The choices of a routine, constants. */
-typedef struct vndf_choice {
-    vndf_normals_drawn normals;
-    int bare; /* no Fresnel term, height-correlated masking, seen from above alone */
-} vndf_choice;
-
 VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VNDF_WAVELENGTHS])
 {
     b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
@@ -177,46 +126,9 @@ typedef struct vndf_outcome {
     int settled;
 } vndf_outcome;
 
-/* Whether F keeps its digits when facing is rounded: beside total reflection F changes without bound. */
 VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
 {
-    return !(b->eta < 1.0f) || fabs(vndf_refracted_square(facing, b->eta)) > VNDF_TRUST_REFRACTED;
-}
-
-/* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
-VNDF_INLINE int vndf_is_settled(const vndf_bsdf *b, const vndf_bsdf_normal *n, float gain)
-{
-    float ax = b->view.ax, ay = b->view.ay, turn = b->material->turn, x = n->wm.x, y = n->wm.y;
-    if (vndf_law_is_steeper(b->view.distribution, ax, ay, x, y))
-        turn *= VNDF_TRUST_STEEPER;
-    return vndf_trusts_turn(ax, ay, gain, turn) && vndf_trusts_pole(x, y, gain) && n->u2 < VNDF_TRUST_LAST;
-}
-
-/* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum
- * of two floats and so exact but for one rounding, and a = ax ay,
- *
- *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
- *
- * So it is the density of the rounded wo, however smooth the surface is; relative error below 2e-6. */
-VNDF_INLINE float vndf_ggx_density_of(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    float ax = b->view.ax, ay = b->view.ay, a = ax * ay;
-    float x = b->view.wi.x + wo.x, y = b->view.wi.y + wo.y, z = b->view.wi.z + wo.z;
-    float p = ay * x, q = ax * y, r = a * z, t = a * (x * x + y * y + z * z) / (p * p + q * q + r * r);
-    return 0.0795774715f * a / b->area * (t * t);
-}
-
-/* Whether that formula may stand: nothing underflows in a trusted view. */
-VNDF_INLINE int vndf_has_ggx_density(const vndf_bsdf *b, float facing, vndf_normals_drawn normals)
-{
-    return normals == VNDF_NORMALS_VISIBLE && vndf_law_is_ggx(b->view.distribution) && b->view.trusted &&
-           facing > VNDF_TRUST_GGX_FACING;
-}
-
-/* Whether the sample takes the density of its normal instead. */
-VNDF_INLINE int vndf_is_ggx_drawn(const vndf_bsdf *b, float facing)
-{
-    return vndf_trusts_drawn_ggx(b->view.ax, b->view.ay, facing);
+    return !vndf_loses_reflectance(facing, b->eta);
 }
 
 /* 0 if no microfacet does that. */
@@ -236,29 +148,27 @@ VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
 VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice, int settled,
                              vndf_outcome *out)
 {
-    vndf_vec3 wi = b->view.wi, wo = vndf_lifted(vndf_reflected(wi, n->wm, n->facing), choice);
+    vndf_incident at = vndf_incident_of(b);
+    vndf_vec3 wo = vndf_lifted(vndf_packed(vndf_reflected(at.wi, n->wm, n->facing)), choice);
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
-    int of_wo = vndf_has_ggx_density(b, n->facing, choice.normals);
-    int as_drawn = of_wo ? vndf_is_ggx_drawn(b, n->facing) : vndf_is_settled(b, n, n->facing);
-    int trusted =
-        settled & (as_drawn | of_wo) & ((choice.bare & of_wo) | (n->facing > VNDF_TRUST_REFLECTION_FACING));
+    vndf_reflection_trust trust = vndf_trust_reflection(&at, n, choice);
+    int trusted = settled & trust.trusted;
     if (!trusted && vndf_reflect_exactly(b, wo, out))
         return 1;
     if (!trusted && choice.normals != VNDF_NORMALS_BOUNDED)
         return 0;
     /* A bounded normal is never lost, not even where the density of the rounded direction underflows. */
-    float density = !trusted ? FLT_MIN : as_drawn ? 0.25f * n->density / n->facing : vndf_ggx_density_of(b, wo);
+    float density = !trusted ? FLT_MIN : vndf_reflected_density(&at, n, wo, trust.as_drawn);
     out->wo = wo;
     out->facing = n->facing;
     out->settled = 1;
     if (choice.bare) {
-        float below = vndf_bsdf_area(b, wo) - wo.z;
-        out->weight = wo.z * n->quotient / (wo.z * b->area + wi.z * (below > 0.0f ? below : 0.0f));
+        out->weight = wo.z * n->quotient / vndf_unmasked(&at, wo, vndf_bsdf_area(b, wo));
         out->density = density;
         return 1;
     }
-    vndf_event e = {wo, wi.z, wo.z, n->facing, n->facing, n->wm.z};
+    vndf_event e = {wo, at.wi.z, wo.z, n->facing, n->facing, n->wm.z};
     out->weight = (float)(b->material->masking->reflection(b, &e) * e.cos_o * n->quotient);
     out->density = density;
     return 1;
@@ -269,18 +179,17 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
                              vndf_outcome *out)
 {
     double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
-    double sum = at->facing + eta * beyond;
     vndf_vec3 wi = b->view.wi, wo = vndf_refracted(at, along, eta);
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
-    float gain = VNDF_TRUST_REFRACTION_GAIN * (float)fabs(along / eta) * n->wm.z;
-    if (rise != 0.0 &&
-        !(beyond > VNDF_TRUST_BEYOND && at->facing > VNDF_TRUST_REFRACTION_FACING && vndf_is_settled(b, n, gain)))
+    float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
+    vndf_incident from = vndf_incident_of(b);
+    if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain)))
         return vndf_refract_exactly(b, wo, out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->wo = wo;
     out->facing = at->facing;
-    out->density = vndf_density_from(n->density * (eta * eta * beyond) * (sum * sum) / (rise * rise));
+    out->density = vndf_density_from(vndf_bent_density(at, n->density, beyond, eta));
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
     out->settled = 1;
     return 1;

@@ -60,9 +60,10 @@ static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, float u2)
     if (b->material->is.effects.normals == VNDF_NORMALS_BOUNDED || s->lobe != VNDF_LOBE_REFLECTION)
         return 0;
     vndf_bsdf_normal n = normal_of(b, s, u2);
+    vndf_incident at = vndf_incident_of(b);
     float gain = VNDF_TRUST_ROTATED_GAIN * n.facing;
     return gain > VNDF_TRUST_REFLECTION_FACING && vndf_keeps_reflectance(b, n.facing) &&
-           vndf_is_settled(b, &n, gain);
+           vndf_is_settled(&at, &n, gain);
 }
 
 /* Density and weight of the rounded wo, where both density and f are in the range of float. The weight of a walk does
@@ -109,4 +110,4 @@ static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
     return b->material->unturned->pdf(b, to_axes(b, wo));
 }
 
-const vndf_routines vndf_routines_turned = {prepare, sample, eval, pdf_of, NULL};
+const vndf_routines vndf_routines_turned = {prepare, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};

@@ -1,25 +1,5 @@
 #include "bsdf/terms/fresnel.h"
 
-/* (n + ik)^2 - sin^2 = (a + ib)^2, hence a^2 - b^2 = t = n^2 - k^2 - sin^2 and a b = n k (Born & Wolf,
- * "Principles of Optics", 14.2). The smaller of a^2 and b^2 comes from the larger, and a - c from a^2 - c^2 = n^2
- * - k^2 - 1 + b^2, which is `apart`. Both polarisations share a division:
- *
- *     s = ((a - c)^2 + b^2)/((a + c)^2 + b^2),    p = s ((a c - sin^2)^2 + b^2 c^2)/((a c + sin^2)^2 + b^2 c^2). */
-double vndf_conductor(double cosine, double n, double k)
-{
-    double c = cosine < 1.0 ? cosine : 1.0, c2 = c * c, s2 = 1.0 - c2, nk = n * k;
-    double t = (n * n - k * k) - s2, root = sqrt(t * t + 4.0 * nk * nk), larger = 0.5 * (root + fabs(t));
-    double smaller = larger > 0.0 ? nk * nk / larger : 0.0, a2 = t > 0.0 ? larger : smaller;
-    double b2 = t > 0.0 ? smaller : larger, a = sqrt(a2), sum = a + c;
-    double apart = (n - 1.0) * (n + 1.0) - k * k + b2, less = a * c - s2, more = a * c + s2;
-    double square = sum * sum, over = less * less + b2 * c2, under = more * more + b2 * c2;
-    double below = square * (square + b2) * under;
-    if (!(below > 0.0))
-        return 1.0; /* at right angles to the normal */
-    double mean = 0.5 * (apart * apart + b2 * square) * (under + over) / below;
-    return mean < 1.0 ? mean : 1.0;
-}
-
 static void set_all(double f[VNDF_WAVELENGTHS], double value)
 {
     for (int i = 0; i < VNDF_WAVELENGTHS; i++) /* all: no count is waited for */

@@ -5,7 +5,7 @@
 
 static double reflect_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
-    return vndf_height_correlated(b, e);
+    return vndf_height_correlated(e->cos_i, e->cos_o, (double)b->area, (double)vndf_bsdf_area(b, e->wo));
 }
 
 static double exact_area(const vndf_bsdf *b, vndf_vec3 w)
@@ -18,7 +18,7 @@ static double exact_area(const vndf_bsdf *b, vndf_vec3 w)
 static double transmit_correlated(const vndf_bsdf *b, const vndf_event *e)
 {
     double area = vndf_bsdf_area(b, e->wo), i = b->area / e->cos_i, o = area / e->cos_o;
-    if (i + o > VNDF_TRUST_BETA) {
+    if (vndf_needs_exact_areas(i, o)) {
         i = exact_area(b, b->view.wi) / e->cos_i;
         o = exact_area(b, e->wo) / e->cos_o;
     }

@@ -9,13 +9,28 @@
 #define VNDF_BSDF_TERMS_MASKING_H
 
 #include "bsdf/routines.h"
+#include "bsdf/trust.h"
 #include "sampler/law.h"
+
+/* Height-correlated, from both areas. At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
+VNDF_INLINE doubles vndf_height_correlated(doubles cos_i, doubles cos_o, doubles area_i, doubles area_o)
+{
+    return 1.0 / (cos_o * area_i + cos_i * doubles_positive(area_o - cos_o));
+}
+
+/* Whether areas in float will not do for the Beta function of a transmission; i and o are A/cos. */
+VNDF_INLINE doubles_m vndf_needs_exact_areas(doubles i, doubles o)
+{
+    return doubles_less(doubles_set(VNDF_TRUST_BETA), i + o);
+}
+
+#if VNDF_LANES == 1
 
 /* A(w), w.z > 0, with the roughness of the hit. */
 VNDF_INLINE float vndf_bsdf_area(const vndf_bsdf *b, vndf_vec3 w)
 {
     int ready;
-    float area = vndf_law_area_above(b->view.distribution, b->view.ax, b->view.ay, w, &ready);
+    float area = vndf_law_area_above(b->view.distribution, b->view.ax, b->view.ay, w.x, w.y, w.z, &ready);
     return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, w);
 }
 
@@ -27,14 +42,8 @@ VNDF_INLINE float vndf_bsdf_view_area(const vndf_bsdf *b)
     return ready ? area : vndf_area_scaled(b->view.distribution, b->view.alpha_x, b->view.alpha_y, b->view.wi);
 }
 
-/* At most 1/(cos_o A_i), so that no weight of visible normals exceeds 1. */
-VNDF_INLINE double vndf_height_correlated(const vndf_bsdf *b, const vndf_event *e)
-{
-    double below = vndf_bsdf_area(b, e->wo) - e->cos_o;
-    return 1.0 / (e->cos_o * b->area + e->cos_i * (below > 0.0 ? below : 0.0));
-}
-
 extern const vndf_masking_routine vndf_masking_height_correlated, vndf_masking_separable, vndf_masking_v_cavities,
     vndf_masking_none;
 
+#endif
 #endif

@@ -2,6 +2,7 @@
 #ifndef VNDF_BSDF_TERMS_NORMALS_H
 #define VNDF_BSDF_TERMS_NORMALS_H
 
+#include "bsdf/terms/event.h"
 #include "bsdf/terms/masking.h"
 #include "math/vector.h"
 #include "sampler/all_normals/all_normals.h"
@@ -9,11 +10,12 @@
 #include "sampler/query.h"
 #include "sampler/surface.h"
 
-/* A drawn normal: facing = wi.wm, quotient = D(wm) facing/density; and the second uniform number. */
-typedef struct vndf_bsdf_normal {
-    vndf_vec3 wm;
-    float density, facing, quotient, u2;
-} vndf_bsdf_normal;
+VNDF_INLINE vndf_incident vndf_incident_of(const vndf_bsdf *b)
+{
+    const vndf_view *v = &b->view;
+    vndf_incident at = {v->distribution, v->wi, v->ax, v->ay, b->area, b->material->turn, v->trusted};
+    return at;
+}
 
 VNDF_INLINE double vndf_bsdf_ndf(const vndf_bsdf *b, vndf_normal wm)
 {

@@ -58,7 +58,7 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, 
         value[i] = vndf_density_from(f[i] / fabs(wo.z));
 }
 
-const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval, pdf, NULL};
+const vndf_routines vndf_routines_multiple = {vndf_prepare_visible, sample, eval, pdf, NULL, VNDF_BLOCK_NONE};
 
 /* ---- eta = 1 ---- */
 
@@ -88,4 +88,5 @@ static float pdf_unbent(const vndf_bsdf *b, vndf_vec3 wo)
     return 0.0f;
 }
 
-const vndf_routines vndf_routines_unbent = {vndf_prepare_visible, sample_unbent, eval_unbent, pdf_unbent, NULL};
+const vndf_routines vndf_routines_unbent = {vndf_prepare_visible, sample_unbent, eval_unbent,
+                                            pdf_unbent,           NULL,          VNDF_BLOCK_NONE};

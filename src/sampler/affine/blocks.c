@@ -141,6 +141,7 @@ void vndf_block_answer(const vndf_surfaces *of, vndf_question question, const fl
     vndf_eval_block block;
     block.in = (vndf_eval_inputs){{at->ax, at->ay, at->x, at->y, at->z}, {seen.x, seen.y, seen.z}, seen.facing};
     block.count = count;
+    block.exact = NULL;
     if (normal)
         see(of, count, normal, &seen);
     if (of->wide)

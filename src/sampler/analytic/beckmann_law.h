@@ -72,6 +72,35 @@ VNDF_INLINE doubles vndf_beckmann_visible(const vndf_query *g, doubles facing)
     return doubles_pick(doubles_without(below, doubles_less(nothing, across)), nothing, visible);
 }
 
+/* A/across, from K = c/s = z/across (sampler/analytic/beckmann_draw.h). */
+VNDF_INLINE lanes_f vndf_beckmann_area_over(lanes_f bound)
+{
+    lanes_f line = 3.54490770f * bound;
+    return 0.282094792f * (1.0f + (line + vndf_beckmann_tail(bound, lanes_less(bound, lanes_set(2.0f)))));
+}
+
+/* A(w) for a unit w = (wx, wy, wz), wz > 0; relative error below 2e-6. Where *trusted is 0 it has to be computed
+ * otherwise. */
+VNDF_INLINE lanes_f vndf_beckmann_area_above(lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy, lanes_f wz,
+                                             lanes_m *trusted)
+{
+    lanes_f x = ax * wx, y = ay * wy, across2 = x * x + y * y, across = lanes_root(across2), sum = across + wz;
+    *trusted = vndf_trusts_direction(across2, wz, sum);
+    if (!lanes_any(*trusted))
+        return lanes_set(0.0f);
+    return across * vndf_beckmann_area_over(wz / across);
+}
+
+/* The same of the direction of a view. Clears *trusted where roughness is not ordinary. */
+VNDF_INLINE lanes_f vndf_beckmann_seen_area(lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy, lanes_f wz,
+                                            lanes_m *trusted)
+{
+    lanes_m ready;
+    lanes_f area = vndf_beckmann_area_above(ax, ay, wx, wy, wz, &ready);
+    *trusted = lanes_both(*trusted, lanes_both(ready, vndf_trusts_scale(ax, ay, wz)));
+    return area;
+}
+
 #if VNDF_LANES == 1
 
 /* ---- views ---- */
@@ -87,22 +116,7 @@ vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, flo
 /* vndf_invert of a valid view, wm.z >= 0. */
 void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
-/* ---- areas, all normals ---- */
-
-/* A/across, from K = c/s = z/across (sampler/analytic/beckmann_draw.h). */
-VNDF_INLINE float vndf_beckmann_area_over(float bound)
-{
-    float line = 3.54490770f * bound;
-    return 0.282094792f * (1.0f + (line + vndf_beckmann_tail(bound, bound < 2.0f)));
-}
-
-/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *trusted is 0 it has to be computed otherwise. */
-VNDF_INLINE float vndf_beckmann_area_above(float ax, float ay, vndf_vec3 w, int *trusted)
-{
-    float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
-    *trusted = vndf_trusts_direction(across2, w.z, sum);
-    return *trusted ? across * vndf_beckmann_area_over(w.z / across) : 0.0f;
-}
+/* ---- all normals ---- */
 
 /* The rounding of a normal, 6e-7 of R with that of its azimuth, is R^2 times as much of P22. */
 VNDF_INLINE vndf_slope vndf_beckmann_slope_of(float u)

@@ -66,23 +66,61 @@ VNDF_INLINE vndf_half_azimuth vndf_half_azimuth_at(lanes_f u)
     return half;
 }
 
-/* Good where *trusted stays. The normal is that of vndf_ggx_sample, but for roundings. h is multiplied by (1 + T)
- * and by the square of its half azimuth. */
-VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *trusted)
+/* A sample in three steps; a root or a division ends each of the first two and begins the last. Lanes take each step
+ * for several groups in turn (batch/analytic.h), so that the processor divides for one group while it multiplies for
+ * others. h is multiplied by (1 + T) and by the square of its half azimuth.
+ *
+ * The cap: T^2 and T; what both of h's level parts hold, and its height, before T is known. */
+typedef struct vndf_ggx_cap {
+    lanes_f t2, t, square, along, across, aside, up;
+} vndf_ggx_cap;
+
+VNDF_INLINE vndf_ggx_cap vndf_ggx_cap_at(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2)
 {
     vndf_half_azimuth half = vndf_half_azimuth_at(u1);
-    lanes_f v = 1.0f - u2, t2 = u2 + u2 * v * w->q, t = lanes_root(t2), tr = t + t2;
-    lanes_f r = half.square + half.square * t;
-    lanes_f twice = 2.0f * half.sine, aside = tr * (twice * half.cosine);
-    lanes_f along = v * (1.0f - u2 * w->q) * half.square + tr * (twice * half.sine);
-    lanes_f x = w->x * along + w->y * aside, y = w->y * along - w->x * aside, z = v * (1.0f + w->c) * r;
+    lanes_f v = 1.0f - u2, t2 = u2 + u2 * v * w->q, twice = 2.0f * half.sine;
+    vndf_ggx_cap cap = {t2,
+                        lanes_root(t2),
+                        half.square,
+                        v * (1.0f - u2 * w->q) * half.square,
+                        twice * half.sine,
+                        twice * half.cosine,
+                        v * (1.0f + w->c)};
+    return cap;
+}
+
+/* m = (ax hx, ay hy, hz), |m|^2 and |m|, and what |m| is divided by. */
+typedef struct vndf_ggx_stretched {
+    lanes_f x, y, z, m2, length, below;
+} vndf_ggx_stretched;
+
+/* Good where *trusted stays. */
+VNDF_INLINE vndf_ggx_stretched vndf_ggx_stretched_at(const vndf_ggx_incidence *w, const vndf_ggx_cap *cap,
+                                                     lanes_m *trusted)
+{
+    lanes_f t = cap->t, tr = t + cap->t2, r = cap->square + cap->square * t;
+    lanes_f along = cap->along + tr * cap->across, aside = tr * cap->aside;
+    lanes_f x = w->x * along + w->y * aside, y = w->y * along - w->x * aside, z = cap->up * r;
     lanes_f mx = w->ax * x, my = w->ay * y, z2 = z * z;
     lanes_f h2 = (x * x + y * y) + z2, m2 = (mx * mx + my * my) + z2;
-    lanes_f length = lanes_root(m2), below = w->spread * r * h2;
-    lanes_f both = 1.0f / (length * below), per = below * both;
     *trusted = lanes_both(w->trusted, vndf_trusts_ggx_halfway(r, h2));
-    vndf_drawn n = {mx * per, my * per, z * per, m2 * m2 * both};
+    vndf_ggx_stretched m = {mx, my, z, m2, lanes_root(m2), w->spread * r * h2};
+    return m;
+}
+
+VNDF_INLINE vndf_drawn vndf_ggx_drawn(const vndf_ggx_stretched *m)
+{
+    lanes_f both = 1.0f / (m->length * m->below), per = m->below * both;
+    vndf_drawn n = {m->x * per, m->y * per, m->z * per, m->m2 * m->m2 * both};
     return n;
+}
+
+/* All three: good where *trusted stays. The normal is that of vndf_ggx_sample, but for roundings. */
+VNDF_INLINE vndf_drawn vndf_ggx_draw(const vndf_ggx_incidence *w, lanes_f u1, lanes_f u2, lanes_m *trusted)
+{
+    vndf_ggx_cap cap = vndf_ggx_cap_at(w, u1, u2);
+    vndf_ggx_stretched m = vndf_ggx_stretched_at(w, &cap, trusted);
+    return vndf_ggx_drawn(&m);
 }
 
 #endif

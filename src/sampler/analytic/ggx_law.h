@@ -30,6 +30,27 @@ VNDF_INLINE doubles vndf_ggx_visible(const vndf_query *g, doubles facing)
     return doubles_pick(doubles_without(below, seen), doubles_set(0.0), visible); /* straight down sees nothing */
 }
 
+/* A(w) for a unit w = (wx, wy, wz), wz > 0: 2 A = wz + |(ax wx, ay wy, wz)|; relative error below 2e-6. Where *trusted
+ * is 0 it has to be computed otherwise. */
+VNDF_INLINE lanes_f vndf_ggx_area_above(lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy, lanes_f wz,
+                                        lanes_m *trusted)
+{
+    lanes_f x = ax * wx, y = ay * wy, across2 = x * x + y * y;
+    *trusted = lanes_less(across2, lanes_set(VNDF_TRUST_GGX_ACROSS2));
+    return 0.5f * (wz + lanes_root(across2 + wz * wz));
+}
+
+/* The same of the direction of a view. Clears *trusted where float is not trusted with the view. */
+VNDF_INLINE lanes_f vndf_ggx_seen_area(lanes_f ax, lanes_f ay, lanes_f wx, lanes_f wy, lanes_f wz,
+                                       lanes_m *trusted)
+{
+    lanes_m ready;
+    vndf_ggx_incidence w = vndf_ggx_incidence_from(ax, ay, wx, wy, wz);
+    lanes_f area = vndf_ggx_area_above(ax, ay, wx, wy, wz, &ready);
+    *trusted = lanes_both(*trusted, lanes_both(ready, w.trusted));
+    return area;
+}
+
 #if VNDF_LANES == 1
 
 /* ---- views ---- */
@@ -82,16 +103,7 @@ vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2
 /* vndf_invert of a valid view, wm.z >= 0. */
 void vndf_ggx_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
-/* ---- areas, all normals ---- */
-
-/* A(w) for a unit w, w.z > 0: 2 A = w.z + |(ax w.x, ay w.y, w.z)|; relative error below 2e-6. Where *trusted is 0 it
- * has to be computed otherwise. */
-VNDF_INLINE float vndf_ggx_area_above(float ax, float ay, vndf_vec3 w, int *trusted)
-{
-    float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y;
-    *trusted = across2 < VNDF_TRUST_GGX_ACROSS2;
-    return 0.5f * (w.z + sqrtf(across2 + w.z * w.z));
-}
+/* ---- all normals ---- */
 
 VNDF_INLINE vndf_slope vndf_ggx_slope(float u)
 {

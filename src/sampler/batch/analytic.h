@@ -14,18 +14,65 @@ VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint
                                    lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
-VNDF_INLINE void vndf_draw_ggx(vndf_sample_block *b)
+/* Groups that take each step in turn: fewer wait for roots and divisions, more push the batch out of the cache. */
+enum { GGX_GROUPS = 8 };
+
+typedef struct ggx_work {
+    vndf_ggx_incidence at[GGX_GROUPS];
+    vndf_ggx_cap cap[GGX_GROUPS];
+    vndf_ggx_stretched m[GGX_GROUPS];
+    lanes_m trusted[GGX_GROUPS];
+} ggx_work;
+
+/* `one` is the incidence that all samples share, or NULL. */
+VNDF_INLINE void ggx_leave(vndf_sample_block *b, const ggx_work *w, const vndf_ggx_incidence *one, uint32_t first,
+                           uint32_t groups)
 {
-    vndf_ggx_incidence shared;
-    if (b->view)
-        shared = vndf_ggx_incidence_of(b->view);
-    for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
-        vndf_ggx_incidence w = b->view ? shared : ggx_incidence_at(b, i);
-        lanes_m trusted;
-        vndf_drawn n = vndf_ggx_draw(&w, vndf_block_u(b->u1 + i), vndf_block_u(b->u2 + i), &trusted);
-        vndf_block_store(b, i, &n);
+    for (uint32_t g = 0; g < groups; g++) {
+        lanes_m usable = one ? one->trusted : w->at[g].trusted, trusted = w->trusted[g];
         if (lanes_any(lanes_without(lanes_all(), trusted)))
-            vndf_block_leave(b, lanes_without(lanes_all(), w.trusted), lanes_without(w.trusted, trusted), i);
+            vndf_block_leave(b, lanes_without(lanes_all(), usable), lanes_without(usable, trusted),
+                             first + g * VNDF_LANES);
+    }
+}
+
+/* Draws groups from sample `first` on. */
+VNDF_INLINE void draw_ggx_groups(vndf_sample_block *b, ggx_work *w, const vndf_ggx_incidence *one, uint32_t first,
+                                 uint32_t groups)
+{
+    const float *u1 = b->u1 + first, *u2 = b->u2 + first;
+    lanes_m trusted = lanes_all();
+    for (uint32_t g = 0; g < groups && !one; g++)
+        w->at[g] = ggx_incidence_at(b, first + g * VNDF_LANES);
+    for (uint32_t g = 0; g < groups; g++)
+        w->cap[g] = vndf_ggx_cap_at(one ? one : &w->at[g], vndf_block_u(u1 + g * VNDF_LANES),
+                                    vndf_block_u(u2 + g * VNDF_LANES));
+    for (uint32_t g = 0; g < groups; g++)
+        w->m[g] = vndf_ggx_stretched_at(one ? one : &w->at[g], &w->cap[g], &w->trusted[g]);
+    for (uint32_t g = 0; g < groups; g++) {
+        vndf_drawn n = vndf_ggx_drawn(&w->m[g]);
+        vndf_block_store(b, first + g * VNDF_LANES, &n);
+        trusted = lanes_both(trusted, w->trusted[g]);
+    }
+    if (lanes_any(lanes_without(lanes_all(), trusted)))
+        ggx_leave(b, w, one, first, groups);
+}
+
+VNDF_INLINE void draw_ggx_from(vndf_sample_block *b, const vndf_ggx_incidence *one)
+{
+    ggx_work w;
+    uint32_t groups = (b->count + VNDF_LANES - 1) / VNDF_LANES;
+    for (uint32_t g = 0; g < groups; g += GGX_GROUPS)
+        draw_ggx_groups(b, &w, one, g * VNDF_LANES, groups - g < GGX_GROUPS ? groups - g : GGX_GROUPS);
+}
+
+static inline void vndf_draw_ggx(vndf_sample_block *b)
+{
+    if (b->view) {
+        vndf_ggx_incidence shared = vndf_ggx_incidence_of(b->view);
+        draw_ggx_from(b, &shared);
+    } else {
+        draw_ggx_from(b, NULL);
     }
 }
 

@@ -82,6 +82,7 @@ static void answer_in_lanes(const call *c)
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
     vndf_eval_block block;
     copies own;
+    block.exact = NULL;
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t rest = b->count - first;
         block.count = rest < VNDF_EVAL_BLOCK ? (uint32_t)rest : VNDF_EVAL_BLOCK;

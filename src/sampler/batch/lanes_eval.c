@@ -101,7 +101,10 @@ static void answer_ndf(const vndf_distribution *d, vndf_eval_block *b)
         vndf_query g = {{ax, ay, one, one, one}, n.x, n.y, n.z};
         doubles_m valid = vndf_normal_is_valid(&g);
         g = picked_given(valid, &g);
-        doubles_store_f(b->value + i, vndf_density_of(doubles_pick(valid, vndf_law_ndf(d, &g), nothing)));
+        doubles ndf = doubles_pick(valid, vndf_law_ndf(d, &g), nothing);
+        doubles_store_f(b->value + i, vndf_density_of(ndf));
+        if (b->exact)
+            doubles_store_long(b->exact + i, ndf);
     }
 }
 
@@ -127,6 +130,8 @@ static void answer_visible(const vndf_distribution *d, vndf_eval_block *b)
         doubles rounded =
             doubles_widen(vndf_law_is_exact(d) ? vndf_positive_of(visible) : vndf_density_of(visible));
         doubles_store_f(b->value + i, doubles_narrow(doubles_pick(seen, rounded, nothing)));
+        if (b->exact)
+            doubles_store_long(b->exact + i, doubles_pick(seen, visible, nothing));
     }
 }
 
@@ -168,6 +173,8 @@ static void sort(const vndf_distribution *d, vndf_eval_block *b, sorted *s)
         append(s, BEHIND, doubles_without(above, front), i, b->count);
         append(s, BELOW, doubles_both(seen, below), i, b->count);
         doubles_store_f(b->value + i, doubles_narrow(nothing));
+        if (b->exact)
+            doubles_store_long(b->exact + i, nothing);
     }
 }
 
@@ -200,6 +207,14 @@ VNDF_INLINE vndf_eval_inputs gather_way(const vndf_eval_block *b, const uint32_t
     return made;
 }
 
+VNDF_INLINE void scatter_exact(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density)
+{
+    double value[VNDF_DOUBLES];
+    doubles_store_long(value, density);
+    for (uint32_t i = 0; i < VNDF_DOUBLES && i < count; i++)
+        b->exact[index[i]] = value[i];
+}
+
 /* Puts a group's answers where its normals were, and leaves densities that are not trusted. */
 VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t count, doubles density,
                          doubles_m trusted)
@@ -212,6 +227,8 @@ VNDF_INLINE void scatter(vndf_eval_block *b, const uint32_t *index, uint32_t cou
         b->left[b->left_count] = index[i];
         b->left_count += !(bits >> i & 1);
     }
+    if (b->exact)
+        scatter_exact(b, index, count, density);
 }
 
 VNDF_INLINE void answer_way(const vndf_distribution *d, vndf_eval_block *b, const sorted *s, int way)

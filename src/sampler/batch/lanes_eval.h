@@ -49,7 +49,8 @@ typedef struct vndf_eval_block {
     vndf_eval_inputs in;
     uint32_t count, left_count;
     uint32_t left[VNDF_EVAL_BLOCK]; /* indices without an answer */
-    float value[VNDF_EVAL_BLOCK];   /* the answers */
+    float value[VNDF_EVAL_BLOCK];   /* the answers, */
+    double *exact;                  /* and the same not rounded, of questions for a normal; or NULL */
 } vndf_eval_block;
 
 #if VNDF_HAS_LANES

@@ -7,22 +7,27 @@
 
 /* ---- cells of radii ---- */
 
-/* Weights and targets. `cell` holds the codes of windows first, then the cells. */
+/* Weights and targets of samples. `cell` holds the codes of windows first, then the cells. */
 typedef struct vndf_radial_search {
     float c[VNDF_BLOCK_SAMPLES], k[VNDF_BLOCK_SAMPLES], target[VNDF_BLOCK_SAMPLES];
     uint32_t cell[VNDF_BLOCK_SAMPLES];
 } vndf_radial_search;
 
-/* Stores the search of the group from sample `i` on. Wide windows are few; they are narrowed at once. */
-VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t i,
-                                const vndf_azimuth_sample *b, lanes_f u2)
+/* Stores the search of the group from sample `i` on. */
+VNDF_INLINE void vndf_ask_radii(vndf_radial_search *s, uint32_t i, const vndf_azimuth_sample *b, lanes_f u2)
 {
-    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(b->code, narrow)));
     lanes_store(s->c + i, b->c);
     lanes_store(s->k + i, b->k);
     lanes_store(s->target + i, u2 * b->total);
-    lanes_store_u(s->cell + i, b->code);
+}
+
+/* Looks up the windows of a group. Wide windows are few; they are narrowed at once. */
+VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, uint32_t i, lanes_f u2)
+{
+    lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), u2);
+    lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
+    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
+    lanes_store_u(s->cell + i, code);
     for (; wide != 0; wide &= wide - 1) {
         uint32_t at = i + (uint32_t)__builtin_ctz(wide);
         vndf_window window = vndf_window_from(s->cell[at]);
@@ -30,15 +35,55 @@ VNDF_INLINE void vndf_ask_radii(const vndf_distribution *d, vndf_radial_search *
     }
 }
 
-/* Turns codes into cells. `whole` says that c, k >= 0. */
-VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, uint32_t count, int whole)
+/* Turns the searches of `count` samples into cells. `whole` says that c, k >= 0. */
+VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                 uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        vndf_open_windows(d, s, i, lanes_load(u2 + i));
+#pragma GCC unroll 4
     for (uint32_t i = 0; i < count; i++) {
         uint32_t first = s->cell[i];
         s->cell[i] = first + (whole ? vndf_radial_count_whole(&knots, first + 1, s->c[i], s->k[i], s->target[i])
                                     : vndf_radial_count_above(&knots, first + 1, s->c[i], s->k[i], s->target[i]));
     }
+}
+
+#if VNDF_LANES == 16
+
+/* The last knots with sums of no more than `target` before them, c, k >= 0, where cells are few. Sums ascend, so a
+ * window finds the same. */
+VNDF_INLINE lanes_u vndf_find_in_few_cells(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f target)
+{
+    const float *f0 = d->knots.f0, *f1 = d->knots.f1;
+    lanes_u eighth = lanes_set_u(0);
+    for (uint32_t n = 8; n < d->radial_count; n += 8)
+        eighth = lanes_count(eighth, lanes_at_most(c * f0[n] + k * f1[n], target));
+    lanes_u j = eighth << 3;
+    for (uint32_t step = 4; step > 0; step /= 2) {
+        lanes_u next = j + step;
+        lanes_f sum = c * lanes_of_64(f0, next) + k * lanes_of_64(f1, next);
+        j = lanes_pick_u(lanes_at_most(sum, target), next, j);
+    }
+    return j;
+}
+
+#endif
+
+/* The same for c, k >= 0: in registers, if they hold the sums of all knots. */
+VNDF_INLINE void vndf_find_radii_in_front(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                          uint32_t count)
+{
+#if VNDF_LANES == 16
+    if (d->radial_count <= VNDF_FEW_CELLS) {
+        for (uint32_t i = 0; i < count; i += VNDF_LANES)
+            lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
+                                                              lanes_load(s->target + i)));
+        return;
+    }
+#endif
+    vndf_find_radii(d, s, u2, count, 1);
 }
 
 VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)
@@ -60,12 +105,12 @@ typedef struct vndf_mixed_row {
     uint32_t count;
 } vndf_mixed_row;
 
-/* For each sample the span of its row, the row with its weights, the part before the azimuth, the cell, and the index
- * of the cell among the cells of all rows. */
+/* For each sample the span of its row, the row with its weights, the part before the azimuth, the cell, the mass before
+ * it, and its index among the cells of all rows. */
 typedef struct vndf_row_search {
     uint32_t span[VNDF_BLOCK_SAMPLES], row[VNDF_BLOCK_SAMPLES], cell[VNDF_BLOCK_SAMPLES], at[VNDF_BLOCK_SAMPLES];
     float first[VNDF_BLOCK_SAMPLES], middle[VNDF_BLOCK_SAMPLES], last[VNDF_BLOCK_SAMPLES];
-    float part[VNDF_BLOCK_SAMPLES];
+    float part[VNDF_BLOCK_SAMPLES], before[VNDF_BLOCK_SAMPLES];
     vndf_azimuth_row rows[VNDF_BLOCK_GROUPS];
     vndf_mixed_row mixed;
 } vndf_row_search;
@@ -130,17 +175,40 @@ VNDF_INLINE void vndf_find_in_one_row(const vndf_distribution *d, const vndf_sor
     }
 }
 
-/* The same, each sample in the row of its direction. */
-VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
-                                    uint32_t count, vndf_row_search *s)
+/* The same, each sample in the row of its direction, where rows are so few that registers hold them. */
+VNDF_INLINE void vndf_find_in_few_rows(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                       uint32_t count, vndf_row_search *s)
 {
-    for (uint32_t i = 0; i < count; i += VNDF_LANES)
-        lanes_store_u(s->span + i, vndf_wedge_span(&d->above, vndf_sorted_incidence(from, first + i).c));
+    const vndf_wedge *wedge = &d->above;
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
-        lanes_lines lines = lanes_lines_from(&d->above.row_span->begin, VNDF_ROW_SPAN_FLOATS, s->span + i);
         vndf_azimuth_range range = vndf_sorted_range(from, first + i);
-        s->rows[g] = vndf_wedge_row_from(&d->above, vndf_sorted_incidence(from, first + i).c,
-                                         lanes_load_u(s->span + i), &lines);
+        lanes_f y = vndf_sorted_incidence(from, first + i).c, before;
+        lanes_f part = vndf_wedge_part(lanes_abs(range.apart), range.mass);
+        lanes_u span = vndf_wedge_span(wedge, y);
+        s->rows[g] = vndf_wedge_row_few(wedge, y, span);
+        lanes_u cell = vndf_azimuth_find_few(&s->rows[g], span, part, &before);
+        lanes_store(s->part + i, part);
+        lanes_store(s->before + i, before);
+        lanes_store_u(s->cell + i, cell);
+        lanes_store_u(s->at + i, s->rows[g].row * (wedge->cell_count + 1) + cell);
+    }
+}
+
+/* The same whatever the number of rows, one sample after the other. */
+VNDF_INLINE void vndf_find_in_rows(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                   uint32_t count, vndf_row_search *s)
+{
+    const vndf_wedge *wedge = &d->above;
+    const float *span = &wedge->row_span->begin;
+    const lanes_source source[2] = {{span, VNDF_ROW_SPAN_FLOATS}, {span + 4, VNDF_ROW_SPAN_FLOATS}};
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(s->span + i, vndf_wedge_span(wedge, vndf_sorted_incidence(from, first + i).c));
+    for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
+        lanes_four row_span[2];
+        lanes_load_fours(row_span, source, 2, s->span + i);
+        vndf_azimuth_range range = vndf_sorted_range(from, first + i);
+        s->rows[g] = vndf_wedge_row_from(wedge, vndf_sorted_incidence(from, first + i).c,
+                                         lanes_load_u(s->span + i), row_span);
         lanes_store(s->first + i, s->rows[g].first);
         lanes_store(s->middle + i, s->rows[g].middle);
         lanes_store(s->last + i, s->rows[g].last);
@@ -148,9 +216,25 @@ VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorte
         lanes_store_u(s->row + i, s->rows[g].row);
     }
     for (uint32_t i = 0; i < count; i++) {
-        s->cell[i] = vndf_azimuth_find(&d->above, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
-        s->at[i] = s->row[i] * d->above.cell_count + s->cell[i];
+        uint32_t j = vndf_azimuth_find(wedge, s->row[i], s->first[i], s->middle[i], s->last[i], s->part[i]);
+        const float *cdf = wedge->cdf + (size_t)s->row[i] * wedge->stride + j;
+        s->before[i] =
+            s->first[i] * cdf[0] + s->middle[i] * cdf[wedge->stride] + s->last[i] * cdf[2 * wedge->stride];
+        s->cell[i] = j;
+        s->at[i] = s->row[i] * (wedge->cell_count + 1) + j;
     }
+}
+
+/* The cells of the azimuths of samples from `first` on. */
+VNDF_INLINE void vndf_find_azimuths(const vndf_distribution *d, const vndf_sorted *from, uint32_t first,
+                                    uint32_t count, vndf_row_search *s)
+{
+    if (vndf_has_one_row(d, from))
+        vndf_find_in_one_row(d, from, first, count, s);
+    else if (d->above.few_cdf)
+        vndf_find_in_few_rows(d, from, first, count, s);
+    else
+        vndf_find_in_rows(d, from, first, count, s);
 }
 
 /* The cells of the group from sample `i` on. */
@@ -160,8 +244,7 @@ VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_of(const vndf_distribution *d, c
     lanes_u cell = lanes_load_u(s->cell + i);
     if (vndf_has_one_row(d, from))
         return vndf_mixed_cell_of(&s->mixed, cell);
-    lanes_lines lines = lanes_lines_from(&d->above.row_line->before, 4, s->at + i);
-    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, &lines);
+    return vndf_azimuth_cell_on(&s->rows[i / VNDF_LANES], cell, lanes_load(s->before + i), s->at + i);
 }
 
 #endif

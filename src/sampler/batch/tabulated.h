@@ -8,6 +8,7 @@
 /* Intermediate results of a block; weights where the block asks for them. Each step goes over all groups of lanes
  * before the next step begins: the steps of one group wait for each other, groups do not. */
 typedef struct fronts {
+    lanes_f about[VNDF_BLOCK_GROUPS];
     vndf_azimuth_sample bearing[VNDF_BLOCK_GROUPS];
     vndf_place place[VNDF_BLOCK_GROUPS];
     lanes_m trusted[VNDF_BLOCK_GROUPS];
@@ -34,10 +35,18 @@ VNDF_INLINE void draw_fronts(const vndf_distribution *d, const vndf_sorted *from
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
         vndf_incidence at = vndf_sorted_incidence(from, i);
         vndf_azimuth_range range = vndf_sorted_range(from, i);
-        w->bearing[g] = vndf_azimuth_sample_front(d, &at, &range, lanes_load(from->u2 + i));
-        vndf_ask_radii(d, &w->radii, i, &w->bearing[g], lanes_load(from->u2 + i));
+        w->about[g] = vndf_azimuth_about(d, &at, &range);
     }
-    vndf_find_radii(d, &w->radii, end, 1);
+    for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
+        vndf_incidence at = vndf_sorted_incidence(from, i);
+        vndf_azimuth_range range = vndf_sorted_range(from, i);
+        lanes_f u2 = lanes_load(from->u2 + i);
+        vndf_azimuth_sample b = vndf_azimuth_sample_from(d, &at, &range, w->about[g], u2);
+        b.code = lanes_set_u(0); /* nobody looks a window up here (vndf_find_radii) */
+        w->bearing[g] = b;
+        vndf_ask_radii(&w->radii, i, &b, u2);
+    }
+    vndf_find_radii_in_front(d, &w->radii, from->u2, end);
     for (uint32_t i = 0; i < end; i += VNDF_LANES)
         vndf_limit_cells(w->radii.cell + i, lanes_set_u(d->radial_count - 1));
     for (uint32_t i = 0, g = 0; i < end; i += VNDF_LANES, g++) {
@@ -69,6 +78,7 @@ VNDF_INLINE void draw_azimuths(const vndf_distribution *d, const vndf_sorted *fr
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_azimuth_range range = vndf_sorted_range(from, first + i);
         w->bearing[g] = vndf_azimuth_sample_wedge(d, &at, &range, &a, lanes_load(from->u2 + first + i));
+        w->bearing[g].code = lanes_set_u(0);
     }
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++)
         lanes_store_u(w->cut + i, vndf_radial_cut(d, w->bearing[g].c, w->bearing[g].k));
@@ -82,9 +92,9 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
         vndf_azimuth_sample *b = &w->bearing[g];
         vndf_radial_lanes cell = vndf_load_cells(d, w->cut + i);
         w->law[g] = vndf_radial_law_cut(b->c, b->k, lanes_load_u(w->cut + i), &cell, &b->total);
-        vndf_ask_radii(d, &w->radii, i, b, lanes_load(u2 + i));
+        vndf_ask_radii(&w->radii, i, b, lanes_load(u2 + i));
     }
-    vndf_find_radii(d, &w->radii, count, 0);
+    vndf_find_radii(d, &w->radii, u2, count, 0);
     for (uint32_t i = 0; i < count; i += VNDF_LANES)
         vndf_limit_cells(w->radii.cell + i, lanes_load_u(w->cut + i));
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
@@ -99,10 +109,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
 VNDF_INLINE void draw_wedges(const vndf_distribution *d, const vndf_sorted *from, uint32_t first, uint32_t count,
                              int weighted, wedges *w, vndf_results *to)
 {
-    if (vndf_has_one_row(d, from))
-        vndf_find_in_one_row(d, from, first, count, &w->azimuths);
-    else
-        vndf_find_azimuths(d, from, first, count, &w->azimuths);
+    vndf_find_azimuths(d, from, first, count, &w->azimuths);
     draw_azimuths(d, from, first, count, w);
     draw_radii(d, from, first, count, weighted, w);
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
@@ -127,12 +134,14 @@ static inline void vndf_draw_table(const vndf_distribution *d, vndf_sample_block
     vndf_sorted sorted;
     vndf_origin from[VNDF_BLOCK_GROUPS];
     vndf_results front, wedge;
-    fronts in_front;
-    wedges in_wedge;
+    union {
+        fronts in_front;
+        wedges in_wedge;
+    } work; /* one after the other, in the same lines of the cache */
     uint32_t end = whole_groups(b->count), border = vndf_sort_block(d, b, &sorted, from);
     uint32_t count = whole_groups(end - border);
-    draw_fronts(d, &sorted, whole_groups(border), b->weight != NULL, &in_front, &front);
-    draw_wedges(d, &sorted, end - count, count, b->weight != NULL, &in_wedge, &wedge);
+    draw_fronts(d, &sorted, whole_groups(border), b->weight != NULL, &work.in_front, &front);
+    draw_wedges(d, &sorted, end - count, count, b->weight != NULL, &work.in_wedge, &wedge);
     vndf_unsort_block(b, from, &front, &wedge);
 }
 

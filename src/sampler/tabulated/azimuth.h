@@ -138,14 +138,42 @@ VNDF_INLINE vndf_azimuth vndf_azimuth_draw_one(const vndf_azimuth_row *row, floa
 
 #else
 
-/* Cells j, loaded from their row lines. */
-VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j,
-                                                   const lanes_lines *lines)
+/* The cell of each row in which the mass `target` ends, and the mass before it, for a row that begins with row 2 span.
+ * Rows are so few that registers hold them. */
+VNDF_INLINE lanes_u vndf_azimuth_find_few(const vndf_azimuth_row *row, lanes_u span, lanes_f target,
+                                          lanes_f *before)
 {
-    const size_t stride = 4 * (size_t)row->wedge->cell_count;
-    vndf_azimuth_parts parts = {lanes_load_four(lines, 0), lanes_load_four(lines, stride),
-                                lanes_load_four(lines, 2 * stride)};
-    return vndf_azimuth_mix(row, j, &parts);
+    const vndf_wedge *wedge = row->wedge;
+    const uint32_t rows = wedge->row_count, knots = rows / 2 + 1;
+    const float *cdf = wedge->few_cdf;
+    lanes_u cell = lanes_set_u(0);
+    *before = lanes_set(0.0f);
+    for (uint32_t j = 1; j < wedge->cell_count; j++, cdf += rows) {
+        lanes_f a = lanes_few(cdf, knots, span), b = lanes_few(cdf + knots, knots, span);
+        lanes_f mixed = row->first * a + row->middle * b + row->last * lanes_few(cdf + 1, knots, span);
+        lanes_m is_before = lanes_at_most(mixed, target);
+        cell = lanes_count(cell, is_before);
+        *before = lanes_pick(is_before, mixed, *before);
+    }
+    return cell;
+}
+
+/* Cells j with a mass before them; `at` is their index among the cells of all rows. */
+VNDF_INLINE vndf_azimuth_cell vndf_azimuth_cell_on(const vndf_azimuth_row *row, lanes_u j, lanes_f before,
+                                                   const uint32_t *at)
+{
+    const vndf_wedge *wedge = row->wedge;
+    const float *first = &wedge->row_cell->mass;
+    const size_t stride = 2 * ((size_t)wedge->cell_count + 1);
+    const lanes_source source[3] = {{first, 2}, {first + stride, 2}, {first + 2 * stride, 2}};
+    lanes_four from[3]; /* mass, density, and those of the next cell */
+    lanes_load_fours(from, source, 3, at);
+    vndf_azimuth_parts parts = {{before, from[0].a, from[0].b, from[0].d},
+                                {before, from[1].a, from[1].b, from[1].d},
+                                {before, from[2].a, from[2].b, from[2].d}};
+    vndf_azimuth_cell cell = vndf_azimuth_mix(row, j, &parts);
+    cell.before = before;
+    return cell;
 }
 
 #endif

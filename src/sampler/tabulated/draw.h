@@ -135,11 +135,19 @@ typedef struct vndf_azimuth_sample {
 
 /* ---- in front of wi ---- */
 
-VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distribution *d, const vndf_incidence *w,
-                                                          const vndf_azimuth_range *range, lanes_f u2)
+/* Where the azimuth is about (vndf_front_start). */
+VNDF_INLINE lanes_f vndf_azimuth_about(const vndf_distribution *d, const vndf_incidence *w,
+                                       const vndf_azimuth_range *range)
+{
+    return vndf_front_start(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), range->mass);
+}
+
+VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_from(const vndf_distribution *d, const vndf_incidence *w,
+                                                         const vndf_azimuth_range *range, lanes_f about,
+                                                         lanes_f u2)
 {
     lanes_f near, k;
-    vndf_azimuth a = vndf_front_draw(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), range->mass, &near);
+    vndf_azimuth a = vndf_front_step(vndf_front_of(d, w->s, w->c), lanes_abs(range->apart), about, &near);
     lanes_u code = vndf_window_of(d, w->c, w->s * near, u2); /* windows are wide enough for `near` */
     k = w->s * a.c;
     vndf_azimuth_sample b = {vndf_level_at(w->ax, w->ay, w->cos_phi, w->sin_phi, a.c, a.s, range->apart),
@@ -150,6 +158,12 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distributio
                              a.c,
                              code};
     return b;
+}
+
+VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distribution *d, const vndf_incidence *w,
+                                                          const vndf_azimuth_range *range, lanes_f u2)
+{
+    return vndf_azimuth_sample_from(d, w, range, vndf_azimuth_about(d, w, range), u2);
 }
 
 /* X and Z at a place in a cell. */

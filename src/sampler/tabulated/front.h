@@ -52,15 +52,20 @@ VNDF_INLINE lanes_f vndf_front_rest(vndf_front front, lanes_f cos_phi, lanes_f s
     return vndf_front_beyond(front, y, y * y);
 }
 
-/* The azimuth with the mass `rest` beyond it; `whole` is the mass of the front. The third power of the step is
- * 1e-8. *near is the cosine before that step, within 0.6%: a search can begin with it early. */
-VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, lanes_f rest, lanes_f whole, lanes_f *near)
+/* An approximate y of the azimuth with the mass `rest` beyond it; `whole` is the mass of the front. */
+VNDF_INLINE lanes_f vndf_front_start(vndf_front front, lanes_f rest, lanes_f whole)
 {
     const float tiny = 1e-30f; /* quotients of nothing become 0, here and below */
     lanes_f rest2 = rest * rest, whole2 = whole * whole, scaled = rest * whole2;
     lanes_f k = (front.even + tiny) * (whole2 + 0.1107f * rest2);
-    lanes_f y = scaled / (k + lanes_root(k * k + 2.0f * front.odd * (scaled * whole2))), y2 = y * y;
-    lanes_f sine = 2.0f * y * lanes_root(1.0f - y2), cosine = 1.0f - 2.0f * y2;
+    return scaled / (k + lanes_root(k * k + 2.0f * front.odd * (scaled * whole2)));
+}
+
+/* The azimuth, one step from such a y. The third power of the step is 1e-8. *near is the cosine before that step,
+ * within 0.6%: a search can begin with it early. */
+VNDF_INLINE vndf_azimuth vndf_front_step(vndf_front front, lanes_f rest, lanes_f y, lanes_f *near)
+{
+    lanes_f y2 = y * y, sine = 2.0f * y * lanes_root(1.0f - y2), cosine = 1.0f - 2.0f * y2;
     *near = sine;
     lanes_f density = vndf_front_density(front, sine) + 1e-18f;
     lanes_f miss = rest - vndf_front_beyond(front, y, y2);
@@ -70,6 +75,11 @@ VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, lanes_f rest, lanes_f
     vndf_azimuth at = {lanes_positive(c), lanes_positive(s), lanes_set(1.0f), lanes_set(0.0f)};
     at.density = vndf_front_density(front, at.c);
     return at;
+}
+
+VNDF_INLINE vndf_azimuth vndf_front_draw(vndf_front front, lanes_f rest, lanes_f whole, lanes_f *near)
+{
+    return vndf_front_step(front, rest, vndf_front_start(front, rest, whole), near);
 }
 
 #endif

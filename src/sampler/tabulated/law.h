@@ -38,6 +38,32 @@ VNDF_INLINE doubles_m vndf_table_trusts_rounding(const vndf_distribution *d, con
     return doubles_both(vndf_trusts_affine_change(s * s * r->slope * r->up, below), turns);
 }
 
+/* A(w) for a unit w = (wx, wy, wz), wz > 0; relative error below 2e-6. Where *trusted is 0 the caller computes it in
+ * double. */
+VNDF_INLINE lanes_f vndf_table_area_above(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f wx,
+                                          lanes_f wy, lanes_f wz, lanes_m *trusted)
+{
+    lanes_f x = ax * wx, y = ay * wy, across2 = x * x + y * y, across = lanes_root(across2), sum = across + wz;
+    *trusted = vndf_trusts_direction(across2, wz, sum);
+    if (!lanes_any(*trusted))
+        return lanes_set(0.0f);
+    lanes_f per = 1.0f / sum, s = across * per, c = lanes_pick(*trusted, wz * per, lanes_set(0.5f)), per_width;
+    lanes_f area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
+    *trusted = lanes_both(*trusted, vndf_trusts_area_piece(per_width));
+    return area * sum;
+}
+
+/* The area of a view (vndf_table_view_area) from roughness times scale and its direction. Clears *trusted where a view
+ * is not made in float. */
+VNDF_INLINE lanes_f vndf_table_seen_area(const vndf_distribution *d, lanes_f ax, lanes_f ay, lanes_f wx,
+                                         lanes_f wy, lanes_f wz, lanes_m *trusted)
+{
+    lanes_f x = ax * wx, y = ay * wy;
+    vndf_stretched_view stretched = vndf_stretched_view_at(d, x, y, wz, trusted);
+    *trusted = lanes_both(*trusted, vndf_trusts_scale(ax, ay, stretched.c));
+    return stretched.area * (lanes_root(x * x + y * y) + wz);
+}
+
 #if VNDF_LANES == 1
 
 /* P22 at the squared slope length r2. */
@@ -45,19 +71,6 @@ VNDF_INLINE double vndf_table_p22(const vndf_distribution *d, double r2)
 {
     double r = sqrt(r2), z = 1.0 / (1.0 + r);
     return vndf_engine_p22_over_z4(d, r * z, z) * (z * z) * (z * z);
-}
-
-/* A(w) for a unit w, w.z > 0; relative error below 2e-6. Where *trusted is 0 the caller computes it in double. */
-VNDF_INLINE float vndf_table_area_above(const vndf_distribution *d, float ax, float ay, vndf_vec3 w, int *trusted)
-{
-    float x = ax * w.x, y = ay * w.y, across2 = x * x + y * y, across = sqrtf(across2), sum = across + w.z;
-    *trusted = vndf_trusts_direction(across2, w.z, sum);
-    if (!*trusted)
-        return 0.0f;
-    float per = 1.0f / sum, s = across * per, c = w.z * per, per_width;
-    float area = 2.0f * (vndf_front_mass(vndf_front_of(d, s, c)) + vndf_wedge_quick(&d->above, c, &per_width));
-    *trusted = vndf_trusts_area_piece(per_width);
-    return area * sum;
 }
 
 /* The same for a view's own direction, for any roughness, from numbers in the view. */

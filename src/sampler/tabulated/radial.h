@@ -39,14 +39,13 @@ typedef struct vndf_radial_lanes {
     lanes_f f0, f1, mu0, mu1, x0, x1, z0, z1, before0, before1, width, smooth, a, b, e, g;
 } vndf_radial_lanes;
 
-/* From lines of d's cells, knots, bends and sums. The compiler leaves out loads that nobody reads. */
-VNDF_INLINE vndf_radial_lanes vndf_radial_load_lines(const lanes_lines *cells, const lanes_lines *at,
-                                                     const lanes_lines *bends, const lanes_lines *pole)
+/* From the two fours of d's cells, and those of its knots, bends and sums. The compiler leaves out loads that nobody
+ * reads. */
+VNDF_INLINE vndf_radial_lanes vndf_radial_of_fours(const lanes_four from[5])
 {
-    lanes_four f = lanes_load_four(cells, 0), whole = lanes_load_four(cells, 4);
-    lanes_four knots = lanes_load_four(at, 0), bend = lanes_load_four(bends, 0), sums = lanes_load_four(pole, 0);
-    vndf_radial_lanes cell = {f.a,     f.b,     f.c,     f.d,     knots.a, knots.c, knots.b, knots.d,
-                              whole.a, whole.b, whole.c, whole.d, bend.a,  bend.b,  sums.a,  sums.b};
+    const lanes_four ends = from[0], mass = from[1], knots = from[2], bend = from[3], sums = from[4];
+    vndf_radial_lanes cell = {ends.c, ends.d, mass.a, mass.b, knots.a, knots.c, knots.b, knots.d,
+                              mass.c, mass.d, ends.a, ends.b, bend.a,  bend.b,  sums.a,  sums.b};
     return cell;
 }
 
@@ -56,21 +55,27 @@ enum { VNDF_CELL_FLOATS = sizeof(vndf_radial_cell) / sizeof(float) };
 
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)
 {
-    lanes_lines cells = lanes_lines_at(&d->cells->f0, VNDF_CELL_FLOATS, j);
+    lanes_lines cells = lanes_lines_at(&d->cells->width, VNDF_CELL_FLOATS, j);
     lanes_lines at = lanes_lines_at(&d->knots.at->x, 2, j), bends = lanes_lines_at(&d->bends->a, 2, j);
     lanes_lines pole = lanes_lines_at(&d->knots.pole->e, 2, j);
-    return vndf_radial_load_lines(&cells, &at, &bends, &pole);
+    const lanes_four from[5] = {lanes_load_four(&cells, 0), lanes_load_four(&cells, 4), lanes_load_four(&at, 0),
+                                lanes_load_four(&bends, 0), lanes_load_four(&pole, 0)};
+    return vndf_radial_of_fours(from);
 }
 
 #else
 
-/* The same for cells that were stored long before (lanes_lines_from). */
+/* The same for cells that were stored long before (lanes_load_fours). */
 VNDF_INLINE vndf_radial_lanes vndf_radial_load_from(const vndf_distribution *d, const uint32_t *j)
 {
-    lanes_lines cells = lanes_lines_from(&d->cells->f0, VNDF_CELL_FLOATS, j);
-    lanes_lines at = lanes_lines_from(&d->knots.at->x, 2, j), bends = lanes_lines_from(&d->bends->a, 2, j);
-    lanes_lines pole = lanes_lines_from(&d->knots.pole->e, 2, j);
-    return vndf_radial_load_lines(&cells, &at, &bends, &pole);
+    const lanes_source source[5] = {{&d->cells->width, VNDF_CELL_FLOATS},
+                                    {&d->cells->mu0, VNDF_CELL_FLOATS},
+                                    {&d->knots.at->x, 2},
+                                    {&d->bends->a, 2},
+                                    {&d->knots.pole->e, 2}};
+    lanes_four from[5];
+    lanes_load_fours(from, source, 5, j);
+    return vndf_radial_of_fours(from);
 }
 
 VNDF_INLINE vndf_radial_lanes vndf_radial_load(const vndf_distribution *d, lanes_u j)

@@ -85,17 +85,32 @@ VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
     return vndf_guide_lanes(&wedge->row_guide, y);
 }
 
-/* The row for the coordinate y in span i, loaded from `lines`. Its mass is 1. */
+/* The row for the coordinate y in span i, whose numbers are `from`. Its mass is 1. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
-                                                 const lanes_lines *lines)
+                                                 const lanes_four from[2])
 {
-    lanes_four a = lanes_load_four(lines, 0), b = lanes_load_four(lines, 4); /* begin, per_width, p, r */
+    const lanes_four a = from[0], b = from[1]; /* begin, per_width, p, r */
     lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
     lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
     lanes_f p = u * a.c + v * a.d + t * b.a, r = u * b.b + v * b.c + t * b.d;
     vndf_azimuth_row made = {wedge, i * 2u, u, v, t, p, r};
     return made;
 }
+
+#if VNDF_LANES > 1
+
+/* The same where rows are so few that registers hold them. */
+VNDF_INLINE vndf_azimuth_row vndf_wedge_row_few(const vndf_wedge *wedge, lanes_f y, lanes_u i)
+{
+    const uint32_t n = wedge->row_count / 2 + 1;
+    const float *p = wedge->few_aspects, *r = p + 2 * n;
+    const lanes_four from[2] = {
+        {lanes_few(wedge->row_y, n, i), lanes_few(p + 4 * n, n, i), lanes_few(p, n, i), lanes_few(p + n, n, i)},
+        {lanes_few(p + 1, n, i), lanes_few(r, n, i), lanes_few(r + n, n, i), lanes_few(r + 1, n, i)}};
+    return vndf_wedge_row_from(wedge, y, i, from);
+}
+
+#endif
 
 enum { VNDF_ROW_SPAN_FLOATS = sizeof(vndf_row_span) / sizeof(float) };
 
@@ -104,7 +119,8 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 {
     lanes_u i = vndf_wedge_span(wedge, y);
     lanes_lines lines = lanes_lines_at(&wedge->row_span->begin, VNDF_ROW_SPAN_FLOATS, i);
-    return vndf_wedge_row_from(wedge, y, i, &lines);
+    const lanes_four from[2] = {lanes_load_four(&lines, 0), lanes_load_four(&lines, 4)};
+    return vndf_wedge_row_from(wedge, y, i, from);
 }
 
 /* The mass `apart` is counted from the side of wi to an azimuth. The result is the part of the wedge's mass from that
