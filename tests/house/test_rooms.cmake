@@ -20,6 +20,8 @@ set(below_fit core simd math source table sampler)
 set(run_time core simd math table sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
 set(shared core/replace_file.h)
+# What the build writes: the kernel of tools/export in C.
+set(written exported_kernel.h)
 
 set(subs_table family)
 set(subs_sampler tabulated all_normals analytic bounded batch affine)
@@ -75,7 +77,7 @@ function(check_quoted tower file name where)
         endif()
         return()
     endif()
-    if(tower STREQUAL tools AND name IN_LIST shared)
+    if(tower STREQUAL tools AND (name IN_LIST shared OR name IN_LIST written))
         return()
     endif()
     if(NOT EXISTS ${SOURCE}/${tower}/${name})
