@@ -632,7 +632,8 @@ vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
     float x = scaled.xx * wi.x + scaled.yx * wi.y;
     float y = scaled.xy * wi.x + scaled.yy * wi.y;
     float z = vndf_cosine(surface, wi);
-    float across = sqrt(x * x + y * y);
+    float aside = sqrt(x * x + y * y);
+    float across = max(aside, 1e-9 * abs(z)); // straight from below nothing would be visible
     float size = vndf_pick(surface.distribution >= 0, across + abs(z), sqrt(across * across + z * z));
     float s = across / size;
     float c = z / size;
@@ -653,8 +654,8 @@ vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
             area = 2.0 * vndf_wedge_mass(table.below, s);
         }
     }
-    float cos_phi = vndf_pick(across > 0.0, vndf_ratio(x, across), 1.0);
-    return vndf_view(scaled, wi, cos_phi, vndf_ratio(y, across), s, c, size, front, wedge, area);
+    float cos_phi = vndf_pick(aside > 0.0, vndf_ratio(x, aside), 1.0);
+    return vndf_view(scaled, wi, cos_phi, vndf_ratio(y, aside), s, c, size, front, wedge, area);
 }
 
 // ---- sampling ---------------------------------------------------------------------------------------
