@@ -44,9 +44,9 @@ typedef struct agreement {
     size_t capacity;
 } agreement;
 
-/* Question `index` of a sequence about a subject: roughness 0.02 to 1 on both axes; directions of the whole sphere, half
- * of them above the horizon. Of eight questions one is of a matrix that turns, with a mean slope up to 0.5 along x and
- * y, and one of numbers at an edge or next to it, or at a corner. */
+/* Question `index` of a sequence about a subject: roughness 0.02 to 1 on both axes; directions of the whole sphere,
+ * half of them above the horizon. Of eight questions one is of a matrix that turns, with a mean slope up to 0.5 along x
+ * and y, and one of numbers at an edge or next to it, or at a corner. */
 exported_question agreement_question(const exported_subjects *subjects, int subject, size_t index);
 
 /* Room for so many answers; 0 if there is no memory. */

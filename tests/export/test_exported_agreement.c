@@ -17,7 +17,7 @@ static void test_subject(const exported_subjects *subjects, int subject, size_t 
         agreement_note(&a, subjects, &question, &answer);
     }
     agreement_sort(&a);
-    TEST(a.asked[AGREEMENT_ABOVE] > count / 4 && a.asked[AGREEMENT_BELOW] > count / 64);
+    TEST(a.asked[AGREEMENT_ABOVE] > count / 4 && a.asked[AGREEMENT_BELOW] > count / 128);
     TEST(a.asked[AGREEMENT_TURNED] > count / 32 && a.asked[AGREEMENT_EDGES] > count / 64);
     TEST(agreement_judge(&a, exported_subject_name(subjects, subject), 1) == 0);
     agreement_end(&a);
