@@ -1,6 +1,7 @@
 # The exported C is C99 and the exported C++ is C++11, for every compiler of both that is here: no warning with
 # -Wall -Wextra -Wpedantic -Wshadow -Wconversion, numbers embedded or read from their file; answers agree with the
-# library; two kernels with prefixes of their own live in one program, and one may be included twice.
+# library, with -ffast-math too, as renderers compile; two kernels with prefixes of their own live in one program, and
+# one may be included twice.
 cmake_minimum_required(VERSION 3.16)
 
 if(SANITIZE)
@@ -42,7 +43,7 @@ int main(void)
 }
 ")
 endforeach()
-run("questions" ${AGREEMENT} make 20000 questions ${tables})
+run("questions" ${AGREEMENT} make 8000 questions ${tables})
 
 # try_compiler(COMPILER LANGUAGE FORM [DEFINITION])
 function(try_compiler compiler language form)
@@ -77,6 +78,7 @@ function(try_all language)
     if(found)
         list(GET found 0 compiler)
         try_compiler(${compiler} ${language} fetching "-DKERNEL_RAW=\"${OUT}/numbers.f32\"")
+        try_compiler(${compiler} ${language} embedded -O3 -ffast-math)
     endif()
 endfunction()
 

@@ -151,6 +151,11 @@ static void put_bound(FILE *to, const export_document *document)
 static const char vec3_text[] = "struct vndf_vec3 {\n    float x, y, z;\n};\n\n"
                                 "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"
                                 "    return vndf_vec3(x, y, z);\n}\n\n";
+static const char bounds_text[] =
+    "float vndf_min(float a, float b) {\n    if (a < b) {\n        return a;\n    }\n"
+    "    return b;\n}\n\n"
+    "float vndf_max(float a, float b) {\n    if (a > b) {\n        return a;\n    }\n"
+    "    return b;\n}\n\n";
 static const char clamp_text[] = "float vndf_clamp(float x, float low, float high) {\n"
                                  "    return min(max(x, low), high);\n}\n\n";
 static const char fetch_begin[] = "float vndf_fetch(int i) {\n    return ";
@@ -163,8 +168,13 @@ static char *whole_text(const export_document *document)
     const char *fetched = document->embeds          ? "VNDF_NUMBERS[i]"
                           : document->as.by_pointer ? "numbers[i]"
                                                     : as->fetched;
-    const char *parts[] = {as->vec3_is_ours ? vec3_text : "", language_word(as, "clamp", 5) ? clamp_text : "",
-                           fetch_begin, fetched, fetch_end};
+    const char *bound = language_word(as, "min", 3);
+    const char *parts[] = {as->vec3_is_ours ? vec3_text : "",
+                           bound && strcmp(bound, "vndf_min") == 0 ? bounds_text : "",
+                           language_word(as, "clamp", 5) ? clamp_text : "",
+                           fetch_begin,
+                           fetched,
+                           fetch_end};
     size_t size = 1;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         size += strlen(parts[i]);

@@ -2,11 +2,16 @@
 
 #include <string.h>
 
-#define MATH_OF_C                                                                                            \
-  {"abs", "fabsf"}, {"min", "fminf"}, {"max", "fmaxf"}, {"sqrt", "sqrtf"}, {"exp", "expf"}, {"log", "logf"}, \
-      {"sin", "sinf"},                                                                                       \
-  {                                                                                                          \
-    "cos", "cosf"                                                                                            \
+#define MATH_OF_C                                                                         \
+  {"abs", "fabsf"}, {"sqrt", "sqrtf"}, {"exp", "expf"}, {"log", "logf"}, {"sin", "sinf"}, \
+  {                                                                                       \
+    "cos", "cosf"                                                                         \
+  }
+/* fminf and fmaxf are calls of the C library to most compilers. */
+#define BOUNDS_OF_OURS                      \
+  {"min", "vndf_min"}, {"max", "vndf_max"}, \
+  {                                         \
+    "clamp", "vndf_clamp"                   \
   }
 
 static const language languages[] = {
@@ -26,7 +31,7 @@ static const language languages[] = {
      .numbers_open = "[%N] = {",
      .numbers_close = "};",
      .pointer = "const float *",
-     .names = {MATH_OF_C, {"vec3", "vndf_vec3"}, {"clamp", "vndf_clamp"}}},
+     .names = {MATH_OF_C, BOUNDS_OF_OURS, {"vec3", "vndf_vec3"}}},
     {.name = "cpp",
      .constant = "enum { %s = %ld };\n",
      .guarded = 1,
@@ -43,15 +48,13 @@ static const language languages[] = {
      .numbers_close = "};",
      .pointer = "const float *",
      .names = {{"abs", "std::fabs"},
-               {"min", "std::fmin"},
-               {"max", "std::fmax"},
                {"sqrt", "std::sqrt"},
                {"exp", "std::exp"},
                {"log", "std::log"},
                {"sin", "std::sin"},
                {"cos", "std::cos"},
-               {"vec3", "vndf_vec3"},
-               {"clamp", "vndf_clamp"}}},
+               BOUNDS_OF_OURS,
+               {"vec3", "vndf_vec3"}}},
     {.name = "cuda",
      .constant = "enum { %s = %ld };\n",
      .guarded = 1,
@@ -67,7 +70,7 @@ static const language languages[] = {
      .numbers_open = "[%N] = {",
      .numbers_close = "};",
      .pointer = "const float *__restrict__ ",
-     .names = {MATH_OF_C, {"vec3", "float3"}, {"clamp", "vndf_clamp"}}},
+     .names = {MATH_OF_C, {"min", "fminf"}, {"max", "fmaxf"}, {"vec3", "float3"}, {"clamp", "vndf_clamp"}}},
     {.name = "opencl",
      .constant = "enum { %s = %ld };\n",
      .title = "OpenCL C 1.2",
