@@ -144,8 +144,8 @@ static const language languages[] = {
      .function = "fn ",
      .vec3_made = "vec3<f32>",
      .begin = "",
-     .numbers_before = "const ",
-     .numbers_open = " = array<f32, %N>(",
+     .numbers_before = "var<private> ", /* naga copies a constant array at every fetch */
+     .numbers_open = ": array<f32, %N> = array<f32, %N>(",
      .numbers_close = ");",
      .fetched = "vndf_numbers[i]",
      .bound = "@group(0) @binding(0) var<storage, read> %numbers: array<f32>;\n",
