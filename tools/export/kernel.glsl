@@ -632,7 +632,8 @@ vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
     float x = scaled.xx * wi.x + scaled.yx * wi.y;
     float y = scaled.xy * wi.x + scaled.yy * wi.y;
     float z = vndf_cosine(surface, wi);
-    float across = sqrt(x * x + y * y);
+    float aside = sqrt(x * x + y * y);
+    float across = max(aside, 1e-9 * abs(z)); // straight from below nothing would be visible
     float size = vndf_pick(surface.distribution >= 0, across + abs(z), sqrt(across * across + z * z));
     float s = across / size;
     float c = z / size;
@@ -653,8 +654,8 @@ vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
             area = 2.0 * vndf_wedge_mass(table.below, s);
         }
     }
-    float cos_phi = vndf_pick(across > 0.0, vndf_ratio(x, across), 1.0);
-    return vndf_view(scaled, wi, cos_phi, vndf_ratio(y, across), s, c, size, front, wedge, area);
+    float cos_phi = vndf_pick(aside > 0.0, vndf_ratio(x, aside), 1.0);
+    return vndf_view(scaled, wi, cos_phi, vndf_ratio(y, aside), s, c, size, front, wedge, area);
 }
 
 // ---- sampling ---------------------------------------------------------------------------------------
@@ -664,6 +665,11 @@ struct vndf_sampled {
     vec3 wm;
     float pdf;
 };
+
+// A density on the rim of a lobe may leave the range of floats.
+float vndf_finite(float density) {
+    return clamp(density, 1.2e-38, 3.4e38);
+}
 
 // From the normal n at unit roughness, turned and of any length, whose density times |n|^3 is `density`. Where rounding
 // turns the normal away from wi, it is turned back.
@@ -675,10 +681,10 @@ vndf_sampled vndf_sampled_at(vndf_view view, vec3 n, float density) {
     float y = m.yx * a + m.yy * b - m.mean_y * n.z;
     float reach = sqrt(x * x + y * y + n.z * n.z);
     float facing = view.wi.x * x + view.wi.y * y + view.wi.z * n.z;
-    float lift = max(1e-7 * reach - facing, 0.0);
+    float lift = max(2e-7 * reach - facing, 0.0);
     vec3 wm = vec3((x + lift * view.wi.x) / reach, (y + lift * view.wi.y) / reach,
                    max((n.z + lift * view.wi.z) / reach, 0.0));
-    return vndf_sampled(wm, density * (reach * reach) * (reach / vndf_determinant(m)));
+    return vndf_sampled(wm, vndf_finite(density * (reach * reach) * (reach / vndf_determinant(m))));
 }
 
 // The azimuth with the part `part` of half a turn's mass between the side of wi and it; its density is of the whole
@@ -712,7 +718,8 @@ vndf_sampled vndf_table_sample(vndf_view view, float u1, float u2) {
     vndf_slope slope = vndf_law_draw(table, law, u2);
     float x = vndf_slope_x(table, slope);
     float z = vndf_slope_z(table, slope);
-    float density = azimuth.density * vndf_law_density(table, law, slope, view.c * z + k * x);
+    float least = 1e-7 * (abs(view.c) * z + abs(k) * x);
+    float density = azimuth.density * vndf_law_density(table, law, slope, max(view.c * z + k * x, least));
     float y = x * vndf_pick(side < 0.0, -azimuth.sine, azimuth.sine);
     return vndf_sampled_at(view, vec3(x * azimuth.cosine, y, z), density);
 }
@@ -720,7 +727,7 @@ vndf_sampled vndf_table_sample(vndf_view view, float u1, float u2) {
 // Draws a visible normal with two uniform numbers in [0, 1].
 vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {
     if (view.surface.distribution == VNDF_GGX) {
-        vec3 n = vndf_ggx_draw(view.s, view.c, u1, u2);
+        vec3 n = vndf_ggx_draw(view.s, view.c, u1, min(u2, 0.99999994));
         float square = n.x * n.x + n.y * n.y + n.z * n.z;
         return vndf_sampled_at(view, n, vndf_ratio(0.159154943, view.area * square));
     }
@@ -816,19 +823,22 @@ float vndf_visible(vndf_view view, vec3 wm) {
 // The density with which vndf_sample draws wm.
 float vndf_pdf(vndf_view view, vec3 wm) {
     float facing = vndf_facing(view, wm);
-    if (view.surface.distribution == VNDF_GGX || !(facing > 0.0) || wm.z < 0.0) {
-        return vndf_visible(view, wm);
+    if (!(facing > 0.0) || wm.z < 0.0) {
+        return 0.0;
+    }
+    if (view.surface.distribution == VNDF_GGX) {
+        return vndf_finite(vndf_visible(view, wm));
     }
     vec3 n = vndf_unit_normal(view.surface, wm, view.cos_phi, view.sin_phi);
     if (view.surface.distribution >= 0) {
-        return vndf_table_pdf(view, n, facing);
+        return vndf_finite(vndf_table_pdf(view, n, facing));
     }
     vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
     float d = vndf_ratio(facing / view.size, n.z * view.s);
     float x = vndf_ratio(-n.x, n.z);
     float y = vndf_ratio(n.y, n.z);
     float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, x, d) - y * y) * d / law.whole;
-    return vndf_ratio(density, n.z * n.z * n.z * vndf_determinant(view.surface));
+    return vndf_finite(vndf_ratio(density, n.z * n.z * n.z * vndf_determinant(view.surface)));
 }
 
 // ---- masking ----------------------------------------------------------------------------------------
