@@ -150,7 +150,7 @@ foreach(settings
         between(0.99 ${which}_true_whole 1.01)
         between(0.995 ${which}_facing_to_density 1.005)
         between(0 ${which}_faults 0)
-        between(0 ${which}_off 3e-3)
+        between(0 ${which}_off 1e-4)
         between(0.5 ${which}_kept 1)
         between(0.02 ${which}_light 2)
         between(0.05 ${which}_spread 2)
