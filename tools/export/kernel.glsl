@@ -836,7 +836,7 @@ float vndf_pdf(vndf_view view, vec3 wm) {
         return vndf_finite(vndf_table_pdf(view, n, facing));
     }
     vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
-    float d = vndf_ratio(facing / view.size, n.z * view.s);
+    float d = vndf_ratio(facing / view.size, n.z * max(view.s, 1e-7));
     float x = vndf_ratio(-n.x, n.z);
     float y = vndf_ratio(n.y, n.z);
     float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, x, d) - y * y) * d / law.whole;
