@@ -37,11 +37,12 @@ set(below_bench cli draw measure)
 set(below_report cli draw measure bench)
 set(below_render cli draw)
 set(below_compare cli draw render)
-set(below_export "")
+set(below_export draw)
 set(below_commands cli draw measure bench report render compare export)
 
 set(subs_bench methods effects)
 set(subs_commands parts)
+set(subs_export page)
 set(subs_render image geometry scene perfect path)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign

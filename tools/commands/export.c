@@ -6,8 +6,8 @@
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "cli/output.h"
-#include "cli/subject.h"
 #include "command.h"
+#include "commands/parts/named_tables.h"
 #include "export/document.h"
 
 static const char name[] = "vndf export";
@@ -123,42 +123,7 @@ static int read_settings(const export_words *given, export_document *document)
     return 0;
 }
 
-/* ---- tables -------------------------------------------------------------------------------------- */
-
-static int is_named_before(const export_document *document, const exported_table *table)
-{
-    static const char *const taken[] = {"GGX", "BECKMANN", "LOBES", "NUMBERS", "KERNEL"};
-    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
-        if (strcmp(taken[i], table->name) == 0)
-            return 1;
-    for (const exported_table *t = document->table; t < table; t++)
-        if (strcmp(t->name, table->name) == 0)
-            return 1;
-    return 0;
-}
-
-static int open_table(export_document *document, chosen_distribution *chosen, const char *file)
-{
-    exported_table *table = &document->table[document->tables];
-    if (!distribution_open(chosen, name, file))
-        return 0;
-    table->distribution = chosen->distribution;
-    table->file = file;
-    table->size = vndf_numbers(table->distribution, NULL, 0);
-    table->base = document->count;
-    document->tables++;
-    document->count += table->size;
-    if (table->size == 0)
-        complain(name, "'%s' is a closed form: every kernel has it", file);
-    else if (!document_name_table(table) || is_named_before(document, table))
-        complain(name, "'%s': its constant would be %s%s, which is taken; rename the file", file,
-                 document->as.upper, table->name);
-    else if (document->count > (size_t)1 << 24)
-        complain(name, "'%s': the tables have more than 2^24 numbers, which a float cannot count", file);
-    else
-        return 1;
-    return 0;
-}
+/* ---- tables --------------------------------------------------------------------------------------- */
 
 static int fits(const export_document *document)
 {
@@ -168,20 +133,6 @@ static int fits(const export_document *document)
     complain(name, "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE", document->count, as->title,
              as->why, as->most_embedded);
     return 0;
-}
-
-static int fill_numbers(export_document *document)
-{
-    document->numbers = malloc((document->count + 1) * sizeof *document->numbers);
-    if (!document->numbers) {
-        complain(name, "no memory");
-        return 0;
-    }
-    for (size_t i = 0; i < document->tables; i++) {
-        const exported_table *t = &document->table[i];
-        vndf_numbers(t->distribution, document->numbers + t->base, t->size);
-    }
-    return 1;
 }
 
 /* ---- work ---------------------------------------------------------------------------------------- */
@@ -224,18 +175,12 @@ static int write_all(const export_words *given, const export_document *document)
 
 static int run(const export_words *given, export_document *document)
 {
-    chosen_distribution chosen[EXPORT_TABLES_MAX];
-    size_t opened = 0;
-    int good = 1, status = STATUS_USE;
-    for (size_t i = 0; good && i < given->tables.count; i++) {
-        chosen[opened].owned = NULL;
-        good = open_table(document, &chosen[opened++], given->tables.item[i]);
-    }
-    if (good && fits(document) && fill_numbers(document))
+    named_tables tables;
+    int status = STATUS_USE;
+    if (named_tables_open(&tables, name, &given->tables, document) && fits(document) &&
+        named_tables_numbers(name, document))
         status = write_all(given, document);
-    for (size_t i = 0; i < opened; i++)
-        distribution_close(&chosen[i]);
-    free(document->numbers);
+    named_tables_close(&tables, document);
     return status;
 }
 

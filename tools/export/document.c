@@ -13,19 +13,23 @@ static const char *file_part(const char *path)
     return slash ? slash + 1 : path;
 }
 
+/* No two underscores in a row, which GLSL and C++ reserve. */
 int document_name_table(exported_table *table)
 {
     const char *from = file_part(table->file), *end = strrchr(from, '.');
     size_t length = end && end > from ? (size_t)(end - from) : strlen(from), n = 0;
-    int letters = 0;
-    for (size_t i = 0; i < length && n + 1 < sizeof table->name; i++) {
+    int gap = 0;
+    for (size_t i = 0; i < length && n + 2 < sizeof table->name; i++) {
         char c = from[i];
         int small = c >= 'a' && c <= 'z', good = small || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        letters += good;
-        table->name[n++] = small ? (char)(c - 'a' + 'A') : good ? c : '_';
+        if (good && gap && n > 0)
+            table->name[n++] = '_';
+        if (good)
+            table->name[n++] = small ? (char)(c - 'a' + 'A') : c;
+        gap = !good;
     }
     table->name[n] = '\0';
-    return letters > 0;
+    return n > 0;
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */

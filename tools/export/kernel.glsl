@@ -484,8 +484,10 @@ vec3 vndf_ggx_draw(float s, float c, float u1, float u2) {
     float v = 1.0 - u2;
     float t = sqrt(u2 * (s * s + v * cap * cap));
     float sine = sin(3.14159265 * u1);
-    float along = vndf_ratio(v * (s * s - u2 * cap * cap), s + t) + 2.0 * t * sine * sine;
-    return vec3(along, -2.0 * t * sine * cos(3.14159265 * u1), v * cap);
+    float cosine = cos(3.14159265 * u1);
+    float unit = 1.0 / sqrt(sine * sine + cosine * cosine); // some processors round them by 5e-4
+    float along = vndf_ratio(v * (s * s - u2 * cap * cap), s + t) + 2.0 * t * (sine * unit) * (sine * unit);
+    return vec3(along, -2.0 * t * (sine * unit) * (cosine * unit), v * cap);
 }
 
 // N with sqrt(pi) exp(z^2) erfc(z) = 1/(z + N), z >= 0.
@@ -840,7 +842,7 @@ float vndf_pdf(vndf_view view, vec3 wm) {
         return vndf_finite(vndf_table_pdf(view, n, facing));
     }
     vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
-    float d = vndf_ratio(facing / view.size, n.z * view.s);
+    float d = vndf_ratio(facing / view.size, n.z * max(view.s, 1e-7));
     float x = vndf_ratio(-n.x, n.z);
     float y = vndf_ratio(n.y, n.z);
     float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, x, d) - y * y) * d / law.whole;
