@@ -47,6 +47,30 @@ VNDF_INLINE doubles vndf_log(doubles x)
     return k * vndf_log2_high + (2.0 * f + (2.0 * f * s * (low + s2 * s2 * high) + k * vndf_log2_low));
 }
 
+/* The angle whose tangent is t in [0, 1]. */
+VNDF_INLINE doubles vndf_atan_unit(doubles t)
+{
+    t = t / (1.0 + doubles_root(1.0 + t * t));
+    t = t / (1.0 + doubles_root(1.0 + t * t));
+    doubles s = t * t, s2 = s * s, s4 = s2 * s2;
+    doubles low = (1.0 / 3 - s * (1.0 / 5)) + s2 * (1.0 / 7 - s * (1.0 / 9));
+    doubles middle = (1.0 / 11 - s * (1.0 / 13)) + s2 * (1.0 / 15 - s * (1.0 / 17));
+    doubles high = (1.0 / 19 - s * (1.0 / 21)) + s2 * (1.0 / 23);
+    return 4.0 * (t - t * s * (low + s4 * (middle + s4 * high)));
+}
+
+/* The azimuth of (x, y) in [-pi, pi], with the sign of y; 0 or pi with that sign where y is 0. */
+VNDF_INLINE doubles vndf_atan2(doubles y, doubles x)
+{
+    const doubles nothing = doubles_set(0.0);
+    doubles across = doubles_abs(x), aside = doubles_abs(y);
+    doubles_m flat = doubles_less(aside, across);
+    doubles larger = doubles_pick(flat, across, aside), smaller = doubles_pick(flat, aside, across);
+    doubles angle = doubles_pick(doubles_less(nothing, larger), vndf_atan_unit(smaller / larger), nothing);
+    angle = doubles_pick(doubles_less(across, aside), 1.5707963267948966 - angle, angle);
+    return doubles_sign(doubles_pick(doubles_less(x, nothing), 3.1415926535897932 - angle, angle), y);
+}
+
 #if VNDF_LANES == 1 /* the rest is for one lane */
 
 /* Any x: infinity above 1400, where exp(x/2) squared overflows, 0 below -1400, NaN for NaN. */
@@ -73,27 +97,6 @@ VNDF_INLINE double vndf_half_erfc(double x)
 {
     double z = fabs(x), tail = 0.28209479177387814 * vndf_exp(-z * z) / (z + vndf_erfc_remainder(z));
     return x < 0.0 ? 1.0 - tail : tail;
-}
-
-/* The angle whose tangent is t in [0, 1]. */
-VNDF_INLINE double vndf_atan_unit(double t)
-{
-    t = t / (1.0 + sqrt(1.0 + t * t));
-    t = t / (1.0 + sqrt(1.0 + t * t));
-    double s = t * t, s2 = s * s, s4 = s2 * s2;
-    double low = (1.0 / 3 - s * (1.0 / 5)) + s2 * (1.0 / 7 - s * (1.0 / 9));
-    double middle = (1.0 / 11 - s * (1.0 / 13)) + s2 * (1.0 / 15 - s * (1.0 / 17));
-    double high = (1.0 / 19 - s * (1.0 / 21)) + s2 * (1.0 / 23);
-    return 4.0 * (t - t * s * (low + s4 * (middle + s4 * high)));
-}
-
-/* The azimuth of (x, y) in [-pi, pi], with the sign of y; 0 or pi with that sign where y is 0. */
-VNDF_INLINE double vndf_atan2(double y, double x)
-{
-    double across = fabs(x), aside = fabs(y), larger = across > aside ? across : aside;
-    double angle = larger > 0.0 ? vndf_atan_unit((across > aside ? aside : across) / larger) : 0.0;
-    angle = across < aside ? 1.5707963267948966 - angle : angle;
-    return copysign(x < 0.0 ? 3.1415926535897932 - angle : angle, y);
 }
 
 #endif

@@ -40,33 +40,30 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
     return (cell->e1 * xi * xi + 2.0f * cell->mass * w + cell->e0 * eta * eta) * part * part;
 }
 
-/* A place in a cell, xi = over per_under, and the mass per unit of xi there, root/below. The caller forms this
- * quotient together with its own. */
+/* A place in a cell: xi = over/under, 1 - xi = rest/under, and the mass per unit of xi there, root under^2/below.
+ * Callers form these quotients together with their own, or do without. `below` is of the fifth degree in the cell's
+ * mass, and underflows where that is 1e-8. */
 typedef struct vndf_rational_place {
-    lanes_f xi, over, under, per_under, root, below;
+    lanes_f over, rest, under, root, below;
 } vndf_rational_place;
 
 /* The xi with mass t >= 0 before it; a t that rounding made larger than the mass counts as the mass. xi is the
  * root in [0, 1] of a xi^2 + b xi = t, where b = e0 - t (k - 2), a = m - b. The discriminant b^2 + 4 a t is
  * written as (b - 2 t)^2 + 4 t (m - t), a shorter chain. Its root is the derivative of a xi^2 + b xi, hence F'(xi)
- * = root/(1 + (k - 2) xi eta). The code holds b and root times m. */
+ * = root/(1 + (k - 2) xi eta). xi/eta is 2 t/(root + b - 2 t) or, seen from the other end, (root - b + 2 t)/
+ * (2 (m - t)). The code holds b - 2 t, root and both pairs times m. */
 VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *cell, lanes_f t)
 {
-    lanes_f m = cell->mass, nothing = lanes_set(0.0f);
+    lanes_f m = cell->mass;
     t = lanes_least(t, m); /* beyond the end the root would not be the density */
-    lanes_f twice = 2.0f * t * m;
-    lanes_f middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
-    lanes_f square = middle * middle + twice * (2.0f * m * (m - t));
-    lanes_f root = lanes_root(square);
-    lanes_m rising = lanes_at_most(nothing, b);
-    lanes_f above = lanes_pick(rising, twice, root - b); /* never a difference of equal numbers */
-    lanes_f below = lanes_pick(rising, b + root, 2.0f * (m * m - b));
-    lanes_m whole = lanes_less(nothing, below);
-    lanes_f under = lanes_pick(whole, below, lanes_set(1.0f));
-    lanes_f over = lanes_least(lanes_keep(whole, above), under), per = 1.0f / under;
-    lanes_f xi = lanes_least(over * per, lanes_set(1.0f));
-    vndf_rational_place place = {xi, over, under, per, root, vndf_rational_below(cell, xi * (1.0f - xi)) + 1e-37f};
-    return place; /* 1e-37: the quotient of an empty cell is 0 */
+    lanes_f sum = cell->e0 + cell->e1, twice = 2.0f * t * m, left = 2.0f * m * (m - t);
+    lanes_f middle = cell->e0 * m - t * sum;
+    lanes_f root = lanes_root(middle * middle + twice * left);       /* never below |middle|, though rounded */
+    lanes_m rising = lanes_at_most(lanes_set(0.0f), middle + twice); /* no branch: nearly always */
+    lanes_f over = lanes_pick(rising, twice, root - middle), rest = lanes_pick(rising, root + middle, left);
+    lanes_f under = over + rest;
+    vndf_rational_place place = {over, rest, under, root, m * (under * under) + (sum - 2.0f * m) * (over * rest)};
+    return place;
 }
 
 #endif

@@ -21,6 +21,7 @@
 #include "sampler/tabulated/law.h"
 #if VNDF_LANES > 1
 #  include "sampler/batch/analytic.h"
+#  include "sampler/batch/inverse.h"
 #  include "sampler/batch/tabulated.h"
 #endif
 #if !defined(__GNUC__)
@@ -426,6 +427,16 @@ VNDF_INLINE void vndf_law_draw_block(const vndf_distribution *d, vndf_sample_blo
     case VNDF_KIND_TABLE: vndf_draw_table(d, b); return;
     case VNDF_KIND_GGX: vndf_draw_ggx(b); return;
     case VNDF_KIND_BECKMANN: vndf_draw_beckmann(b); return;
+    }
+    VNDF_NO_OTHER_KIND();
+}
+
+VNDF_INLINE void vndf_law_invert_block(const vndf_distribution *d, vndf_invert_block *b)
+{
+    switch (d->kind) {
+    case VNDF_KIND_TABLE: vndf_invert_table(d, b); return;
+    case VNDF_KIND_GGX: vndf_invert_ggx(b); return;
+    case VNDF_KIND_BECKMANN: vndf_invert_beckmann(b); return;
     }
     VNDF_NO_OTHER_KIND();
 }

@@ -113,27 +113,27 @@ VNDF_INLINE lanes_m vndf_trusts_area_piece(lanes_f per_width)
 }
 
 /* How fast the density of a rational cell changes at a place, F''/F' as above/below (math/rational_cell.h): with the
- * numerator n and the root q of the denominator of F' it is n'/n - 2 q'/q. */
+ * numerator n and the root q of the denominator of F' it is n'/n - 2 q'/q. Both are times in->under^2. */
 typedef struct vndf_change {
     lanes_f above, below;
 } vndf_change;
 
 VNDF_INLINE vndf_change vndf_change_at(const vndf_rational_cell *cell, const vndf_rational_place *in)
 {
-    lanes_f m = cell->mass, xi = in->xi, eta = 1.0f - xi, apart = eta - xi;
-    lanes_f rise = m * (m * (cell->e1 * xi - cell->e0 * eta + m * apart));
+    lanes_f m = cell->mass, over = in->over, rest = in->rest, apart = rest - over;
+    lanes_f rise = m * (m * (cell->e1 * over - cell->e0 * rest + m * apart));
     lanes_f bend = in->root * (((cell->e0 + cell->e1) - 2.0f * m) * apart);
-    vndf_change change = {2.0f * lanes_abs(rise - bend), in->root * in->below};
+    vndf_change change = {2.0f * lanes_abs(rise - bend) * in->under, in->root * in->below};
     return change;
 }
 
 /* The density of a cell of azimuths may change by a factor e^20 per radian, or per xi: rounding moves both by 1e-7.
- * turn/n2 is radians per xi. */
+ * turn/n2 is radians per xi. Where all underflows, nothing is less. */
 static const float VNDF_TRUST_AZIMUTH_STEEP = 20.0f;
 
 VNDF_INLINE lanes_m vndf_trusts_azimuth(vndf_change change, lanes_f turn, lanes_f n2)
 {
-    return lanes_at_most(change.above * n2, VNDF_TRUST_AZIMUTH_STEEP * change.below * lanes_least(turn, n2));
+    return lanes_less(change.above * n2, VNDF_TRUST_AZIMUTH_STEEP * change.below * lanes_least(turn, n2));
 }
 
 /* The density of an azimuth over its mean, about. Where one of the three rows has almost all of the density, and the
@@ -195,9 +195,9 @@ VNDF_INLINE lanes_m vndf_trusts_radius(vndf_change change, lanes_f width, lanes_
 /* The distance in xi from a knot, which may be a jump of D; counted from the middle of the cell. */
 static const float VNDF_TRUST_KNOT = 0.499f;
 
-VNDF_INLINE lanes_m vndf_is_beside_knot(lanes_f xi)
+VNDF_INLINE lanes_m vndf_is_beside_knot(lanes_f over, lanes_f under)
 {
-    return lanes_less(lanes_set(VNDF_TRUST_KNOT), lanes_abs(xi - 0.5f));
+    return lanes_less(VNDF_TRUST_KNOT * under, lanes_abs(over - 0.5f * under));
 }
 
 /* ---- tables: the weight of a sample, D (wi.wm) over area and density ---- */

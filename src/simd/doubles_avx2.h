@@ -82,6 +82,12 @@ VNDF_INLINE doubles doubles_abs(doubles x)
     return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
 }
 
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    return _mm256_or_pd(_mm256_and_pd(sign, y), _mm256_andnot_pd(sign, x));
+}
+
 VNDF_INLINE doubles_m doubles_less(doubles a, doubles b)
 {
     return _mm256_castpd_si256(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
@@ -193,12 +199,6 @@ VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
 {
     const __m256i each = _mm256_set_epi64x(8, 4, 2, 1);
     return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
-}
-
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    const __m256d sign = _mm256_set1_pd(-0.0);
-    return _mm256_or_pd(_mm256_and_pd(sign, y), _mm256_andnot_pd(sign, x));
 }
 
 #endif

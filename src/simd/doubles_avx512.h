@@ -81,6 +81,13 @@ VNDF_INLINE doubles doubles_abs(doubles x)
     return _mm512_abs_pd(x);
 }
 
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    const __m512i sign = _mm512_set1_epi64(INT64_MIN);
+    return _mm512_castsi512_pd(
+        _mm512_ternarylogic_epi64(sign, _mm512_castpd_si512(y), _mm512_castpd_si512(x), 0xca));
+}
+
 VNDF_INLINE doubles_m doubles_less(doubles a, doubles b)
 {
     return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
@@ -200,12 +207,6 @@ VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
 VNDF_INLINE doubles_m doubles_of_mask_bits(uint32_t bits)
 {
     return (doubles_m)bits;
-}
-
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    const __m512d sign = _mm512_set1_pd(-0.0);
-    return _mm512_or_pd(_mm512_and_pd(sign, y), _mm512_andnot_pd(sign, x));
 }
 
 #endif

@@ -35,6 +35,12 @@ VNDF_INLINE doubles doubles_abs(doubles x)
     return fabs(x);
 }
 
+/* |x| with the sign of y. */
+VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
+{
+    return copysign(x, y);
+}
+
 VNDF_INLINE doubles_f doubles_narrow(doubles x)
 {
     return (float)x;
@@ -140,12 +146,6 @@ VNDF_INLINE doubles doubles_mantissa(doubles x, doubles *k)
     memcpy(&x, &bits, sizeof x);
     *k = whole;
     return x;
-}
-
-/* |x| with the sign of y. */
-VNDF_INLINE doubles doubles_sign(doubles x, doubles y)
-{
-    return copysign(x, y);
 }
 
 #endif

@@ -196,15 +196,6 @@ VNDF_INLINE lanes_f lanes_few(const float *table, uint32_t count, lanes_u index)
     return _mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
 }
 
-/* The same for a table of 64. */
-VNDF_INLINE lanes_f lanes_of_64(const float *table, lanes_u index)
-{
-    __m512 low = _mm512_permutex2var_ps(_mm512_loadu_ps(table), (__m512i)index, _mm512_loadu_ps(table + 16));
-    __m512 high = _mm512_permutex2var_ps(_mm512_loadu_ps(table + 32), (__m512i)index, _mm512_loadu_ps(table + 48));
-    __mmask16 is_high = _mm512_test_epi32_mask((__m512i)index, _mm512_set1_epi32(32));
-    return _mm512_mask_blend_ps(is_high, low, high);
-}
-
 /* Lane i where bit i is set; other bits are not read. */
 VNDF_INLINE lanes_m lanes_of_mask_bits(uint32_t bits)
 {

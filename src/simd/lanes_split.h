@@ -45,14 +45,40 @@ VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low,
                                   lanes_load(high + (split->high - 16)));
 }
 
+/* Appends `first` + i for each lane i of the mask to a list of `count` with room for all lanes; returns the count. */
+VNDF_INLINE uint32_t lanes_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first)
+{
+    const __m512i lane = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    lanes_store_u(list + count, (lanes_u)_mm512_maskz_compress_epi32(m, lane) + first);
+    return count + (uint32_t)__builtin_popcount(m);
+}
+
 #elif VNDF_LANES == 8
 
-/* For each mask of four lanes: the lane of each place, and the place of each lane, as hexadecimal digits, the last
- * digit for the first. */
-static const uint16_t LANES_ORDER[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3102, 0x3120, 0x3021, 0x3210,
-                                         0x2103, 0x2130, 0x2031, 0x2310, 0x1032, 0x1320, 0x0321, 0x3210};
-static const uint16_t LANES_PLACE[16] = {0x3210, 0x3210, 0x3201, 0x3210, 0x3021, 0x3120, 0x3102, 0x3210,
-                                         0x0321, 0x1320, 0x1302, 0x2310, 0x1032, 0x2130, 0x2103, 0x3210};
+/* For each mask of eight lanes: the lane of each place, and the place of each lane; byte i is for place i or lane i. A
+ * lane goes behind all lanes of its kind that come before it; lanes outside the mask go behind it. */
+#  define LANES_BITS(m)                                                                                   \
+    (((m)&1u) + ((m) >> 1 & 1u) + ((m) >> 2 & 1u) + ((m) >> 3 & 1u) + ((m) >> 4 & 1u) + ((m) >> 5 & 1u) + \
+     ((m) >> 6 & 1u) + ((m) >> 7 & 1u))
+#  define LANES_BEFORE(m, i) LANES_BITS((m) & ((1u << (i)) - 1u))
+#  define LANES_GOES(m, i) \
+    ((uint64_t)((m) >> (i)&1u ? LANES_BEFORE(m, i) : LANES_BITS(m) + (i)-LANES_BEFORE(m, i)))
+#  define LANES_PLACES(m)                                                                             \
+    (LANES_GOES(m, 0u) | LANES_GOES(m, 1u) << 8 | LANES_GOES(m, 2u) << 16 | LANES_GOES(m, 3u) << 24 | \
+     LANES_GOES(m, 4u) << 32 | LANES_GOES(m, 5u) << 40 | LANES_GOES(m, 6u) << 48 | LANES_GOES(m, 7u) << 56)
+#  define LANES_FROM(m, i) ((uint64_t)(i) << 8u * LANES_GOES(m, i))
+#  define LANES_ORDERS(m)                                                                                \
+    (LANES_FROM(m, 1u) | LANES_FROM(m, 2u) | LANES_FROM(m, 3u) | LANES_FROM(m, 4u) | LANES_FROM(m, 5u) | \
+     LANES_FROM(m, 6u) | LANES_FROM(m, 7u))
+#  define LANES_OF_4(f, m) f(m), f((m) + 1u), f((m) + 2u), f((m) + 3u)
+#  define LANES_OF_16(f, m) \
+    LANES_OF_4(f, m), LANES_OF_4(f, (m) + 4u), LANES_OF_4(f, (m) + 8u), LANES_OF_4(f, (m) + 12u)
+#  define LANES_OF_64(f, m) \
+    LANES_OF_16(f, m), LANES_OF_16(f, (m) + 16u), LANES_OF_16(f, (m) + 32u), LANES_OF_16(f, (m) + 48u)
+#  define LANES_OF_256(f) LANES_OF_64(f, 0u), LANES_OF_64(f, 64u), LANES_OF_64(f, 128u), LANES_OF_64(f, 192u)
+
+static const uint64_t LANES_ORDER[256] = {LANES_OF_256(LANES_ORDERS)},
+                      LANES_PLACE[256] = {LANES_OF_256(LANES_PLACES)};
 
 typedef struct lanes_split {
     __m256i order, place;
@@ -60,28 +86,15 @@ typedef struct lanes_split {
     uint32_t low, high;
 } lanes_split;
 
-/* One digit to each lane; permutations read three bits of it. */
-VNDF_INLINE __m256i lanes_split_digits(uint32_t digits)
-{
-    return _mm256_srlv_epi32(_mm256_set1_epi32((int)digits), _mm256_set_epi32(28, 24, 20, 16, 12, 8, 4, 0));
-}
-
-/* For eight lanes: `lower` of the lower four and `upper` of the upper four are in the mask. The places of each of
- * the four kinds move by the number of lanes before them. */
+/* The array is free from *low to *high; both move towards each other. */
 VNDF_INLINE lanes_split lanes_split_by(lanes_m m, uint32_t *low, uint32_t *high)
 {
-    uint32_t bits = lanes_mask_bits(m), a = LANES_ORDER[bits & 15], b = LANES_ORDER[bits >> 4] | 0x4444u;
-    uint32_t lower = (uint32_t)__builtin_popcount(bits & 15), upper = (uint32_t)__builtin_popcount(bits >> 4);
-    uint32_t a_in = a & ((1u << 4 * lower) - 1), b_in = b & ((1u << 4 * upper) - 1);
-    uint32_t order = a_in | b_in << 4 * lower | (a ^ a_in) << 4 * upper | (b ^ b_in) << 16;
-    uint32_t a_place = LANES_PLACE[bits & 15], b_place = LANES_PLACE[bits >> 4];
-    __m256i in = _mm256_set_m128i(_mm_set1_epi32((int)lower), _mm_setzero_si128());
-    __m256i out = _mm256_set_m128i(_mm_set1_epi32(4), _mm_set1_epi32((int)upper));
-    __m256i place = _mm256_and_si256(lanes_split_digits(a_place | b_place << 16), _mm256_set1_epi32(3));
-    lanes_split split = {lanes_split_digits(order), _mm256_add_epi32(place, _mm256_blendv_epi8(out, in, m)), m,
-                         *low, *high};
-    *low += lower + upper;
-    *high -= 8 - lower - upper;
+    uint32_t bits = lanes_mask_bits(m), count = (uint32_t)__builtin_popcount(bits);
+    lanes_split split = {_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&LANES_ORDER[bits])),
+                         _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&LANES_PLACE[bits])), m, *low,
+                         *high};
+    *low += count;
+    *high -= 8 - count;
     return split;
 }
 
@@ -97,6 +110,14 @@ VNDF_INLINE lanes_f lanes_split_load(const lanes_split *split, const float *low,
     __m256 in = _mm256_permutevar8x32_ps(lanes_load(low + split->low), split->place);
     __m256 out = _mm256_permutevar8x32_ps(lanes_load(high + (split->high - 8)), split->place);
     return lanes_pick(split->mask, in, out);
+}
+
+VNDF_INLINE uint32_t lanes_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first)
+{
+    uint32_t bits = lanes_mask_bits(m);
+    __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&LANES_ORDER[bits]));
+    lanes_store_u(list + count, (lanes_u)order + first);
+    return count + (uint32_t)__builtin_popcount(bits);
 }
 
 #endif

@@ -42,22 +42,22 @@ VNDF_INLINE doubles vndf_area_piece_at(const doubles coefficient[VNDF_AREA_ORDER
     return uu * u * (uu * b[0] + (ut * b[1] + tt * b[2])) + tt * t * (uu * b[3] + (ut * b[4] + tt * b[5]));
 }
 
-/* The same in float. */
+/* Powers of the distance from a knot in float. The mass, its slope and its second derivative are not below 0, so that
+ * the first three are sums of what is not; the others hardly cancel. */
 VNDF_INLINE lanes_f vndf_area_quick_sum(const lanes_f b[VNDF_AREA_ORDER], lanes_f t)
 {
-    lanes_f u = 1.0f - t, uu = u * u, ut = u * t, tt = t * t;
-    lanes_f low = uu * b[0] + (ut * b[1] + tt * b[2]), high = uu * b[3] + (ut * b[4] + tt * b[5]);
-    return uu * u * low + tt * t * high;
+    lanes_f square = t * t;
+    return ((b[0] + b[1] * t) + square * (b[2] + b[3] * t)) + square * square * (b[4] + b[5] * t);
 }
 
-/* Piece i, within 6e-7 of the mass but for the rounding of y, which counts where one over its width is large. */
+/* Piece i, within 3e-7 of the mass but for the rounding of y, which counts where one over its width is large. */
 VNDF_INLINE lanes_f vndf_area_quick_at(const vndf_area_quick *piece, lanes_u i, lanes_f y, lanes_f *per_width)
 {
     lanes_lines lines = lanes_lines_at(piece->coefficient, sizeof *piece / sizeof(float), i);
     lanes_four from = lanes_load_four(&lines, 0), to = lanes_load_four(&lines, 4);
     lanes_f b[VNDF_AREA_ORDER] = {from.a, from.b, from.c, from.d, to.a, to.b};
     *per_width = to.d;
-    return vndf_area_quick_sum(b, (y - to.c) * to.d);
+    return vndf_area_quick_sum(b, y - to.c);
 }
 
 /* Where there are `count` knots and no more than VNDF_FEW pieces: read in registers. */
@@ -70,7 +70,7 @@ VNDF_INLINE lanes_f vndf_area_few_at(const float *few, uint32_t pitch, uint32_t 
     for (int n = 0; n < VNDF_AREA_ORDER; n++)
         b[n] = lanes_few(few + (uint32_t)n * pitch, count - 1, i);
     *per_width = lanes_few(begin + pitch, count - 1, i);
-    return vndf_area_quick_sum(b, (y - lanes_few(begin, count - 1, i)) * *per_width);
+    return vndf_area_quick_sum(b, y - lanes_few(begin, count - 1, i));
 }
 
 #endif

@@ -114,6 +114,17 @@ static void pad_knots(vndf_knots *k, uint32_t from)
     }
 }
 
+static void derive_few_sums(vndf_distribution *table)
+{
+    const uint32_t steps = vndf_step_count(table);
+    float *to = table->few_sums;
+    for (uint32_t t = 1; to && t < VNDF_STEP; t++)
+        for (uint32_t i = 0; i < steps; i++, to++) {
+            to[0] = table->knots.f0[VNDF_STEP * i + t];
+            to[(VNDF_STEP - 1) * steps] = table->knots.f1[VNDF_STEP * i + t];
+        }
+}
+
 static void derive_blocks(vndf_distribution *table)
 {
     const vndf_knots *k = &table->knots;
@@ -163,6 +174,14 @@ static void add_steepness(vndf_distribution *d, uint32_t j, double xi)
     d->fold_steepness = fold > d->fold_steepness ? fold : d->fold_steepness;
 }
 
+/* Brings the mass of most cells near 1. With more than 2^12, masses near 1 would overflow. */
+static void derive_lift(vndf_distribution *table)
+{
+    table->lift = 4.0f;
+    while (table->lift < 4096.0f && table->lift < 4.0f * (float)table->radial_count)
+        table->lift *= 2.0f;
+}
+
 static void derive_steepness(vndf_distribution *table)
 {
     table->steepness = table->fold_steepness = table->steep_from = 0.0;
@@ -179,7 +198,9 @@ int vndf_derive_radial(vndf_distribution *table)
     derive_tail(table);
     derive_copies(table);
     pad_knots(&table->knots, table->radial_count + 1);
+    derive_few_sums(table);
     derive_blocks(table);
     derive_steepness(table);
+    derive_lift(table);
     return vndf_windows_make(table) && derive_slopes(table);
 }

@@ -42,11 +42,19 @@ static vndf_area_span area_span(const vndf_wedge *wedge, uint32_t i)
     return span;
 }
 
+/* Bernstein coefficients times their binomials become powers of y - begin. */
 static vndf_area_quick area_quick(const vndf_area_span *span)
 {
+    static const double from[VNDF_AREA_ORDER][VNDF_AREA_ORDER] = {
+        {1}, {-5, 1}, {10, -4, 1}, {-10, 6, -3, 1}, {5, -4, 3, -2, 1}, {-1, 1, -1, 1, -1, 1}};
     vndf_area_quick quick = {.begin = (float)span->begin, .per_width = (float)span->per_width};
-    for (int n = 0; n < VNDF_AREA_ORDER; n++)
-        quick.coefficient[n] = (float)span->coefficient[n];
+    double power = 1.0;
+    for (int n = 0; n < VNDF_AREA_ORDER; n++, power *= span->per_width) {
+        double sum = 0.0;
+        for (int i = 0; i <= n; i++)
+            sum += from[n][i] * span->coefficient[i];
+        quick.coefficient[n] = (float)(power * sum);
+    }
     return quick;
 }
 

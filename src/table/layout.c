@@ -94,9 +94,11 @@ static void place_knots(room *r, vndf_distribution *table)
     b->at = take(r, b->count, sizeof *b->at);
     b->tail = take(r, b->count, sizeof *b->tail);
     table->bends = take(r, table->radial_count, sizeof *table->bends);
+    size_t few = 2 * (VNDF_STEP - 1) * (size_t)vndf_step_count(table);
+    table->few_sums = table->radial_count <= VNDF_STEP * VNDF_FEW ? take(r, few, sizeof *table->few_sums) : NULL;
 }
 
-/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW_CELLS numbers at once. */
+/* Places all arrays in the block; after the last is room for lanes, which read VNDF_FEW numbers at once. */
 static size_t place_all(vndf_distribution *table, char *block)
 {
     room r = {block, 0};
@@ -108,7 +110,7 @@ static size_t place_all(vndf_distribution *table, char *block)
     place_knots(&r, table);
     place_rows(&r, &table->above, 1);
     place_rows(&r, &table->below, 0);
-    take(&r, VNDF_FEW_CELLS, sizeof(float));
+    take(&r, VNDF_FEW, sizeof(float));
     return r.used;
 }
 

@@ -34,8 +34,8 @@ enum {
     VNDF_RATIOS = 18,       /* and of |k|/c, for either sign of k */
     VNDF_WINDOW_SHIFT = 13, /* above a window's first cell, below VNDF_RADIAL_CELLS_MAX, stands its width */
     VNDF_PADDING = 8,       /* arrays that are counted through are padded to a multiple of this */
-    VNDF_FEW = 16,          /* so many numbers are looked up in registers, */
-    VNDF_FEW_CELLS = 64,    /* and with AVX-512 the sums of so many radial cells */
+    VNDF_FEW = 16,          /* so many numbers are looked up in registers */
+    VNDF_STEP = 8,          /* there, knots of radial cells are searched by so many */
     VNDF_AREA_ORDER = 6,    /* coefficients of a piece of an area's spline */
     VNDF_AREA_SPAN = 8,     /* doubles from piece to piece */
     VNDF_GUIDE_SHIFT = 16   /* bits of a guide's entry below the index of a knot */
@@ -110,7 +110,7 @@ typedef struct vndf_area_span {
     double coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_span;
 
-/* The same in float: 32 bytes. */
+/* The same in float, as powers of y - begin: 32 bytes. */
 typedef struct vndf_area_quick {
     float coefficient[VNDF_AREA_ORDER], begin, per_width;
 } vndf_area_quick;
@@ -182,12 +182,16 @@ struct vndf_distribution {
     vndf_kind kind;
     uint32_t radial_count;    /* cells */
     float f0_total, f1_total; /* integrals P22 R dR (= 1/2 pi) and P22 R^2 dR of the table */
+    float lift;               /* draws multiply their laws by this power of two (math/rational_cell.h) */
     vndf_knots knots;         /* radial_count + 1 and padding: all searches of cells read them */
     vndf_knots blocks;        /* the first knot of each block, padded too: draws below the horizon read them */
     vndf_radial_cell *cells;  /* radial_count: draws and densities of all kinds read them (tabulated/radial.h) */
     vndf_radial_bend *bends;  /* radial_count: the cell at the cut is drawn with them (radial_law_cut) */
     void *block;              /* of block_bytes: all arrays but those of guides */
     size_t block_bytes;
+    /* knots.f0 of every eighth knot from 1 on, then from 2 on, ... from 7 on, then knots.f1 likewise: with them lanes
+     * search in front, if the cells are no more than VNDF_STEP VNDF_FEW; else NULL */
+    float *few_sums;
     vndf_windows windows;
     vndf_guide slope_guide; /* of X/Z: finds the cell of the cut, and that of a given normal */
     vndf_wedge above, below;
@@ -200,6 +204,12 @@ struct vndf_distribution {
      * that hold more than 1e-8 of the mass; from this slope on, as P22 may grow without bound towards 0. */
     double steepness, fold_steepness, steep_from;
 };
+
+/* How many times VNDF_STEP cells there are, rounded up. */
+VNDF_INLINE uint32_t vndf_step_count(const vndf_distribution *d)
+{
+    return (d->radial_count + VNDF_STEP - 1) / VNDF_STEP;
+}
 
 /* Whether the members above are filled: what is loaded, saved and freed. */
 VNDF_INLINE int vndf_is_table(const vndf_distribution *d)

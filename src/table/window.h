@@ -35,7 +35,7 @@ VNDF_INLINE lanes_u vndf_window_range(lanes_f u)
     const float end = 0x1p-6f;
     lanes_f rest = 1.0f - u;
     lanes_f near = lanes_least(u, rest); /* to an end */
-    lanes_m low = lanes_less(u, rest), inner = lanes_at_most(lanes_set(end), near);
+    lanes_m low = lanes_less(u, lanes_set(0.5f)), inner = lanes_at_most(lanes_set(end), near);
     lanes_u apart = lanes_bits(lanes_set(end)) - lanes_bits(lanes_least(near, lanes_set(end)));
     lanes_u half_octave = lanes_limit_u(apart >> 22, lanes_set_u(VNDF_RANGES_END - 1));
     const uint32_t first = VNDF_RANGES_END - 1, last = VNDF_RANGES - VNDF_RANGES_END;

@@ -174,7 +174,7 @@ static void test_material(const oracle_ndf *ndf, size_t n, vndf_instructions onl
     vndf_description is = bsdf_material(ndf, &e, alphas, 7, state);
     vndf_material m;
     is.wavelengths = 1 + (int)(n / 3 % VNDF_WAVELENGTHS);
-    if (n % 40 == 11)
+    if (n % 24 == 11)
         is.eta = 1;
     if (n % 40 == 2)
         is.conductor_k[0] = 0.01f; /* steep */
@@ -204,7 +204,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, vndf
     for (size_t n = 0; n < test_amount(64, 256, 2048); n++)
         test_material(&ndf, n, only, &state, lobes);
     for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
-        TEST(lobes[lobe] > 100);
+        TEST(lobes[lobe] > 10);
 }
 
 int main(int arguments, char **argument)

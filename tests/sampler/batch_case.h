@@ -22,8 +22,8 @@ static inline vndf_instructions batch_wanted(int arguments, char **argument)
 /* main's: the closed forms, no distribution, and tables of all sizes. */
 static inline int batch_main(int arguments, char **argument, batch_test *test)
 {
-    static const char *const names[] = {"student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "example",
-                                        "sgd-nickel-g"};
+    static const char *const names[] = {
+        "student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "hazy", "example", "sgd-nickel-g"};
     vndf_instructions only = batch_wanted(arguments, argument);
     if (only != VNDF_INSTRUCTIONS_BEST && vndf_instructions_used(only) != only) {
         printf("SKIPPED: no %s here\n", argument[1]);

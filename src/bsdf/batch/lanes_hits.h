@@ -110,15 +110,26 @@ VNDF_INLINE doubles vndf_mean_lanes(const vndf_material *m, doubles f)
     return sum * m->per_wavelength;
 }
 
+/* Of both lobes: the part *share of the samples that takes the lobe, and the weight's part F/share, or (1 - F)/share
+ * with what transmission carries. */
+VNDF_INLINE doubles vndf_lobe_weight(const vndf_material *m, doubles f, doubles eta, doubles_m through,
+                                     doubles *share)
+{
+    doubles mean = vndf_mean_lanes(m, f);
+    *share = doubles_pick(through, 1.0 - mean, mean);
+    doubles weight = doubles_pick(through, 1.0 - f, f) / *share;
+    return doubles_pick(through, vndf_carried_at(m, eta) * weight, weight);
+}
+
 VNDF_INLINE doubles vndf_at_least_one(doubles x)
 {
     const doubles one = doubles_set(1.0);
     return doubles_pick(doubles_less(one, x), x, one);
 }
 
-/* Where both directions, turned up, and their areas in float are read. */
+/* Where both directions, turned up, their areas in float and the roughness are read. */
 typedef struct vndf_slants_of {
-    const float *wi[3], *wo[3], *area_i, *area_o;
+    const float *wi[3], *wo[3], *area_i, *area_o, *alpha_x, *alpha_y;
 } vndf_slants_of;
 
 VNDF_INLINE doubles vndf_exact_area(const vndf_distribution *d, doubles ax, doubles ay, const float *const w[3])
@@ -128,16 +139,15 @@ VNDF_INLINE doubles vndf_exact_area(const vndf_distribution *d, doubles ax, doub
 }
 
 /* Masking of transmissions over both cosines (terms/masking.c). Clears *ready where Beta is not for lanes. */
-VNDF_INLINE doubles vndf_transmission_masking(const vndf_distribution *d, const float *const *in, uint32_t at,
-                                              const vndf_slants_of *of, doubles cos_i, doubles cos_o,
-                                              doubles_m *ready)
+VNDF_INLINE doubles vndf_transmission_masking(const vndf_distribution *d, const vndf_slants_of *of, doubles cos_i,
+                                              doubles cos_o, doubles_m *ready)
 {
     double scale = vndf_unit_scale(d);
     doubles i = doubles_load(of->area_i) / cos_i, o = doubles_load(of->area_o) / cos_o;
     doubles_m exact = doubles_both(*ready, vndf_needs_exact_areas(i, o));
     if (doubles_any(exact)) {
-        doubles ax = doubles_load(in[VNDF_HIT_ALPHA_X] + at) * scale;
-        doubles ay = doubles_load(in[VNDF_HIT_ALPHA_Y] + at) * scale;
+        doubles ax = doubles_load(of->alpha_x) * scale;
+        doubles ay = doubles_load(of->alpha_y) * scale;
         i = doubles_pick(exact, vndf_exact_area(d, ax, ay, of->wi) / cos_i, i);
         o = doubles_pick(exact, vndf_exact_area(d, ax, ay, of->wo) / cos_o, o);
     }

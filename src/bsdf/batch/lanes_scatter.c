@@ -9,9 +9,7 @@
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
-#  include "bsdf/batch/lanes_hits.h"
-#  include "bsdf/terms/refraction.h"
-#  include "sampler/batch/density_of.h"
+#  include "bsdf/batch/lanes_exact.h"
 
 /* ---- results ---- */
 
@@ -53,11 +51,12 @@ VNDF_INLINE vndf_bsdf_normal normals_at(const vndf_scatter_block *b, const vndf_
 
 /* ---- reflections ---- */
 
-/* Reflections of a group: those that are scattered, their direction, area and density. */
+/* Reflections of a group: their direction, its area and density; which are good, and which are `rough`, evaluated in
+ * double (lanes_exact.h). */
 typedef struct reflections {
     vndf_vec3_lanes wo;
     lanes_f area, density;
-    lanes_m good, left;
+    lanes_m good, rough, left;
 } reflections;
 
 VNDF_INLINE reflections reflect(const vndf_hits *h, const vndf_bsdf_normal *n, vndf_choice choice)
@@ -69,9 +68,21 @@ VNDF_INLINE reflections reflect(const vndf_hits *h, const vndf_bsdf_normal *n, v
     vndf_reflection_trust trust = vndf_trust_reflection(&h->at, n, choice);
     r.area = vndf_law_area_above(h->at.distribution, h->at.ax, h->at.ay, r.wo.x, r.wo.y, r.wo.z, &ready);
     r.density = vndf_reflected_density(&h->at, n, r.wo, trust.as_drawn);
-    r.good = lanes_both(met, lanes_both(trust.trusted, ready));
-    r.left = lanes_either(lanes_without(h->seen, h->known), lanes_without(met, r.good));
+    r.good = lanes_both(lanes_both(met, ready), trust.trusted);
+    r.rough = lanes_without(lanes_both(met, ready), trust.trusted);
+    r.left = lanes_either(lanes_without(h->seen, h->known), lanes_without(met, ready));
     return r;
+}
+
+/* The direction, facet and lobe of a group. */
+VNDF_INLINE void store_reflections(const vndf_scattered_n *to, uint32_t i, const vndf_hits *h,
+                                   const vndf_bsdf_normal *n, const reflections *r)
+{
+    lanes_m up = lanes_either(r->good, r->rough);
+    store_direction(to->wo, i, up, r->wo, h->side * r->wo.z, 1.0f);
+    if (to->wm.x)
+        store_direction(to->wm, i, up, n->wm, h->side * n->wm.z, 0.0f);
+    store_lobes(to->lobe + i, up, lanes_none());
 }
 
 /* ---- bare reflection ---- */
@@ -80,7 +91,10 @@ static void scatter_bare(vndf_scatter_block *b)
 {
     const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
     const vndf_scattered_n *to = &b->to;
+    float area_i[VNDF_HIT_BLOCK], area_o[VNDF_HIT_BLOCK];
+    vndf_sample_bits rough;
     vndf_hits shared;
+    vndf_clear_bits(&rough);
     if (b->hit)
         shared = vndf_shared_hits(b->hit);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
@@ -92,12 +106,13 @@ static void scatter_bare(vndf_scatter_block *b)
         for (int k = 0; k < b->material->is.wavelengths; k++)
             lanes_store(to->weight[k] + i, weight);
         lanes_store(to->density + i, lanes_keep(r.good, vndf_positive_lanes(r.density)));
-        store_direction(to->wo, i, r.good, r.wo, r.wo.z, 1.0f);
-        if (to->wm.x)
-            store_direction(to->wm, i, r.good, n.wm, n.wm.z, 0.0f);
-        store_lobes(to->lobe + i, r.good, lanes_none());
+        store_reflections(to, i, &h, &n, &r);
+        lanes_store(area_i + i, h.at.area);
+        lanes_store(area_o + i, r.area);
+        vndf_set_bits(&rough, i, lanes_mask_bits(r.rough));
         vndf_set_bits(&b->left, i, lanes_mask_bits(r.left));
     }
+    vndf_scatter_exactly(b, &rough, area_i, area_o);
 }
 
 /* ---- what loops leave to the next ---- */
@@ -108,7 +123,7 @@ typedef struct work {
     float facing[VNDF_HIT_BLOCK], quotient[VNDF_HIT_BLOCK];
     float weight[VNDF_HIT_BLOCK];                 /* without its part by wavelength, */
     float part[VNDF_WAVELENGTHS][VNDF_HIT_BLOCK]; /* which is here */
-    vndf_sample_bits good;
+    vndf_sample_bits good, rough;
 } work;
 
 VNDF_INLINE void keep_hits(work *w, uint32_t i, const vndf_hits *h, const vndf_bsdf_normal *n)
@@ -161,10 +176,8 @@ static void reflect_block(vndf_scatter_block *b, work *w)
         lanes_store(w->cos_o + i, r.wo.z);
         lanes_store(w->area_o + i, r.area);
         lanes_store(to->density + i, lanes_keep(r.good, vndf_positive_lanes(r.density)));
-        store_direction(to->wo, i, r.good, r.wo, h.side * r.wo.z, 1.0f);
-        if (to->wm.x)
-            store_direction(to->wm, i, r.good, n.wm, h.side * n.wm.z, 0.0f);
-        store_lobes(to->lobe + i, r.good, lanes_none());
+        store_reflections(to, i, &h, &n, &r);
+        vndf_set_bits(&w->rough, i, lanes_mask_bits(r.rough));
         vndf_set_bits(&w->good, i, lanes_mask_bits(r.good));
         vndf_set_bits(&b->left, i, lanes_mask_bits(r.left));
     }
@@ -179,7 +192,7 @@ static void weigh_reflections(vndf_scatter_block *b, work *w)
         for (int k = 0; k < m->is.wavelengths; k++)
             doubles_store_f(w->part[k] + i, doubles_narrow(vndf_reflectance_lanes(m, k, facing, eta)));
         uint32_t lost = doubles_mask_bits(vndf_loses_reflectance(facing, eta));
-        vndf_set_bits(&b->left, i, lost & vndf_bits_at(&w->good, i));
+        vndf_set_bits(&w->rough, i, lost & vndf_bits_at(&w->good, i));
     }
 }
 
@@ -187,9 +200,11 @@ static void scatter_reflection(vndf_scatter_block *b)
 {
     work w;
     vndf_clear_bits(&w.good);
+    vndf_clear_bits(&w.rough);
     reflect_block(b, &w);
     weigh_reflections(b, &w);
     store_weights(b, &w, VNDF_WAVELENGTHS);
+    vndf_scatter_exactly(b, &w.rough, w.area_i, w.area_o);
 }
 
 /* ---- both lobes ---- */
@@ -259,9 +274,7 @@ static void choose_lobes(const vndf_scatter_block *b, lobes *l)
         doubles_m back = doubles_both(doubles_less(nothing, part),
                                       doubles_less(doubles_load(b->in[VNDF_SCATTER_U3] + i), part));
         doubles_m through = doubles_without(passes, back), loses = vndf_loses_reflectance(at.facing, eta);
-        doubles share = doubles_pick(through, 1.0 - part, part),
-                weight = doubles_pick(through, 1.0 - f, f) / share;
-        weight = doubles_pick(through, vndf_carried_at(m, eta) * weight, weight);
+        doubles share, weight = vndf_lobe_weight(m, f, eta, through, &share);
         uint32_t bits = doubles_mask_bits(through), bent = doubles_mask_bits(vndf_trusts_refraction(&at, beyond));
         doubles_store_f(l->share + i, doubles_narrow(share));
         doubles_store_f(l->w.part[0] + i, doubles_narrow(weight));
@@ -295,18 +308,19 @@ static void follow_lobes(vndf_scatter_block *b, lobes *l)
         lanes_m met = lanes_both(h->known, lanes_less(nothing, up.z));
         met = lanes_without(met, lanes_without(through, lanes_less(nothing, n->facing)));
         lanes_m sure = lanes_either(lanes_both(through, settled), lanes_without(trust.trusted, through));
-        lanes_m good = lanes_both(lanes_both(met, ready), lanes_both(trusted, sure));
+        lanes_m asked = lanes_both(met, ready), good = lanes_both(asked, lanes_both(trusted, sure));
         lanes_f side = lanes_pick(through, nothing - h->side, h->side);
         lanes_store(l->w.cos_o + i, up.z);
         lanes_store(l->w.area_o + i, area);
         lanes_store(to->density + i, lanes_keep(good, vndf_positive_lanes(density * lanes_load(l->share + i))));
-        store_direction(to->wo, i, good, up, side * up.z, 1.0f);
+        store_direction(to->wo, i, asked, up, side * up.z, 1.0f);
         if (to->wm.x)
-            store_direction(to->wm, i, good, n->wm, h->side * n->wm.z, 0.0f);
-        store_lobes(to->lobe + i, lanes_without(good, through), lanes_both(good, through));
+            store_direction(to->wm, i, asked, n->wm, h->side * n->wm.z, 0.0f);
+        store_lobes(to->lobe + i, lanes_without(asked, through), lanes_both(asked, through));
+        lanes_m left = lanes_either(lanes_without(h->seen, h->known), lanes_without(met, ready));
         vndf_set_bits(&l->w.good, i, lanes_mask_bits(good));
-        vndf_set_bits(&b->left, i,
-                      lanes_mask_bits(lanes_either(lanes_without(h->seen, h->known), lanes_without(met, good))));
+        vndf_set_bits(&l->w.rough, i, lanes_mask_bits(lanes_without(asked, good)));
+        vndf_set_bits(&b->left, i, lanes_mask_bits(left));
     }
 }
 
@@ -316,9 +330,11 @@ VNDF_INLINE doubles transmission_masking_at(const vndf_scatter_block *b, const l
     const vndf_slants_of of = {{l->x + i, l->y + i, l->w.cos_i + i},
                                {l->wo[0] + i, l->wo[1] + i, l->w.cos_o + i},
                                l->w.area_i + i,
-                               l->w.area_o + i};
+                               l->w.area_o + i,
+                               b->in[VNDF_HIT_ALPHA_X] + i,
+                               b->in[VNDF_HIT_ALPHA_Y] + i};
     doubles cos_i = doubles_load(l->w.cos_i + i), cos_o = doubles_load(l->w.cos_o + i);
-    return vndf_transmission_masking(b->material->is.distribution, b->in, i, &of, cos_i, cos_o, ready);
+    return vndf_transmission_masking(b->material->is.distribution, &of, cos_i, cos_o, ready);
 }
 
 static void weigh_lobes(vndf_scatter_block *b, lobes *l)
@@ -339,6 +355,7 @@ static void scatter_both(vndf_scatter_block *b)
 {
     lobes l;
     vndf_clear_bits(&l.w.good);
+    vndf_clear_bits(&l.w.rough);
     vndf_clear_bits(&l.through);
     vndf_clear_bits(&l.trusted);
     find_hits(b, &l);
@@ -346,6 +363,7 @@ static void scatter_both(vndf_scatter_block *b)
     follow_lobes(b, &l);
     weigh_lobes(b, &l);
     store_weights(b, &l.w, 1);
+    vndf_scatter_exactly(b, &l.w.rough, l.w.area_i, l.w.area_o);
 }
 
 #  if VNDF_LANES == 16

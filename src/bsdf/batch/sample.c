@@ -37,6 +37,9 @@ static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3],
     }
 }
 
+/* At least as many as lanes, less one. */
+enum { SPARE = 15 };
+
 /* The normals of a block, and the heights of its directions. */
 typedef struct drawn_part {
     vndf_drawn_block drawn;
@@ -61,6 +64,7 @@ static vndf_batch part_of(const vndf_bsdf_batch *b, size_t first, size_t count, 
     return part;
 }
 
+/* Lanes past the end find zeros. */
 static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t first, size_t count,
                        drawn_part *to)
 {
@@ -68,6 +72,8 @@ static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t
     const vndf_normals wm = {d->x, d->y, d->z};
     vndf_batch part = part_of(b, first, count, to->up);
     vndf_sample_weight_n(&part, u[0] + first, u[1] + first, wm, d->density, d->weight);
+    for (size_t i = count; i < VNDF_HIT_BLOCK && i < count + SPARE; i++)
+        d->x[i] = d->y[i] = d->z[i] = d->density[i] = d->weight[i] = 0.0f;
 }
 
 /* Sample i of a block whose first is `first`, on its hit. */

@@ -27,13 +27,14 @@ VNDF_INLINE vndf_slope vndf_table_slope(const vndf_distribution *d, float u)
     if (j + 3 > d->radial_count)
         return vndf_table_slope_exactly(d, u);
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_rational_cell mass = {cell.f0 * cell.z0, cell.f1 * cell.z1, cell.z0 * cell.mu0 + cell.z1 * cell.mu1};
-    vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(target - cell.before0));
+    float z0 = d->lift * cell.z0, z1 = d->lift * cell.z1;
+    vndf_rational_cell mass = {cell.f0 * z0, cell.f1 * z1, z0 * cell.mu0 + z1 * cell.mu1};
+    vndf_rational_place in = vndf_rational_invert(&mass, lanes_positive(d->lift * (target - cell.before0)));
     vndf_place at = vndf_place_in(&cell, &in);
-    if (!vndf_trusts_place_in_cell(&cell, &mass, &in))
+    if (!vndf_trusts_place_in_cell(&cell, &mass, &in) || !vndf_trusts_root(in.root))
         return vndf_table_slope_exactly(d, u);
-    float x = at.x * at.per;
-    vndf_slope r = {x, at.z * at.per, in.root / (in.below * cell.width * x), 1};
+    float per = 1.0f / in.under, x = at.x * per;
+    vndf_slope r = {x, at.z * per, in.root * (in.under * in.under) / (in.below * (d->lift * cell.width) * x), 1};
     return r;
 }
 

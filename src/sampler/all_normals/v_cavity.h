@@ -64,7 +64,8 @@ VNDF_INLINE float vndf_v_cavity_start(const vndf_v_cavity *twin, float rest)
     int beyond = rest > mass;
     vndf_rational_cell cell = {beyond ? h : (1.0f - rise) * h, beyond ? (1.0f + rise) * h : h,
                                beyond ? 2.0f * h - mass : mass};
-    float xi = vndf_rational_invert(&cell, beyond ? rest - mass : rest).xi;
+    vndf_rational_place in = vndf_rational_invert(&cell, beyond ? rest - mass : rest);
+    float xi = in.over / (in.under + 1e-30f);
     return h * (beyond ? 1.0f + xi : xi);
 }
 

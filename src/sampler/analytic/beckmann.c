@@ -29,6 +29,7 @@
 #include "math/erfc_remainder.h"
 #include "math/vector.h"
 #include "sampler/analytic/face_repair.h"
+#include "sampler/analytic/inverse.h"
 
 /* The first slope while it is sought: x, and d = K - x carried beside it since either may hold the digits. */
 typedef struct slope {
@@ -157,11 +158,10 @@ vndf_vec3 vndf_beckmann_sample(float s, float c, float u1, float u2)
     return vndf_face(s, c, n);
 }
 
-/* d = (w . n)/(s n.z) keeps digits that K - x would lose. */
 void vndf_beckmann_invert(float s, float c, vndf_normal n, float *u1, float *u2)
 {
-    vndf_beckmann_law g = vndf_beckmann_law_at(s, c);
-    double z = n.z > 1e-30 ? n.z : 1e-30, front = (s * n.x + c * n.z) / ((s > 1e-30f ? (double)s : 1e-30) * z);
-    *u1 = vndf_clamp_unit((float)vndf_beckmann_part(&g, -n.x / z, front > 0.0 ? front : 0.0));
-    *u2 = (float)vndf_half_erfc(n.y / z);
+    const vndf_unit_query q = {s, c, n};
+    vndf_uniforms u = vndf_beckmann_inverse(&q);
+    *u1 = u.u1;
+    *u2 = u.u2;
 }

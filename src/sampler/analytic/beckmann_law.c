@@ -1,6 +1,7 @@
 /* Beckmann: views and their samples. */
 #include "sampler/analytic/beckmann_law.h"
 
+#include "sampler/analytic/inverse.h"
 #include "sampler/law.h"
 
 #include "math/vector.h"
@@ -67,7 +68,9 @@ vndf_vec3 vndf_beckmann_view_sample_exactly(const vndf_view *view, float u1, flo
 
 void vndf_beckmann_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
-    vndf_frame f = vndf_analytic_frame(view);
-    vndf_beckmann_invert(f.s, f.c, vndf_normal_to_unit(&f, wm), u1, u2);
-    *u2 = vndf_clamp_unit(*u2);
+    vndf_query g = vndf_query_of(view, wm);
+    vndf_unit_query q = vndf_unit_query_of(&g);
+    vndf_uniforms u = vndf_beckmann_inverse(&q);
+    *u1 = u.u1;
+    *u2 = u.u2;
 }

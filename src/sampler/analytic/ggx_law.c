@@ -1,6 +1,7 @@
 /* GGX: views and their samples. */
 #include "sampler/analytic/ggx_law.h"
 
+#include "sampler/analytic/inverse.h"
 #include "sampler/law.h"
 
 #include "math/vector.h"
@@ -34,6 +35,9 @@ vndf_vec3 vndf_ggx_view_sample_exactly(const vndf_view *view, float u1, float u2
 
 void vndf_ggx_view_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
-    vndf_frame f = vndf_analytic_frame(view);
-    vndf_ggx_invert(f.s, f.c, vndf_normal_to_unit(&f, wm), u1, u2);
+    vndf_query g = vndf_query_of(view, wm);
+    vndf_unit_query q = vndf_unit_query_of(&g);
+    vndf_uniforms u = vndf_ggx_inverse(&q);
+    *u1 = u.u1;
+    *u2 = u.u2;
 }

@@ -1,11 +1,12 @@
-/* Densities, D, areas, Lambda and G1 of a batch: in lanes of doubles where the processor has them (lanes_eval.h), else
- * one after the other. The inverse always takes one after the other. */
+/* Densities, D, areas, Lambda, G1 and inverses of a batch: in lanes of doubles where the processor has them
+ * (lanes_eval.h, lanes_invert.h), else one after the other. */
 #include <string.h>
 
 #include "core/inline.h"
 #include "sampler/batch/batch.h"
 #include "sampler/batch/lanes_sample.h"
 #include "sampler/batch/lanes_eval.h"
+#include "sampler/batch/lanes_invert.h"
 #include "sampler/surface.h"
 
 /* The question that a call asks of all elements, its normals, and where the answers go. */
@@ -60,9 +61,9 @@ static const float *input_at(const float *from, int is_shared, size_t first, uin
     return copy;
 }
 
-static void read_block(vndf_eval_block *block, const call *c, size_t first, copies *own)
+static void read_block(vndf_eval_inputs *in, uint32_t count, const call *c, size_t first, copies *own)
 {
-    block->in.normal[0] = block->in.facing = NULL;
+    in->normal[0] = in->facing = NULL;
     const vndf_batch *b = c->batch;
     const float *from[VNDF_EVAL_INPUTS] = {b->alpha_x, b->alpha_y, b->wi_x, b->wi_y,
                                            b->wi_z,    c->wm.x,    c->wm.y, c->wm.z};
@@ -71,7 +72,7 @@ static void read_block(vndf_eval_block *block, const call *c, size_t first, copi
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
             continue; /* D needs no wi; the arrays may be missing */
         unsigned bit = n <= VNDF_EVAL_ALPHA_Y ? VNDF_SHARED_ALPHA : n <= VNDF_EVAL_WI_Z ? VNDF_SHARED_WI : 0;
-        block->in.of[n] = input_at(from[n], (b->shared & bit) != 0, first, block->count, own->of[n]);
+        in->of[n] = input_at(from[n], (b->shared & bit) != 0, first, count, own->of[n]);
     }
 }
 
@@ -86,7 +87,7 @@ static void answer_in_lanes(const call *c)
     for (size_t first = 0; first < b->count; first += block.count) {
         size_t rest = b->count - first;
         block.count = rest < VNDF_EVAL_BLOCK ? (uint32_t)rest : VNDF_EVAL_BLOCK;
-        read_block(&block, c, first, &own);
+        read_block(&block.in, block.count, c, first, &own);
         if (wide)
             vndf_eval_block_avx512(b->distribution, c->question, &block);
         else
@@ -159,6 +160,8 @@ void vndf_g1_n(const vndf_batch *b, float *g1)
     answer(&c);
 }
 
+/* ---- inverses ---- */
+
 VNDF_INLINE void invert_one(const vndf_view *view, const vndf_batch_call *c, size_t i)
 {
     float u1, u2;
@@ -167,8 +170,64 @@ VNDF_INLINE void invert_one(const vndf_view *view, const vndf_batch_call *c, siz
     c->to2[i] = u2;
 }
 
+#if VNDF_HAS_LANES
+
+/* Inverts the normals that lanes have left, before results overwrite inputs. */
+static void invert_left(const vndf_batch *b, vndf_normals wm, size_t first, vndf_invert_block *block)
+{
+    for (uint32_t n = 0; n < block->left_count; n++) {
+        uint32_t i = block->left[n];
+        vndf_view view = vndf_batch_view(b, first + i);
+        vndf_invert(&view, vndf_batch_normal(wm, first + i), &block->u1[i], &block->u2[i]);
+    }
+}
+
+static void invert_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
+{
+    const call question = {b, VNDF_ASK_PDF, c->wm, NULL}; /* which asks for the same inputs */
+    int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
+    vndf_eval_inputs in;
+    vndf_invert_block block;
+    copies own;
+    for (size_t first = 0; first < b->count; first += block.count) {
+        size_t rest = b->count - first;
+        block.count = rest < VNDF_EVAL_BLOCK ? (uint32_t)rest : VNDF_EVAL_BLOCK;
+        read_block(&in, block.count, &question, first, &own);
+        for (int n = 0; n < VNDF_EVAL_INPUTS; n++)
+            block.of[n] = in.of[n];
+        if (wide)
+            vndf_invert_block_avx512(b->distribution, &block);
+        else
+            vndf_invert_block_avx2(b->distribution, &block);
+        invert_left(b, c->wm, first, &block);
+        memcpy(c->to1 + first, block.u1, block.count * sizeof(float));
+        memcpy(c->to2 + first, block.u2, block.count * sizeof(float));
+    }
+}
+
+#else
+
+static void invert_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
+{
+    vndf_batch_for_each_view(b, c, invert_one);
+}
+
+#endif
+
+/* Whether lanes would leave every normal: all share a view of a table that does not draw in float. */
+static int is_left(const vndf_batch *b)
+{
+    if (!vndf_batch_is_one_view(b) || !vndf_is_table(b->distribution))
+        return 0;
+    vndf_view view = vndf_batch_view(b, 0);
+    return !view.trusted;
+}
+
 void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
 {
     vndf_batch_call c = {wm, NULL, NULL, u1, u2};
-    vndf_batch_for_each_view(b, &c, invert_one);
+    if (vndf_batch_has_lanes(b) && !is_left(b))
+        invert_in_lanes(b, &c);
+    else
+        vndf_batch_for_each_view(b, &c, invert_one);
 }

@@ -21,17 +21,22 @@ VNDF_INLINE void vndf_ask_radii(vndf_radial_search *s, uint32_t i, const vndf_az
     lanes_store(s->target + i, u2 * b->total);
 }
 
-/* Looks up the windows of a group. Wide windows are few; they are narrowed at once. */
-VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, uint32_t i, lanes_f u2)
+/* Looks up the first cells of windows. Wide windows are few; they are listed and narrowed last, so that no branch on
+ * them is mispredicted. */
+VNDF_INLINE void vndf_open_windows(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
+                                   uint32_t count)
 {
-    lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), u2);
     lanes_u narrow = lanes_set_u((1u << VNDF_WINDOW_SHIFT) - 1);
-    uint32_t wide = lanes_mask_bits(lanes_without(lanes_all(), lanes_at_most_u(code, narrow)));
-    lanes_store_u(s->cell + i, code);
-    for (; wide != 0; wide &= wide - 1) {
-        uint32_t at = i + (uint32_t)__builtin_ctz(wide);
-        vndf_window window = vndf_window_from(s->cell[at]);
-        s->cell[at] = vndf_radial_narrow(&d->knots, window, s->c[at], s->k[at], s->target[at]);
+    uint32_t list[VNDF_BLOCK_SAMPLES + VNDF_LANES], wide = 0;
+    for (uint32_t i = 0; i < count; i += VNDF_LANES) {
+        lanes_u code = vndf_window_of(d, lanes_load(s->c + i), lanes_load(s->k + i), lanes_load(u2 + i));
+        lanes_store_u(s->cell + i, code);
+        wide = lanes_append(list, wide, lanes_without(lanes_all(), lanes_at_most_u(code, narrow)), i);
+    }
+    for (uint32_t n = 0; n < wide; n++) {
+        uint32_t i = list[n];
+        vndf_window window = vndf_window_from(s->cell[i]);
+        s->cell[i] = vndf_radial_narrow(&d->knots, window, s->c[i], s->k[i], s->target[i]);
     }
 }
 
@@ -40,8 +45,7 @@ VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search 
                                  uint32_t count, int whole)
 {
     const vndf_knots knots = d->knots;
-    for (uint32_t i = 0; i < count; i += VNDF_LANES)
-        vndf_open_windows(d, s, i, lanes_load(u2 + i));
+    vndf_open_windows(d, s, u2, count);
 #pragma GCC unroll 4
     for (uint32_t i = 0; i < count; i++) {
         uint32_t first = s->cell[i];
@@ -50,40 +54,34 @@ VNDF_INLINE void vndf_find_radii(const vndf_distribution *d, vndf_radial_search 
     }
 }
 
-#if VNDF_LANES == 16
-
-/* The last knots with sums of no more than `target` before them, c, k >= 0, where cells are few. Sums ascend, so a
- * window finds the same. */
+/* The last knots with sums of no more than `target` before them, c, k >= 0: among every eighth knot, then among the
+ * seven behind that. Sums ascend, so a window finds the same. */
 VNDF_INLINE lanes_u vndf_find_in_few_cells(const vndf_distribution *d, lanes_f c, lanes_f k, lanes_f target)
 {
-    const float *f0 = d->knots.f0, *f1 = d->knots.f1;
-    lanes_u eighth = lanes_set_u(0);
-    for (uint32_t n = 8; n < d->radial_count; n += 8)
-        eighth = lanes_count(eighth, lanes_at_most(c * f0[n] + k * f1[n], target));
-    lanes_u j = eighth << 3;
-    for (uint32_t step = 4; step > 0; step /= 2) {
-        lanes_u next = j + step;
-        lanes_f sum = c * lanes_of_64(f0, next) + k * lanes_of_64(f1, next);
-        j = lanes_pick_u(lanes_at_most(sum, target), next, j);
+    const uint32_t steps = vndf_step_count(d);
+    const float *f0 = d->few_sums, *f1 = f0 + (VNDF_STEP - 1) * steps;
+    lanes_u step = lanes_set_u(0);
+    for (uint32_t n = VNDF_STEP; n < d->radial_count; n += VNDF_STEP)
+        step = lanes_count(step, lanes_at_most(c * d->knots.f0[n] + k * d->knots.f1[n], target));
+    lanes_u cell = step * VNDF_STEP;
+    for (uint32_t t = 1; t < VNDF_STEP; t++, f0 += steps, f1 += steps) {
+        lanes_f sum = c * lanes_few(f0, VNDF_LANES, step) + k * lanes_few(f1, VNDF_LANES, step);
+        cell = lanes_count(cell, lanes_at_most(sum, target));
     }
-    return j;
+    return cell;
 }
 
-#endif
-
-/* The same for c, k >= 0: in registers, if they hold the sums of all knots. */
+/* The same for c, k >= 0: in registers, if each number of every eighth knot fits one. */
 VNDF_INLINE void vndf_find_radii_in_front(const vndf_distribution *d, vndf_radial_search *s, const float *u2,
                                           uint32_t count)
 {
-#if VNDF_LANES == 16
-    if (d->radial_count <= VNDF_FEW_CELLS) {
-        for (uint32_t i = 0; i < count; i += VNDF_LANES)
-            lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
-                                                              lanes_load(s->target + i)));
+    if (vndf_step_count(d) > VNDF_LANES) {
+        vndf_find_radii(d, s, u2, count, 1);
         return;
     }
-#endif
-    vndf_find_radii(d, s, u2, count, 1);
+    for (uint32_t i = 0; i < count; i += VNDF_LANES)
+        lanes_store_u(s->cell + i, vndf_find_in_few_cells(d, lanes_load(s->c + i), lanes_load(s->k + i),
+                                                          lanes_load(s->target + i)));
 }
 
 VNDF_INLINE void vndf_limit_cells(uint32_t *cell, lanes_u most)

@@ -143,15 +143,15 @@ VNDF_INLINE uint32_t vndf_sort_block(const vndf_distribution *d, const vndf_samp
     float scale = vndf_unit_scale_float(d);
     vndf_stretched_view stretched[VNDF_BLOCK_GROUPS];
     to->is_shared = b->view != NULL;
-    if (b->view)
+    if (b->view) {
         to->shared = vndf_incidence_of(b->view);
-    else
-        vndf_stretch_block(d, b, scale, stretched, from);
-    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
-        if (b->view)
+        for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
             vndf_sort_shared(b, g * VNDF_LANES, to, &from[g], &low, &high);
-        else
-            vndf_sort_group(b, g * VNDF_LANES, scale, &stretched[g], to, &from[g], &low, &high);
+        return low;
+    }
+    vndf_stretch_block(d, b, scale, stretched, from);
+    for (uint32_t g = 0; g * VNDF_LANES < b->count; g++)
+        vndf_sort_group(b, g * VNDF_LANES, scale, &stretched[g], to, &from[g], &low, &high);
     return low;
 }
 

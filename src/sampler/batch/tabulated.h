@@ -100,7 +100,7 @@ VNDF_INLINE void draw_radii(const vndf_distribution *d, const vndf_sorted *from,
     for (uint32_t i = 0, g = 0; i < count; i += VNDF_LANES, g++) {
         vndf_incidence at = vndf_sorted_incidence(from, first + i);
         vndf_radial_lanes cell = vndf_load_cells(d, w->radii.cell + i);
-        w->place[g] = vndf_place_wedge(&at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
+        w->place[g] = vndf_place_wedge(d, &at, &w->bearing[g], &w->law[g], &cell, lanes_load_u(w->radii.cell + i),
                                        lanes_load(u2 + i), &w->trusted[g], weighted ? &w->weight[g] : NULL);
     }
 }

@@ -147,7 +147,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, vndf_window_of(d, b.c, b.k, u), b.c, b.k, u * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u, trusted, weight);
+    vndf_place at = vndf_place_wedge(d, w, &b, &law, &cell, j, u, trusted, weight);
     return drawn_inside(&b, at, edge, trusted);
 }
 

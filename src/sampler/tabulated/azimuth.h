@@ -15,14 +15,19 @@
 #include "sampler/trust.h"
 #include "table/table.h"
 
-/* The weighted sum of three successive rows of a wedge, cell by cell. */
+/* The mass of a row that draws, a square: powers of a cell's mass must not underflow (math/rational_cell.h). */
+#define VNDF_ROW_MASS 64.0f
+#define VNDF_ROW_MASS_ROOT 8.0f
+
+/* The weighted sum of three successive rows of a wedge, cell by cell. Its mass is VNDF_ROW_MASS, and so its weights and
+ * its aspect are as many times as large. */
 typedef struct vndf_azimuth_row {
     const vndf_wedge *wedge;
     lanes_u row;                       /* the first */
     lanes_f first, middle, last, p, r; /* weights; aspect */
 } vndf_azimuth_row;
 
-/* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the row's mass per radian there. */
+/* An azimuth as (c, s)/n, s >= 0, n^2 = c^2 + s^2, and the part of the row's mass per radian there. */
 typedef struct vndf_azimuth {
     lanes_f c, s, n, density;
 } vndf_azimuth;
@@ -70,15 +75,15 @@ VNDF_INLINE lanes_f vndf_azimuth_turned(const vndf_azimuth_row *row, const vndf_
     return 2.0f * row->p * row->r * (1.0f + q2) * cell->width / (c * c + s * s);
 }
 
-/* The azimuth at a place of a cell. Clears *trusted where the density is steep. */
+/* The azimuth at a place of a cell, its c and s times in->under^2. Clears *trusted where the density is steep. */
 VNDF_INLINE vndf_azimuth vndf_azimuth_at(const vndf_azimuth_row *row, const vndf_azimuth_cell *cell,
                                          const vndf_rational_place *in, lanes_m *trusted)
 {
-    lanes_f q = cell->q + in->xi * cell->width;
-    lanes_f c = row->p * (1.0f - q * q), s = row->r * 2.0f * q, n2 = c * c + s * s;
-    lanes_f turn = 2.0f * row->p * row->r * (1.0f + q * q) * cell->width;
-    vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * turn)};
-    *trusted = lanes_both(*trusted, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn, n2));
+    lanes_f under2 = in->under * in->under, q = cell->q * in->under + in->over * cell->width, q2 = q * q;
+    lanes_f c = row->p * (under2 - q2), s = row->r * 2.0f * (q * in->under), n2 = c * c + s * s;
+    lanes_f turn = 2.0f * row->p * row->r * (under2 + q2) * cell->width;
+    vndf_azimuth at = {c, s, lanes_root(n2), in->root * n2 / (in->below * (VNDF_ROW_MASS * turn))};
+    *trusted = lanes_both(*trusted, vndf_trusts_azimuth(vndf_change_at(&cell->cell, in), turn * under2, n2));
     *trusted = lanes_both(*trusted, vndf_trusts_azimuth_density(at.density));
     return at;
 }

@@ -45,7 +45,7 @@ VNDF_INLINE lanes_m vndf_trusts_place_in_cell(const vndf_radial_lanes *at, const
     if (!lanes_any(lanes_without(lanes_all(), at_knots)))
         return lanes_all();
     lanes_m inside = lanes_less(lanes_set(0.0f), at->smooth);
-    lanes_m beside = lanes_without(vndf_is_beside_knot(in->xi), at_knots);
+    lanes_m beside = lanes_without(vndf_is_beside_knot(in->over, in->under), at_knots);
     return lanes_without(lanes_either(inside, vndf_radial_is_trusted(at, cell, in)), beside);
 }
 
@@ -55,22 +55,21 @@ typedef struct vndf_drawn {
     lanes_f x, y, z, density;
 } vndf_drawn;
 
-/* A place in the table, X = x per and Z = z per. The density of the normal is above/below times the third power of its
- * length, since dwm is ax ay X Z^2 dR da over that power. */
+/* A place in the table, (X, Z) of any length. The density of the normal is above/below times the third power of the
+ * normal's, since dwm is ax ay X Z^2 dR da over that power. */
 typedef struct vndf_place {
-    lanes_f x, z, per, above, below;
+    lanes_f x, z, above, below;
 } vndf_place;
 
-/* The normal does not wait for `per`, and there is one division. Clears *trusted where numbers underflow, or overflow
- * as a hostile table may make them. */
+/* Neither division waits for the root. Clears *trusted where numbers underflow, or overflow as a hostile table may make
+ * them. */
 VNDF_INLINE vndf_drawn vndf_drawn_at(const vndf_level *level, const vndf_place *at, lanes_m *trusted)
 {
     lanes_f square = at->x * at->x * level->square + at->z * at->z, root = lanes_root(square);
-    lanes_f product = root * at->below, both = 1.0f / product, per = at->below * both, length = root * at->per;
-    lanes_f density = at->above * (length * length) * (length * (root * both));
+    lanes_f per = root * (1.0f / square), density = at->above * square * (1.0f / at->below) * root;
     vndf_drawn n = {at->x * level->x * per, at->x * level->y * per, at->z * per, density};
     *trusted =
-        lanes_both(*trusted, lanes_both(vndf_trusts_lengths(square, product), vndf_trusts_density(density)));
+        lanes_both(*trusted, lanes_both(vndf_trusts_lengths(square, at->below), vndf_trusts_density(density)));
     return n;
 }
 
@@ -119,9 +118,9 @@ typedef struct vndf_azimuth_range {
 /* |half| is the part of a half turn's mass between straight ahead and the azimuth; `half` = 2 u1 - 1. */
 VNDF_INLINE vndf_azimuth_range vndf_azimuth_range_at(lanes_f front, lanes_f wedge, lanes_f half)
 {
-    lanes_f target = lanes_abs(half) * (front + wedge);
-    lanes_m in_front = lanes_less(target, front);
-    vndf_azimuth_range range = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(target - front, half)};
+    lanes_f target = lanes_abs(half), rest = front * (1.0f - target) - target * wedge; /* wedge comes late */
+    lanes_m in_front = lanes_less(lanes_set(0.0f), rest);
+    vndf_azimuth_range range = {in_front, lanes_pick(in_front, front, wedge), lanes_sign(rest, half)};
     return range;
 }
 
@@ -166,11 +165,10 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_front(const vndf_distributio
     return vndf_azimuth_sample_from(d, w, range, vndf_azimuth_about(d, w, range), u2);
 }
 
-/* X and Z at a place in a cell. */
+/* X and Z at a place in a cell, times in->under. */
 VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_rational_place *in)
 {
-    lanes_f rest = in->under - in->over;
-    vndf_place at = {rest * cell->x0 + in->over * cell->x1, rest * cell->z0 + in->over * cell->z1, in->per_under,
+    vndf_place at = {in->rest * cell->x0 + in->over * cell->x1, in->rest * cell->z0 + in->over * cell->z1,
                      in->root, in->below};
     return at;
 }
@@ -180,10 +178,11 @@ VNDF_INLINE vndf_place vndf_place_in(const vndf_radial_lanes *cell, const vndf_r
 VNDF_INLINE lanes_f vndf_weight_in(const vndf_radial_lanes *cell, const vndf_rational_place *in,
                                    const vndf_place *at, lanes_f c, lanes_f k, lanes_f density)
 {
-    lanes_f xi = in->xi, eta = 1.0f - xi, w = xi * eta, bump = cell->a + cell->b * xi;
+    lanes_f per = 1.0f / in->under, xi = in->over * per, eta = 1.0f - xi, w = xi * eta,
+            bump = cell->a + cell->b * xi;
     lanes_f line = cell->f0 * eta + cell->f1 * xi, f = line + w * bump;
     lanes_f rise = (cell->f1 - cell->f0) + ((eta - xi) * bump + w * cell->b);
-    lanes_f seen = f * ((c * at->z + k * at->x) * at->per) * in->below, drawn = density * in->root;
+    lanes_f seen = f * ((c * at->z + k * at->x) * per) * (in->below * (per * per)), drawn = density * in->root;
     lanes_m follows = vndf_trusts_p22(f, line + w * (lanes_abs(cell->a) + lanes_abs(cell->b)), rise, cell->width,
                                       cell->x1 * cell->z0);
     return lanes_keep(lanes_both(follows, vndf_trusts_drawn(drawn)), seen / drawn);
@@ -195,19 +194,19 @@ VNDF_INLINE vndf_place vndf_place_front(const vndf_distribution *d, const vndf_i
                                         const vndf_azimuth_sample *b, const vndf_radial_lanes *cell, lanes_u j,
                                         lanes_f u2, lanes_m *trusted, lanes_f *weight)
 {
-    vndf_radial_law law = vndf_radial_law_whole(d, b->c, b->k);
+    const float lift = d->lift;
+    vndf_radial_law law = vndf_radial_law_whole(d, lift * b->c, lift * b->k);
     vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
     lanes_f before = vndf_radial_before_whole(&law, cell);
-    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * b->total - before));
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 * (lift * b->total) - before));
     vndf_place at = vndf_place_in(cell, &in);
     *trusted = lanes_both(*trusted, vndf_trusts_normal_in_front(w->s, w->c, b->cosine, at.x, at.z));
     *trusted = lanes_both(*trusted, vndf_trusts_place_in_cell(cell, &in_cell, &in));
     *trusted = lanes_both(*trusted, lanes_at_most_u(j + 3u, lanes_set_u(d->radial_count)));
     *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
     if (weight)
-        *weight = vndf_weight_in(cell, &in, &at, b->c, b->k, lanes_set(1.0f));
-    at.above = in.root;
-    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
+        *weight = vndf_weight_in(cell, &in, &at, law.c, law.k, lanes_set(1.0f));
+    at.below *= (lift * cell->width) * (w->spread * at.x);
     return at;
 }
 
@@ -230,24 +229,26 @@ VNDF_INLINE vndf_azimuth_sample vndf_azimuth_sample_wedge(const vndf_distributio
 }
 
 /* The same in the wedge. */
-VNDF_INLINE vndf_place vndf_place_wedge(const vndf_incidence *w, const vndf_azimuth_sample *b,
-                                        const vndf_radial_law *unscaled, const vndf_radial_lanes *cell, lanes_u j,
-                                        lanes_f u2, lanes_m *trusted, lanes_f *weight)
+VNDF_INLINE vndf_place vndf_place_wedge(const vndf_distribution *d, const vndf_incidence *w,
+                                        const vndf_azimuth_sample *b, const vndf_radial_law *unscaled,
+                                        const vndf_radial_lanes *cell, lanes_u j, lanes_f u2, lanes_m *trusted,
+                                        lanes_f *weight)
 {
-    vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total);
+    const float lift = d->lift;
+    vndf_radial_law law = vndf_radial_scaled(*unscaled, b->total, lift);
     vndf_rational_cell in_cell = vndf_radial_cell_away(&law, cell);
     lanes_f before = vndf_radial_before(&law, cell);
-    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(u2 - before));
+    vndf_rational_place in = vndf_rational_invert(&in_cell, lanes_positive(lift * u2 - before));
     vndf_place at = vndf_place_in(cell, &in);
     *trusted = lanes_both(*trusted, vndf_trusts_normal_in_wedge(w->s, w->c, b->cosine, at.x, at.z));
     *trusted = lanes_both(*trusted, vndf_trusts_place_in_cell(cell, &in_cell, &in));
     *trusted = lanes_both(*trusted, vndf_radial_is_away(&law, j));
     *trusted = lanes_both(*trusted, unscaled->trusted);
     *trusted = lanes_both(*trusted, vndf_trusts_root(in.root));
-    if (weight) /* b->c is n times the direction's */
-        *weight = vndf_weight_in(cell, &in, &at, w->c * b->c, w->c * b->k, b->c * b->density);
-    at.above = b->density * in.root;
-    at.below = in.below * (cell->width * (w->spread * (at.x * at.per)));
+    if (weight) /* b->c is n times the direction's; in.root is lift/total times */
+        *weight = vndf_weight_in(cell, &in, &at, lift * w->c * b->c, lift * w->c * b->k, b->c * b->density);
+    at.above *= b->density;
+    at.below *= (lift * cell->width) * (w->spread * at.x);
     return at;
 }
 

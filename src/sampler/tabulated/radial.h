@@ -111,9 +111,9 @@ VNDF_INLINE lanes_f vndf_radial_before_whole(const vndf_radial_law *law, const v
 }
 
 /* The law scaled from the mass `total` to the mass 1: no square of a mass vanishes where next to nothing is visible. */
-VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total)
+VNDF_INLINE vndf_radial_law vndf_radial_scaled(vndf_radial_law law, lanes_f total, float lift)
 {
-    lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), 1.0f / total);
+    lanes_f scale = lanes_keep(lanes_less(lanes_set(1e-36f), total), lift / total);
     law.c *= scale;
     law.k *= scale;
     return law;

@@ -25,7 +25,7 @@ VNDF_INLINE vndf_drawn draw_in_wedge(const vndf_distribution *d, const vndf_inci
     uint32_t j = vndf_radial_find_one(d, b.code, b.c, b.k, u2 * b.total, 0);
     j = j < law.cut ? j : law.cut;
     vndf_radial_lanes cell = vndf_radial_load(d, j);
-    vndf_place at = vndf_place_wedge(w, &b, &law, &cell, j, u2, trusted, weight);
+    vndf_place at = vndf_place_wedge(d, w, &b, &law, &cell, j, u2, trusted, weight);
     return vndf_drawn_at(&b.level, &at, trusted);
 }
 

@@ -19,10 +19,10 @@ typedef struct vndf_stretched_view {
 VNDF_INLINE vndf_stretched_view vndf_stretched_view_towards(lanes_f x, lanes_f y, lanes_f z, lanes_m *trusted)
 {
     lanes_f across2 = x * x + y * y, across = lanes_root(across2), sum = across + z, none = lanes_set(0.0f);
-    lanes_f per = 1.0f / (across * sum); /* of both at once */
+    lanes_f per = 1.0f / sum, per_across = 1.0f / across;
     *trusted = lanes_both(*trusted, vndf_trusts_direction(across2, z, sum));
-    lanes_f s = across2 * per, c = lanes_pick(*trusted, z * (across * per), lanes_set(0.5f)); /* to be looked up */
-    vndf_stretched_view stretched = {s, c, x * (sum * per), y * (sum * per), none, none, none};
+    lanes_f s = across * per, c = lanes_pick(*trusted, z * per, lanes_set(0.5f)); /* to be looked up */
+    vndf_stretched_view stretched = {s, c, x * per_across, y * per_across, none, none, none};
     return stretched;
 }
 

@@ -2,6 +2,7 @@
 
 #include "sampler/frame.h"
 #include "sampler/nearest.h"
+#include "sampler/tabulated/inverse.h"
 #include "sampler/tabulated/law.h"
 
 /* In double, where float does not do: below the horizon, along z, at extremes. The mass below may underflow, so `wedge`
@@ -61,13 +62,37 @@ void vndf_table_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3
 
 /* ---- inverse ---- */
 
-/* Where some steps of 2^-24 matter and wi sees wm, the search finds numbers that really give wm. */
-void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+/* What inverse.h finds for a view that draws in float. */
+static vndf_inverse inverse_of(const vndf_view *view, vndf_vec3 wm)
+{
+    const struct vndf_table_view *of = &view->of.table;
+    const vndf_inverse_view w = {of->s, of->c, of->front, of->wedge};
+    const vndf_inverse_frame frame = {view->ax, view->ay, of->cos_phi, of->sin_phi};
+    vndf_turned n = vndf_turned_of(&frame, wm.x, wm.y, wm.z);
+    vndf_inverse none = {0.0, 0.0, 0, 0};
+    if (!view->trusted || !vndf_turned_is_valid(&n))
+        return none;
+    return n.x >= 0.0 ? vndf_inverse_in_front(view->distribution, &w, &n)
+                      : vndf_inverse_in_wedge(view->distribution, &w, &n);
+}
+
+/* The same by the exact tier, for every view. Returns whether the numbers are sure. */
+VNDF_RARE int invert_exactly(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     vndf_frame frame = vndf_table_frame(view);
     int sure = vndf_engine_invert(view, vndf_to_unit(&frame, wm), u1, u2);
     *u1 = vndf_clamp_unit(*u1);
     *u2 = vndf_clamp_unit(*u2);
+    return sure;
+}
+
+/* Where some steps of 2^-24 matter and wi sees wm, the search finds numbers that really give wm. */
+void vndf_table_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    vndf_inverse inverse = inverse_of(view, wm);
+    *u1 = (float)inverse.u1;
+    *u2 = (float)inverse.u2;
+    int sure = inverse.trusted ? inverse.sure : invert_exactly(view, wm, u1, u2);
     if (!sure && vndf_exact_dot(view->wi, wm) > 0.0)
         vndf_nearest(view, wm, u1, u2);
 }

@@ -85,12 +85,12 @@ VNDF_INLINE lanes_u vndf_wedge_span(const vndf_wedge *wedge, lanes_f y)
     return vndf_guide_lanes(&wedge->row_guide, y);
 }
 
-/* The row for the coordinate y in span i, whose numbers are `from`. Its mass is 1. */
+/* The row for the coordinate y in span i, whose numbers are `from`. */
 VNDF_INLINE vndf_azimuth_row vndf_wedge_row_from(const vndf_wedge *wedge, lanes_f y, lanes_u i,
                                                  const lanes_four from[2])
 {
     const lanes_four a = from[0], b = from[1]; /* begin, per_width, p, r */
-    lanes_f mix = (y - a.a) * a.b, rest = 1.0f - mix;
+    lanes_f mix = (y - a.a) * (VNDF_ROW_MASS_ROOT * a.b), rest = VNDF_ROW_MASS_ROOT - mix;
     lanes_f u = rest * rest, v = 2.0f * rest * mix, t = mix * mix;
     lanes_f p = u * a.c + v * a.d + t * b.a, r = u * b.b + v * b.c + t * b.d;
     vndf_azimuth_row made = {wedge, i * 2u, u, v, t, p, r};
@@ -124,11 +124,11 @@ VNDF_INLINE vndf_azimuth_row vndf_wedge_row(const vndf_wedge *wedge, lanes_f y)
 }
 
 /* The mass `apart` is counted from the side of wi to an azimuth. The result is the part of the wedge's mass from that
- * azimuth to the far side, a = pi. */
+ * azimuth to the far side, a = pi, of VNDF_ROW_MASS. */
 VNDF_INLINE lanes_f vndf_wedge_part(lanes_f apart, lanes_f mass)
 {
     lanes_f rest = apart / mass;
-    return lanes_keep(lanes_less(rest, lanes_set(1.0f)), 1.0f - rest);
+    return lanes_keep(lanes_less(rest, lanes_set(1.0f)), VNDF_ROW_MASS - VNDF_ROW_MASS * rest);
 }
 
 #endif

@@ -34,6 +34,12 @@ static void fill_one(effects_input *in, const effects_set *set, double theta, ra
         in->u[k] = random_float(stream);
 }
 
+static void pack(effects_block *block)
+{
+    const effects_job job = {.in = block->in, .count = EFFECTS_BLOCK, .arrays = &block->arrays};
+    effects_pack(&job);
+}
+
 void effects_fill(effects_block *block, effects_subject *subject, double theta, uint64_t seed)
 {
     random_stream stream = random_from(seed);
@@ -44,6 +50,7 @@ void effects_fill(effects_block *block, effects_subject *subject, double theta, 
         block->roughness[i] = r;
     }
     subject->roughness = block->roughness;
+    pack(block);
 }
 
 void effects_aim(effects_block *block, const effects_set *set, double theta)
@@ -53,10 +60,11 @@ void effects_aim(effects_block *block, const effects_set *set, double theta)
         wi.z = -wi.z;
     for (size_t i = 0; i < EFFECTS_BLOCK; i++)
         block->in[i].wi = wi;
+    pack(block);
 }
 
 effects_job effects_job_of(effects_block *block, const effects_subject *subject)
 {
-    effects_job job = {subject, block->in, block->out, EFFECTS_BLOCK};
+    effects_job job = {subject, block->in, block->out, EFFECTS_BLOCK, &block->arrays, 0};
     return job;
 }

@@ -3,6 +3,7 @@
  *     open.c          distributions
  *     set.c           the sets of effects, and the materials made of them
  *     run.c           the loops that are timed, with the library
+ *     batch.c         the same over its batch calls
  *     hand.c          bare reflection by hand, as a user would write it over vndf.h
  *     caps.c          the same for GGX without the library
  *     list.c          which sets of which distributions
@@ -27,6 +28,7 @@
 typedef enum effects_kind {
     EFFECTS_LIBRARY, /* vndf_bsdf_at */
     EFFECTS_ROUGH,   /* vndf_bsdf_rough, a roughness for each hit */
+    EFFECTS_BATCH,   /* vndf_bsdf_sample_n and the like */
     EFFECTS_BY_HAND, /* bare reflection written over vndf.h */
     EFFECTS_BY_CAPS, /* bare reflection of GGX written without the library */
     EFFECTS_KINDS
@@ -57,6 +59,15 @@ typedef struct effects_input {
     float u[3];
 } effects_input;
 
+/* The same for batches: wi, wo and u as arrays, and results. */
+enum { EFFECTS_ARRAYS_IN = 9 };
+
+typedef struct effects_arrays {
+    float in[EFFECTS_ARRAYS_IN][EFFECTS_BLOCK], wo[3][EFFECTS_BLOCK], wm[3][EFFECTS_BLOCK];
+    float weight[3][EFFECTS_BLOCK], density[EFFECTS_BLOCK];
+    uint8_t lobe[EFFECTS_BLOCK];
+} effects_arrays;
+
 typedef struct effects_loops effects_loops;
 
 /* A set made ready for one distribution and roughness. Do not copy: hits point to its material. */
@@ -75,7 +86,13 @@ typedef struct effects_job {
     const effects_input *in;
     vndf_scattered *out; /* eval leaves its values in weight, pdf in density */
     size_t count;
+    effects_arrays *arrays; /* of the block, */
+    size_t first;           /* where the job's begin */
 } effects_job;
+
+/* Copies inputs into the arrays, for all sets, and results from there, for those of EFFECTS_BATCH. */
+void effects_pack(const effects_job *job);
+void effects_unpack(const effects_job *job);
 
 typedef void effects_loop(const effects_job *job);
 
@@ -84,7 +101,7 @@ struct effects_loops {
     effects_loop *each, *shared, *eval, *pdf;
 };
 
-extern const effects_loops effects_loops_library, effects_loops_rough;
+extern const effects_loops effects_loops_library, effects_loops_rough, effects_loops_batch;
 extern const effects_loops effects_loops_by_hand, effects_loops_by_caps;
 
 /* VNDF_OK, or why the set cannot be made. */
@@ -100,6 +117,7 @@ typedef struct effects_block {
     effects_input in[EFFECTS_BLOCK];
     vndf_scattered out[EFFECTS_BLOCK];
     vndf_roughness roughness[EFFECTS_BLOCK];
+    effects_arrays arrays;
 } effects_block;
 
 /* Fills a block with the inputs of stream `seed`, the same for all sets except for the side of wi and wo. The
@@ -131,7 +149,7 @@ typedef struct effects_row {
 /* A row without figures. */
 extern const effects_row effects_nothing;
 
-enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8, EFFECTS_ENTRIES_MAX = 48 * EFFECTS_DISTRIBUTIONS_MAX };
+enum { EFFECTS_NONE = -1, EFFECTS_DISTRIBUTIONS_MAX = 8 };
 
 typedef struct effects_entry {
     effects_subject subject;

@@ -9,6 +9,9 @@
 
 static const float variance_alphas[] = {0.2f, 0.5f, 1.0f};
 static const double variance_thetas[] = {0, 30, 60, 85};
+enum {
+    PAIRS = sizeof variance_alphas / sizeof *variance_alphas * (sizeof variance_thetas / sizeof *variance_thetas)
+};
 
 static const char bare_name[] = "bare reflection", bounded_name[] = "bounded normals";
 static const char variance_name[] = "variance";
@@ -143,7 +146,7 @@ static vndf_status make(effects_list *list, const effects_plan *plan, vndf_error
 vndf_status effects_list_make(effects_list *list, const effects_plan *plan, vndf_error *error)
 {
     list->count = 0;
-    list->entry = calloc(EFFECTS_ENTRIES_MAX, sizeof *list->entry);
+    list->entry = calloc(plan->count * (effects_set_count + 2 * PAIRS), sizeof *list->entry);
     if (!list->entry) {
         snprintf(error->message, sizeof error->message, "no memory");
         return VNDF_ERROR_MEMORY;

@@ -9,8 +9,9 @@
 static const char cost_legend[] =
     "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies\n"
     "between quartiles); to bare: ns more than bare reflection in the same turn; shared, eval, pdf: one hit for\n"
-    "256; instr: instructions of hit and sample. Of the weights of one direction: mean, part of samples lost,\n"
-    "largest, variance; eff: 1/(variance ns) over that of the same with visible normals.\n\n";
+    "256; instr: instructions of hit and sample; batch: an element of one call for 1024, or 256 that share a hit,\n"
+    "with the best instructions here. Of the weights of one direction: mean, part of samples lost, largest,\n"
+    "variance; eff: 1/(variance ns) over that of the same with visible normals.\n\n";
 
 static const char variance_legend[] =
     "Bare reflection, the albedo in one direction: variance of the weight with visible normals and with those\n"

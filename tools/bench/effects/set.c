@@ -44,6 +44,11 @@ const effects_set effects_sets[] = {
     {.name = "both lobes, from inside",
      .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC},
      .inside = 1},
+    {.name = "batch: bare reflection", .kind = EFFECTS_BATCH},
+    {.name = "batch: conductor Fresnel", .kind = EFFECTS_BATCH, .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
+    {.name = "batch: both lobes",
+     .kind = EFFECTS_BATCH,
+     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "Turquin", .effects = {.scattering = VNDF_SCATTERING_TURQUIN}},
     {.name = "Kulla & Conty", .effects = {.scattering = VNDF_SCATTERING_KULLA_CONTY}},
     {.name = "walk", .effects = {.scattering = VNDF_SCATTERING_MULTIPLE}},
@@ -68,9 +73,8 @@ const effects_set *effects_find(const char *name)
 static const effects_loops *loops_of(const effects_set *set)
 {
     static const effects_loops *const of[EFFECTS_KINDS] = {
-        [EFFECTS_LIBRARY] = &effects_loops_library,
-        [EFFECTS_ROUGH] = &effects_loops_rough,
-        [EFFECTS_BY_HAND] = &effects_loops_by_hand,
+        [EFFECTS_LIBRARY] = &effects_loops_library, [EFFECTS_ROUGH] = &effects_loops_rough,
+        [EFFECTS_BATCH] = &effects_loops_batch,     [EFFECTS_BY_HAND] = &effects_loops_by_hand,
         [EFFECTS_BY_CAPS] = &effects_loops_by_caps,
     };
     return of[set->kind];

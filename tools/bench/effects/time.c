@@ -25,6 +25,7 @@ static void run_pass(void *user)
     for (size_t first = 0; first < EFFECTS_BLOCK; first += job.count) {
         job.in = p->block->in + first;
         job.out = p->block->out + first;
+        job.first = first;
         p->loop(&job);
     }
 }

@@ -56,15 +56,18 @@ static int share_agrees(const effects_job *job, double tolerance)
 {
     effects_input in[EFFECTS_SHARE];
     vndf_scattered drawn[EFFECTS_SHARE];
-    effects_job again = {job->of, in, job->out, EFFECTS_SHARE};
+    effects_job again = {job->of, in, job->out, EFFECTS_SHARE, job->arrays, job->first};
     job->of->loops->shared(job);
+    effects_unpack(job);
     for (size_t i = 0; i < EFFECTS_SHARE; i++) {
         in[i] = job->in[i];
         drawn[i] = job->out[i];
         in[i].wo = drawn[i].wo;
     }
+    effects_pack(&again);
     job->of->loops->eval(&again);
     job->of->loops->pdf(&again);
+    effects_unpack(&again);
     for (size_t i = 0; i < EFFECTS_SHARE; i++)
         if (!agrees(job->of, &drawn[i], &again.out[i], tolerance))
             return 0;
@@ -79,11 +82,13 @@ void effects_verify(effects_entry *entry, effects_block *block)
     effects_fill(block, &entry->subject, entry->theta, 500);
     effects_job job = effects_job_of(block, &entry->subject);
     entry->subject.loops->each(&job);
+    effects_unpack(&job);
     entry->row.wrong = !are_sane(&entry->subject, block, 0, EFFECTS_BLOCK);
     job.count = EFFECTS_SHARE;
     for (size_t share = 0; share < SHARES && !walks; share++) {
         job.in = block->in + share * EFFECTS_SHARE;
         job.out = block->out + share * EFFECTS_SHARE;
+        job.first = share * EFFECTS_SHARE;
         entry->row.wrong |= !share_agrees(&job, by_hand ? tolerance_by_hand : tolerance_ours);
     }
 }
@@ -123,6 +128,7 @@ static tally weigh(effects_entry *entry, effects_block *block, size_t blocks, ui
         effects_aim(block, entry->subject.set, entry->worth_theta);
         effects_job job = effects_job_of(block, &entry->subject);
         entry->subject.loops->each(&job);
+        effects_unpack(&job);
         for (size_t k = 0; k < EFFECTS_BLOCK; k++)
             add(&t, &block->out[k]);
     }
