@@ -155,6 +155,11 @@ typedef struct vndf_info {
 /* For NULL: empty texts and zeros. */
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
+/* The numbers that the kernels of `vndf export` read of a table, for hosts that bind a buffer of a GPU: writes up to
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are; 0 for a closed form
+ * or NULL. Some 950 for a table of 2 KiB, 8000 for one of 16. tools/export/README.md tells how kernels are used. */
+VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
+
 /* ---- a surface and one incident direction ------------------------------------------------------ */
 
 /* A rough surface: a plain value. alpha_x, alpha_y > 0 scale the slopes of the distribution. */

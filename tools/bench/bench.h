@@ -15,6 +15,7 @@ typedef enum bench_kind {
     BENCH_PUBLISHED, /* others' methods, written from the publications */
     BENCH_CLOSED,    /* our closed forms */
     BENCH_TABLE,     /* our tables */
+    BENCH_EXPORTED,  /* the exported kernel in C */
     BENCH_CALL,      /* other calls of a table of ours (pdf, invert, ndf, lambda): times alone, the rest is NaN */
     BENCH_MOVE       /* moving the bytes of a batch: times alone */
 } bench_kind;

@@ -102,6 +102,7 @@ static void add_ggx(bench_list *list, const bench_plan *plan)
     add(list, plan, BENCH_GGX, method_ggx_2018(), 0);
     add(list, plan, BENCH_GGX, method_ggx_all_normals(), 1);
     add_ours(list, plan, BENCH_GGX, vndf_ggx(), closed_name);
+    add(list, plan, BENCH_GGX, method_exported(vndf_ggx(), closed_name), 0);
     add_surfaces(list, plan, BENCH_GGX, vndf_ggx(), closed_name);
     for (size_t i = 1; i < SETS; i++)
         add(list, plan, BENCH_GGX, method_move(sets[i]), 0);
@@ -148,8 +149,8 @@ static vndf_distribution *build(const bench_clock *at, size_t bytes, vndf_error 
 static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i)
 {
     const char *instructions = "scalar portable avx2 avx512";
-    char name[96];
-    snprintf(name, sizeof name, "%s, batch%s", tables[i].name,
+    char name[112];
+    snprintf(name, sizeof name, "%s, batch, exported C%s", tables[i].name,
              i == DEFAULT_TABLE ? ": sample, weight: pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
@@ -186,6 +187,7 @@ static void keep(bench_list *list, const bench_plan *plan, const vndf_distributi
     }
     list->table[list->table_count++] = table;
     add_ours(list, plan, BENCH_USER, table, tables[i].name);
+    add(list, plan, BENCH_USER, method_exported(table, tables[i].name), 0);
     if (i == DEFAULT_TABLE) {
         add_calls(list, plan, table);
         add_surfaces(list, plan, BENCH_USER, table, tables[i].name);

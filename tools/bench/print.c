@@ -63,7 +63,7 @@ static void shown_columns(text_table *t, const bench_row *r)
 
 static const char *kind_name(bench_kind kind)
 {
-    static const char *const names[] = {"published", "closed", "table", "call", "move"};
+    static const char *const names[] = {"published", "closed", "table", "exported", "call", "move"};
     return names[kind];
 }
 

@@ -103,8 +103,8 @@ static int measure_worth(state *s, size_t i)
             return 0;
         note(s, i, angle, &f);
     }
-    if (e->m.kind == BENCH_TABLE) {
-        vndf_certificate certificate = vndf_distribution_info(e->m.state).certificate;
+    if (e->m.certified) {
+        vndf_certificate certificate = vndf_distribution_info(e->m.certified).certificate;
         note_certificate(&s->list.entry[i].row, &certificate);
     }
     return 1;

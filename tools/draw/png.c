@@ -49,7 +49,7 @@ static void put_chunk(bytes *out, const char name[4], const unsigned char *data,
     put_big_endian(out, crc_of(out->data + start, size + 4));
 }
 
-static void write_base64(FILE *file, const unsigned char *data, size_t size)
+void base64_write(FILE *file, const unsigned char *data, size_t size)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
@@ -166,7 +166,7 @@ int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_
         memcpy(rows + y * (width + 1) + 1, index + y * width, width);
     int good = make_file(&image, rows, width + 1, width, height, palette);
     if (good)
-        write_base64(file, image.data, image.size);
+        base64_write(file, image.data, image.size);
     free(image.data);
     free(rows);
     return good;

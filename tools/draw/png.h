@@ -9,6 +9,9 @@ typedef struct png_colour {
     unsigned char red, green, blue;
 } png_colour;
 
+/* Bytes as text, without line breaks. */
+void base64_write(FILE *file, const unsigned char *data, size_t size);
+
 /* Writes width x height palette indices (rows from the top) as base64; index 0 is transparent. 0 if there is no
  * memory. */
 int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,

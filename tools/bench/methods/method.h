@@ -40,15 +40,16 @@ struct method {
     char name[64];
     const char *instructions;
     bench_kind kind;
-    size_t memory, file_bytes;    /* as in bench_row */
-    const void *state;            /* what was prepared */
-    void (*release)(void *state); /* NULL: the state has another owner */
-    vndf_instructions limit;      /* for batches of ours */
-    method_one *one;              /* NULL: a batch */
-    method_run *each, *shared;    /* shared may be NULL */
-    method_run *same_bits;        /* what `each` must equal to the bit, or NULL */
-    int biased;                   /* it draws with another density than it tells */
-    int turned;                   /* some normals face away from wi */
+    size_t memory, file_bytes;          /* as in bench_row */
+    const void *state;                  /* what was prepared */
+    const vndf_distribution *certified; /* whose certificate says how far it is from the truth, or NULL */
+    void (*release)(void *state);       /* NULL: the state has another owner */
+    vndf_instructions limit;            /* for batches of ours */
+    method_one *one;                    /* NULL: a batch */
+    method_run *each, *shared;          /* shared may be NULL */
+    method_run *same_bits;              /* what `each` must equal to the bit, or NULL */
+    int biased;                         /* it draws with another density than it tells */
+    int turned;                         /* some normals face away from wi */
 };
 
 /* The input of methods for any D: a table so fine that it stands for the reference, and the scale that brings its
@@ -78,6 +79,9 @@ method method_warp(const method_reference *reference, size_t side);
 
 /* Ours: `limit` 0 stands for the scalar calls. */
 method method_ours(const vndf_distribution *distribution, const char *name, vndf_instructions limit);
+
+/* The exported kernel in C, with the numbers of a table, or its GGX. */
+method method_exported(const vndf_distribution *distribution, const char *name);
 
 /* Other calls of a table. */
 typedef enum method_call {

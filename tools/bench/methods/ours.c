@@ -66,6 +66,7 @@ method method_ours(const vndf_distribution *distribution, const char *name, vndf
 {
     method m = ours(distribution, name, limit);
     m.kind = m.memory ? BENCH_TABLE : BENCH_CLOSED;
+    m.certified = m.memory ? distribution : NULL;
     if (limit != VNDF_INSTRUCTIONS_BEST && vndf_instructions_used(limit) != limit)
         return m;
     m.one = limit ? NULL : one;

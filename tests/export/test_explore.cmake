@@ -1,0 +1,175 @@
+# `vndf explore` writes one page that asks the network for nothing and is the same each time, whatever its tables' names
+# are; it refuses wrong use; its shaders are GLSL ES 3.00 by glslang's judgement; and in a headless Chromium what the
+# page draws and measures is right: the density integrates to 1, drawn normals have the mean that it says, none is
+# turned away, the spheres have light on them. Without WebGL2 it says so.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+set(tables ${SOURCE}/tables)
+set(odd_name "a<b>&.vndf")
+if(WIN32)
+    set(odd_name "a'b&.vndf")
+endif()
+configure_file(${tables}/student-t-2.5-small.vndf "${OUT}/${odd_name}" COPYONLY)
+
+# ---- the page -----------------------------------------------------------------------------------
+
+foreach(page one two)
+    answers(0 "" explore ${tables}/hazy.vndf ${odd_name} ${tables}/student-t-2.5.vndf -o ${page}.html)
+endforeach()
+file(SHA256 ${OUT}/one.html one)
+file(SHA256 ${OUT}/two.html two)
+expect("the same tables make two pages" one STREQUAL two)
+file(READ ${OUT}/one.html text)
+has(text "<option value=\"0\">hazy</option>")
+if(NOT WIN32)
+    has(text ">a&lt;b&gt;&amp;</option>")
+endif()
+has(text "const int VNDF_STUDENT_T_2_5 = ")
+has(text "vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {")
+foreach(word "{{" "a<b>")
+    string(FIND "${text}" "${word}" at)
+    expect("the page has '${word}'" at EQUAL -1)
+endforeach()
+foreach(word "http:" "https:" "src=" "url(h" "url(/" "url('" "@import" "import(" "XMLHttp" "<link" "WebSocket")
+    string(FIND "${text}" "${word}" at)
+    expect("the page has '${word}', which may ask the network" at EQUAL -1)
+endforeach()
+
+# The numbers are those of the kernel's buffer.
+find_program(BASE64 base64)
+if(BASE64 AND NOT WIN32)
+    answers(0 "" export ${tables}/hazy.vndf ${odd_name} ${tables}/student-t-2.5.vndf --language glsl
+        --buffer numbers.f32 -o kernel.glsl)
+    string(REGEX MATCH "id=\"numbers\">\n([^<]*)\n</script>" numbers "${text}")
+    file(WRITE ${OUT}/numbers.base64 "${CMAKE_MATCH_1}")
+    execute_process(COMMAND ${BASE64} -d ${OUT}/numbers.base64 OUTPUT_FILE ${OUT}/numbers RESULT_VARIABLE status)
+    file(SHA256 ${OUT}/numbers one)
+    file(SHA256 ${OUT}/numbers.f32 two)
+    expect("the numbers of the page are not those of vndf export" one STREQUAL two)
+endif()
+
+# ---- wrong use ----------------------------------------------------------------------------------
+
+answers(2 "FILE is missing" explore -o none.html)
+answers(2 "-o is missing" explore ${tables}/hazy.vndf)
+answers(2 "missing.vndf" explore missing.vndf -o none.html)
+answers(2 "closed form" explore ggx -o none.html)
+answers(2 "which is taken" explore ${tables}/hazy.vndf ${tables}/hazy.vndf -o none.html)
+answers(2 "--language" explore ${tables}/hazy.vndf --language glsl -o none.html)
+answers(2 "no-such-folder" explore ${tables}/hazy.vndf -o no-such-folder/none.html)
+file(WRITE ${OUT}/broken.vndf "broken")
+answers(2 "broken.vndf" explore broken.vndf -o none.html)
+expect("a refused page was written" NOT EXISTS ${OUT}/none.html)
+answers(0 "example: vndf explore" explore --help)
+
+# ---- shaders ------------------------------------------------------------------------------------
+
+# As gl.js puts them together.
+string(CONCAT head "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+    "uniform sampler2D numbers;\n#define VNDF_FETCH(i) texelFetch(numbers, ivec2((i) & 1023, (i) >> 10), 0).r\n")
+find_program(GLSLANG glslangValidator)
+if(GLSLANG)
+    answers(0 "" export ${tables}/hazy.vndf --language glsl --buffer hazy.f32 -o hazy.glsl)
+    function(validate stage)
+        file(WRITE ${OUT}/shader.${stage} "${head}")
+        foreach(name IN LISTS ARGN)
+            get_filename_component(path ${name} ABSOLUTE BASE_DIR ${SOURCE}/tools/export/page)
+            file(READ ${path} part)
+            file(APPEND ${OUT}/shader.${stage} "${part}")
+        endforeach()
+        execute_process(COMMAND ${GLSLANG} ${OUT}/shader.${stage} RESULT_VARIABLE status OUTPUT_VARIABLE output)
+        if(NOT status EQUAL 0)
+            message(SEND_ERROR "${ARGN} are no shader of GLSL ES 3.00:\n${output}")
+        endif()
+    endfunction()
+    foreach(name heat samples integral curve)
+        validate(frag ${OUT}/hazy.glsl surface.glsl ${name}.glsl)
+    endforeach()
+    validate(frag ${OUT}/hazy.glsl surface.glsl light.glsl sphere.glsl)
+    validate(vert ${OUT}/hazy.glsl surface.glsl dots.vert.glsl)
+    validate(frag show.glsl)
+    validate(frag dots.glsl)
+    validate(vert screen.vert.glsl)
+else()
+    message("no glslangValidator here: the shaders are not judged by it")
+endif()
+
+# ---- in a browser -------------------------------------------------------------------------------
+
+find_program(CHROMIUM NAMES chromium chromium-browser google-chrome)
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+elseif(NOT CHROMIUM)
+    message("SKIPPED: no Chromium here to draw the page with")
+    return()
+endif()
+
+# browse(RESULT OPTIONS...): what a headless Chromium prints.
+function(browse result)
+    execute_process(
+        COMMAND ${CHROMIUM} --headless --no-sandbox --hide-scrollbars --user-data-dir=${OUT}/profile
+            --virtual-time-budget=1000 --window-size=520,700 ${ARGN}
+        OUTPUT_VARIABLE output ERROR_QUIET TIMEOUT 250)
+    set(${result} "${output}" PARENT_SCOPE)
+endfunction()
+set(software --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader)
+
+browse(dom --disable-3d-apis --dump-dom file://${OUT}/one.html)
+if(NOT dom MATCHES "</html>")
+    message("SKIPPED: the Chromium here does not run")
+    return()
+endif()
+expect("the page does not say that WebGL2 is missing" dom MATCHES "This browser has no WebGL2")
+
+# between(LOW NAME HIGH): a number that the page measured.
+macro(between low name high)
+    set(value "nothing")
+    if(measured MATCHES "\"${name}\":([-+.0-9e]+)")
+        set(value ${CMAKE_MATCH_1})
+    endif()
+    expect("${settings}: ${name} is ${value}, not from ${low} to ${high}" value GREATER_EQUAL ${low} AND
+        value LESS_EQUAL ${high})
+endmacro()
+
+foreach(settings
+        "a=hazy&b=ggx&alpha=0.3&theta=60&frames=2"
+        "a=student-t-2.5&b=beckmann&alpha=0.05,0.4&turn=30&theta=80&light=studio&material=red&frames=2")
+    browse(dom ${software} --dump-dom "file://${OUT}/one.html#${settings}")
+    string(REGEX MATCH "data-measured=\"[^\"]*\"" measured "${dom}")
+    string(REPLACE "&quot;" "\"" measured "${measured}")
+    string(REGEX MATCH "id=\"trouble\"[^<]*" trouble "${dom}")
+    if(NOT measured)
+        message(FATAL_ERROR "${settings}: nothing was drawn: ${trouble}")
+    endif()
+    between(2 drawn 2)
+    between(0 error 0)
+    foreach(which a b)
+        between(0.99 ${which}_whole 1.01)
+        between(0.99 ${which}_true_whole 1.01)
+        between(0.995 ${which}_facing_to_density 1.005)
+        between(0 ${which}_faults 0)
+        between(0 ${which}_off 1e-4)
+        between(0.5 ${which}_kept 1)
+        between(0.02 ${which}_light 2)
+        between(0.05 ${which}_spread 2)
+        between(0 ${which}_light_faults 0)
+    endforeach()
+    if(settings MATCHES "alpha=0.3") # what `vndf albedo` says of these two
+        between(0.9841 a_kept 0.9881)
+        between(0.8196 b_kept 0.8236)
+    endif()
+endforeach()
+
+# Pictures take far more bytes than the text that stands there without them.
+browse(output --disable-3d-apis --screenshot=${OUT}/without.png file://${OUT}/one.html)
+browse(output ${software} --screenshot=${OUT}/page.png "file://${OUT}/one.html#a=hazy&light=studio&frames=2")
+file(SIZE ${OUT}/without.png least)
+math(EXPR least "${least} + 50000")
+file(SIZE ${OUT}/page.png bytes)
+expect("the screenshot has only ${bytes} bytes" bytes GREATER ${least})
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

@@ -1,0 +1,206 @@
+/* vndf export: the sampler and tables as one file for another language or processor. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "cli/files.h"
+#include "cli/output.h"
+#include "command.h"
+#include "commands/parts/named_tables.h"
+#include "export/document.h"
+
+static const char name[] = "vndf export";
+
+static const char help[] =
+    "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
+    "\n"
+    "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
+    "sample with density, density of a normal, D, Lambda, G1, G2, projected area; alpha, matrices with mean slopes,\n"
+    "mixtures; directions on either side. It computes in float, without recursion and allocation.\n"
+    "\n"
+    "  --language NAME  the language of OUT\n"
+    "  -o OUT           the file; - for stdout\n"
+    "  --embed          the numbers of the tables stand in OUT (the default); refused where there are too many for\n"
+    "                   the language: opencl and msl 16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
+    "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, as 4 bytes,\n"
+    "                   little-endian (at run time vndf_numbers writes the same)\n"
+    "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
+    "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
+    "  --notice TEXT    a notice for the head of OUT, such as your licence; --notice @FILE takes it from a file\n"
+    "\n"
+    "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
+    "shows what to call from which host.\n"
+    "\n"
+    "exit status: 0 good, 2 wrong use\n"
+    "\n"
+    "example: vndf export tables/student-t-2.5-small.vndf --language glsl -o normals.glsl\n"
+    "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n";
+
+typedef struct export_words {
+    words tables, language, output, embed, buffer, prefix, lobes, notice;
+} export_words;
+
+/* ---- words --------------------------------------------------------------------------------------- */
+
+static int read_language(const export_words *given, export_document *document)
+{
+    const char *wanted = only_word(&given->language);
+    size_t count = 0;
+    while (language_names()[count])
+        count++;
+    document->as.to = wanted ? language_named(wanted) : NULL;
+    if (document->as.to)
+        return 1;
+    const char *hint = wanted ? nearest_word(wanted, language_names(), count) : NULL;
+    if (!wanted)
+        complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl");
+    else if (hint)
+        complain(name, "--language '%s': there is none; did you mean '%s'?", wanted, hint);
+    else
+        complain(name, "--language '%s': c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl are known", wanted);
+    return 0;
+}
+
+enum { NOTICE_MAX = 1 << 16 };
+
+/* The text of a file, or NULL after a complaint. */
+static char *read_notice_file(const char *path)
+{
+    FILE *file = input_named(name, path) ? fopen(path, "rb") : NULL;
+    char *text = file ? malloc(NOTICE_MAX + 1) : NULL;
+    size_t length = text ? fread(text, 1, NOTICE_MAX + 1, file) : 0;
+    int bad = !text || ferror(file) || length > NOTICE_MAX || memchr(text, '\0', length);
+    if (file)
+        fclose(file);
+    if (!bad) {
+        text[length] = '\0';
+        return text;
+    }
+    complain(name, "--notice '@%s': a text file of at most %d bytes is needed", path, NOTICE_MAX);
+    free(text);
+    return NULL;
+}
+
+/* *owned is to be freed. */
+static int read_notice(const export_words *given, export_document *document, char **owned)
+{
+    const char *notice = only_word(&given->notice);
+    document->notice = notice;
+    if (notice && notice[0] == '@')
+        document->notice = *owned = read_notice_file(notice + 1);
+    for (const char *at = document->notice; at && *at; at++)
+        if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t') {
+            complain(name, "--notice: it has a control character");
+            return 0;
+        }
+    return !notice || document->notice;
+}
+
+static int read_settings(const export_words *given, export_document *document)
+{
+    const char *prefix = only_word(&given->prefix);
+    unsigned long long lobes = 4;
+    if (!read_language(given, document))
+        return 0;
+    if (!translation_prefix(&document->as, prefix ? prefix : "vndf")) {
+        complain(name, "--prefix '%s': a lower-case letter, then up to %d letters, digits and '_'", prefix,
+                 PREFIX_MAX - 1);
+        return 0;
+    }
+    if (!option_count(name, "--lobes", &given->lobes, 1, 8, &lobes))
+        return 0;
+    document->lobes = (long)lobes;
+    document->embeds = given->buffer.count == 0;
+    document->as.by_pointer = !document->embeds && document->as.to->buffer == BUFFER_PARAMETER;
+    if (given->embed.count && given->buffer.count) {
+        complain(name, "--embed and --buffer exclude each other");
+        return 0;
+    }
+    if (given->output.count)
+        return 1;
+    complain(name, "-o is missing");
+    return 0;
+}
+
+/* ---- tables --------------------------------------------------------------------------------------- */
+
+static int fits(const export_document *document)
+{
+    const language *as = document->as.to;
+    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+        return 1;
+    complain(name, "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE", document->count, as->title,
+             as->why, as->most_embedded);
+    return 0;
+}
+
+/* ---- work ---------------------------------------------------------------------------------------- */
+
+static int write_raw(const export_document *document, FILE *file)
+{
+    for (size_t i = 0; i < document->count; i++) {
+        unsigned bits;
+        memcpy(&bits, &document->numbers[i], sizeof bits);
+        for (int byte = 0; byte < 4; byte++)
+            if (fputc((int)(bits >> 8 * byte & 255u), file) == EOF)
+                return 0;
+    }
+    return 1;
+}
+
+static int write_all(const export_words *given, const export_document *document)
+{
+    const char *path = only_word(&given->output), *raw = only_word(&given->buffer);
+    output_file text, numbers;
+    if (raw && output_is_stdout(raw))
+        return complain(name, "--buffer '-': a file is needed");
+    if (raw && !output_is_stdout(path) && files_same(path, raw))
+        return complain(name, "--buffer and -o both name '%s'", raw);
+    if (raw && !output_open(&numbers, name, raw))
+        return STATUS_USE;
+    if (!output_open(&text, name, path)) {
+        if (raw)
+            output_discard(&numbers);
+        return STATUS_USE;
+    }
+    if (!document_write(document, text.file) || (raw && !write_raw(document, numbers.file))) {
+        if (raw)
+            output_discard(&numbers);
+        return output_give_up(&text, "no memory, or no place on the disk");
+    }
+    int of_raw = raw ? output_commit(&numbers) : STATUS_GOOD, of_text = output_commit(&text);
+    return of_raw != STATUS_GOOD ? of_raw : of_text;
+}
+
+static int run(const export_words *given, export_document *document)
+{
+    named_tables tables;
+    int status = STATUS_USE;
+    if (named_tables_open(&tables, name, &given->tables, document) && fits(document) &&
+        named_tables_numbers(name, document))
+        status = write_all(given, document);
+    named_tables_close(&tables, document);
+    return status;
+}
+
+int command_export(int argc, char **argv)
+{
+    export_words given = {0};
+    export_document document = {0};
+    char *notice = NULL;
+    const option_form options[] = {
+        {"--language", 1, 1, &given.language}, {"-o", 1, 1, &given.output},       {"--embed", 0, 1, &given.embed},
+        {"--buffer", 1, 1, &given.buffer},     {"--prefix", 1, 1, &given.prefix}, {"--lobes", 1, 1, &given.lobes},
+        {"--notice", 1, 1, &given.notice},
+    };
+    const command_form form = {name,   help, options,          sizeof options / sizeof options[0],
+                               "FILE", 1,    EXPORT_TABLES_MAX};
+    int parsed = parse_arguments(&form, argc, argv, &given.tables);
+    if (parsed != PARSE_GO_ON)
+        return parsed;
+    int good = read_settings(&given, &document) && read_notice(&given, &document, &notice);
+    int status = good ? run(&given, &document) : STATUS_USE;
+    free(notice);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* The file that `vndf export` writes: comments, constants, numbers, kernel. */
+#ifndef TOOLS_EXPORT_DOCUMENT_H
+#define TOOLS_EXPORT_DOCUMENT_H
+
+#include <stdio.h>
+
+#include "export/translate.h"
+#include "vndf.h"
+
+enum { EXPORT_TABLES_MAX = 16 };
+
+typedef struct exported_table {
+    const vndf_distribution *distribution;
+    const char *file;  /* as the user named it */
+    char name[64];     /* its constant, without the prefix: "STUDENT_T_2_5" */
+    size_t base, size; /* of its numbers */
+} exported_table;
+
+typedef struct export_document {
+    translation as;
+    exported_table table[EXPORT_TABLES_MAX];
+    size_t tables, count; /* of tables; of all numbers */
+    float *numbers;
+    const char *notice; /* NULL or text */
+    long lobes;
+    int embeds;
+} export_document;
+
+/* Names the table's constant after its file; 0 if that leaves no name. */
+int document_name_table(exported_table *table);
+
+/* 0 if there is no memory. */
+int document_write(const export_document *document, FILE *to);
+
+#endif

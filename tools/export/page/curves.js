@@ -1,0 +1,58 @@
+// ---- D as curves ----------------------------------------------------------------------------------
+
+const POINTS = 256, DECADES = 6;
+
+function makeCurves(gl, programs) {
+  return {gl, programs, target: makeTarget(gl, POINTS, 1, 1)};
+}
+
+function measureCurve(curves, surface, last) {
+  const {gl, target} = curves;
+  use(gl, curves.programs.curve, {...surface, size: [POINTS, 1], last: last * Math.PI / 180});
+  fill(gl, target);
+  return readTarget(gl, target, 0).filter((_, i) => i % 4 === 0);
+}
+
+// All distributions of the menus: the two chosen in colour, over the others in grey.
+function drawCurves(curves, box, numbers, last) {
+  const all = [...new Set(choices.values())].map((distribution) => ({distribution,
+    values: measureCurve(curves, surfaceOf(numbers, distribution), last)}));
+  const chosen = all.filter(({distribution}) => distribution === settings.a || distribution === settings.b);
+  const highest = Math.max(...chosen.map(({values}) => values.reduce((m, v) => Math.max(m, v), 0)));
+  const top = Math.pow(10, Math.ceil(Math.log10(highest) - 0.05)), width = Math.max(box.clientWidth, 320), height = 300;
+  const left = 52, right = 12, upper = 10, lower = 34;
+  const x = (i) => left + (width - left - right) * i / (POINTS - 1);
+  const y = (v) => upper + (height - upper - lower) * clamped(Math.log10(top / Math.max(v, 1e-30)) / DECADES, 0, 1.2);
+  const path = (values) => "M" + Array.from(values, (v, i) => `${x(i).toFixed(1)},${y(v).toFixed(1)}`).join("L");
+  const rank = ({distribution}) => (distribution === settings.b) + 2 * (distribution === settings.a);
+  const lines = [...all].sort((p, q) => rank(p) - rank(q)).map((line) =>
+    `<path class="line ${["other", "b", "a", "a"][rank(line)]}" d="${path(line.values)}"/>`);
+  const marks = [];
+  for (let i = 0; i <= DECADES; i++) {
+    const at = upper + (height - upper - lower) * i / DECADES, power = Math.round(Math.log10(top)) - i;
+    marks.push(`<line class="grid" x1="${left}" x2="${width - right}" y1="${at}" y2="${at}"/>` +
+      `<text x="${left - 6}" y="${at + 4}" text-anchor="end">10<tspan dy="-5" font-size="9">${power}</tspan></text>`);
+  }
+  for (let i = 0; i <= 6; i++) {
+    const at = x((POINTS - 1) * i / 6);
+    marks.push(`<line class="grid" y1="${upper}" y2="${height - lower}" x1="${at}" x2="${at}"/>` +
+      `<text x="${at}" y="${height - lower + 18}" text-anchor="${i === 6 ? "end" : "middle"}">` +
+      `${Number((last * i / 6).toPrecision(3))}°</text>`);
+  }
+  box.innerHTML = `<svg viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" role="img"` +
+    ` aria-label="D over the angle of the normal"><clipPath id="inside"><rect x="${left}" y="${upper}"` +
+    ` width="${width - left - right}" height="${height - upper - lower}"/></clipPath>${marks.join("")}` +
+    `<g clip-path="url(#inside)">${lines.join("")}</g></svg><p class="legend"></p>`;
+  box.lastChild.append(...legend(all.length > chosen.length));
+}
+
+function legend(has_others) {
+  const keys = [["a", nameOf(settings.a)], ...settings.a === settings.b ? [] : [["b", nameOf(settings.b)]],
+                ...has_others ? [["other", "the others of this page"]] : []];
+  return keys.map(([kind, text]) => {
+    const entry = document.createElement("span");
+    entry.className = `entry ${kind}`;
+    entry.textContent = text;
+    return entry;
+  });
+}

@@ -1,0 +1,168 @@
+// ---- discs, and the figures beside them -----------------------------------------------------------
+
+const SAMPLES = 128, GRID = 256, DOTS = 700;
+const EDGES = [90, 60, 45, 30, 20, 15, 10, 6, 4, 2]; // degrees
+
+// Colours from little to much: those of `vndf plot`, and their like on a dark page.
+const RAMPS = {
+  light: [[250, 251, 247], [205, 232, 206], [120, 198, 186], [44, 140, 180], [26, 79, 142], [10, 26, 74]],
+  dark: [[28, 33, 39], [22, 52, 88], [28, 98, 142], [60, 154, 172], [142, 214, 180], [246, 251, 222]],
+};
+const MARKS = {
+  light: {ink: "#212529", halo: "rgba(255,255,255,.85)", ring: "rgba(73,80,87,.45)", rim: "rgba(73,80,87,.8)", edge: 1},
+  dark: {ink: "#f1f3f5", halo: "rgba(16,19,23,.8)", ring: "rgba(173,181,189,.4)", rim: "rgba(173,181,189,.6)", edge: 0},
+};
+const darkness = matchMedia("(prefers-color-scheme: dark)");
+const theme = () => darkness.matches ? "dark" : "light";
+
+function makeDiscs(gl, programs) {
+  return {gl, programs, samples: makeTarget(gl, SAMPLES, SAMPLES, 2), grid: makeTarget(gl, GRID, GRID, 1)};
+}
+
+function incidentNow() {
+  const angle = settings.theta * Math.PI / 180;
+  return [Math.sin(angle), 0, Math.cos(angle)];
+}
+
+// What many drawn normals say.
+function measureSamples(discs, surface) {
+  const {gl, samples} = discs, angles = [], densities = [];
+  use(gl, discs.programs.samples, {...surface, incident: incidentNow(), size: [SAMPLES, SAMPLES]});
+  fill(gl, samples);
+  const drawn = readTarget(gl, samples, 0), light = readTarget(gl, samples, 1), n = SAMPLES * SAMPLES;
+  const says = {facing: 0, off: 0, kept: 0, faults: 0};
+  for (let i = 0; i < 4 * n; i += 4) {
+    says.facing += drawn[i] / n;
+    densities.push(drawn[i + 1]);
+    angles.push(drawn[i + 2]);
+    says.off = Math.max(says.off, drawn[i + 3]);
+    says.kept += light[i] / n;
+    says.faults += light[i + 2];
+  }
+  const quantile = (values, part) => values.sort((a, b) => a - b)[Math.floor(part * n)];
+  says.angle = quantile(angles, 0.97) * 180 / Math.PI;
+  says.high = quantile(densities, 0.98);
+  says.low = quantile(densities, 0.02);
+  return says;
+}
+
+// What the density itself says.
+function measureDensity(discs, surface) {
+  const {gl, grid} = discs;
+  use(gl, discs.programs.integral, {...surface, incident: incidentNow(), size: [GRID, GRID]});
+  fill(gl, grid);
+  const parts = readTarget(gl, grid, 0), says = {whole: 0, facing: 0, truth: 0};
+  for (let i = 0; i < parts.length; i += 4) {
+    says.whole += parts[i];
+    says.facing += parts[i + 1];
+    says.truth += parts[i + 2];
+  }
+  return says;
+}
+
+const edgeFor = (angle) => settings.whole ? 90 : EDGES.filter((edge) => edge >= angle).pop() || 90;
+
+// The least of 1, 2, 5, 10, ... that is x or more.
+function roundUp(x) {
+  const power = Math.pow(10, Math.floor(Math.log10(x)));
+  return Number((power * [1, 2, 5, 10].find((digit) => digit * power >= x * 0.999)).toPrecision(1));
+}
+
+// Which densities the colours of both discs show: whole decades.
+function scaleOf(...says) {
+  const top = roundUp(Math.max(...says.map(({high}) => high))), low = Math.min(...says.map(({low}) => low));
+  const decades = clamped(Math.ceil(Math.log10(top / low) + 0.5), 2, 7);
+  return {top, decades};
+}
+
+function drawDisc(discs, canvas, surface, edge, scale) {
+  const {gl, programs} = discs, size = pixelsOf(canvas), rim = Math.sin(edge * Math.PI / 360);
+  const tells = {...surface, incident: incidentNow(), size: [size, size], rim, ...scale, seed: 1,
+                 width: size / Math.max(canvas.clientWidth, 1) * 4, stops: RAMPS[theme()].flat().map((v) => v / 255),
+                 edge_colour: Array(3).fill(MARKS[theme()].edge)};
+  sizeForPicture(gl, size);
+  use(gl, programs.heat, tells);
+  fill(gl, null, size, size);
+  if (settings.dots) {
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    use(gl, programs.dots, tells);
+    gl.drawArrays(gl.POINTS, 0, DOTS);
+    gl.disable(gl.BLEND);
+  }
+  drawMarks(copyTo(gl, canvas, size), size, edge);
+}
+
+// Rings at angles, and where the light comes from.
+function drawMarks(context, size, edge) {
+  const half = size / 2, rim = Math.sin(edge * Math.PI / 360), colours = MARKS[theme()];
+  const radius = (degrees) => half * Math.sin(degrees * Math.PI / 360) / rim;
+  const label = (text, x, y) => {
+    context.strokeText(text, x, y);
+    context.fillText(text, x, y);
+  };
+  const points = 10.5 * size / Math.max(context.canvas.clientWidth, 1);
+  context.font = `${points}px ${getComputedStyle(document.documentElement).fontFamily}`;
+  context.textAlign = "center";
+  context.lineJoin = "round";
+  context.lineWidth = points / 12;
+  for (const part of [1 / 3, 2 / 3, 1]) {
+    context.strokeStyle = part < 1 ? colours.ring : colours.rim;
+    context.beginPath();
+    context.arc(half, half, radius(edge * part) - context.lineWidth / 2, 0, 2 * Math.PI);
+    context.stroke();
+  }
+  context.lineWidth = points / 3;
+  context.strokeStyle = colours.halo;
+  context.fillStyle = colours.ink;
+  for (const part of [1 / 3, 2 / 3, 1])
+    label(`${Number((edge * part).toPrecision(2))}°`, half,
+          half - radius(edge * part) + (part < 1 ? points / 3 : 1.3 * points));
+  drawIncident(context, half, settings.theta < 0.95 * edge ? half + radius(settings.theta) : null, points / 3, label);
+}
+
+// A spot where the incident direction is, or an arrow towards it at the edge.
+function drawIncident(context, half, spot, mark, label) {
+  const x = spot === null ? 2 * half - 3.2 * mark : spot;
+  context.beginPath();
+  if (spot === null) {
+    context.moveTo(x + 2.4 * mark, half);
+    context.lineTo(x, half - 1.3 * mark);
+    context.lineTo(x, half + 1.3 * mark);
+    context.closePath();
+  } else {
+    context.arc(x, half, mark, 0, 2 * Math.PI);
+  }
+  context.stroke();
+  context.fill();
+  label("ωi", Math.min(x, 2 * half - 3 * mark), half - 2.2 * mark);
+}
+
+// ---- figures in words -----------------------------------------------------------------------------
+
+const digits = (x, n) => x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5 ? x.toExponential(1) : x.toFixed(n);
+
+function promiseOf(distribution) {
+  if (distribution < 0) return "none: closed form";
+  return `at most ${document.querySelector(`[data-table="${distribution}"]`).dataset.tv}`;
+}
+
+function showFigures(list, distribution, samples, density) {
+  const rows = [
+    ["Mean of ωi·ωm, drawn", digits(samples.facing, 4), "over 16 384 drawn normals"],
+    ["from the density", digits(density.facing, 4), "an integral over the hemisphere"],
+    ["Integral of the density", digits(density.whole, 4), "over the hemisphere: 1 if it is one"],
+    ["Normals turned away", digits(samples.faults, 0), "of 16 384 drawn ones"],
+    ["Drawn density to pdf", samples.off < 1e-7 ? "same" : `±${samples.off.toExponential(0)}`,
+     "the largest relative difference between the density that vndf_sample returns and vndf_pdf: rounding of floats"],
+    ["Light kept by one bounce", `${(100 * samples.kept).toFixed(1)} %`, "the mean of G2/G1"],
+    ["Promised error", promiseOf(distribution), "total variation from the true visible normals, from the certificate"],
+  ];
+  list.replaceChildren(...rows.flatMap(([what, value, why]) => {
+    const name = document.createElement("dt"), says = document.createElement("dd");
+    name.textContent = what;
+    name.title = why;
+    says.textContent = value;
+    return [name, says];
+  }));
+}

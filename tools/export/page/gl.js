@@ -1,0 +1,137 @@
+// ---- WebGL2 ---------------------------------------------------------------------------------------
+
+const byId = (id) => document.getElementById(id);
+const textOf = (id) => byId(id).textContent;
+
+// What the kernel is told before its first line: number i of the tables is a texel.
+const COLUMNS = 1024;
+const HEAD = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+uniform sampler2D numbers;
+#define VNDF_FETCH(i) texelFetch(numbers, ivec2((i) & ${COLUMNS - 1}, (i) >> 10), 0).r
+`;
+
+class Trouble extends Error {}
+
+function openGl() {
+  const gl = document.createElement("canvas").getContext("webgl2", {antialias: false, alpha: true});
+  if (!gl) throw new Trouble("This browser has no WebGL2, which the pictures need. The promises below stand.");
+  if (!gl.getExtension("EXT_color_buffer_float"))
+    throw new Trouble("This browser cannot draw into float textures, which the pictures need. The promises below stand.");
+  return gl;
+}
+
+// Little-endian floats in base64.
+function readNumbers(text) {
+  const bytes = Uint8Array.from(atob(text.replace(/\s+/g, "")), (c) => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer), numbers = new Float32Array(bytes.length / 4);
+  for (let i = 0; i < numbers.length; i++) numbers[i] = view.getFloat32(4 * i, true);
+  return numbers;
+}
+
+function makeTexture(gl, format, width, height, values) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+  for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+  gl.texImage2D(gl.TEXTURE_2D, 0, format, width, height, 0, format === gl.R32F ? gl.RED : gl.RGBA, gl.FLOAT, values);
+  return texture;
+}
+
+function tableTexture(gl, numbers) {
+  const rows = Math.ceil(numbers.length / COLUMNS), padded = new Float32Array(COLUMNS * rows);
+  if (rows > gl.getParameter(gl.MAX_TEXTURE_SIZE))
+    throw new Trouble("These tables are too large for a texture of this browser: make the page with fewer of them.");
+  padded.set(numbers);
+  return makeTexture(gl, gl.R32F, COLUMNS, rows, padded);
+}
+
+function compile(gl, kind, text) {
+  const shader = gl.createShader(kind);
+  gl.shaderSource(shader, text);
+  gl.compileShader(shader);
+  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
+    throw new Trouble("This browser refuses a shader of the page: " + gl.getShaderInfoLog(shader));
+  return shader;
+}
+
+// A program of files of the page; those that sample have the kernel before them.
+function makeProgram(gl, vertex, fragment) {
+  const whole = (names) => HEAD + names.map((name) => textOf(name)).join("\n");
+  const program = gl.createProgram();
+  gl.attachShader(program, compile(gl, gl.VERTEX_SHADER, whole(vertex)));
+  gl.attachShader(program, compile(gl, gl.FRAGMENT_SHADER, whole(fragment)));
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+    throw new Trouble("This browser refuses a shader of the page: " + gl.getProgramInfoLog(program));
+  const kinds = new Map();
+  for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
+    const {name, type} = gl.getActiveUniform(program, i);
+    kinds.set(name.replace("[0]", ""), [gl.getUniformLocation(program, name), type]);
+  }
+  return {program, kinds};
+}
+
+// Sets the uniforms that the program has; a texture is given as [unit, texture].
+function use(gl, {program, kinds}, values) {
+  gl.useProgram(program);
+  for (const [name, value] of Object.entries(values)) {
+    if (!kinds.has(name)) continue;
+    const [place, kind] = kinds.get(name);
+    if (kind === gl.SAMPLER_2D) {
+      gl.activeTexture(gl.TEXTURE0 + value[0]);
+      gl.bindTexture(gl.TEXTURE_2D, value[1]);
+      gl.uniform1i(place, value[0]);
+    } else if (kind === gl.INT || kind === gl.BOOL) gl.uniform1i(place, value);
+    else if (kind === gl.FLOAT) gl.uniform1f(place, value);
+    else if (kind === gl.FLOAT_VEC3) gl.uniform3fv(place, value);
+    else gl[`uniform${value.length}f`](place, ...value);
+  }
+}
+
+// A target of `count` textures of four floats.
+function makeTarget(gl, width, height, count) {
+  const target = {width, height, textures: [], buffer: gl.createFramebuffer()};
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
+  for (let i = 0; i < count; i++) {
+    target.textures.push(makeTexture(gl, gl.RGBA32F, width, height, null));
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, target.textures[i], 0);
+  }
+  gl.drawBuffers(target.textures.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
+  return target;
+}
+
+function freeTarget(gl, target) {
+  target.textures.forEach((texture) => gl.deleteTexture(texture));
+  gl.deleteFramebuffer(target.buffer);
+}
+
+// Draws over the whole target, or over the page's canvas in a size.
+function fill(gl, target, width, height) {
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.buffer : null);
+  gl.viewport(0, 0, target ? target.width : width, target ? target.height : height);
+  gl.drawArrays(gl.TRIANGLES, 0, 3);
+}
+
+function readTarget(gl, target, which) {
+  const values = new Float32Array(4 * target.width * target.height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
+  gl.readBuffer(gl.COLOR_ATTACHMENT0 + which);
+  gl.readPixels(0, 0, target.width, target.height, gl.RGBA, gl.FLOAT, values);
+  return values;
+}
+
+// The canvas of WebGL is never shown: its pictures are copied to those of the page.
+function sizeForPicture(gl, size) {
+  if (gl.canvas.width !== size) gl.canvas.width = gl.canvas.height = size;
+}
+
+function copyTo(gl, canvas, size) {
+  if (canvas.width !== size) canvas.width = canvas.height = size;
+  const context = canvas.getContext("2d");
+  context.clearRect(0, 0, size, size);
+  context.drawImage(gl.canvas, 0, 0);
+  return context;
+}

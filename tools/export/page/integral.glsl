@@ -1,0 +1,20 @@
+// The density on a grid over all slopes, times the solid angle of a cell.
+uniform vec3 incident;
+uniform vec2 size;
+out vec4 part; // of the integral of the density, of facing times it, and of the true visible normals
+
+void main() {
+    vec2 t = gl_FragCoord.xy / size;
+    float r = t.x / (1.0 - t.x);
+    float phi = 2.0 * PI * t.y;
+    vndf_surface m = vndf_surface_scaled(surface_here());
+    vec2 unit = r * vec2(cos(phi), sin(phi));
+    vec3 long_normal = vec3(m.xx * unit.x + m.xy * unit.y, m.yx * unit.x + m.yy * unit.y, 1.0);
+    float per = 1.0 / length(long_normal);
+    vec3 wm = long_normal * per;
+    float area = r / ((1.0 - t.x) * (1.0 - t.x)) * 2.0 * PI / (size.x * size.y);
+    area = area * vndf_determinant(m) * per * per * per;
+    vndf_view view = vndf_view_of(surface_here(), incident);
+    float mass = vndf_pdf(view, wm) * area;
+    part = vec4(mass, mass * max(dot(incident, wm), 0.0), vndf_visible(view, wm) * area, 0.0);
+}

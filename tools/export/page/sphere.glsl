@@ -1,0 +1,122 @@
+// A sphere that reflects once: visible normals are drawn with vndf_sample, and the lamp with vndf_visible; each kind
+// of sample is weighted by the densities of both (Veach & Guibas 1995), for which vndf_pdf is needed.
+
+uniform highp sampler2D before; // the sums of the samples so far
+uniform bool first;
+uniform vec2 size;  // pixels
+uniform vec2 pixel_step, normal_step, lamp_step, base_step; // from one sample to the next
+uniform int material; // 0 gold, 1 copper, 2 silver, 3 red plastic, 4 black plastic
+out vec4 sum;
+
+// The mirror's colour at the cosine c.
+vec3 mirror(float c) {
+    float up = 1.0 - clamp(c, 0.0, 1.0);
+    float power = up * up * up * up * up;
+    if (material >= 3) {
+        float g = sqrt(1.25 + c * c); // eta 1.5
+        float a = (g - c) / (g + c);
+        float b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+        return vec3(0.5 * a * a * (1.0 + b * b));
+    }
+    vec3 front = vec3(0.972, 0.96, 0.915);
+    front = material == 0 ? vec3(1.022, 0.782, 0.344) : front;
+    front = material == 1 ? vec3(0.955, 0.638, 0.538) : front;
+    return front + (vec3(1.0) - front) * power;
+}
+
+// Of a plastic, below its mirror.
+vec3 base_colour() {
+    return material == 3 ? vec3(0.52, 0.03, 0.025) : vec3(0.012);
+}
+
+// A direction in the frame of the sphere's point: its normal is z, and x runs around the sphere.
+struct frame {
+    vec3 x, y, z;
+};
+
+vec3 local(frame f, vec3 w) {
+    return vec3(dot(w, f.x), dot(w, f.y), dot(w, f.z));
+}
+
+vec3 world(frame f, vec3 w) {
+    return w.x * f.x + w.y * f.y + w.z * f.z;
+}
+
+// The light of one sample through the mirror: of a drawn normal, or of the lamp.
+vec3 mirrored(frame f, vndf_view view, bool from_lamp, vec2 u) {
+    vec3 to = from_lamp ? lamp_direction(u) : vec3(0.0);
+    vec3 wo = local(f, to);
+    vec3 wm = normalize(view.wi + wo);
+    if (!from_lamp) {
+        wm = vndf_sample(view, u.x, u.y).wm;
+        wo = 2.0 * dot(view.wi, wm) * wm - view.wi;
+        to = world(f, wo);
+    }
+    if (wo.z <= 0.0) {
+        return vec3(0.0);
+    }
+    bool hits = from_lamp || hits_lamp(to);
+    float facing = dot(view.wi, wm);
+    vec3 comes = from_lamp ? vec3(0.0) : wide_light(to);
+    if (hits) {
+        float density = vndf_pdf(view, wm) / (4.0 * facing);
+        float value = from_lamp ? vndf_visible(view, wm) / (4.0 * facing) : density;
+        comes += shine * (value / (density + lamp_density()));
+    }
+    return comes * mirror(facing) * light_kept(view, wo);
+}
+
+// One sample of the lamp on the base of a plastic.
+vec3 lamp_on_base(frame f, vec3 wi, vec2 u) {
+    vec3 wo = local(f, lamp_direction(u));
+    vec3 passes = (vec3(1.0) - mirror(wi.z)) * (vec3(1.0) - mirror(wo.z)) * base_colour() / PI;
+    return shine * passes * max(wo.z, 0.0) / lamp_density();
+}
+
+// One sample of the wide light on the base of a plastic.
+vec3 of_base(frame f, vec3 wi, vec2 u) {
+    float r = sqrt(u.x);
+    vec3 wo = vec3(r * cos(2.0 * PI * u.y), r * sin(2.0 * PI * u.y), sqrt(1.0 - u.x));
+    vec3 passes = (vec3(1.0) - mirror(wi.z)) * (vec3(1.0) - mirror(wo.z)) * base_colour();
+    return passes * wide_light(world(f, wo));
+}
+
+vec3 seen(vec3 eye, vec3 d, vec2 u_normal, vec2 u_lamp, vec2 u_base) {
+    float b = dot(eye, d);
+    float root = b * b - dot(eye, eye) + 1.0;
+    if (root <= 0.0) {
+        return min(wide_light(d), vec3(2.0)) * (light == 3 ? 1.0 : 0.6);
+    }
+    vec3 z = normalize(eye - d * (b + sqrt(root)));
+    vec3 x = normalize(cross(vec3(0.0, 1.0, 1e-4), z));
+    frame f = frame(x, cross(z, x), z);
+    vec3 wi = local(f, -d);
+    wi.z = max(wi.z, 1e-3);
+    vndf_view view = vndf_view_of(surface_here(), normalize(wi));
+    vec3 gets = vec3(0.0);
+    for (int kind = 0; kind < 2; kind += 1) {
+        gets += mirrored(f, view, kind == 1, kind == 1 ? u_lamp : u_normal);
+    }
+    if (material >= 3) {
+        gets += of_base(f, view.wi, u_base) + lamp_on_base(f, view.wi, u_lamp);
+    }
+    return gets;
+}
+
+void main() {
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    vec3 a = random_at(uvec3(pixel, 1u));
+    vec3 b = random_at(uvec3(pixel, 2u));
+    vec2 jitter = fract(a.xy + pixel_step) - 0.5;
+    vec2 p = (2.0 * (gl_FragCoord.xy + jitter) - size) / size.y;
+    vec3 eye = vec3(0.0, 1.1, 4.9);
+    vec3 ahead = normalize(-eye);
+    vec3 right = normalize(cross(ahead, vec3(0.0, 1.0, 0.0)));
+    vec3 d = normalize(ahead + 0.245 * (p.x * right + p.y * cross(right, ahead)));
+    vec3 gets = seen(eye, d, fract(vec2(a.z, b.x) + normal_step), fract(b.yz + lamp_step),
+                     fract(vec2(a.y, b.x) + base_step));
+    sum = vec4(gets, 1.0);
+    if (!first) {
+        sum += texelFetch(before, ivec2(gl_FragCoord.xy), 0);
+    }
+}

@@ -1,0 +1,70 @@
+// ---- spheres --------------------------------------------------------------------------------------
+
+const ENOUGH = 1024; // samples of a pixel
+
+// Lamps: direction, angle of their edge, radiance; and how bright the picture is.
+const LAMPS = [
+  {to: [-0.52, 0.62, 0.58], edge: 2.5, shine: [330, 300, 255], exposure: 0.72},
+  {to: [0.35, 0.75, 0.55], edge: 9, shine: [24, 23, 22], exposure: 0.9},
+  {to: [-0.5, 0.55, 0.65], edge: 1.5, shine: [1900, 1800, 1650], exposure: 0.8},
+  {to: [0, 1, 0], edge: 10, shine: [0, 0, 0], exposure: 0.8},
+];
+
+// Steps that fill squares evenly: multiples of powers of one over the root of x^9 = x + 1 (Roberts 2018).
+const STEPS = (() => {
+  let root = 1.1;
+  for (let i = 0; i < 60; i++) root = Math.pow(1 + root, 1 / 9);
+  return Array.from({length: 8}, (_, i) => Math.pow(root, -1 - i));
+})();
+
+function makeSphere(gl, programs, canvas) {
+  return {gl, programs, canvas, targets: [], drawn: 0, size: 0};
+}
+
+function lampNow(light) {
+  const {to, edge, shine} = LAMPS[light], length = Math.hypot(...to), angle = settings.around * Math.PI / 180;
+  const [x, y, z] = to.map((v) => v / length), c = Math.cos(angle), s = Math.sin(angle);
+  return {lamp: [c * x + s * z, y, c * z - s * x, Math.cos(edge * Math.PI / 180)], shine};
+}
+
+function fitSphere(sphere, size) {
+  if (size === sphere.size) return;
+  sphere.targets.forEach((target) => freeTarget(sphere.gl, target));
+  sphere.targets = [0, 1].map(() => makeTarget(sphere.gl, size, size, 1));
+  sphere.size = size;
+  sphere.drawn = 0;
+}
+
+// One more sample of each pixel.
+function refineSphere(sphere, surface) {
+  const {gl, size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
+  const step = (i) => [(n * STEPS[i]) % 1, (n * STEPS[i + 1]) % 1];
+  const from = sphere.targets[n % 2], to = sphere.targets[1 - n % 2];
+  use(gl, sphere.programs.sphere, {...surface, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
+    around: settings.around * Math.PI / 180, before: [1, from.textures[0]], first: n === 0, size: [size, size],
+    normal_step: step(0), pixel_step: step(2), lamp_step: step(4), base_step: step(6)});
+  fill(gl, to);
+  sphere.drawn = n + 1;
+}
+
+function showSphere(sphere) {
+  const {gl, size} = sphere, sums = sphere.targets[sphere.drawn % 2].textures[0];
+  sizeForPicture(gl, size);
+  use(gl, sphere.programs.show, {sums: [1, sums], exposure: LAMPS[LIGHTS.indexOf(settings.light)].exposure});
+  fill(gl, null, size, size);
+  copyTo(gl, sphere.canvas, size);
+}
+
+// Mean and spread of the picture's light, and how many of its pixels are no light.
+function lightOf(sphere) {
+  const sums = readTarget(sphere.gl, sphere.targets[sphere.drawn % 2], 0);
+  let count = 0, sum = 0, squares = 0, faults = 0;
+  for (let i = 0; i < sums.length; i += 4, count++) {
+    const y = Math.min((0.2126 * sums[i] + 0.7152 * sums[i + 1] + 0.0722 * sums[i + 2]) / sphere.drawn, 4);
+    faults += !(y >= 0);
+    sum += y;
+    squares += y * y;
+  }
+  const mean = sum / count;
+  return {mean, spread: Math.sqrt(Math.max(squares / count - mean * mean, 0)), faults};
+}
