@@ -1,5 +1,8 @@
-/* Lanes search their cells one sample after the other, each search in eight knots at once. It goes over a block after
- * all its samples are stored: to read singly what a vector has just stored, or the other way round, takes a wait. */
+/* Lanes search their cells side by side where registers hold what they search through: rows of azimuths in most tables,
+ * radial cells in small ones. Else they search one sample after the other, each in eight knots at once, after all
+ * samples of a block are stored: to read singly what a vector has just stored, or the other way round, takes a wait.
+ * Searches have loops of their own, since a processor that waits for one group takes up the next only if a loop is
+ * short. */
 #ifndef VNDF_SAMPLER_BATCH_SEARCH_H
 #define VNDF_SAMPLER_BATCH_SEARCH_H
 
