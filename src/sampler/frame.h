@@ -41,15 +41,6 @@ VNDF_INLINE vndf_vec3 vndf_to_unit(const vndf_frame *f, vndf_vec3 wm)
     return n;
 }
 
-/* The same in double, as if cos_phi^2 + sin_phi^2 were 1. */
-VNDF_INLINE vndf_normal vndf_normal_to_unit(const vndf_frame *f, vndf_vec3 wm)
-{
-    double a = f->cos_phi, b = f->sin_phi, per = 1.0 / (a * a + b * b);
-    double x = wm.x * per / f->alpha_x, y = wm.y * per / f->alpha_y;
-    vndf_normal n = {a * x + b * y, a * y - b * x, wm.z};
-    return n;
-}
-
 /* The real normal for a normal of the unit problem; the result is not of unit length. */
 VNDF_INLINE vndf_vec3 vndf_from_unit(const vndf_frame *f, vndf_vec3 n)
 {

@@ -94,9 +94,10 @@ VNDF_INLINE lanes_m lanes_at_most_u(lanes_u a, lanes_u b)
     return _mm512_cmple_epu32_mask((__m512i)a, (__m512i)b);
 }
 
+/* No intrinsic: gcc makes one masked comparison of a comparison and this. */
 VNDF_INLINE lanes_m lanes_both(lanes_m a, lanes_m b)
 {
-    return _kand_mask16(a, b);
+    return (lanes_m)(a & b);
 }
 
 VNDF_INLINE lanes_m lanes_either(lanes_m a, lanes_m b)

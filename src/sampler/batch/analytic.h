@@ -14,13 +14,13 @@ VNDF_INLINE vndf_ggx_incidence ggx_incidence_at(const vndf_sample_block *b, uint
                                    lanes_load(b->wi_y + i), lanes_load(b->wi_z + i));
 }
 
-/* Groups that take each step in turn: fewer wait for roots and divisions, more push the batch out of the cache. */
+/* Groups that take each step in turn: fewer would wait for roots and divisions, more push the batch out of the
+ * cache. */
 enum { GGX_GROUPS = 8 };
 
 typedef struct ggx_work {
     vndf_ggx_incidence at[GGX_GROUPS];
     vndf_ggx_cap cap[GGX_GROUPS];
-    vndf_ggx_stretched m[GGX_GROUPS];
     lanes_m trusted[GGX_GROUPS];
 } ggx_work;
 
@@ -36,24 +36,38 @@ VNDF_INLINE void ggx_leave(vndf_sample_block *b, const ggx_work *w, const vndf_g
     }
 }
 
-/* Draws groups from sample `first` on. */
+/* The second step of group g. */
+VNDF_INLINE vndf_ggx_stretched ggx_stretch(ggx_work *w, const vndf_ggx_incidence *one, uint32_t g)
+{
+    return vndf_ggx_stretched_at(one ? one : &w->at[g], &w->cap[g], &w->trusted[g]);
+}
+
+/* The last step of the group from sample i on. */
+VNDF_INLINE void ggx_finish(vndf_sample_block *b, const vndf_ggx_stretched *m, uint32_t i)
+{
+    vndf_drawn n = vndf_ggx_drawn(m);
+    vndf_block_store(b, i, &n);
+}
+
+/* Draws groups from sample `first` on. The last step of one stands beside the second of the next. */
 VNDF_INLINE void draw_ggx_groups(vndf_sample_block *b, ggx_work *w, const vndf_ggx_incidence *one, uint32_t first,
                                  uint32_t groups)
 {
     const float *u1 = b->u1 + first, *u2 = b->u2 + first;
-    lanes_m trusted = lanes_all();
     for (uint32_t g = 0; g < groups && !one; g++)
         w->at[g] = ggx_incidence_at(b, first + g * VNDF_LANES);
     for (uint32_t g = 0; g < groups; g++)
         w->cap[g] = vndf_ggx_cap_at(one ? one : &w->at[g], vndf_block_u(u1 + g * VNDF_LANES),
                                     vndf_block_u(u2 + g * VNDF_LANES));
-    for (uint32_t g = 0; g < groups; g++)
-        w->m[g] = vndf_ggx_stretched_at(one ? one : &w->at[g], &w->cap[g], &w->trusted[g]);
-    for (uint32_t g = 0; g < groups; g++) {
-        vndf_drawn n = vndf_ggx_drawn(&w->m[g]);
-        vndf_block_store(b, first + g * VNDF_LANES, &n);
+    vndf_ggx_stretched m = ggx_stretch(w, one, 0);
+    lanes_m trusted = w->trusted[0];
+    for (uint32_t g = 1; g < groups; g++) {
+        vndf_ggx_stretched next = ggx_stretch(w, one, g);
         trusted = lanes_both(trusted, w->trusted[g]);
+        ggx_finish(b, &m, first + (g - 1) * VNDF_LANES);
+        m = next;
     }
+    ggx_finish(b, &m, first + (groups - 1) * VNDF_LANES);
     if (lanes_any(lanes_without(lanes_all(), trusted)))
         ggx_leave(b, w, one, first, groups);
 }

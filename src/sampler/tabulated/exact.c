@@ -7,8 +7,9 @@
  *
  * for the normal (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z), whatever the stretch; s is the level length of the
  * stretched direction before per_length brings it to s + |c| = 1. This file serves every normal, and the builder of
- * tables; density.h and density_wedge.h evaluate most normals, in lanes too. The relative error is below 1e-5 of the
- * density that the numbers of the file define, wherever that exceeds 1e-30 (test float_accuracy). */
+ * tables; density.h and density_wedge.h evaluate most normals, and inverse.h inverts them, in lanes too. The relative
+ * error is below 1e-5 of the density that the numbers of the file define, wherever that exceeds 1e-30 (test
+ * float_accuracy). */
 #include "sampler/tabulated/exact.h"
 
 #include "math/vector.h"
