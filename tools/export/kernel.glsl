@@ -544,35 +544,46 @@ float vndf_beckmann_exponent(vndf_beckmann_law law, float x, float d) {
     return vndf_pick(law.bound < 1.25, d * (d - 2.0 * law.bound), x * x);
 }
 
-// The distance d to begin with for the part u of the mass.
-float vndf_beckmann_start(vndf_beckmann_law law, float u) {
+// A slope x and its distance d = bound - x: each with its own digits, since d is tiny or x far below the bound.
+struct vndf_beckmann_slope {
+    float x, d;
+};
+
+// The slope to begin with for the part u of the mass.
+vndf_beckmann_slope vndf_beckmann_start(vndf_beckmann_law law, float u) {
     float rho2 = -log(u);
     float m = sqrt(law.whole * rho2);
+    float d = 0.0;
     if (law.bound <= 0.0) {
         float b = sqrt(0.055 + 0.865 * law.whole);
         float more = rho2 - 2.0 * law.bound * m / (1.0 + b * sqrt(rho2));
-        return more / (sqrt(law.bound * law.bound + more) - law.bound);
+        d = more / (sqrt(law.bound * law.bound + more) - law.bound);
+        return vndf_beckmann_slope(law.bound - d, d);
     }
     if (law.bound < 1.25) {
-        return m * (1.0 + 0.8 * sqrt(rho2)) / (1.0 + 0.8 * m);
+        d = m * (1.0 + 0.8 * sqrt(rho2)) / (1.0 + 0.8 * m);
+        return vndf_beckmann_slope(law.bound - d, d);
     }
     float h = 0.5 / law.bound;
     float q = vndf_erf_quantile(min(u * law.whole / law.rise, 0.9999999)) - h;
     float e = 1.0 + 0.7 * h * abs(q);
-    float d = law.bound - q * e / (e + h * h);
+    float x = q * e / (e + h * h);
+    d = law.bound - x;
     if (d < 0.7 && law.bound < 6.0) {
         float l = vndf_log_one_plus(law.bound * m * exp(0.5 * law.bound * law.bound) / 1.5);
-        return 1.5 / law.bound * l * (1.0 - vndf_log_one_plus(l) / (2.0 + l));
+        d = 1.5 / law.bound * l * (1.0 - vndf_log_one_plus(l) / (2.0 + l));
+        x = law.bound - d;
     }
-    return d;
+    return vndf_beckmann_slope(x, d);
 }
 
 // Three of Householder's steps of order four, held inside the law.
-float vndf_beckmann_draw(vndf_beckmann_law law, float part) {
+vndf_beckmann_slope vndf_beckmann_draw(vndf_beckmann_law law, float part) {
     float u = clamp(part, 1e-19, 0.99999994);
-    float d = vndf_beckmann_start(law, u);
+    vndf_beckmann_slope slope = vndf_beckmann_start(law, u);
     for (int i = 0; i < 3; i += 1) {
-        float x = law.bound - d;
+        float x = slope.x;
+        float d = slope.d;
         float rest = vndf_erfc_rest(abs(x));
         float right = vndf_pick(x > 0.0, 1.0, 0.0);
         float have = (rest + d * (1.0 - 2.0 * right)) / (rest + abs(x));
@@ -582,9 +593,11 @@ float vndf_beckmann_draw(vndf_beckmann_law law, float part) {
         float third = 4.0 * x * (1.0 / d + x) - 2.0;
         float under = 1.0 + h * (h * third / 6.0 - second);
         float shift = vndf_pick(under > 0.0, vndf_ratio(h * (1.0 - 0.5 * h * second), under), h);
-        d = d + clamp(shift, -0.5 * d, 1.0);
+        float change = clamp(shift, -0.5 * d, 1.0);
+        slope.x = x - change;
+        slope.d = d + change;
     }
-    return d;
+    return slope;
 }
 
 // ---- surfaces and views -----------------------------------------------------------------------------
@@ -740,11 +753,10 @@ vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {
     }
     if (view.surface.distribution == VNDF_BECKMANN) {
         vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
-        float d = vndf_beckmann_draw(law, u1);
-        float x = law.bound - d;
+        vndf_beckmann_slope slope = vndf_beckmann_draw(law, u1);
         float y = vndf_erf_quantile(clamp(u2, 1e-19, 0.99999994));
-        float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, x, d) - y * y) * d / law.whole;
-        return vndf_sampled_at(view, vec3(-x, -y, 1.0), density);
+        float exponent = vndf_beckmann_exponent(law, slope.x, slope.d) + y * y;
+        return vndf_sampled_at(view, vec3(-slope.x, -y, 1.0), 1.12837917 * exp(-exponent) * slope.d / law.whole);
     }
     return vndf_table_sample(view, u1, u2);
 }
