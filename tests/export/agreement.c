@@ -13,9 +13,9 @@ static const double below = -0.6427876;
 
 const char *agreement_name(int id)
 {
-    static const char *const names[AGREEMENT_COUNT] = {"sampled", "repeated", "pdf",    "visible",
-                                                       "ndf",     "area",     "lambda", "g1",
-                                                       "g2",      "normal",   "mixed",  "mixed again"};
+    static const char *const names[AGREEMENT_COUNT] = {
+        "sampled", "repeated", "pdf",    "visible", "ndf",         "area",        "lambda",
+        "g1",      "g2",       "normal", "mixed",   "mixed again", "mixed normal"};
     return names[id];
 }
 
@@ -198,6 +198,7 @@ static void measure(const exported_question *q, const exported_answer *answer, c
     d[AGREEMENT_NORMAL] = known(distance(q, wm, vndf_affine_sample(&view, q->u1, q->u2, NULL)));
     d[AGREEMENT_MIXED] = relative((double)answer->mixed_sampled, both);
     d[AGREEMENT_MIXED_REPEATED] = relative((double)answer->mixed_pdf, (double)answer->mixed_sampled);
+    d[AGREEMENT_MIXED_NORMAL] = known(distance(q, mixed, vndf_mixture_sample(&lobes, q->u1, q->u2, NULL, NULL)));
 }
 
 void agreement_note(agreement *a, const exported_subjects *subjects, const exported_question *q,
@@ -255,7 +256,8 @@ static const limit limits[AGREEMENT_REGIONS][AGREEMENT_COUNT] = {
                          [AGREEMENT_G2] = {4e-7, 1e-6},
                          [AGREEMENT_NORMAL] = {2e-5, 2e-3},
                          [AGREEMENT_MIXED] = {2e-5, 1e-3},
-                         [AGREEMENT_MIXED_REPEATED] = {1e-5, 1e-3}},
+                         [AGREEMENT_MIXED_REPEATED] = {1e-5, 1e-3},
+                         [AGREEMENT_MIXED_NORMAL] = {2e-4, 2.1}},
     [AGREEMENT_BELOW] = {[AGREEMENT_SAMPLED] = {1e-4, 5e-3},
                          [AGREEMENT_REPEATED] = {1e-4, 5e-3},
                          [AGREEMENT_PDF] = {1e-4, 5e-3},
@@ -267,7 +269,8 @@ static const limit limits[AGREEMENT_REGIONS][AGREEMENT_COUNT] = {
                          [AGREEMENT_G2] = {1e-9, 1e-9},
                          [AGREEMENT_NORMAL] = {2e-5, 2e-3},
                          [AGREEMENT_MIXED] = {3e-5, 1e-3},
-                         [AGREEMENT_MIXED_REPEATED] = {3e-5, 1e-3}},
+                         [AGREEMENT_MIXED_REPEATED] = {3e-5, 1e-3},
+                         [AGREEMENT_MIXED_NORMAL] = {2e-4, 2.1}},
     [AGREEMENT_TURNED] = {[AGREEMENT_SAMPLED] = {2e-3, 1e-2},
                           [AGREEMENT_REPEATED] = {2e-3, 1e-2},
                           [AGREEMENT_PDF] = {1e-3, 1e-2},
@@ -279,7 +282,8 @@ static const limit limits[AGREEMENT_REGIONS][AGREEMENT_COUNT] = {
                           [AGREEMENT_G2] = {1e-5, 1e-4},
                           [AGREEMENT_NORMAL] = {2e-5, 2e-3},
                           [AGREEMENT_MIXED] = {2e-3, 1e-2},
-                          [AGREEMENT_MIXED_REPEATED] = {2e-3, 1e-2}},
+                          [AGREEMENT_MIXED_REPEATED] = {2e-3, 1e-2},
+                          [AGREEMENT_MIXED_NORMAL] = {2e-4, 2.1}},
     [AGREEMENT_EDGES] = {[AGREEMENT_AREA] = {2e-5, 3e-5},
                          [AGREEMENT_LAMBDA] = {5e-7, 1e-6},
                          [AGREEMENT_G1] = {3e-7, 1e-6},

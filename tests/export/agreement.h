@@ -31,6 +31,7 @@ typedef enum agreement_id {
     AGREEMENT_NORMAL, /* distance to the library's normal of the same numbers, slopes over the larger roughness */
     AGREEMENT_MIXED,  /* the density of the normal of two lobes, to vndf_mixture_pdf */
     AGREEMENT_MIXED_REPEATED,
+    AGREEMENT_MIXED_NORMAL, /* as AGREEMENT_NORMAL; where lobes meet, a rounding draws from the other */
     AGREEMENT_COUNT
 } agreement_id;
 
