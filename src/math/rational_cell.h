@@ -41,8 +41,8 @@ VNDF_INLINE lanes_f vndf_rational_density(const vndf_rational_cell *cell, lanes_
 }
 
 /* A place in a cell: xi = over/under, 1 - xi = rest/under, and the mass per unit of xi there, root under^2/below.
- * Callers form these quotients together with their own, or do without. `below` is of the fifth degree in the cell's
- * mass, and underflows where that is 1e-8. */
+ * Callers form these quotients together with their own, or do without. `below` grows with the fifth power of the cell's
+ * mass, and underflows where that is 1e-8: callers keep masses near 1. */
 typedef struct vndf_rational_place {
     lanes_f over, rest, under, root, below;
 } vndf_rational_place;
@@ -58,8 +58,8 @@ VNDF_INLINE vndf_rational_place vndf_rational_invert(const vndf_rational_cell *c
     t = lanes_least(t, m); /* beyond the end the root would not be the density */
     lanes_f sum = cell->e0 + cell->e1, twice = 2.0f * t * m, left = 2.0f * m * (m - t);
     lanes_f middle = cell->e0 * m - t * sum;
-    lanes_f root = lanes_root(middle * middle + twice * left);       /* never below |middle|, though rounded */
-    lanes_m rising = lanes_at_most(lanes_set(0.0f), middle + twice); /* no branch: nearly always */
+    lanes_f root = lanes_root(middle * middle + twice * left);       /* rounded, but not below |middle| */
+    lanes_m rising = lanes_at_most(lanes_set(0.0f), middle + twice); /* nearly always */
     lanes_f over = lanes_pick(rising, twice, root - middle), rest = lanes_pick(rising, root + middle, left);
     lanes_f under = over + rest;
     vndf_rational_place place = {over, rest, under, root, m * (under * under) + (sum - 2.0f * m) * (over * rest)};
