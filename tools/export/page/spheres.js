@@ -5,7 +5,7 @@ const ENOUGH = 1024; // samples of a pixel
 // Lamps: direction, angle of their edge, radiance; and how bright the picture is.
 const LAMPS = [
   {to: [-0.52, 0.62, 0.58], edge: 2.5, shine: [330, 300, 255], exposure: 0.72},
-  {to: [0.35, 0.75, 0.55], edge: 9, shine: [24, 23, 22], exposure: 0.9},
+  {to: [0.35, 0.75, 0.55], edge: 9, shine: [18, 17, 16], exposure: 1.05},
   {to: [-0.5, 0.55, 0.65], edge: 1.5, shine: [1900, 1800, 1650], exposure: 0.8},
   {to: [0, 1, 0], edge: 10, shine: [0, 0, 0], exposure: 0.8},
 ];
