@@ -33,8 +33,10 @@ static void put_name(FILE *to, const exported_table *table)
 static int put_choices(const export_document *document, FILE *to)
 {
     for (size_t i = 0; i < document->tables; i++) {
-        fprintf(to, "<option value=\"%zu\">", document->table[i].base);
-        put_name(to, &document->table[i]);
+        const exported_table *table = &document->table[i];
+        fprintf(to, "<option value=\"%zu\" data-median=\"%.6g\">", table->base,
+                vndf_distribution_info(table->distribution).scale);
+        put_name(to, table);
         fputs("</option>\n", to);
     }
     return 1;

@@ -19,7 +19,8 @@ function openGl() {
   const gl = document.createElement("canvas").getContext("webgl2", {antialias: false, alpha: true});
   if (!gl) throw new Trouble("This browser has no WebGL2, which the pictures need. The promises below stand.");
   if (!gl.getExtension("EXT_color_buffer_float"))
-    throw new Trouble("This browser cannot draw into float textures, which the pictures need. The promises below stand.");
+    throw new Trouble("This browser cannot draw into float textures, which the pictures need. " +
+                      "The promises below stand.");
   return gl;
 }
 

@@ -44,7 +44,7 @@ vec3 studio(vec3 d) {
     float left = board(d, normalize(vec3(-0.85, 0.45, 0.35)), vec2(0.42, 0.62));
     float right = board(d, normalize(vec3(0.95, 0.1, 0.1)), vec2(0.14, 0.9));
     float above = board(d, normalize(vec3(0.12, 0.93, -0.3)), vec2(0.7, 0.16));
-    return wall + left * vec3(5.0, 4.7, 4.3) + right * vec3(3.2, 3.8, 4.8) + above * vec3(3.0);
+    return wall + left * vec3(3.0, 2.8, 2.6) + right * vec3(2.0, 2.4, 3.0) + above * vec3(2.0);
 }
 
 // Without the lamp.

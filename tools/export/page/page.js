@@ -52,11 +52,13 @@ function drawStill(page) {
   page.stale = false;
 }
 
-function drawSpheres(page, samples) {
+// A fresh picture begins with as many samples as the address asks for; each later frame adds one.
+function drawSpheres(page) {
   for (const name of ["a", "b"]) {
     const sphere = page.spheres[name];
     fitSphere(sphere, pixelsOf(sphere.canvas));
     if (sphere.drawn >= ENOUGH) continue;
+    const samples = sphere.drawn === 0 ? Math.max(settings.frames, 1) : 1;
     for (let i = 0; i < samples; i++) refineSphere(sphere, surfaceIn(page, name));
     showSphere(sphere);
   }
@@ -102,13 +104,14 @@ function attempt(work) {
 function run(page) {
   const changed = (spheres) => {
     page.stale = true;
+    settings.frames = 0;
     if (spheres) for (const sphere of Object.values(page.spheres)) sphere.drawn = 0;
     writeAddress();
   };
   const frame = () => attempt(() => {
     if (page.gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
     if (page.stale) drawStill(page);
-    drawSpheres(page, 1);
+    drawSpheres(page);
     requestAnimationFrame(frame);
   });
   listen(changed);
@@ -122,7 +125,7 @@ function run(page) {
   });
   if (settings.frames > 0) {
     drawStill(page);
-    drawSpheres(page, settings.frames);
+    drawSpheres(page);
     tell(page);
   }
   requestAnimationFrame(frame);

@@ -4,7 +4,7 @@ const LIGHTS = ["sky", "studio", "lamp", "white"], MATERIALS = ["gold", "copper"
 const LEAST_ALPHA = 0.02;
 
 const settings = {a: 0, b: -1, alpha: [0.2, 0.2], turn: 0, theta: 60, material: "gold", light: "sky", around: 0,
-                  whole: false, dots: true, tied: true, frames: 0};
+                  whole: false, dots: true, tied: true, median: false, frames: 0};
 
 // A slider goes over equal ratios of alpha.
 const alphaAt = (place) => LEAST_ALPHA * Math.pow(1 / LEAST_ALPHA, place);
@@ -14,8 +14,8 @@ const clamped = (x, low, high) => Math.min(Math.max(x, low), high);
 
 // Distributions by name: what stands in the menus.
 const choices = new Map([...byId("choice-a").options].map((o) => [o.textContent.toLowerCase(), Number(o.value)]));
-const nameOf = (distribution) =>
-  [...byId("choice-a").options].find((o) => Number(o.value) === distribution).textContent;
+const optionOf = (distribution) => [...byId("choice-a").options].find((o) => Number(o.value) === distribution);
+const nameOf = (distribution) => optionOf(distribution).textContent;
 
 const numberIn = (text, low, high, otherwise) =>
   text !== "" && Number.isFinite(Number(text)) ? clamped(Number(text), low, high) : otherwise;
@@ -36,6 +36,7 @@ const readers = {
   frames: (text) => { settings.frames = numberIn(text, 0, 4096, 0); },
   material: (text) => { if (MATERIALS.includes(text)) settings.material = text; },
   light: (text) => { if (LIGHTS.includes(text)) settings.light = text; },
+  median: (text) => { settings.median = text === "1"; },
   whole: (text) => { settings.whole = text === "1"; },
   dots: (text) => { settings.dots = text !== "0"; },
 };
@@ -48,8 +49,8 @@ function readAddress() {
 function writeAddress() {
   const words = [["a", nameOf(settings.a)], ["b", nameOf(settings.b)], ["alpha", settings.alpha.join(",")],
                  ["turn", settings.turn], ["theta", settings.theta], ["around", Math.round(settings.around)],
-                 ["material", settings.material], ["light", settings.light], ["whole", Number(settings.whole)],
-                 ["dots", Number(settings.dots)]];
+                 ["material", settings.material], ["light", settings.light],
+                 ...["median", "whole", "dots"].map((name) => [name, Number(settings[name])])];
   const text = words.map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%2C/g, ",")}`).join("&");
   try {
     history.replaceState(null, "", "#" + text);
@@ -68,7 +69,7 @@ function showSettings() {
   byId("theta").value = settings.theta;
   byId("theta-says").textContent = `${settings.theta}°`;
   for (const name of ["material", "light"]) byId(name).value = settings[name];
-  for (const name of ["tied", "whole", "dots"]) byId(name).checked = settings[name];
+  for (const name of ["tied", "median", "whole", "dots"]) byId(name).checked = settings[name];
   byId("choice-a").value = settings.a;
   byId("choice-b").value = settings.b;
 }
@@ -89,6 +90,7 @@ function listen(changed) {
     settings.tied = box.checked;
     if (settings.tied) settings.alpha[1] = settings.alpha[0];
   });
+  on("median", "change", true, (box) => { settings.median = box.checked; });
   on("turn", "input", true, (slider) => { settings.turn = Number(slider.value); });
   on("theta", "input", false, (slider) => { settings.theta = Number(slider.value); });
   for (const name of ["material", "light"]) on(name, "change", true, (menu) => { settings[name] = menu.value; });
@@ -98,5 +100,8 @@ function listen(changed) {
 }
 
 // What every shader is told of the surface.
-const surfaceOf = (numbers, distribution) => ({numbers: [0, numbers], distribution, alpha: settings.alpha,
-                                               turn: settings.turn * Math.PI / 180});
+function surfaceOf(numbers, distribution) {
+  const scale = settings.median ? 1 / Number(optionOf(distribution).dataset.median) : 1;
+  return {numbers: [0, numbers], distribution, alpha: settings.alpha.map((alpha) => scale * alpha),
+          turn: settings.turn * Math.PI / 180};
+}

@@ -5,17 +5,18 @@ const ENOUGH = 1024; // samples of a pixel
 // Lamps: direction, angle of their edge, radiance; and how bright the picture is.
 const LAMPS = [
   {to: [-0.52, 0.62, 0.58], edge: 2.5, shine: [330, 300, 255], exposure: 0.72},
-  {to: [0.35, 0.75, 0.55], edge: 9, shine: [24, 23, 22], exposure: 0.9},
+  {to: [0.35, 0.75, 0.55], edge: 9, shine: [18, 17, 16], exposure: 1.05},
   {to: [-0.5, 0.55, 0.65], edge: 1.5, shine: [1900, 1800, 1650], exposure: 0.8},
   {to: [0, 1, 0], edge: 10, shine: [0, 0, 0], exposure: 0.8},
 ];
 
-// Steps that fill squares evenly: multiples of powers of one over the root of x^9 = x + 1 (Roberts 2018).
-const STEPS = (() => {
-  let root = 1.1;
-  for (let i = 0; i < 60; i++) root = Math.pow(1 + root, 1 / 9);
-  return Array.from({length: 8}, (_, i) => Math.pow(root, -1 - i));
-})();
+// Steps from one sample of a pixel to the next. Those of the normals fill their square most evenly (Roberts 2018).
+const STEPS = {
+  normal_step: [0.7548776662466927, 0.5698402909980532],
+  lamp_step: [Math.SQRT2 % 1, Math.sqrt(3) % 1],
+  pixel_step: [Math.sqrt(5) % 1, Math.sqrt(7) % 1],
+  base_step: [Math.sqrt(11) % 1, Math.sqrt(13) % 1],
+};
 
 function makeSphere(gl, programs, canvas) {
   return {gl, programs, canvas, targets: [], drawn: 0, size: 0};
@@ -38,11 +39,11 @@ function fitSphere(sphere, size) {
 // One more sample of each pixel.
 function refineSphere(sphere, surface) {
   const {gl, size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
-  const step = (i) => [(n * STEPS[i]) % 1, (n * STEPS[i + 1]) % 1];
+  const steps = Object.fromEntries(Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]));
   const from = sphere.targets[n % 2], to = sphere.targets[1 - n % 2];
   use(gl, sphere.programs.sphere, {...surface, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
     around: settings.around * Math.PI / 180, before: [1, from.textures[0]], first: n === 0, size: [size, size],
-    normal_step: step(0), pixel_step: step(2), lamp_step: step(4), base_step: step(6)});
+    ...steps});
   fill(gl, to);
   sphere.drawn = n + 1;
 }
