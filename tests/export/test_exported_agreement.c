@@ -28,7 +28,7 @@ int main(void)
     exported_subjects subjects;
     if (TEST(exported_load_shipped(&subjects)))
         for (int i = 0; i < subjects.count + 2; i++)
-            test_subject(&subjects, i, test_amount(2000, 16000, 1000000));
+            test_subject(&subjects, i, test_amount(2000, 16000, 100000));
     TEST(subjects.count >= 15);
     exported_free(&subjects);
     return test_done();

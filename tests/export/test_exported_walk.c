@@ -93,7 +93,7 @@ int main(void)
     for (int i = 0; loaded && i < subjects.count + 2; i++)
         for (int r = 0; r < ROUGHNESSES; r++)
             for (int a = 0; a < ANGLES; a++)
-                test_view(&subjects, i, roughnesses[r], angles[a], test_amount(500, 3000, 20000));
+                test_view(&subjects, i, roughnesses[r], angles[a], test_amount(500, 3000, 10000));
     exported_free(&subjects);
     return test_done();
 }
