@@ -15,7 +15,8 @@ separate_arguments(arithmetic UNIX_COMMAND "${ARITHMETIC}")
 function(warn_not what sources)
     list(LENGTH sources count)
     execute_process(COMMAND ${C_COMPILER} -std=c11 -O0 -fsyntax-only -Werror ${warnings} ${ARGN}
-            -I${SOURCE}/include -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests ${sources}
+            -I${SOURCE}/include -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests -I${BUILD}/exported
+            ${sources}
         RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT status EQUAL 0 OR count LESS 50)
         message(SEND_ERROR "${what}, ${count} files:\n${output}")
