@@ -24,7 +24,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, size
     stress_result result = {0};
     if (!TEST(d != NULL))
         return;
-    stress_run(d, test_amount(37, every == 1 ? 19 : 37, every), 1, &result);
+    stress_run(d, test_amount(37, every == 1 ? 19 : 37, 2 * every), 1, &result);
     fprintf(stderr, "%-50s %6lu bytes, %lu samples, density repeated within %.2g\n", name,
             (unsigned long)vndf_distribution_info(d).bytes, (unsigned long)result.samples,
             result.found[STRESS_REPEATED].worst);

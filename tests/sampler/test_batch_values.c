@@ -151,7 +151,7 @@ static size_t differences(kind which, const vndf_batch *b, numbers *given, const
 
 static void test_call(kind which, const vndf_distribution *d, const char *name, vndf_instructions limit)
 {
-    static const size_t counts[] = {0, 1, 2, 7, 15, 17, 255, 256, 257, COUNT_MOST - 1};
+    const size_t counts[] = {0, 1, 2, 7, 15, 17, 255, 256, 257, test_amount(1500, COUNT_MOST - 1, COUNT_MOST - 1)};
     static numbers given, made;
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         fill(&given, d, counts[c] + 1, 99 + c);

@@ -76,24 +76,26 @@ static double adaptive(const integrand *f, const double x[2], const double y[2],
 }
 
 /* Where a bin is cut first: towards neighbours that are much narrower, and where nothing was found in it towards those
- * that hold something. What is there may reach into it by less than the points of a rule are apart. Returns how many
- * parts there are. */
+ * that hold something, more finely. What is there may reach into it by less than the points of a rule are apart.
+ * Returns how many parts there are. */
 enum { CUTS = 7, WIDE = 8 };
 
-static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int before, int after)
+static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int before, int after, int finely)
 {
     double from = border[i], to = border[i + 1], width = to - from;
     size_t parts = 0;
     cut[parts++] = from;
     if (before) {
-        cut[parts++] = from + width / 8192;
+        if (finely)
+            cut[parts++] = from + width / 8192;
         cut[parts++] = from + width / 512;
         cut[parts++] = from + width / 32;
     }
     if (after) {
         cut[parts++] = to - width / 32;
         cut[parts++] = to - width / 512;
-        cut[parts++] = to - width / 8192;
+        if (finely)
+            cut[parts++] = to - width / 8192;
     }
     cut[parts] = to;
     return parts;
@@ -127,12 +129,12 @@ static sides held_sides(const grid *g, size_t row, size_t column)
                    column > 0 && here[-1] > 0, column + 1 < g->columns && here[1] > 0};
 }
 
-static double expect_bin(const grid *g, const integrand *f, size_t i, sides towards, double allowed)
+static double expect_bin(const grid *g, const integrand *f, size_t i, sides towards, int finely, double allowed)
 {
     double x[CUTS + 1], y[CUTS + 1], sum = 0;
     size_t row = i / g->columns, column = i % g->columns;
-    size_t rows = cut_bin(x, g->x, row, towards.below, towards.above),
-           columns = cut_bin(y, g->y, column, towards.left, towards.right);
+    size_t rows = cut_bin(x, g->x, row, towards.below, towards.above, finely),
+           columns = cut_bin(y, g->y, column, towards.left, towards.right, finely);
     for (size_t part = 0; part < rows * columns; part++) {
         const double *at = x + part / columns, *along = y + part % columns;
         sum += adaptive(f, at, along, rule(f, at, along), allowed, DEPTH);
@@ -151,7 +153,7 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
             int is_empty = !(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]);
             int is_missed = again && (towards.below || towards.above || towards.left || towards.right);
             if (!is_empty && (!again || (g->expected[i] <= 0 && is_missed)))
-                g->expected[i] = samples * expect_bin(g, &f, i, towards, allowed);
+                g->expected[i] = samples * expect_bin(g, &f, i, towards, again, allowed);
         }
     for (size_t i = 0; i < grid_elsewhere(g); i++)
         mass += g->expected[i] / samples;
