@@ -5,6 +5,7 @@
 #include "bsdf/batch/block.h"
 #include "bsdf/terms/masking.h"
 #include "math/vector.h"
+#include "sampler/batch/batch.h"
 
 /* 1 where the build compiles lanes. */
 #ifndef VNDF_HAS_LANES
@@ -83,18 +84,6 @@ VNDF_INLINE int vndf_elements_have_lanes(const vndf_bsdf_batch *b)
            vndf_instructions_used(b->limit) != VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-/* An array of a block: in place, or copied where lanes cannot read it there, as a number that all elements share,
- * and the last block of a batch, whose last group would read past the end. */
-VNDF_INLINE const float *vndf_block_input(const float *from, int is_shared, size_t first, uint32_t count,
-                                          float *copy)
-{
-    if (!is_shared && count == VNDF_HIT_BLOCK)
-        return from + first;
-    for (uint32_t i = 0; i < VNDF_HIT_BLOCK && !(is_shared && first > 0); i++)
-        copy[i] = is_shared ? from[0] : i < count ? from[first + i] : 0.0f;
-    return copy;
-}
-
 /* The inputs of the hits. */
 VNDF_INLINE void vndf_block_hits(const vndf_bsdf_batch *b, size_t first, uint32_t count, const float **in,
                                  float (*copy)[VNDF_HIT_BLOCK])
@@ -104,7 +93,8 @@ VNDF_INLINE void vndf_block_hits(const vndf_bsdf_batch *b, size_t first, uint32_
     const float *from[VNDF_HIT_INPUTS] = {b->alpha_x ? b->alpha_x : &r->alpha_x,
                                           b->alpha_x ? b->alpha_y : &r->alpha_y, b->wi_x, b->wi_y, b->wi_z};
     for (int n = 0; n < VNDF_HIT_INPUTS; n++)
-        in[n] = vndf_block_input(from[n], n <= VNDF_HIT_ALPHA_Y ? alpha : wi, first, count, copy[n]);
+        in[n] =
+            vndf_batch_input(from[n], n <= VNDF_HIT_ALPHA_Y ? alpha : wi, first, count, VNDF_HIT_BLOCK, copy[n]);
 }
 
 #endif

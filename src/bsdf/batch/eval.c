@@ -44,7 +44,7 @@ static void look_one_by_one(const call *c)
 
 #if VNDF_HAS_LANES
 
-/* Copies of inputs (elements.h). Results of the last block wait here. */
+/* Copies of inputs (vndf_batch_input). Results of the last block wait here. */
 typedef struct copies {
     float of[VNDF_LOOK_INPUTS][VNDF_HIT_BLOCK], value[VNDF_WAVELENGTHS][VNDF_HIT_BLOCK], pdf[VNDF_HIT_BLOCK];
 } copies;
@@ -54,7 +54,8 @@ static void read_block(vndf_look_block *block, const call *c, size_t first, copi
     const float *wo[3] = {c->wo.x, c->wo.y, c->wo.z};
     vndf_block_hits(c->batch, first, block->count, block->in, own->of);
     for (int n = VNDF_LOOK_WO_X; n <= VNDF_LOOK_WO_Z; n++)
-        block->in[n] = vndf_block_input(wo[n - VNDF_LOOK_WO_X], 0, first, block->count, own->of[n]);
+        block->in[n] =
+            vndf_batch_input(wo[n - VNDF_LOOK_WO_X], 0, first, block->count, VNDF_HIT_BLOCK, own->of[n]);
 }
 
 /* Where a block writes its results: in place, or into the copies. */
@@ -81,16 +82,14 @@ static void move_results(const vndf_look_block *block, const call *c, size_t fir
 /* Answers for the elements that lanes have left. */
 static void look_at_left(const vndf_look_block *block, const call *c, size_t first)
 {
+    uint32_t left[VNDF_HIT_BLOCK], count = vndf_list_samples(&block->left, block->count, left);
     vndf_bsdf own;
-    for (uint32_t n = 0; n < block->count; n += 32)
-        for (uint32_t bits = block->left.of[n / 32]; bits != 0; bits &= bits - 1) {
-            uint32_t i = n + (uint32_t)__builtin_ctz(bits);
-            if (i >= block->count)
-                break;
-            if (!block->hit)
-                vndf_element_hit(&own, c->batch, first + i);
-            look_at(c, block->hit ? block->hit : &own, first + i, c->value ? block->value : NULL, block->pdf, i);
-        }
+    for (uint32_t n = 0; n < count; n++) {
+        uint32_t i = left[n];
+        if (!block->hit)
+            vndf_element_hit(&own, c->batch, first + i);
+        look_at(c, block->hit ? block->hit : &own, first + i, c->value ? block->value : NULL, block->pdf, i);
+    }
 }
 
 static void look_in_lanes(const call *c)

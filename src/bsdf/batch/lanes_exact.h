@@ -15,18 +15,6 @@ typedef struct vndf_exact_samples {
     float part[VNDF_WAVELENGTHS][VNDF_HIT_BLOCK];
 } vndf_exact_samples;
 
-VNDF_INLINE uint32_t vndf_list_bits(const vndf_sample_bits *bits, uint32_t end, uint32_t *to)
-{
-    uint32_t count = 0;
-    for (uint32_t n = 0; n < end; n += 32)
-        for (uint32_t rest = bits->of[n / 32]; rest != 0; rest &= rest - 1) {
-            uint32_t i = n + (uint32_t)__builtin_ctz(rest);
-            if (i < end)
-                to[count++] = i;
-        }
-    return count;
-}
-
 /* Sample n of the block becomes number i. */
 VNDF_INLINE void vndf_gather_exact(const vndf_scatter_block *b, uint32_t n, const float *area_i,
                                    const float *area_o, uint32_t i, vndf_exact_samples *e)
@@ -117,7 +105,7 @@ static void vndf_scatter_exactly(vndf_scatter_block *b, const vndf_sample_bits *
                                  const float *area_o)
 {
     vndf_exact_samples e;
-    e.count = vndf_list_bits(some, b->count, e.index);
+    e.count = vndf_list_samples(some, b->count, e.index);
     if (e.count == 0)
         return;
     vndf_gather_all_exact(b, area_i, area_o, &e);

@@ -9,23 +9,6 @@
 #include "bsdf/terms/masking.h"
 #include "sampler/area.h"
 
-/* ---- bits ---- */
-
-VNDF_INLINE void vndf_clear_bits(vndf_sample_bits *bits)
-{
-    memset(bits, 0, sizeof *bits);
-}
-
-VNDF_INLINE void vndf_set_bits(vndf_sample_bits *bits, uint32_t first, uint32_t mask)
-{
-    bits->of[first / 32] |= mask << first % 32;
-}
-
-VNDF_INLINE uint32_t vndf_bits_at(const vndf_sample_bits *bits, uint32_t first)
-{
-    return bits->of[first / 32] >> first % 32;
-}
-
 /* ---- numbers ---- */
 
 VNDF_INLINE lanes_f vndf_finite_lanes(lanes_f x)

@@ -112,7 +112,7 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
 
 enum { RESULTS = VNDF_WAVELENGTHS + 7 };
 
-/* Copies of inputs (elements.h). Results of the last block wait here. */
+/* Copies of inputs (vndf_batch_input). Results of the last block wait here. */
 typedef struct copies {
     float of[VNDF_SCATTER_INPUTS][VNDF_HIT_BLOCK], result[RESULTS][VNDF_HIT_BLOCK];
     uint8_t lobe[VNDF_HIT_BLOCK];
@@ -123,7 +123,8 @@ static void read_block(vndf_scatter_block *block, const vndf_bsdf_batch *b, cons
 {
     vndf_block_hits(b, first, block->count, block->in, own->of);
     for (int n = VNDF_SCATTER_U2; n <= VNDF_SCATTER_U3; n++)
-        block->in[n] = vndf_block_input(u[1 + n - VNDF_SCATTER_U2], 0, first, block->count, own->of[n]);
+        block->in[n] =
+            vndf_batch_input(u[1 + n - VNDF_SCATTER_U2], 0, first, block->count, VNDF_HIT_BLOCK, own->of[n]);
 }
 
 /* All arrays of floats of some results, one after the other, those that are NULL too. */
@@ -167,18 +168,15 @@ static void move_results(vndf_scatter_block *block, const vndf_bsdf_batch *b, vn
 static void scatter_left(const vndf_scatter_block *block, const vndf_bsdf_batch *b, const float *const u[3],
                          size_t first)
 {
+    uint32_t left[VNDF_HIT_BLOCK], count = vndf_list_samples(&block->left, block->count, left);
     vndf_bsdf own;
-    for (uint32_t n = 0; n < block->count; n += 32)
-        for (uint32_t bits = block->left.of[n / 32]; bits != 0; bits &= bits - 1) {
-            uint32_t i = n + (uint32_t)__builtin_ctz(bits);
-            vndf_scattered s;
-            if (i >= block->count)
-                break;
-            if (!block->hit)
-                vndf_element_hit(&own, b, first + i);
-            scatter_one(b, block->hit ? block->hit : &own, block->drawn, u, first, i, &s);
-            put(&block->to, i, &s, b->material->is.wavelengths);
-        }
+    for (uint32_t n = 0; n < count; n++) {
+        vndf_scattered s;
+        if (!block->hit)
+            vndf_element_hit(&own, b, first + left[n]);
+        scatter_one(b, block->hit ? block->hit : &own, block->drawn, u, first, left[n], &s);
+        put(&block->to, left[n], &s, b->material->is.wavelengths);
+    }
 }
 
 static void sample_in_lanes(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)

@@ -4,6 +4,7 @@
 
 #include "sampler/affine/lanes_axes.h"
 #include "simd/doubles.h"
+#include "simd/list.h"
 
 /* The indices of lanes from `first` on. */
 VNDF_INLINE doubles_u vndf_list_indices(uint32_t first)
@@ -24,11 +25,7 @@ VNDF_INLINE void vndf_list_add(vndf_some *to, doubles_m m, doubles_u at, uint32_
 /* The same for lanes that are few: most often none. */
 VNDF_INLINE void vndf_list_add_few(vndf_some *to, doubles_m m, uint32_t first, uint32_t end)
 {
-    uint32_t bits = doubles_mask_bits(m);
-    if (end - first < VNDF_DOUBLES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        to->index[to->count++] = first + (uint32_t)__builtin_ctz(bits);
+    to->count = vndf_list_bits(to->index, to->count, doubles_mask_bits(m), first, VNDF_DOUBLES, end);
 }
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef VNDF_SAMPLER_BATCH_BATCH_H
 #define VNDF_SAMPLER_BATCH_BATCH_H
 
+#include <stdint.h>
+
 #include "math/vector.h"
 #include "vndf.h"
 
@@ -46,6 +48,19 @@ VNDF_INLINE vndf_view vndf_batch_view(const vndf_batch *b, size_t i)
 {
     vndf_surface surface = vndf_batch_surface(b, i);
     return vndf_view_from(&surface, vndf_batch_wi(b, i));
+}
+
+/* An array of `block` elements from `first` on, of which `count` are there: in place, or copied where lanes cannot read
+ * it there, as a number that all elements share, and the last block of a batch, whose last group would read past the
+ * end. A shared number is copied for the first block alone: `copy` is kept. */
+VNDF_INLINE const float *vndf_batch_input(const float *from, int is_shared, size_t first, uint32_t count,
+                                          uint32_t block, float *copy)
+{
+    if (!is_shared && count == block)
+        return from + first;
+    for (uint32_t i = 0; i < block && !(is_shared && first > 0); i++)
+        copy[i] = is_shared ? from[0] : i < count ? from[first + i] : 0.0f;
+    return copy;
 }
 
 /* The arrays of a call: normals, two arrays to read and two to write. */

@@ -46,20 +46,10 @@ static void answer_one_by_one(const call *c)
 
 #if VNDF_HAS_LANES
 
-/* Copies of the inputs that lanes cannot read in place: a number that all elements share, and the last block of a
- * batch, whose last group would read past the end. */
+/* Copies of inputs (vndf_batch_input). */
 typedef struct copies {
     float of[VNDF_EVAL_INPUTS][VNDF_EVAL_BLOCK];
 } copies;
-
-static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
-{
-    if (!is_shared && count == VNDF_EVAL_BLOCK)
-        return from + first;
-    for (uint32_t i = 0; i < VNDF_EVAL_BLOCK && !(is_shared && first > 0); i++)
-        copy[i] = is_shared ? from[0] : i < count ? from[first + i] : 0.0f;
-    return copy;
-}
 
 static void read_block(vndf_eval_inputs *in, uint32_t count, const call *c, size_t first, copies *own)
 {
@@ -72,7 +62,7 @@ static void read_block(vndf_eval_inputs *in, uint32_t count, const call *c, size
         if (c->question == VNDF_ASK_NDF && n >= VNDF_EVAL_WI_X && n <= VNDF_EVAL_WI_Z)
             continue; /* D needs no wi; the arrays may be missing */
         unsigned bit = n <= VNDF_EVAL_ALPHA_Y ? VNDF_SHARED_ALPHA : n <= VNDF_EVAL_WI_Z ? VNDF_SHARED_WI : 0;
-        in->of[n] = input_at(from[n], (b->shared & bit) != 0, first, count, own->of[n]);
+        in->of[n] = vndf_batch_input(from[n], (b->shared & bit) != 0, first, count, VNDF_EVAL_BLOCK, own->of[n]);
     }
 }
 

@@ -8,19 +8,7 @@
 #include "sampler/surface.h"
 #include "sampler/tabulated/inverse.h"
 #include "sampler/tabulated/stretched_view.h"
-
-/* ---- a block ---- */
-
-/* Lists the lanes in `m`, from `first` on, that are below `end`. Returns the new count. */
-VNDF_INLINE uint32_t vndf_invert_append(uint32_t *list, uint32_t count, uint32_t bits, uint32_t first,
-                                        uint32_t end)
-{
-    if (end - first < VNDF_DOUBLES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        list[count++] = first + (uint32_t)__builtin_ctz(bits);
-    return count;
-}
+#include "simd/list.h"
 
 enum { VNDF_EVERY_DOUBLE = (1 << VNDF_DOUBLES) - 1 };
 
@@ -59,7 +47,8 @@ VNDF_INLINE void inverse_closed_groups(vndf_invert_block *b, uint32_t first, uin
         vndf_query query = inverse_query_at(b, i);
         uint32_t valid = doubles_mask_bits(inverse_query_is_valid(&query));
         q[g] = vndf_unit_query_of(&query);
-        b->left_count = vndf_invert_append(b->left, b->left_count, ~valid & VNDF_EVERY_DOUBLE, i, b->count);
+        b->left_count =
+            vndf_list_bits(b->left, b->left_count, ~valid & VNDF_EVERY_DOUBLE, i, VNDF_DOUBLES, b->count);
     }
     for (uint32_t g = 0; g < groups; g++) {
         vndf_uniforms u = inverse(&q[g]);
@@ -146,11 +135,11 @@ VNDF_INLINE void inverse_turn(vndf_invert_block *b, uint32_t i, const inverse_fr
     doubles_store_long(to->across + i, n.across);
     doubles_store_long(to->z + i, n.z);
     uint32_t *count = sorted->count;
-    count[INVERSE_IN_FRONT] =
-        vndf_invert_append(sorted->index[INVERSE_IN_FRONT], count[INVERSE_IN_FRONT], usable & front, i, b->count);
-    count[INVERSE_IN_WEDGE] =
-        vndf_invert_append(sorted->index[INVERSE_IN_WEDGE], count[INVERSE_IN_WEDGE], usable & ~front, i, b->count);
-    b->left_count = vndf_invert_append(b->left, b->left_count, ~usable & VNDF_EVERY_DOUBLE, i, b->count);
+    count[INVERSE_IN_FRONT] = vndf_list_bits(sorted->index[INVERSE_IN_FRONT], count[INVERSE_IN_FRONT],
+                                             usable & front, i, VNDF_DOUBLES, b->count);
+    count[INVERSE_IN_WEDGE] = vndf_list_bits(sorted->index[INVERSE_IN_WEDGE], count[INVERSE_IN_WEDGE],
+                                             usable & ~front, i, VNDF_DOUBLES, b->count);
+    b->left_count = vndf_list_bits(b->left, b->left_count, ~usable & VNDF_EVERY_DOUBLE, i, VNDF_DOUBLES, b->count);
 }
 
 static inline void inverse_sort(const vndf_distribution *d, vndf_invert_block *b, inverse_turned *to,

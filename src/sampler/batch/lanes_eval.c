@@ -8,6 +8,7 @@
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/area.h"
 #include "sampler/batch/density_of.h"
+#include "simd/list.h"
 
 #if VNDF_HAS_LANES && VNDF_LANES > 1
 
@@ -153,11 +154,7 @@ typedef struct gathered {
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
 VNDF_INLINE void append(sorted *s, int way, doubles_m m, uint32_t first, uint32_t end)
 {
-    uint32_t bits = doubles_mask_bits(m);
-    if (end - first < VNDF_DOUBLES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        s->index[way][s->count[way]++] = first + (uint32_t)__builtin_ctz(bits);
+    s->count[way] = vndf_list_bits(s->index[way], s->count[way], doubles_mask_bits(m), first, VNDF_DOUBLES, end);
 }
 
 /* A normal that wi does not see takes no way; its answer is 0. */

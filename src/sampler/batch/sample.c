@@ -79,41 +79,26 @@ static void sample_one_by_one(const vndf_batch *b, const vndf_batch_call *c)
 
 enum { INPUTS = 7, RESULTS = 5 };
 
-/* Copies of the inputs that lanes cannot read in place: a number that all samples share, and the last block of a batch,
- * whose last group would read past the end. Results wait here for the last block, and wherever results may overwrite
+/* Copies of inputs (vndf_batch_input). Results wait here for the last block, and wherever results may overwrite
  * inputs. */
 typedef struct copies {
     float of[INPUTS][VNDF_BLOCK_SAMPLES], result[RESULTS][VNDF_BLOCK_SAMPLES];
 } copies;
-
-static const float *input_at(const float *from, int is_shared, size_t first, uint32_t count, float *copy)
-{
-    if (is_shared) {
-        for (uint32_t i = 0; first == 0 && i < VNDF_BLOCK_SAMPLES; i++)
-            copy[i] = from[0];
-        return copy;
-    }
-    if (count == VNDF_BLOCK_SAMPLES)
-        return from + first;
-    for (uint32_t i = 0; i < VNDF_BLOCK_SAMPLES; i++)
-        copy[i] = i < count ? from[first + i] : 0.0f;
-    return copy;
-}
 
 static void read_block(vndf_sample_block *block, const vndf_batch *b, size_t first, const vndf_batch_call *call,
                        copies *c)
 {
     uint32_t n = block->count;
     int alpha = (b->shared & VNDF_SHARED_ALPHA) != 0, wi = (b->shared & VNDF_SHARED_WI) != 0;
-    block->u1 = input_at(call->from1, 0, first, n, c->of[0]);
-    block->u2 = input_at(call->from2, 0, first, n, c->of[1]);
+    block->u1 = vndf_batch_input(call->from1, 0, first, n, VNDF_BLOCK_SAMPLES, c->of[0]);
+    block->u2 = vndf_batch_input(call->from2, 0, first, n, VNDF_BLOCK_SAMPLES, c->of[1]);
     if (block->view)
         return;
-    block->alpha_x = input_at(b->alpha_x, alpha, first, n, c->of[2]);
-    block->alpha_y = input_at(b->alpha_y, alpha, first, n, c->of[3]);
-    block->wi_x = input_at(b->wi_x, wi, first, n, c->of[4]);
-    block->wi_y = input_at(b->wi_y, wi, first, n, c->of[5]);
-    block->wi_z = input_at(b->wi_z, wi, first, n, c->of[6]);
+    block->alpha_x = vndf_batch_input(b->alpha_x, alpha, first, n, VNDF_BLOCK_SAMPLES, c->of[2]);
+    block->alpha_y = vndf_batch_input(b->alpha_y, alpha, first, n, VNDF_BLOCK_SAMPLES, c->of[3]);
+    block->wi_x = vndf_batch_input(b->wi_x, wi, first, n, VNDF_BLOCK_SAMPLES, c->of[4]);
+    block->wi_y = vndf_batch_input(b->wi_y, wi, first, n, VNDF_BLOCK_SAMPLES, c->of[5]);
+    block->wi_z = vndf_batch_input(b->wi_z, wi, first, n, VNDF_BLOCK_SAMPLES, c->of[6]);
 }
 
 static int overlap(const float *a, const float *b, size_t count)

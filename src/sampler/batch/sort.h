@@ -7,6 +7,7 @@
 #include "sampler/batch/lanes_sample.h"
 #include "sampler/tabulated/draw.h"
 #include "sampler/surface.h"
+#include "simd/list.h"
 
 enum { VNDF_BLOCK_GROUPS = VNDF_BLOCK_SAMPLES / VNDF_LANES };
 
@@ -43,12 +44,7 @@ VNDF_INLINE lanes_f vndf_block_u(const float *from)
 /* Indices of the lanes in `m`, from `first` on, that are below `end`. */
 VNDF_INLINE uint32_t vndf_block_append(uint32_t *list, uint32_t count, lanes_m m, uint32_t first, uint32_t end)
 {
-    uint32_t bits = lanes_mask_bits(m);
-    if (end - first < VNDF_LANES)
-        bits &= (1u << (end - first)) - 1;
-    for (; bits != 0; bits &= bits - 1)
-        list[count++] = first + (uint32_t)__builtin_ctz(bits);
-    return count;
+    return vndf_list_bits(list, count, lanes_mask_bits(m), first, VNDF_LANES, end);
 }
 
 /* Leaves samples that were not drawn here, and samples that the scalar call is to draw again exactly. */
