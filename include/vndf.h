@@ -82,6 +82,10 @@ typedef struct vndf_vec3 {
     float x, y, z;
 } vndf_vec3;
 
+/* The version of the library that runs, VNDF_VERSION of its header: "0.1.0". Before 1.0 a minor version may change the
+ * members of the structs below, so a program that loads the library itself compares. */
+VNDF_API const char *vndf_version(void);
+
 /* ---- distributions ---------------------------------------------------------------------------- */
 
 /* A distribution of normals: a loaded or built table, or a closed form. It is immutable; threads may share it. */

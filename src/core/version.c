@@ -1,0 +1,6 @@
+#include "vndf.h"
+
+const char *vndf_version(void)
+{
+    return VNDF_VERSION;
+}

@@ -1,0 +1,151 @@
+"""A table built from Python is the table of `vndf build`; what goes wrong is an exception with the library's words."""
+import math
+import os
+import pickle
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import vndf
+
+SOURCE = os.environ["VNDF_SOURCE"]
+
+
+class Built(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, "table.vndf")
+
+    def by_program(self, *arguments):
+        program = [os.environ["VNDF_PROGRAM"], "build", *arguments, "-o", self.file]
+        subprocess.run([*program, "--max-bytes", "2048", "--certificate", "quick"], check=True, capture_output=True)
+        with open(self.file, "rb") as table:
+            return table.read()
+
+    def test_tables_are_those_of_the_program(self):
+        csv = os.path.join(SOURCE, "tables", "example.csv")
+        for source, arguments in (
+            (vndf.Source.slope("exp(-a*r)", a=3), ["--slope", "exp(-a*r)", "--set", "a=3"]),
+            (vndf.Source.ndf("c^20"), ["--ndf", "c^20"]),
+            (vndf.Source.family("gtr:1.5"), ["--family", "gtr:1.5"]),
+            (vndf.Source.csv(csv), ["--csv", csv]),
+        ):
+            self.assertEqual(bytes(vndf.build(source, max_bytes=2048)), self.by_program(*arguments), arguments)
+
+    def test_rows_are_those_of_a_file(self):
+        theta = np.linspace(0, 1.5, 40)
+        ndf = np.exp(-5 * theta**2)
+        csv = self.file + ".csv"
+        np.savetxt(csv, np.stack([theta, ndf], 1), header="theta,ndf", comments="", delimiter=",", fmt="%.17g")
+        sources = (vndf.Source.rows(theta=theta, ndf=ndf, name=csv), vndf.Source.csv(csv))
+        rows, file = (vndf.build(source, max_bytes=2048) for source in sources)
+        np.testing.assert_array_equal(rows.numbers(), file.numbers())
+
+    def test_a_python_function(self):
+        asked = []
+
+        def p22(r):
+            asked.append(r)
+            return math.exp(-r * r)
+
+        table = vndf.build(vndf.Source.slope_function(p22, "gauss"), max_bytes=4096, certificate="full")
+        self.assertGreater(len(asked), 1000)
+        self.assertEqual(table.certificate.hidden, 1.0)
+        wm = np.array([0.0, 0.6, 0.8])
+        self.assertAlmostEqual(vndf.Surface(table).ndf(wm) / vndf.Surface(vndf.beckmann()).ndf(wm), 1, 3)
+
+    def test_files_bytes_and_pickles(self):
+        table = vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=2048)
+        table.save(self.file)
+        copies = [vndf.load(self.file), vndf.from_bytes(bytes(table)), pickle.loads(pickle.dumps(table))]
+        for copy in copies:
+            self.assertEqual(bytes(copy), bytes(table))
+        self.assertEqual(pickle.loads(pickle.dumps(vndf.ggx()))._pointer, vndf.ggx()._pointer)
+
+    def test_certificates(self):
+        source = vndf.Source.slope("exp(-r)")
+        quick, full = (vndf.build(source, max_bytes=2048, certificate=word) for word in ("quick", "full"))
+        self.assertTrue(quick.certificate.quick)
+        self.assertEqual(vndf.certify(quick, source), full.certificate)
+        self.assertEqual(vndf.certify(quick, vndf.Source.of(quick)), full.certificate)
+        self.assertLess(quick.certificate.tv, 1.001 * full.certificate.tv)
+
+    def test_families(self):
+        family = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
+        np.testing.assert_allclose(family.parameters[[0, 2]], [2, 4])
+        family.save(self.file)
+        loaded = vndf.Family.load(self.file)
+        wm = np.array([0.0, 0.6, 0.8])
+        self.assertEqual(loaded.at(2.7, 0.3).ndf(wm), family.at(2.7, 0.3).ndf(wm))
+        middle = vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1]).at(0.5, 0.3).ndf(wm)
+        ends = [vndf.Surface(d, 0.3).ndf(wm) for d in (vndf.ggx(), vndf.beckmann())]
+        self.assertAlmostEqual(middle / np.mean(ends), 1, 5)
+
+
+class Refused(unittest.TestCase):
+    def test_errors_have_the_words_and_the_kind(self):
+        for call, status, words in (
+            (lambda: vndf.Source.slope("exp(-"), vndf.Status.SYNTAX, "column 6"),
+            (lambda: vndf.Source.csv("nowhere.csv"), vndf.Status.IO, "nowhere.csv"),
+            (lambda: vndf.load(os.path.join(SOURCE, "README.md")), vndf.Status.TABLE, "README.md"),
+            (lambda: vndf.from_bytes(b""), vndf.Status.TABLE, ""),
+            (lambda: vndf.build(vndf.Source.slope("1")), vndf.Status.DISTRIBUTION, ""),
+            (lambda: vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=5), vndf.Status.ARGUMENT, "max_bytes"),
+            (lambda: vndf.Source.rows(theta=[0.0, 1.0], ndf=[1.0, math.nan]), vndf.Status.SYNTAX, ""),
+            (lambda: vndf.Material(vndf.ggx(), lobes="both"), vndf.Status.ARGUMENT, "FRESNEL"),
+        ):
+            with self.assertRaisesRegex(vndf.Error, words) as caught:
+                call()
+            self.assertEqual(caught.exception.status, status)
+            self.assertEqual(pickle.loads(pickle.dumps(caught.exception)).status, status)
+
+    def test_wrong_words_and_shapes(self):
+        for call, error in (
+            (lambda: vndf.Source.rows(theta=[0.0, 1.0], p22=[1.0]), ValueError),
+            (lambda: vndf.Source.rows(theta=[0.0, 1.0]), TypeError),
+            (lambda: vndf.build(vndf.Source.slope("exp(-r)"), certificate="none"), ValueError),
+            (lambda: vndf.Material(vndf.ggx(), fresnel="mirror"), ValueError),
+            (lambda: vndf.Material(vndf.ggx(), fresnel="conductor", eta=(1, 2), k=(1, 2, 3)), ValueError),
+            (lambda: vndf.Mixture(), ValueError),
+        ):
+            with self.assertRaises(error):
+                call()
+
+    def test_what_python_raises_comes_through(self):
+        def fails(r):
+            raise RuntimeError("no value here")
+
+        with self.assertRaisesRegex(RuntimeError, "no value here"):
+            vndf.build(vndf.Source.slope_function(fails))
+        with self.assertRaisesRegex(ZeroDivisionError, ""):
+            vndf.build(vndf.Source.slope("exp(-r)"), progress=lambda done, what: 1 / 0)
+
+    def test_progress_stops_a_build(self):
+        seen = []
+
+        def progress(done, what):
+            seen.append((done, what))
+            return len(seen) == 3
+
+        with self.assertRaisesRegex(vndf.Error, "interrupted"):
+            vndf.build(vndf.Source.slope("exp(-r)"), progress=progress)
+        self.assertEqual(len(seen), 3)
+        self.assertTrue(all(0 <= done <= 1 and what for done, what in seen))
+
+    @unittest.skipUnless(hasattr(signal, "setitimer"), "no timers here")
+    def test_a_signal_ends_a_build(self):
+        def interrupt(*_):
+            raise KeyboardInterrupt
+
+        before = signal.signal(signal.SIGALRM, interrupt)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        with self.assertRaises(KeyboardInterrupt):
+            vndf.build(vndf.Source.slope("exp(-3*r)*(1+0.8*cos(6*r))"), max_bytes=65536, certificate="full")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,265 @@
+"""Reflection and refraction: materials of any distribution, and albedos for energy compensation.
+
+Shapes and directions are those of vndf.surface. wi is the known direction, wo the chosen one; here z < 0 is the other
+side of the surface. vndf_bsdf.h has the model and what effects go together.
+"""
+from __future__ import annotations
+
+from ctypes import addressof, byref, c_void_p
+from typing import Any, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _library
+from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
+from ._library import checked, library, members, path_bytes
+from .build import Progress, Reporter
+from .distribution import Distribution, Path
+from .surface import Mixture
+
+_CHOICES = {
+    "lobes": ["reflection", "transmission", "both"],
+    "fresnel": ["none", "schlick", "dielectric", "conductor"],
+    "masking": ["height-correlated", "separable", "v-cavities", "none"],
+    "normals": ["visible", "bounded", "all", "v-cavity"],
+    "scattering": ["single", "multiple", "turquin", "kulla-conty"],
+    "transport": ["radiance", "importance"],
+    "shape": ["aligned", "rotated", "matrix", "affine", "mixture"],
+    "reflection": ["specular", "retro"],
+}
+
+#: values of Scattered.lobe
+LOBE_NONE, LOBE_REFLECTION, LOBE_TRANSMISSION, LOBE_STRAIGHT = range(4)
+
+
+class Scattered(NamedTuple):
+    """Directions that were drawn."""
+
+    wo: Floats  #: unit, shape (3, ...)
+    weight: Floats  #: f |cos_o| / density, shape (wavelengths, ...)
+    density: Floats  #: per steradian, shape (...)
+    lobe: np.ndarray[Any, np.dtype[np.uint8]]  #: LOBE_NONE (lost), _REFLECTION, _TRANSMISSION or _STRAIGHT
+    wm: Floats  #: the facet that was met, shape (3, ...); 0 where there is none or a walk met many
+
+
+class Albedo:
+    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
+
+    def __init__(self, pointer: int) -> None:
+        """For the package itself."""
+        self._pointer = pointer
+
+    def __del__(self) -> None:
+        if getattr(self, "_pointer", None):
+            library.albedo_free(self._pointer)
+            self._pointer = 0
+
+    @staticmethod
+    def build(
+        distribution: Distribution, *, eta: float = 0.0, columns: int = 0, rows: int = 0,
+        progress: Optional[Progress] = None,
+    ) -> Albedo:  # fmt: skip
+        """Of a mirror (eta = 0; a second or two) or a dielectric (some ten seconds), by quadrature."""
+        reporter = Reporter(progress)
+        options = _library.vndf_albedo_options(eta, columns, rows, reporter.pointer, None)
+        return reporter.run(lambda: Albedo(checked("albedo_build", distribution._pointer, byref(options))))
+
+    @staticmethod
+    def load(path: Path) -> Albedo:
+        """Reads a file of ``vndf albedo``."""
+        return Albedo(checked("albedo_load", path_bytes(path)))
+
+    def save(self, path: Path) -> None:
+        """Writes the file."""
+        checked("albedo_save", self._pointer, path_bytes(path))
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """source, tool, eta, scale, columns, rows, bytes, errors (vndf_albedo_properties)."""
+        return members(library.albedo_info(self._pointer))
+
+    def directional(self, cosine: Numbers, alpha: Numbers) -> Floats:
+        """E of light from a direction with this cosine, 0 to 1. One C call for each element."""
+        look = np.frompyfunc(lambda c, a: library.albedo_directional(self._pointer, c, a), 2, 1)
+        return as_float(look(cosine, alpha))[()]
+
+    def average(self, alpha: Numbers, side: int = 1) -> Floats:
+        """2 integral E mu dmu; side >= 0: the side of z, < 0: the other one. One C call for each element."""
+        look = np.frompyfunc(lambda a: library.albedo_average(self._pointer, a, side), 1, 1)
+        return as_float(look(alpha))[()]
+
+
+class Material:
+    """A rough material: a distribution, its shape, its optics and its effects. Numbers may be arrays where a texture
+    brings one for each hit: alpha, alpha_y, rotation, matrix, mean, and all of a mixture.
+
+    distribution: a :class:`Distribution`, or a :class:`Mixture`, which has its own roughness.
+    alpha, alpha_y: roughness, > 0. rotation: the angle from x to the axis of alpha, radians.
+    matrix, mean: in their place a matrix of slopes, shape (2, 2, ...), and a mean slope, shape (2, ...).
+    lobes: "reflection", "transmission", "both".
+    fresnel: "none", "schlick" (f0), "dielectric" (eta), "conductor" (eta and k).
+    masking: "height-correlated", "separable", "v-cavities", "none".
+    normals: "visible", "bounded", "all", "v-cavity".
+    scattering: "single", "multiple" (a random walk), "turquin", "kulla-conty" (these two need `albedo`).
+    transport: "radiance", "importance". reflection: "specular", "retro".
+    eta: index on the side of -z over that on the side of z; of a conductor the real part, one for each wavelength.
+    k: imaginary part of a conductor's index. f0: reflectance at normal incidence. Each a number, or 1 to 4 of them.
+    wavelengths: how many a call carries; None: as many as eta, k or f0 have, 3 for single numbers.
+
+    Raises :class:`vndf.Error` for a set that makes no sense, with the reason."""
+
+    def __init__(
+        self, distribution: Union[Distribution, Mixture], alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
+        rotation: Optional[Numbers] = None, matrix: Any = None, mean: Any = None, lobes: str = "reflection",
+        fresnel: str = "none", masking: str = "height-correlated", normals: str = "visible",
+        scattering: str = "single", transport: str = "radiance", reflection: str = "specular", eta: Numbers = 1.5,
+        k: Numbers = 0.0, f0: Numbers = 0.04, wavelengths: Optional[int] = None, albedo: Optional[Albedo] = None,
+        order_limit: int = 0,
+    ) -> None:  # fmt: skip
+        if mean is not None and matrix is None:
+            raise TypeError("a mean slope needs a matrix")
+        if isinstance(distribution, Mixture):
+            shape = "mixture"
+        elif matrix is not None:
+            shape = "matrix" if mean is None else "affine"
+        else:
+            shape = "aligned" if rotation is None else "rotated"
+        optics = {"f0": as_float(f0), "eta": as_float(eta), "k": as_float(k)}
+        if wavelengths is None:
+            wavelengths = max(array.size for array in optics.values())
+            wavelengths = 3 if wavelengths == 1 else wavelengths
+        self.wavelengths = wavelengths
+        self._kept = (distribution, albedo)
+        description = _library.vndf_description(
+            distribution=None if isinstance(distribution, Mixture) else distribution._pointer,
+            alpha_x=1.0, alpha_y=1.0, wavelengths=wavelengths, albedo=albedo and albedo._pointer,
+            eta=optics["eta"].flat[0], order_limit=order_limit,
+        )  # fmt: skip
+        description.affine.xx = description.affine.yy = 1.0
+        for name, member in (("f0", "f0"), ("eta", "conductor_eta"), ("k", "conductor_k")):
+            _fill(getattr(description, member), optics[name], wavelengths, name)
+        chosen = dict(lobes=lobes, fresnel=fresnel, masking=masking, normals=normals, scattering=scattering,
+                      transport=transport, shape=shape, reflection=reflection)  # fmt: skip
+        for effect, word in chosen.items():
+            if word not in _CHOICES[effect]:
+                raise ValueError(f"{effect} is one of {', '.join(_CHOICES[effect])}, not {word!r}")
+            setattr(description.effects, effect, _CHOICES[effect].index(word))
+        self._material = _library.vndf_material()
+        checked("material_resolve", byref(description), byref(self._material))
+        self._groups = _shape_of_hits(shape, distribution, alpha, alpha_y, rotation, matrix, mean)
+        self._lobe_distributions = (
+            [lobe.distribution._pointer for lobe in distribution.lobes] if isinstance(distribution, Mixture) else []
+        )
+
+    def sample(self, wi: Any, u: Any) -> Scattered:
+        """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1]: two for the normal, one for the lobe."""
+        arguments, batch = self._open(wi, u=components(u, 3, "u"))
+        count = self.wavelengths
+        wo, wm, weight = arguments.result(3), arguments.result(3), arguments.result(count)
+        density, lobe = arguments.result(), arguments.result(dtype=np.uint8)
+        normals = [_library.vndf_normals(*addresses_of(array)) for array in (wo, wm)]
+        weights = _pointers(addresses_of(weight))
+        results = _library.vndf_scattered_n(normals[0], weights, density.ctypes.data, lobe.ctypes.data, normals[1])
+        numbers = np.array(arguments.whole_addresses("u"), np.uintp)
+        library.bsdf_sample_n(byref(batch), numbers.ctypes.data, results)
+        return Scattered(wo, weight, density[()], lobe[()], wm)
+
+    def eval(self, wi: Any, wo: Any, seed: Any = 0) -> Floats:
+        """f, without the cosine, shape (wavelengths, ...). `seed`, whole numbers, is for random walks."""
+        return self._look("bsdf_eval_n", wi, wo, seed, values=True)[0]  # type: ignore[no-any-return]
+
+    def pdf(self, wi: Any, wo: Any) -> Floats:
+        """Density per steradian with which :meth:`sample` draws wo, shape (...)."""
+        return self._look("bsdf_pdf_n", wi, wo, None, values=False)[1][()]  # type: ignore[no-any-return]
+
+    def eval_pdf(self, wi: Any, wo: Any, seed: Any = 0) -> tuple[Floats, Floats]:
+        """Both at once."""
+        value, pdf = self._look("bsdf_eval_pdf_n", wi, wo, seed, values=True)
+        return value, pdf[()]
+
+    def _open(self, wi: Any, **inputs: list[Any]) -> tuple[Arguments, Any]:
+        arguments = Arguments(**self._groups, wi=components(wi, 3, "wi"), **inputs)
+        shared = sum(
+            bit for name, bit in (("shape", _library.SHARED_ALPHA), ("wi", _library.SHARED_WI)) if arguments.is_shared(name)
+        )
+        batch = _library.vndf_bsdf_batch(addressof(self._material), arguments.count, shared, 0)
+        batch.wi_x, batch.wi_y, batch.wi_z = arguments.addresses("wi")
+        self._put_shape(arguments, batch)
+        return arguments, batch
+
+    def _put_shape(self, arguments: Arguments, batch: Any) -> None:
+        shape = _CHOICES["shape"][getattr(self._material, "is").effects.shape]
+        if shape in ("aligned", "rotated"):
+            members_of_batch = ["alpha_x", "alpha_y", "cos_rotation", "sin_rotation"]
+            for name, address in zip(members_of_batch, arguments.addresses("shape")):
+                setattr(batch, name, address)
+            return
+        arrays = arguments.arrays("shape")
+        count = arrays[0].size
+        if shape == "mixture":
+            structs = np.zeros(count, _MIXTURE)
+            structs["count"] = len(self._lobe_distributions)
+            for i, pointer in enumerate(self._lobe_distributions):
+                lobe = structs["lobe"][:, i]
+                _put_affine(lobe["surface"], pointer, arrays[7 * i : 7 * i + 6])
+                lobe["weight"] = arrays[7 * i + 6].ravel()
+            batch.mixture = arguments.keep(structs)
+        else:
+            structs = np.zeros(count, _AFFINE)
+            _put_affine(structs, 0, arrays)
+            batch.affine = arguments.keep(structs)
+
+    def _look(self, name: str, wi: Any, wo: Any, seed: Any, *, values: bool) -> Any:
+        inputs = {"wo": components(wo, 3, "wo")}
+        if seed is not None:
+            inputs["seed"] = [np.asarray(seed, np.uint64)]
+        arguments, batch = self._open(wi, **inputs)
+        directions = _library.vndf_normals(*arguments.whole_addresses("wo"))
+        value, pdf = arguments.result(self.wavelengths), arguments.result()
+        call = [byref(batch), directions]
+        if seed is not None:
+            call += arguments.whole_addresses("seed")
+        if values:
+            call.append(_pointers(addresses_of(value)))
+        if name != "bsdf_eval_n":
+            call.append(pdf.ctypes.data)
+        getattr(library, name)(*call)
+        return value, pdf
+
+
+_AFFINE = np.dtype(_library.vndf_affine)
+_MIXTURE = np.dtype(_library.vndf_mixture)
+
+
+def _put_affine(structs: Any, distribution: int, arrays: Sequence[Any]) -> None:
+    structs["distribution"] = distribution
+    for name, array in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], arrays):
+        structs[name] = array.ravel()
+
+
+def _pointers(addresses: Sequence[int]) -> Any:
+    return (c_void_p * _library.WAVELENGTHS)(*addresses)
+
+
+def _fill(member: Any, values: Floats, count: int, name: str) -> None:
+    if values.size not in (1, count) or not 1 <= count <= _library.WAVELENGTHS:
+        raise ValueError(f"{name} has {values.size} numbers for {count} wavelengths (1 to {_library.WAVELENGTHS})")
+    for i, value in enumerate(np.broadcast_to(values.ravel(), (count,)).tolist()):
+        member[i] = value
+
+
+def _shape_of_hits(
+    shape: str, distribution: Any, alpha: Any, alpha_y: Any, rotation: Any, matrix: Any, mean: Any
+) -> dict[str, list[Floats]]:
+    """The arrays that hits bring, as one group, in the order of the C struct."""
+    if shape == "mixture":
+        parts = [[*lobe._shape, weight] for lobe, weight in zip(distribution.lobes, distribution.weights)]
+        return {"shape": [array for part in parts for array in part]}
+    if shape in ("matrix", "affine"):
+        moved = components((0.0, 0.0) if mean is None else mean, 2, "mean")
+        return {"shape": matrix_components(matrix, "matrix") + moved}
+    roughness = [as_float(alpha), as_float(alpha if alpha_y is None else alpha_y)]
+    if rotation is not None:
+        angle = np.asarray(rotation, np.float64)
+        roughness += [as_float(np.cos(angle)), as_float(np.sin(angle))]
+    return {"shape": roughness}
