@@ -1,4 +1,5 @@
-# Runs one test of the Python package with the library of this build: PYTHON, NAME (test_NAME.py or layout), SINGLES.
+# Runs one test of the Python package with the library of this build: PYTHON, NAME (test_NAME.py or layout), SINGLES,
+# VARIANT of Mitsuba.
 function(run)
     execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
@@ -23,5 +24,5 @@ if(NAME STREQUAL "layout")
     run(${with} ${PYTHON} ${SOURCE}/tests/python/layout.py ${OUT}/layout.c)
     run(${C_COMPILER} -std=c11 -I${SOURCE}/include -c ${OUT}/layout.c -o ${OUT}/layout.o)
 else()
-    run(${with} ${PYTHON} ${SOURCE}/tests/python/test_${NAME}.py)
+    run(${with} ${PYTHON} ${SOURCE}/tests/python/test_${NAME}.py ${VARIANT})
 endif()

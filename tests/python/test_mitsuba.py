@@ -1,0 +1,291 @@
+"""Mitsuba's own tests pass for our BSDFs, they agree with the library, and show the picture that `vndf render` shows.
+
+    python test_mitsuba.py [VARIANT]        llvm_ad_rgb, or scalar_rgb where LLVM is absent
+"""
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+try:
+    import drjit as dr
+    import mitsuba as mi
+    import numpy as np
+except ImportError:
+    print("SKIPPED: no Mitsuba")
+    sys.exit(0)
+
+TABLE = os.path.join(os.environ["VNDF_SOURCE"], "tables", "student-t-2.5.vndf")
+VARIANT = sys.argv.pop(1) if len(sys.argv) > 1 else "llvm_ad_rgb"
+# A library of LLVM that is too old ends the process: ask in another one.
+TRY = f"import mitsuba as mi; mi.set_variant('{VARIANT}'); import drjit as dr; dr.eval(dr.maximum(mi.Float(1), mi.Float(2)))"
+if subprocess.run([sys.executable, "-c", TRY], capture_output=True).returncode:
+    print(f"SKIPPED: {VARIANT} does not run here; LLVM 16 or later is what it needs")
+    sys.exit(0)
+mi.set_variant(VARIANT)
+
+import vndf
+import vndf.mitsuba
+from vndf._drjit import Ggx, Table
+
+vndf.mitsuba.register()
+SCALAR = not dr.is_jit_v(mi.Float)
+COUNT = 100 if SCALAR else 200000
+GOLD = dict(eta=(0.143, 0.375, 1.442), k=(3.983, 2.386, 1.603))
+
+
+def rgb(values):
+    return {"type": "rgb", "value": list(values)}
+
+
+def conductor(**more):
+    optics = {name: rgb(values) for name, values in GOLD.items()}
+    return {"type": "vndf_conductor", "distribution": TABLE, **optics, **more}
+
+
+def directions(rng, count, low):
+    w = rng.normal(size=(3, count))
+    w /= np.linalg.norm(w, axis=0)
+    w[2] = np.where(w[2] < low, -w[2], w[2])
+    return w.astype(np.float32)
+
+
+def each(function, *arrays):
+    """`function` of arrays of Mitsuba, as arrays of numpy; in scalar variants of one column after the other."""
+
+    def of(array):
+        return np.asarray(array, np.float64)
+
+    if not SCALAR:
+        return [of(result) for result in function(*arrays)]
+    columns = [function(*(row[..., i] for row in arrays)) for i in range(arrays[0].shape[-1])]
+    return [np.stack([of(result) for result in results], axis=-1) for results in zip(*columns)]
+
+
+def interaction(wi):
+    si = dr.zeros(mi.SurfaceInteraction3f, 1) if SCALAR else dr.zeros(mi.SurfaceInteraction3f, dr.width(wi))
+    si.wi = wi
+    return si
+
+
+class AgainstTheLibrary(unittest.TestCase):
+    def close(self, a, b, most, usual, what, floor=0.0):
+        apart = np.sort(abs(a - b) / (b + floor))
+        self.assertLess(apart[-1], most, f"{what}: the farthest of {apart.size}")
+        self.assertLess(apart[apart.size * 999 // 1000 - 1], usual, f"{what}: 99.9%")
+
+    def test_laws(self):
+        for law, distribution in ((Ggx(), vndf.ggx()), (Table(vndf.load(TABLE)), vndf.load(TABLE))):
+            rng = np.random.default_rng(1)
+            wi, alpha = directions(rng, COUNT, 0), np.exp(rng.uniform(math.log(0.02), 0, (2, COUNT))).astype(np.float32)
+            u = rng.random((2, COUNT), dtype=np.float32)
+
+            def ask(wi, alpha, u):
+                alpha = [mi.Float(a) for a in alpha]
+                view = law.view(*alpha, mi.Vector3f(wi))
+                wm, pdf = law.sample(view, mi.Float(u[0]), mi.Float(u[1]))
+                return wm, pdf, law.pdf(view, wm), law.ndf(*alpha, wm), view.area
+
+            wm, pdf, again, ndf, area = each(ask, wi, alpha, u)
+            surface = vndf.Surface(distribution, *alpha)
+            wm = wm.astype(np.float32)
+            self.assertLess(np.quantile(abs(wm - surface.sample(wi, u).wm), 0.999), 1e-5)
+            self.close(pdf, surface.pdf(wi, wm), 3e-5, 1e-5, "densities of samples")
+            self.close(again, surface.pdf(wi, wm), 3e-5, 1e-5, "densities")
+            self.close(ndf, surface.ndf(wm), 3e-5, 1e-5, "D")
+            self.close(area, surface.projected_area(wi), 3e-5, 1e-5, "areas")
+
+    def compare(self, description, material, both_sides, usual=3e-5, floor=0.0):
+        bsdf = mi.load_dict(description)
+        rng = np.random.default_rng(2)
+        wi, wo = directions(rng, COUNT, 0.02), directions(rng, COUNT, -1 if both_sides else 0.02)
+        if both_sides:
+            wi *= rng.choice([-1, 1], COUNT).astype(np.float32)
+            wo[2] = np.where(abs(wo[2]) < 0.02, 0.5, wo[2])
+            wo /= np.linalg.norm(wo, axis=0)
+        ctx = mi.BSDFContext()
+
+        def ask(wi, wo):
+            return bsdf.eval_pdf(ctx, interaction(mi.Vector3f(wi)), mi.Vector3f(wo), True)
+
+        value, pdf = each(ask, wi, wo)
+        expected, density = material.eval_pdf(wi, wo)
+        expected = expected.astype(np.float64) * abs(wo[2])
+        ours, theirs = (value > 0).all(axis=0), (expected > 0).all(axis=0)
+        self.assertLess((ours != theirs).mean(), 1e-4)  # at the edge of what is seen the last bit decides
+        seen = ours & theirs
+        self.assertGreater(seen.mean(), 0.2)
+        self.close(value[:, seen].ravel(), expected[:, seen].ravel(), 2e-3, usual, "values", floor)
+        self.close(pdf[seen], density[seen], 2e-3, usual, "densities", floor)
+
+    def test_conductors(self):
+        table = vndf.load(TABLE)
+        optics = dict(fresnel="conductor", **GOLD)
+        self.compare(conductor(alpha_u=0.5, alpha_v=0.2), vndf.Material(table, 0.5, 0.2, **optics), False)
+        turned = conductor(alpha_u=0.5, alpha_v=0.2, rotation=0.7, masking="separable")
+        material = vndf.Material(table, 0.5, 0.2, rotation=0.7, masking="separable", **optics)
+        self.compare(turned, material, False)
+
+    def test_several_lobes(self):
+        lobes = conductor(alpha=0.2, weight=0.7, distribution_2="ggx", alpha_u_2=0.6, alpha_v_2=0.3, weight_2=0.3)
+        mixture = vndf.Mixture((vndf.Surface(vndf.load(TABLE), 0.2), 0.7), (vndf.Surface(vndf.ggx(), 0.6, 0.3), 0.3))
+        self.compare(lobes, vndf.Material(mixture, fresnel="conductor", **GOLD), False)
+
+    def test_dielectrics(self):
+        glass = {"type": "vndf_dielectric", "distribution": TABLE, "alpha": 0.4, "int_ior": 1.5, "ext_ior": 1.0}
+        material = vndf.Material(vndf.load(TABLE), 0.4, lobes="both", fresnel="dielectric", eta=1.5)
+        # At the critical angle 1 - F has few digits in float.
+        self.compare(glass, material, True, usual=3e-4, floor=1e-3)
+
+
+class Mitsubas(unittest.TestCase):
+    CASES = [(kind, alpha, theta) for kind in ("conductor", "dielectric") for alpha in ((0.2, 0.2), (0.5, 0.2), (1, 1))
+             for theta in (0, 30, 60, 80, 89)]  # fmt: skip
+
+    @unittest.skipIf(SCALAR, "Mitsuba's chi-square test has arrays of samples")
+    def test_chi_square(self):
+        """Of a million samples each; 1% for all of them."""
+        cases = self.CASES + [("mixture", (0.2, 0.2), 60), ("inside", (0.5, 0.2), 150)]
+        for kind, alpha, theta in cases:
+            xml = f'<string name="distribution" value="{TABLE}"/>'
+            xml += "".join(f'<float name="alpha_{axis}" value="{a}"/>' for axis, a in zip("uv", alpha))
+            if kind == "mixture":
+                xml += '<string name="distribution_2" value="ggx"/><float name="alpha_2" value="0.6"/>'
+            angle = math.radians(theta)
+            wi = [math.sin(angle) * 0.6, math.sin(angle) * 0.8, math.cos(angle)]
+            plugin = "vndf_dielectric" if kind in ("dielectric", "inside") else "vndf_conductor"
+            sample, pdf = mi.chi2.BSDFAdapter(plugin, xml, wi=wi)
+            test = mi.chi2.ChiSquareTest(
+                domain=mi.chi2.SphericalDomain(), sample_func=sample, pdf_func=pdf, sample_dim=3,
+                sample_count=1000000, res=71, ires=64 if theta == 0 else 32 if alpha[1] < 0.5 else 16,
+            )  # fmt: skip
+            with self.subTest(kind=kind, alpha=alpha, theta=theta):
+                self.assertTrue(test.run(0.01 / len(cases), quiet=True), test.messages)
+
+    def test_weights_are_values_over_densities(self):
+        for description in (conductor(alpha=0.3), {"type": "vndf_dielectric", "distribution": TABLE, "alpha": 0.4}):
+            bsdf = mi.load_dict(description)
+            rng = np.random.default_rng(3)
+            ctx = mi.BSDFContext()
+
+            def ask(wi, u):
+                si = interaction(mi.Vector3f(wi))
+                bs, weight = bsdf.sample(ctx, si, mi.Float(u[2]), mi.Point2f(u[:2]), True)
+                value, pdf = bsdf.eval_pdf(ctx, si, bs.wo, True)
+                return weight, bs.pdf, value, pdf
+
+            wi, u = directions(rng, COUNT, 0.05), rng.random((3, COUNT), dtype=np.float32)
+            weight, pdf, value, again = each(ask, wi, u)
+            kept = (pdf > 0) & (again > 0)
+            self.assertGreater(kept.mean(), 0.8)
+            apart = abs(weight * again / np.maximum(value, 1e-30) - 1)[:, kept].max(axis=0)
+            self.assertLess(np.quantile(apart, 0.99), 1e-3)
+            self.assertLess(weight.max(), 1.01)
+
+    def test_bad_parameters_are_named(self):
+        for wrong, words in (
+            (dict(distribution="nowhere.vndf"), "nowhere.vndf"),
+            (dict(alpha=0.1, alpha_u=0.1, alpha_v=0.1), "one or the other"),
+            (dict(alpha_u=0.1), "alpha_u needs alpha_v"),
+            (dict(masking="cavities"), "height-correlated"),
+        ):
+            with self.assertRaisesRegex(Exception, words):
+                mi.load_dict(conductor(**wrong))
+
+
+@unittest.skipIf(SCALAR, "no derivatives")
+class Derivatives(unittest.TestCase):
+    def test_roughness(self):
+        """d value / d alpha, for a thousand pairs of directions, is what differences say."""
+        bsdf = mi.load_dict(conductor(alpha=0.35))
+        rng = np.random.default_rng(4)
+        wi, wo = (mi.Vector3f(directions(rng, 1000, 0.1)) for _ in range(2))
+        parameters = mi.traverse(bsdf)
+
+        def value(alpha):
+            parameters["alpha.value"] = alpha
+            parameters.update()
+            return bsdf.eval(mi.BSDFContext(), interaction(wi), wo, True).x
+
+        alpha = mi.Float(0.35)
+        dr.enable_grad(alpha)
+        answer = value(alpha)
+        derivative = np.array(self.forward(alpha, answer))
+        h = 0.01
+        difference = (np.array(value(mi.Float(0.35 + h))) - np.array(value(mi.Float(0.35 - h)))) / (2 * h)
+        scale = abs(difference).max()
+        self.assertLess(np.quantile(abs(derivative - difference), 0.99), 0.01 * scale)
+        self.assertGreater(np.corrcoef(derivative, difference)[0, 1], 0.9999)
+
+    @staticmethod
+    def forward(alpha, answer):
+        dr.set_grad(alpha, 1.0)
+        dr.forward_to(answer)
+        return dr.grad(answer)
+
+
+@unittest.skipIf(SCALAR, "slow")
+class Pictures(unittest.TestCase):
+    SIZE, SAMPLES = 64, 512
+
+    def scene(self, material):
+        to_world = mi.ScalarTransform4f
+        return mi.load_dict({
+            "type": "scene",
+            "integrator": {"type": "path", "max_depth": 2},
+            "sensor": {
+                "type": "perspective", "fov": 20, "fov_axis": "y",
+                "to_world": to_world().look_at(origin=[0, 1, 5], target=[0, 0.5, 0], up=[0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": self.SIZE, "height": self.SIZE, "rfilter": {"type": "box"}},
+            },
+            "sky": {"type": "constant", "radiance": rgb([0.2, 0.3, 0.4])},
+            "lamp": {
+                "type": "sphere", "center": [-2, 3, 3], "radius": 0.8,
+                "emitter": {"type": "area", "radiance": rgb([12, 10, 8])},
+            },
+            "ball": {"type": "sphere", "center": [0, 0.5, 0], "radius": 0.7, "bsdf": material},
+        })  # fmt: skip
+
+    def render(self, material, seed):
+        return np.array(mi.render(self.scene(material), spp=self.SAMPLES, seed=seed))[:, :, :3]
+
+    def blocks(self, picture):
+        n = self.SIZE // 8
+        return picture.reshape(n, 8, n, 8, 3).mean(axis=(1, 3))
+
+    def agree(self, a, b, noise):
+        """Blocks of 64 pixels are within five standard deviations, and the whole within 0.2%. `noise`: of a block."""
+        apart = abs(self.blocks(a) - self.blocks(b))
+        self.assertLess((apart / (noise + 1e-4)).max(), 5)
+        self.assertLess(abs(a.mean() / b.mean() - 1), 2e-3)
+
+    def noise(self, material):
+        """Standard deviation of the difference of two pictures, a block each, from pairs of them."""
+        pictures = [self.blocks(self.render(material, seed)) for seed in range(6)]
+        return np.sqrt(2.0) * np.std(pictures, axis=0, ddof=1).clip(min=1e-4) * 1.5
+
+    def test_of_vndf_render(self):
+        lines = [
+            f"film width {self.SIZE} height {self.SIZE}", "camera from 0 1 5 to 0 0.5 0 field 20",
+            f"integrator depth 1 samples {self.SAMPLES}", "environment constant 0.2 0.3 0.4",
+            f"material mine conductor eta {' '.join(map(str, GOLD['eta']))} k {' '.join(map(str, GOLD['k']))}"
+            f" distribution table {TABLE} alpha 0.3",
+            "material lamp light radiance 12 10 8", "sphere centre 0 0.5 0 radius 0.7 material mine",
+            "sphere centre -2 3 3 radius 0.8 material lamp",
+        ]  # fmt: skip
+        with open("ball.scene", "w") as scene:
+            scene.write("\n".join(lines) + "\n")
+        subprocess.run([os.environ["VNDF_PROGRAM"], "render", "ball.scene", "-o", "ball.pfm"], check=True, capture_output=True)
+        ours = np.array(mi.Bitmap("ball.pfm"))[:, :, :3]
+        material = conductor(alpha=0.3)
+        self.agree(self.render(material, 11), ours, self.noise(material))
+
+    def test_of_mitsubas_ggx(self):
+        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
+        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
+        self.agree(self.render(ours, 11), self.render(theirs, 12), self.noise(theirs))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,351 @@
+"""BSDFs for Mitsuba 3: a rough conductor and a rough dielectric with any distribution of normals.
+
+    import mitsuba as mi
+    mi.set_variant("llvm_ad_rgb")
+    import vndf.mitsuba
+    vndf.mitsuba.register()                                     # after each mi.set_variant
+    mi.load_dict({"type": "vndf_conductor", "distribution": "rings.vndf", "alpha": 0.3, "material": "Au"})
+
+Parameters of both:
+
+distribution    a table file, or "ggx"
+alpha           roughness, a number or a texture; or alpha_u and alpha_v, along the two tangents
+rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
+weight          of this lobe where there are several: a number or a texture
+distribution_2, alpha_2 (alpha_u_2, alpha_v_2), weight_2, and so on up to _8: more lobes of one surface
+masking         "height-correlated" (default) or "separable", as Mitsuba's own plugins have it
+
+vndf_conductor: material, or eta and k; specular_reflectance: those of Mitsuba's `conductor`, which evaluates Fresnel.
+vndf_dielectric: int_ior, ext_ior; specular_reflectance, specular_transmittance.
+
+Samples are weighted with the true D over the density that the table has drawn with, so estimates are exact for a table
+of any size. Everything is differentiable with respect to roughness, weights, rotation and optics. Polarised variants
+are refused. Tested with Mitsuba 3.9, scalar and LLVM variants; CUDA runs the same code.
+"""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import drjit as dr
+import mitsuba as mi
+
+from ._drjit import Ggx, Law, Table
+from .distribution import load
+
+_MOST_LOBES = 8
+_LEAST_ALPHA = 1e-4
+
+
+def _texture(props: Any, name: str, default: float) -> Any:
+    return props.get_texture(name, default)
+
+
+class _Lobe:
+    """One distribution, and the textures of its roughness and weight."""
+
+    def __init__(self, props: Any, suffix: str) -> None:
+        name = str(props["distribution" + suffix])
+        self.name = name
+        self.law: Law = Ggx() if name == "ggx" else Table(load(str(mi.file_resolver().resolve(name))))
+        both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
+        if both in props and (along in props or across in props):
+            raise ValueError(f"{both} and {along} or {across}: one or the other")
+        if (along in props) != (across in props):
+            raise ValueError(f"{along} needs {across}, and the other way round")
+        self.alphas = {n: _texture(props, n, 0.1) for n in ([along, across] if along in props else [both])}
+        self.weight = {"weight" + suffix: _texture(props, "weight" + suffix, 1.0)}
+
+    def at(self, si: Any, active: Any) -> tuple[Any, Any, Any]:
+        """alpha_u, alpha_v and the weight of a hit."""
+        alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
+        weight = dr.maximum(next(iter(self.weight.values())).eval_1(si, active), 0.0)
+        return alphas[0], alphas[-1], weight
+
+
+class _Microsurface:
+    """The lobes of a surface."""
+
+    def __init__(self, props: Any) -> None:
+        self.lobes = [_Lobe(props, "")]
+        for i in range(2, _MOST_LOBES + 1):
+            if f"distribution_{i}" in props:
+                self.lobes.append(_Lobe(props, f"_{i}"))
+        self.rotation = _texture(props, "rotation", 0.0) if "rotation" in props else None
+        masking = str(props.get("masking", "height-correlated"))
+        if masking not in ("height-correlated", "separable"):
+            raise ValueError(f'masking is "height-correlated" or "separable", not "{masking}"')
+        self.is_separable = masking == "separable"
+
+    def textures(self) -> dict[str, Any]:
+        named = {} if self.rotation is None else {"rotation": self.rotation}
+        for lobe in self.lobes:
+            named.update({**lobe.alphas, **lobe.weight})
+        return named
+
+    def at(self, si: Any, active: Any) -> _Hit:
+        return _Hit(self, si, active)
+
+
+class _Hit:
+    """The microsurface at one hit. Directions are those of the local frame, with z >= 0."""
+
+    def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
+        self._separable = surface.is_separable
+        self._laws = [lobe.law for lobe in surface.lobes]
+        self._shapes = [lobe.at(si, active) for lobe in surface.lobes]
+        total = sum(weight for _, _, weight in self._shapes)
+        self._weights = [dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)
+                         for _, _, weight in self._shapes]  # fmt: skip
+        self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
+
+    def turned(self, w: Any) -> Any:
+        """In the frame of the axes of roughness."""
+        if self._turn is None:
+            return w
+        sine, cosine = self._turn
+        return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
+
+    def turned_back(self, w: Any) -> Any:
+        if self._turn is None:
+            return w
+        sine, cosine = self._turn
+        return mi.Vector3f(cosine * w.x - sine * w.y, cosine * w.y + sine * w.x, w.z)
+
+    def seen_from(self, w: Any) -> tuple[list[Any], Any]:
+        """The lobes' views, and the projected area of all."""
+        views = [law.view(x, y, w) for law, (x, y, _) in zip(self._laws, self._shapes)]
+        return views, sum(weight * view.area for weight, view in zip(self._weights, views))
+
+    def sample(self, views: list[Any], area: Any, u1: Any, u2: Any) -> tuple[Any, Any]:
+        """A visible normal, and the density of all lobes together."""
+        if len(views) == 1:
+            return self._laws[0].sample(views[0], u1, u2)
+        before: Any = 0.0
+        wm = mi.Vector3f(0.0, 0.0, 1.0)
+        for i, (law, view, weight) in enumerate(zip(self._laws, views, self._weights)):
+            share = dr.select(area > 0.0, weight * view.area / area, 0.0)
+            last = i + 1 == len(views)
+            here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
+            u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
+            wm = dr.select(here, law.sample(view, u, u2)[0], wm)
+            before = before + share
+        return wm, self.pdf(views, area, wm)
+
+    def pdf(self, views: list[Any], area: Any, wm: Any) -> Any:
+        parts = zip(self._laws, views, self._weights)
+        return sum(weight * view.area * law.pdf(view, wm) for law, view, weight in parts) / area
+
+    def ndf(self, wm: Any) -> Any:
+        parts = zip(self._laws, self._shapes, self._weights)
+        return sum(weight * law.ndf(x, y, wm) for law, (x, y, _), weight in parts)
+
+    def g2(self, area_i: Any, cos_i: Any, area_o: Any, cos_o: Any, reflects: Any) -> Any:
+        """Masking and shadowing of directions with these projected areas and cosines, both > 0."""
+        one, other = area_i / cos_i, area_o / cos_o  # 1 + Lambda
+        if self._separable:
+            return 1.0 / (one * other)
+        reflected = 1.0 / (one + other - 1.0)
+        return reflected if reflects is True else dr.select(reflects, reflected, _beta(one, other))
+
+
+def _beta(a: Any, b: Any) -> Any:
+    """The Beta function, a and b >= 1."""
+    if not dr.is_jit_v(mi.Float):
+        return math.exp(math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b))
+    return dr.exp(dr.lgamma(a) + dr.lgamma(b) - dr.lgamma(a + b))
+
+
+def _up(w: Any) -> Any:
+    """w, turned to the upper side through the origin."""
+    return dr.mulsign(w, w.z)
+
+
+def register() -> None:
+    """Registers "vndf_conductor" and "vndf_dielectric" for the variant of Mitsuba that is set."""
+    if mi.is_polarized:
+        raise ValueError(f"vndf knows no polarisation, which {mi.variant()} has")
+
+    class Conductor(mi.BSDF):
+        def __init__(self, props: Any) -> None:
+            super().__init__(props)
+            self._surface = _Microsurface(props)
+            optics: dict[str, Any] = {"type": "conductor"}
+            for name in ("eta", "k"):
+                if name in props:
+                    optics[name] = props.get_unbounded_texture(name)
+            if "material" in props:
+                optics["material"] = props["material"]
+            if "specular_reflectance" in props:
+                optics["specular_reflectance"] = _texture(props, "specular_reflectance", 1.0)
+            self._optics = mi.load_dict(optics)
+            flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide | mi.BSDFFlags.Anisotropic
+            self.m_components = [flags]
+            self.m_flags = flags
+
+        def _fresnel(self, ctx: Any, si: Any, cosine: Any, active: Any) -> Any:
+            """By Mitsuba's smooth conductor, which knows materials and spectra."""
+            facet = mi.SurfaceInteraction3f(si)
+            facet.wi = mi.Vector3f(dr.safe_sqrt(1.0 - cosine * cosine), 0.0, cosine)
+            return self._optics.sample(mi.BSDFContext(ctx.mode), facet, 0.0, mi.Point2f(0.0), active)[1]
+
+        def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
+            bs = dr.zeros(mi.BSDFSample3f)
+            active = mi.Bool(active) & (si.wi.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
+            hit = self._surface.at(si, active)
+            wi = hit.turned(si.wi)
+            views, area = hit.seen_from(wi)
+            wm, density = hit.sample(views, area, sample2.x, sample2.y)
+            facing = dr.dot(wi, wm)
+            wo = mi.Vector3f(2.0 * facing * wm - wi)
+            bs.wo = hit.turned_back(wo)
+            bs.pdf = density / (4.0 * facing)
+            bs.eta = 1.0
+            bs.sampled_component = mi.UInt32(0)
+            bs.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
+            active = active & (wo.z > 0.0) & (bs.pdf > 0.0)
+            value = self._shape(hit, wi, wo, wm, area) / dr.select(bs.pdf > 0.0, bs.pdf, 1.0)
+            weight = self._fresnel(ctx, si, facing, active) * value
+            bs.pdf = dr.select(active, bs.pdf, 0.0)
+            return bs, weight & active
+
+        def _shape(self, hit: Any, wi: Any, wo: Any, wm: Any, area: Any) -> Any:
+            """f cos_o without Fresnel."""
+            g2 = hit.g2(area, wi.z, hit.seen_from(wo)[1], wo.z, True)
+            return hit.ndf(wm) * g2 / (4.0 * wi.z)
+
+        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
+            active = mi.Bool(active) & (si.wi.z > 0.0) & (wo.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
+            hit = self._surface.at(si, active)
+            wi, wo = hit.turned(si.wi), hit.turned(wo)
+            views, area = hit.seen_from(wi)
+            wm = dr.normalize(wi + wo)
+            facing = dr.dot(wi, wm)
+            value = self._fresnel(ctx, si, facing, active) * self._shape(hit, wi, wo, wm, area)
+            pdf = hit.pdf(views, area, wm) / (4.0 * facing)
+            return value & active, dr.select(active, pdf, 0.0)
+
+        def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[0]
+
+        def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[1]
+
+        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
+            return self._look(ctx, si, wo, active)
+
+        def traverse(self, callback: Any) -> None:
+            for name, texture in self._surface.textures().items():
+                callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
+            callback.put("optics", self._optics, +mi.ParamFlags.Differentiable)
+
+        def to_string(self) -> str:
+            return f"vndf_conductor[{', '.join(lobe.name for lobe in self._surface.lobes)}]"
+
+    class Dielectric(mi.BSDF):
+        def __init__(self, props: Any) -> None:
+            super().__init__(props)
+            self._surface = _Microsurface(props)
+            self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
+            if not self._eta > 0.0 or self._eta == 1.0:
+                raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
+            self._colours = {name: _texture(props, name, 1.0) if name in props else None
+                             for name in ("specular_reflectance", "specular_transmittance")}  # fmt: skip
+            sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide | mi.BSDFFlags.Anisotropic
+            reflection = mi.BSDFFlags.GlossyReflection | sides
+            transmission = mi.BSDFFlags.GlossyTransmission | sides | mi.BSDFFlags.NonSymmetric
+            self.m_components = [reflection, transmission]
+            self.m_flags = reflection | transmission
+
+        def _enabled(self, ctx: Any) -> tuple[bool, bool]:
+            return (
+                ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 0),
+                ctx.is_enabled(mi.BSDFFlags.GlossyTransmission, 1),
+            )
+
+        def _colour(self, si: Any, reflects: Any, active: Any) -> Any:
+            one = mi.Spectrum(1.0)
+            reflectance, transmittance = (one if t is None else t.eval(si, active) for t in self._colours.values())
+            return dr.select(reflects, reflectance, transmittance)
+
+        def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
+            bs = dr.zeros(mi.BSDFSample3f)
+            can_reflect, can_transmit = self._enabled(ctx)
+            active = mi.Bool(active) & (si.wi.z != 0.0) & (can_reflect or can_transmit)
+            hit = self._surface.at(si, active)
+            wi = hit.turned(si.wi)
+            views, area = hit.seen_from(_up(wi))
+            wm, density = hit.sample(views, area, sample2.x, sample2.y)
+            wm = dr.mulsign(wm, wi.z)  # on the side of wi
+            facing = dr.dot(wi, wm)
+            r_i, cos_t, eta, eta_back = mi.fresnel(facing, dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta))
+            chance = r_i if can_reflect and can_transmit else mi.Float(1.0 if can_reflect else 0.0)
+            reflects = (sample1 < chance) | (chance >= 1.0)
+            wo = dr.select(reflects, 2.0 * facing * wm - wi, mi.refract(wi, mi.Normal3f(wm), cos_t, eta_back))
+            active = active & (reflects | (r_i < 1.0)) & (dr.select(reflects, wi.z, -wi.z) * wo.z > 0.0)
+            bs.wo = hit.turned_back(mi.Vector3f(wo))
+            bs.eta = dr.select(reflects, 1.0, eta)
+            bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
+            bs.sampled_type = dr.select(
+                reflects, mi.UInt32(+mi.BSDFFlags.GlossyReflection), mi.UInt32(+mi.BSDFFlags.GlossyTransmission)
+            )
+            value, per_wm = self._shape(ctx, hit, wi, wo, wm, r_i, eta, area, reflects)
+            bs.pdf = density * dr.select(reflects, chance, 1.0 - chance) * per_wm
+            active = active & (bs.pdf > 0.0)
+            weight = self._colour(si, reflects, active) * (value / dr.select(active, bs.pdf, 1.0))
+            bs.pdf = dr.select(active, bs.pdf, 0.0)
+            return bs, weight & active
+
+        def _shape(self, ctx: Any, hit: Any, wi: Any, wo: Any, wm: Any, r_i: Any, eta: Any, area: Any,
+                   reflects: Any) -> tuple[Any, Any]:  # fmt: skip
+            """f |cos_o| without colours, and the density of wo per density of wm. `eta`: beyond over before."""
+            facing, leaving = dr.dot(wi, wm), dr.dot(wo, wm)
+            g2 = hit.g2(area, abs(wi.z), hit.seen_from(_up(wo))[1], abs(wo.z), reflects)
+            common = hit.ndf(_up(wm)) * g2 / abs(wi.z)
+            under = facing + eta * leaving
+            bend = eta * eta * abs(leaving) / (under * under)
+            scale = 1.0 / (eta * eta) if ctx.mode == mi.TransportMode.Radiance else 1.0
+            value = dr.select(reflects, 0.25 * r_i, (1.0 - r_i) * facing * bend * scale) * common
+            return value, dr.select(reflects, 0.25 / abs(leaving), bend)
+
+        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
+            can_reflect, can_transmit = self._enabled(ctx)
+            reflects = si.wi.z * wo.z > 0.0
+            active = mi.Bool(active) & (si.wi.z * wo.z != 0.0)
+            active = active & dr.select(reflects, mi.Bool(can_reflect), mi.Bool(can_transmit))
+            hit = self._surface.at(si, active)
+            wi, wo = hit.turned(si.wi), hit.turned(wo)
+            views, area = hit.seen_from(_up(wi))
+            eta = dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
+            wm = dr.normalize(wi + wo * dr.select(reflects, 1.0, eta))
+            wm = dr.mulsign(wm, wi.z * wm.z)  # on the side of wi
+            facing = dr.dot(wi, wm)
+            active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
+            r_i = mi.fresnel(facing, eta)[0]
+            chance = r_i if can_reflect and can_transmit else 1.0
+            value, per_wm = self._shape(ctx, hit, wi, wo, wm, r_i, eta, area, reflects)
+            chance = dr.select(reflects, chance, 1.0 - r_i if can_reflect and can_transmit else 1.0)
+            pdf = hit.pdf(views, area, _up(wm)) * chance * per_wm
+            return (self._colour(si, reflects, active) * value) & active, dr.select(active, pdf, 0.0)
+
+        def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[0]
+
+        def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[1]
+
+        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
+            return self._look(ctx, si, wo, active)
+
+        def traverse(self, callback: Any) -> None:
+            for name, texture in self._surface.textures().items():
+                callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
+            for name, texture in self._colours.items():
+                if texture is not None:
+                    callback.put(name, texture, +mi.ParamFlags.Differentiable)
+
+        def to_string(self) -> str:
+            return f"vndf_dielectric[{', '.join(lobe.name for lobe in self._surface.lobes)}, eta = {self._eta}]"
+
+    mi.register_bsdf("vndf_conductor", Conductor)
+    mi.register_bsdf("vndf_dielectric", Dielectric)
