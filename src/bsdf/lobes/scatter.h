@@ -54,7 +54,71 @@ VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
         *pdf = 0.0f;
 }
 
+/* ---- the frame of a hit, and its principal axes ---- */
+
+/* Turned by the angle of (c, s). */
+VNDF_INLINE vndf_normal vndf_turned_by(double c, double s, vndf_normal w)
+{
+    vndf_normal turned = {c * w.x - s * w.y, c * w.y + s * w.x, w.z};
+    return turned;
+}
+
+/* In the axes, and not rounded there. */
+VNDF_INLINE vndf_normal vndf_to_axes(const vndf_bsdf *b, vndf_vec3 w, vndf_choice choice)
+{
+    vndf_normal n = vndf_normal_of(w);
+    return choice.turned ? vndf_turned_by(b->cosine, -b->sine, n) : n;
+}
+
+/* Back from them, rounded once. */
+VNDF_INLINE vndf_vec3 vndf_from_axes(const vndf_bsdf *b, vndf_normal w, vndf_choice choice)
+{
+    return vndf_vec3_from(choice.turned ? vndf_turned_by(b->cosine, b->sine, w) : w);
+}
+
 /* ---- a normal and a direction give the other direction ---- */
+
+/* A sampled direction, turned up: in the frame of the hit, where its rounding counts, and in the axes. */
+typedef struct vndf_leaving {
+    vndf_vec3 wo, in_axes;
+} vndf_leaving;
+
+VNDF_INLINE vndf_leaving vndf_leave(const vndf_bsdf *b, vndf_normal in_axes, vndf_choice choice)
+{
+    vndf_leaving to = {vndf_from_axes(b, in_axes, choice), vndf_vec3_from(in_axes)};
+    return to;
+}
+
+/* vndf_reflected; where wo is turned it is so before it is rounded, so that it is rounded no more than others. */
+VNDF_INLINE vndf_leaving vndf_leave_mirrored(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
+{
+    vndf_vec3 wi = b->view.wi;
+    if (!choice.turned) {
+        vndf_vec3 wo = vndf_packed(vndf_reflected(wi, wm, facing));
+        vndf_leaving to = {wo, wo};
+        return to;
+    }
+    double twice = 2.0 * facing;
+    vndf_normal wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+    return vndf_leave(b, wo, choice);
+}
+
+/* A drawn normal as it leaves. */
+VNDF_INLINE vndf_vec3 vndf_leaving_normal(const vndf_bsdf *b, vndf_vec3 wm, vndf_choice choice)
+{
+    return choice.turned ? vndf_from_axes(b, vndf_normal_of(wm), choice) : wm;
+}
+
+/* wi + wo, of which vndf_ggx_density_of is the density; wo is in the frame of the hit. */
+VNDF_INLINE vndf_vec3 vndf_sum_towards(const vndf_bsdf *b, vndf_vec3 wo, vndf_choice choice)
+{
+    vndf_vec3 wi = b->view.wi;
+    if (!choice.turned)
+        return vndf_sum(wi, wo);
+    vndf_normal o = vndf_to_axes(b, wo, choice);
+    vndf_vec3 sum = {(float)(wi.x + o.x), (float)(wi.y + o.y), wi.z + wo.z};
+    return sum;
+}
 
 VNDF_INLINE vndf_normal vndf_unit(vndf_vec3 w)
 {
@@ -66,14 +130,9 @@ VNDF_INLINE vndf_meeting vndf_meeting_of(vndf_vec3 wi, vndf_vec3 wm)
     return vndf_meet(vndf_normal_of(wi), vndf_normal_of(wm));
 }
 
-VNDF_INLINE vndf_vec3 vndf_refracted(const vndf_meeting *at, double along, double eta)
-{
-    return vndf_vec3_from(vndf_bent(at, along, eta));
-}
-
 /* ---- two directions give the normal ---- */
 
-/* A microfacet that takes wi to wo; facing_i <= 0 if there is none. wo is turned up. */
+/* A microfacet that takes wi to wo; facing_i <= 0 if there is none. Both are in the axes, wo is turned up. */
 typedef struct vndf_half {
     vndf_normal wm;
     vndf_event event;
@@ -87,16 +146,16 @@ VNDF_INLINE vndf_half vndf_half_of(const vndf_facet *f, vndf_vec3 wo)
     return half;
 }
 
-VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_vec3 wo)
+VNDF_INLINE vndf_half vndf_half_reflected(vndf_vec3 wi, vndf_normal wo)
 {
-    vndf_facet f = vndf_facet_reflecting(vndf_normal_of(wi), vndf_normal_of(wo));
-    return vndf_half_of(&f, wo);
+    vndf_facet f = vndf_facet_reflecting(vndf_normal_of(wi), wo);
+    return vndf_half_of(&f, vndf_vec3_from(wo));
 }
 
-VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_vec3 wo, double eta)
+VNDF_INLINE vndf_half vndf_half_refracted(vndf_vec3 wi, vndf_normal wo, double eta)
 {
-    vndf_facet f = vndf_facet_refracting(vndf_normal_of(wi), vndf_normal_of(wo), eta);
-    return vndf_half_of(&f, vndf_mirrored(wo, -1.0f));
+    vndf_facet f = vndf_facet_refracting(vndf_normal_of(wi), wo, eta);
+    return vndf_half_of(&f, vndf_mirrored(vndf_vec3_from(wo), -1.0f));
 }
 
 /* ---- densities of two directions ---- */
@@ -118,7 +177,7 @@ VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VN
     b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
 }
 
-/* A sample without its Fresnel term. */
+/* A sample without its Fresnel term; wo is turned up. */
 typedef struct vndf_outcome {
     vndf_vec3 wo;
     double facing;
@@ -131,16 +190,16 @@ VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
     return !vndf_loses_reflectance(facing, b->eta);
 }
 
-/* 0 if no microfacet does that. */
-int vndf_reflect_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
-int vndf_refract_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out);
+/* Of a rounded wo, which is given in the axes and set by the caller. 0 if no microfacet does that. */
+int vndf_reflect_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out);
+int vndf_refract_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out);
 
 /* Bounded normals reflect to above the horizon, but for rounding. */
-VNDF_INLINE vndf_vec3 vndf_lifted(vndf_vec3 wo, vndf_choice choice)
+VNDF_INLINE vndf_leaving vndf_lifted(vndf_leaving to, vndf_choice choice)
 {
-    if (choice.normals == VNDF_NORMALS_BOUNDED && !(wo.z > FLT_MIN))
-        wo.z = FLT_MIN;
-    return wo;
+    if (choice.normals == VNDF_NORMALS_BOUNDED && !(to.wo.z > FLT_MIN))
+        to.wo.z = to.in_axes.z = FLT_MIN;
+    return to;
 }
 
 /* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi
@@ -149,18 +208,20 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
                              vndf_outcome *out)
 {
     vndf_incident at = vndf_incident_of(b);
-    vndf_vec3 wo = vndf_lifted(vndf_packed(vndf_reflected(at.wi, n->wm, n->facing)), choice);
+    vndf_leaving to = vndf_lifted(vndf_leave_mirrored(b, n->wm, n->facing, choice), choice);
+    vndf_vec3 wo = to.in_axes;
+    out->wo = to.wo;
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     vndf_reflection_trust trust = vndf_trust_reflection(&at, n, choice);
     int trusted = settled & trust.trusted;
-    if (!trusted && vndf_reflect_exactly(b, wo, out))
+    if (!trusted && vndf_reflect_exactly(b, vndf_to_axes(b, to.wo, choice), out))
         return 1;
     if (!trusted && choice.normals != VNDF_NORMALS_BOUNDED)
         return 0;
     /* A bounded normal is never lost, not even where the density of the rounded direction underflows. */
-    float density = !trusted ? FLT_MIN : vndf_reflected_density(&at, n, wo, trust.as_drawn);
-    out->wo = wo;
+    float density =
+        !trusted ? FLT_MIN : vndf_reflected_density(&at, n, vndf_sum_towards(b, to.wo, choice), trust.as_drawn);
     out->facing = n->facing;
     out->settled = 1;
     if (choice.bare) {
@@ -176,18 +237,19 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
 
 /* The same for a refraction; `beyond` is the cosine to wm on the other side. wo turns with wm by along/eta. */
 VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_meeting *at, double beyond,
-                             vndf_outcome *out)
+                             vndf_choice choice, vndf_outcome *out)
 {
     double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
-    vndf_vec3 wi = b->view.wi, wo = vndf_refracted(at, along, eta);
+    vndf_leaving to = vndf_leave(b, vndf_bent(at, along, eta), choice);
+    vndf_vec3 wi = b->view.wi, wo = to.in_axes;
+    out->wo = to.wo;
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
     float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
     vndf_incident from = vndf_incident_of(b);
     if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain)))
-        return vndf_refract_exactly(b, wo, out);
+        return vndf_refract_exactly(b, vndf_to_axes(b, to.wo, choice), out);
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
-    out->wo = wo;
     out->facing = at->facing;
     out->density = vndf_density_from(vndf_bent_density(at, n->density, beyond, eta));
     out->weight = (float)(b->material->masking->transmission(b, &e) * e.cos_o * n->quotient);
