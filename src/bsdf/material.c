@@ -184,5 +184,6 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
         vndf_compensation_resolve(m);
     if (e->shape == VNDF_SHAPE_MATRIX)
         vndf_turned_roughness(is->distribution, &is->affine, &m->roughness);
+    vndf_axes_of(&m->roughness, &m->axes);
     return VNDF_OK;
 }

@@ -6,10 +6,10 @@
 #include "bsdf/lobes/turned.h"
 
 /* A reflection that `part` of the samples take. */
-VNDF_INLINE void set_reflected(const vndf_bsdf *b, vndf_vec3 wm, const vndf_outcome *out, const double *f,
-                               double part, vndf_scattered *s)
+VNDF_INLINE void set_reflected(const vndf_bsdf *b, vndf_vec3 wo, vndf_vec3 wm, const vndf_outcome *out,
+                               const double *f, double part, vndf_scattered *s)
 {
-    s->wo = vndf_mirrored(out->wo, b->side);
+    s->wo = vndf_mirrored(wo, b->side);
     s->wm = vndf_mirrored(wm, b->side);
     s->density = vndf_positive(out->density * (float)part);
     s->lobe = VNDF_LOBE_REFLECTION;
@@ -17,11 +17,11 @@ VNDF_INLINE void set_reflected(const vndf_bsdf *b, vndf_vec3 wm, const vndf_outc
         s->weight[i] = vndf_finite(out->weight * (float)(f[i] / part));
 }
 
-VNDF_INLINE void set_refracted(const vndf_bsdf *b, vndf_vec3 wm, const vndf_outcome *out, const double *f,
-                               double part, vndf_scattered *s)
+VNDF_INLINE void set_refracted(const vndf_bsdf *b, vndf_vec3 wo, vndf_vec3 wm, const vndf_outcome *out,
+                               const double *f, double part, vndf_scattered *s)
 {
     int straight = b->eta == 1.0;
-    s->wo = vndf_mirrored(out->wo, b->side);
+    s->wo = vndf_mirrored(wo, b->side);
     s->wm = vndf_mirrored(wm, b->side);
     s->density = straight ? 1.0f : vndf_positive(out->density * (float)part);
     s->lobe = straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
@@ -33,15 +33,15 @@ VNDF_INLINE void scatter_through(const vndf_bsdf *b, const vndf_bsdf_normal *n, 
                                  vndf_choice choice)
 {
     vndf_meeting at = vndf_meeting_of(b->view.wi, n->wm);
-    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(at.facing, b->eta);
+    double f[VNDF_WAVELENGTHS], square = vndf_refracted_square(at.facing, b->eta), beyond = sqrt(square);
     vndf_outcome out;
-    if (!(square > 0.0) ||
-        !vndf_refract(b, n, &at, sqrt(square), choice, &out)) { /* reflected totally, or masked */
+    vndf_leaving to = vndf_leave_refracted(b, &at, beyond, choice);
+    if (!(square > 0.0) || !vndf_refract(b, n, &at, beyond, to, choice, &out)) { /* reflected totally, or masked */
         vndf_scatter_nothing(s);
         return;
     }
     vndf_reflectance(b, out.facing, f);
-    set_refracted(b, vndf_leaving_normal(b, n->wm, choice), &out, f, 1.0, s);
+    set_refracted(b, to.wo, vndf_leaving_normal(b, n->wm, choice), &out, f, 1.0, s);
 }
 
 /* The drawn normal chooses the lobe. Density and weight then take F at the same cosine as the outcome. */
@@ -56,8 +56,10 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
     double part = vndf_mean_of(b, f); /* numbers outside [0, 1] do not choose what never happens */
     int reflects = (part > 0.0 && u3 < part) || !(part < 1.0 && square > 0.0);
     int settled = vndf_keeps_reflectance(b, at.facing);
-    if (!(reflects ? vndf_reflect(b, n, choice, settled, &out)
-                   : vndf_refract(b, n, &at, sqrt(square), choice, &out))) {
+    double beyond = reflects ? 0.0 : sqrt(square);
+    vndf_leaving to = reflects ? vndf_leave_reflected(b, n, choice) : vndf_leave_refracted(b, &at, beyond, choice);
+    if (!(reflects ? vndf_reflect(b, n, to, choice, settled, &out)
+                   : vndf_refract(b, n, &at, beyond, to, choice, &out))) {
         vndf_scatter_nothing(s);
         return;
     }
@@ -67,9 +69,9 @@ VNDF_INLINE void scatter_both(const vndf_bsdf *b, const vndf_bsdf_normal *n, flo
     }
     vndf_vec3 wm = vndf_leaving_normal(b, n->wm, choice);
     if (reflects)
-        set_reflected(b, wm, &out, f, part, s);
+        set_reflected(b, to.wo, wm, &out, f, part, s);
     else if (part < 1.0)
-        set_refracted(b, wm, &out, f, 1.0 - part, s);
+        set_refracted(b, to.wo, wm, &out, f, 1.0 - part, s);
     else
         vndf_scatter_nothing(s);
 }
@@ -194,22 +196,23 @@ static void both_drawn(const vndf_bsdf *b, vndf_vec3 wm, float density, float we
     prepare, sample_##name, eval_##name, pdf_##name, scatter, kind \
   }
 #define ALIGNED(prepare, name) SET(prepare, name, NULL, VNDF_BLOCK_NONE)
-#define TURNED(lobes, name) SET(vndf_prepare_turned, lobes##_turned_##name, NULL, VNDF_BLOCK_NONE)
+#define TURNED(lobes, name, normals) \
+  SET(vndf_prepare_turned_##normals, lobes##_turned_##name, NULL, VNDF_BLOCK_NONE)
 
 const vndf_routines vndf_routines_transmission[VNDF_FRAMES][VNDF_NORMALS_COUNT] = {
     {[VNDF_NORMALS_VISIBLE] = SET(vndf_prepare_visible, through_visible, through_drawn, VNDF_BLOCK_NONE),
      [VNDF_NORMALS_ALL] = ALIGNED(vndf_prepare_all, through_all),
      [VNDF_NORMALS_V_CAVITY] = ALIGNED(vndf_prepare_all, through_v_cavity)},
-    {[VNDF_NORMALS_VISIBLE] = TURNED(through, visible),
-     [VNDF_NORMALS_ALL] = TURNED(through, all),
-     [VNDF_NORMALS_V_CAVITY] = TURNED(through, v_cavity)},
+    {[VNDF_NORMALS_VISIBLE] = TURNED(through, visible, visible),
+     [VNDF_NORMALS_ALL] = TURNED(through, all, all),
+     [VNDF_NORMALS_V_CAVITY] = TURNED(through, v_cavity, all)},
 };
 
 const vndf_routines vndf_routines_both[VNDF_FRAMES][VNDF_NORMALS_COUNT] = {
     {[VNDF_NORMALS_VISIBLE] = SET(vndf_prepare_visible, both_visible, both_drawn, VNDF_BLOCK_BOTH),
      [VNDF_NORMALS_ALL] = ALIGNED(vndf_prepare_all, both_all),
      [VNDF_NORMALS_V_CAVITY] = ALIGNED(vndf_prepare_all, both_v_cavity)},
-    {[VNDF_NORMALS_VISIBLE] = TURNED(both, visible),
-     [VNDF_NORMALS_ALL] = TURNED(both, all),
-     [VNDF_NORMALS_V_CAVITY] = TURNED(both, v_cavity)},
+    {[VNDF_NORMALS_VISIBLE] = TURNED(both, visible, visible),
+     [VNDF_NORMALS_ALL] = TURNED(both, all, all),
+     [VNDF_NORMALS_V_CAVITY] = TURNED(both, v_cavity, all)},
 };

@@ -15,15 +15,15 @@ static int evaluate(const vndf_bsdf *b, const vndf_half *half, double value, vnd
     return 1;
 }
 
-int vndf_reflect_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out)
+int vndf_reflect_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out)
 {
-    vndf_half half = vndf_half_reflected(b->view.wi, wo);
+    vndf_half half = vndf_half_reflected(b->view.wi, *wo);
     return half.event.facing_i > 0.0 && evaluate(b, &half, b->material->masking->reflection(b, &half.event), out);
 }
 
-int vndf_refract_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out)
+int vndf_refract_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out)
 {
-    vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
+    vndf_half half = vndf_half_refracted(b->view.wi, *wo, b->eta);
     return vndf_is_refraction(&half) &&
            evaluate(b, &half, b->material->masking->transmission(b, &half.event), out);
 }

@@ -25,7 +25,8 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
     }
     vndf_vec3 wm = {drawn.x, drawn.y, drawn.z};
     float facing = vndf_dot(b->view.wi, wm);
-    vndf_leaving to = vndf_leave_mirrored(b, wm, facing, choice);
+    vndf_leaving to =
+        choice.turned ? vndf_leave_near(b, wm, facing, choice) : vndf_leave_mirrored(b, wm, facing, choice);
     if (!(to.wo.z > 0.0f)) {
         vndf_scatter_nothing(s);
         return;
@@ -38,10 +39,10 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
         return;
     }
     float weight = to.wo.z * b->area / vndf_fast_ggx_unmasked(b, to.in_axes);
-    vndf_set_bare(s, to.wo, vndf_leaving_normal(b, wm, choice), weight,
-                  vndf_is_fast_ggx_drawn(b, facing)
-                      ? 0.25f * drawn.density / facing
-                      : vndf_fast_ggx_density(b, vndf_sum_towards(b, to.wo, choice)));
+    int as_drawn = !choice.turned && vndf_is_fast_ggx_drawn(b, facing);
+    float density =
+        as_drawn ? 0.25f * drawn.density / facing : vndf_fast_ggx_density(b, vndf_sum_towards(b, to.wo, choice));
+    vndf_set_bare(s, to.wo, vndf_leaving_normal(b, wm, choice), weight, density);
 }
 
 /* Whether float is trusted for both directions and h, their sum. */
@@ -80,6 +81,11 @@ static void scatter(const vndf_bsdf *b, vndf_vec3 wm, float density, float weigh
     vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_VISIBLE].scatter(b, wm, density, weight, u, s);
 }
 
+static int prepare_turned(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && prepare(b, r, wi);
+}
+
 #define ROUTINES(frame, turned)                                                                       \
   static void sample_##frame(const vndf_bsdf *b, const float u[3], vndf_scattered *s)                 \
   {                                                                                                   \
@@ -103,5 +109,5 @@ ROUTINES(turned, 1)
 
 const vndf_routines vndf_routines_bare_ggx[VNDF_FRAMES] = {
     {prepare, sample_aligned, eval_aligned, pdf_aligned, scatter, VNDF_BLOCK_BARE},
-    {vndf_prepare_turned, sample_turned, eval_turned, pdf_turned, NULL, VNDF_BLOCK_NONE},
+    {prepare_turned, sample_turned, eval_turned, pdf_turned, NULL, VNDF_BLOCK_NONE},
 };

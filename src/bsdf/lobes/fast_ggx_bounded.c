@@ -60,6 +60,11 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
                   vndf_fast_ggx_density(b, vndf_sum_towards(b, to.wo, choice)) / n.inside_mass);
 }
 
+static int prepare_turned(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && prepare(b, r, wi);
+}
+
 #define ROUTINES(frame, turned)                                                                       \
   static void sample_##frame(const vndf_bsdf *b, const float u[3], vndf_scattered *s)                 \
   {                                                                                                   \
@@ -80,5 +85,5 @@ ROUTINES(turned, 1)
 
 const vndf_routines vndf_routines_bare_bounded_ggx[VNDF_FRAMES] = {
     {prepare, sample_aligned, eval_aligned, pdf_aligned, NULL, VNDF_BLOCK_NONE},
-    {vndf_prepare_turned, sample_turned, eval_turned, pdf_turned, NULL, VNDF_BLOCK_NONE},
+    {prepare_turned, sample_turned, eval_turned, pdf_turned, NULL, VNDF_BLOCK_NONE},
 };

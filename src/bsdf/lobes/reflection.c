@@ -13,12 +13,13 @@ VNDF_INLINE void scatter(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_sca
     double f[VNDF_WAVELENGTHS];
     int count = b->material->is.wavelengths;
     settled &= choice.bare || (!b->material->steep && vndf_keeps_reflectance(b, n->facing));
-    if (!vndf_reflect(b, n, choice, settled, &out)) {
+    vndf_leaving to = vndf_leave_reflected(b, n, choice);
+    if (!vndf_reflect(b, n, to, choice, settled, &out)) {
         vndf_scatter_nothing(s);
         return;
     }
     vndf_vec3 wm = vndf_leaving_normal(b, n->wm, choice);
-    s->wo = choice.bare ? out.wo : vndf_mirrored(out.wo, b->side);
+    s->wo = choice.bare ? to.wo : vndf_mirrored(to.wo, b->side);
     s->wm = choice.bare ? wm : vndf_mirrored(wm, b->side);
     s->density = vndf_positive(out.density);
     s->lobe = VNDF_LOBE_REFLECTION;
@@ -105,22 +106,21 @@ ROUTINES(turned_v_cavity, VNDF_NORMALS_V_CAVITY, 0, 1)
 SCATTERS(bare_visible, 1)
 SCATTERS(visible, 0)
 
-/* `prepare` of those that are turned calls that of those that are not. */
 #define SET(prepare, name, scatter, kind)                          \
   {                                                                \
     prepare, sample_##name, eval_##name, pdf_##name, scatter, kind \
   }
 #define ALIGNED(prepare, name) SET(prepare, name, NULL, VNDF_BLOCK_NONE)
-#define TURNED(name) SET(vndf_prepare_turned, turned_##name, NULL, VNDF_BLOCK_NONE)
+#define TURNED(name, normals) SET(vndf_prepare_turned_##normals, turned_##name, NULL, VNDF_BLOCK_NONE)
 
 /* without V-cavities, which have a masking of their own */
 const vndf_routines vndf_routines_bare[VNDF_FRAMES][VNDF_NORMALS_COUNT] = {
     {[VNDF_NORMALS_VISIBLE] = SET(vndf_prepare_visible, bare_visible, scatter_bare_visible, VNDF_BLOCK_BARE),
      [VNDF_NORMALS_BOUNDED] = ALIGNED(vndf_prepare_bounded, bare_bounded),
      [VNDF_NORMALS_ALL] = ALIGNED(vndf_prepare_all, bare_all)},
-    {[VNDF_NORMALS_VISIBLE] = TURNED(bare_visible),
-     [VNDF_NORMALS_BOUNDED] = TURNED(bare_bounded),
-     [VNDF_NORMALS_ALL] = TURNED(bare_all)},
+    {[VNDF_NORMALS_VISIBLE] = TURNED(bare_visible, visible),
+     [VNDF_NORMALS_BOUNDED] = TURNED(bare_bounded, bounded),
+     [VNDF_NORMALS_ALL] = TURNED(bare_all, all)},
 };
 
 const vndf_routines vndf_routines_reflection[VNDF_FRAMES][VNDF_NORMALS_COUNT] = {
@@ -128,8 +128,8 @@ const vndf_routines vndf_routines_reflection[VNDF_FRAMES][VNDF_NORMALS_COUNT] = 
      [VNDF_NORMALS_BOUNDED] = ALIGNED(vndf_prepare_bounded, bounded),
      [VNDF_NORMALS_ALL] = ALIGNED(vndf_prepare_all, all),
      [VNDF_NORMALS_V_CAVITY] = ALIGNED(vndf_prepare_all, v_cavity)},
-    {[VNDF_NORMALS_VISIBLE] = TURNED(visible),
-     [VNDF_NORMALS_BOUNDED] = TURNED(bounded),
-     [VNDF_NORMALS_ALL] = TURNED(all),
-     [VNDF_NORMALS_V_CAVITY] = TURNED(v_cavity)},
+    {[VNDF_NORMALS_VISIBLE] = TURNED(visible, visible),
+     [VNDF_NORMALS_BOUNDED] = TURNED(bounded, bounded),
+     [VNDF_NORMALS_ALL] = TURNED(all, all),
+     [VNDF_NORMALS_V_CAVITY] = TURNED(v_cavity, all)},
 };

@@ -67,13 +67,13 @@ VNDF_INLINE vndf_normal vndf_turned_by(double c, double s, vndf_normal w)
 VNDF_INLINE vndf_normal vndf_to_axes(const vndf_bsdf *b, vndf_vec3 w, vndf_choice choice)
 {
     vndf_normal n = vndf_normal_of(w);
-    return choice.turned ? vndf_turned_by(b->cosine, -b->sine, n) : n;
+    return choice.turned ? vndf_turned_by(b->axes.cosine, -b->axes.sine, n) : n;
 }
 
 /* Back from them, rounded once. */
 VNDF_INLINE vndf_vec3 vndf_from_axes(const vndf_bsdf *b, vndf_normal w, vndf_choice choice)
 {
-    return vndf_vec3_from(choice.turned ? vndf_turned_by(b->cosine, b->sine, w) : w);
+    return vndf_vec3_from(choice.turned ? vndf_turned_by(b->axes.cosine, b->axes.sine, w) : w);
 }
 
 /* ---- a normal and a direction give the other direction ---- */
@@ -89,6 +89,13 @@ VNDF_INLINE vndf_leaving vndf_leave(const vndf_bsdf *b, vndf_normal in_axes, vnd
     return to;
 }
 
+/* A drawn normal as it leaves. */
+VNDF_INLINE vndf_vec3 vndf_leaving_normal(const vndf_bsdf *b, vndf_vec3 wm, vndf_choice choice)
+{
+    float c = b->axes.near_cosine, s = b->axes.near_sine;
+    return choice.turned ? vndf_vec3_of(c * wm.x - s * wm.y, c * wm.y + s * wm.x, wm.z) : wm;
+}
+
 /* vndf_reflected; where wo is turned it is so before it is rounded, so that it is rounded no more than others. */
 VNDF_INLINE vndf_leaving vndf_leave_mirrored(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
 {
@@ -98,15 +105,20 @@ VNDF_INLINE vndf_leaving vndf_leave_mirrored(const vndf_bsdf *b, vndf_vec3 wm, f
         vndf_leaving to = {wo, wo};
         return to;
     }
+    vndf_vec3 near = vndf_packed(vndf_reflected(wi, wm, facing));
     double twice = 2.0 * facing;
-    vndf_normal wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
-    return vndf_leave(b, wo, choice);
+    vndf_normal wo =
+        vndf_turned_by(b->axes.cosine, b->axes.sine, (vndf_normal){twice * wm.x - wi.x, twice * wm.y - wi.y, 0.0});
+    vndf_leaving to = {vndf_vec3_of((float)wo.x, (float)wo.y, near.z), near};
+    return to;
 }
 
-/* A drawn normal as it leaves. */
-VNDF_INLINE vndf_vec3 vndf_leaving_normal(const vndf_bsdf *b, vndf_vec3 wm, vndf_choice choice)
+/* The same in float: several roundings. */
+VNDF_INLINE vndf_leaving vndf_leave_near(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
 {
-    return choice.turned ? vndf_from_axes(b, vndf_normal_of(wm), choice) : wm;
+    vndf_vec3 wo = vndf_reflected(b->view.wi, wm, facing);
+    vndf_leaving to = {vndf_leaving_normal(b, wo, choice), wo};
+    return to;
 }
 
 /* wi + wo, of which vndf_ggx_density_of is the density; wo is in the frame of the hit. */
@@ -177,9 +189,8 @@ VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VN
     b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
 }
 
-/* A sample without its Fresnel term; wo is turned up. */
+/* A sample without its direction and its Fresnel term. */
 typedef struct vndf_outcome {
-    vndf_vec3 wo;
     double facing;
     float density, weight;
     int settled;
@@ -190,13 +201,14 @@ VNDF_INLINE int vndf_keeps_reflectance(const vndf_bsdf *b, double facing)
     return !vndf_loses_reflectance(facing, b->eta);
 }
 
-/* Of a rounded wo, which is given in the axes and set by the caller. 0 if no microfacet does that. */
-int vndf_reflect_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out);
-int vndf_refract_exactly(const vndf_bsdf *b, vndf_normal wo, vndf_outcome *out);
+/* Of a rounded wo, in the axes. 0 if no microfacet does that. */
+int vndf_reflect_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out);
+int vndf_refract_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out);
 
-/* Bounded normals reflect to above the horizon, but for rounding. */
-VNDF_INLINE vndf_leaving vndf_lifted(vndf_leaving to, vndf_choice choice)
+/* Where a drawn normal reflects to: bounded ones to above the horizon, but for rounding. */
+VNDF_INLINE vndf_leaving vndf_leave_reflected(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice)
 {
+    vndf_leaving to = vndf_leave_mirrored(b, n->wm, n->facing, choice);
     if (choice.normals == VNDF_NORMALS_BOUNDED && !(to.wo.z > FLT_MIN))
         to.wo.z = to.in_axes.z = FLT_MIN;
     return to;
@@ -204,21 +216,22 @@ VNDF_INLINE vndf_leaving vndf_lifted(vndf_leaving to, vndf_choice choice)
 
 /* 0 if the sample is lost; `settled` is 0 where it has to be evaluated at wo in any case. The half vector of wi
  * and wo is wm, whatever length wm has by rounding. */
-VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_choice choice, int settled,
-                             vndf_outcome *out)
+VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf_leaving to, vndf_choice choice,
+                             int settled, vndf_outcome *out)
 {
     vndf_incident at = vndf_incident_of(b);
-    vndf_leaving to = vndf_lifted(vndf_leave_mirrored(b, n->wm, n->facing, choice), choice);
     vndf_vec3 wo = to.in_axes;
-    out->wo = to.wo;
     if (!(wo.z > 0.0f)) /* as where facing < 0 */
         return 0;
     vndf_reflection_trust trust = vndf_trust_reflection(&at, n, choice);
     int trusted = settled & trust.trusted;
-    if (!trusted && vndf_reflect_exactly(b, vndf_to_axes(b, to.wo, choice), out))
-        return 1;
-    if (!trusted && choice.normals != VNDF_NORMALS_BOUNDED)
-        return 0;
+    if (!trusted) {
+        vndf_normal exactly = vndf_to_axes(b, to.wo, choice);
+        if (vndf_reflect_exactly(b, &exactly, out))
+            return 1;
+        if (choice.normals != VNDF_NORMALS_BOUNDED)
+            return 0;
+    }
     /* A bounded normal is never lost, not even where the density of the rounded direction underflows. */
     float density =
         !trusted ? FLT_MIN : vndf_reflected_density(&at, n, vndf_sum_towards(b, to.wo, choice), trust.as_drawn);
@@ -235,20 +248,27 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     return 1;
 }
 
-/* The same for a refraction; `beyond` is the cosine to wm on the other side. wo turns with wm by along/eta. */
+/* Where a facet refracts to; `beyond` is the cosine to wm on the other side. */
+VNDF_INLINE vndf_leaving vndf_leave_refracted(const vndf_bsdf *b, const vndf_meeting *at, double beyond,
+                                              vndf_choice choice)
+{
+    return vndf_leave(b, vndf_bent(at, vndf_bend_along(at, beyond, b->eta), b->eta), choice);
+}
+
+/* The same as vndf_reflect. wo turns with wm by along/eta. */
 VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, const vndf_meeting *at, double beyond,
-                             vndf_choice choice, vndf_outcome *out)
+                             vndf_leaving to, vndf_choice choice, vndf_outcome *out)
 {
     double eta = b->eta, along = vndf_bend_along(at, beyond, eta), rise = eta * eta - 1.0;
-    vndf_leaving to = vndf_leave(b, vndf_bent(at, along, eta), choice);
     vndf_vec3 wi = b->view.wi, wo = to.in_axes;
-    out->wo = to.wo;
     if (!(wo.z < 0.0f) || !(n->facing > 0.0f))
         return 0;
     float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
     vndf_incident from = vndf_incident_of(b);
-    if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain)))
-        return vndf_refract_exactly(b, vndf_to_axes(b, to.wo, choice), out);
+    if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain))) {
+        vndf_normal exactly = vndf_to_axes(b, to.wo, choice);
+        return vndf_refract_exactly(b, &exactly, out);
+    }
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->facing = at->facing;
     out->density = vndf_density_from(vndf_bent_density(at, n->density, beyond, eta));

@@ -21,12 +21,29 @@ int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine,
     return 1;
 }
 
-int vndf_prepare_turned(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+int vndf_axes_of(const vndf_roughness *r, struct vndf_axes *axes)
 {
     double c = r->cos_rotation, s = r->sin_rotation, off = c * c + s * s - 1.0, per = 1.0 - 0.5 * off;
-    b->cosine = c * per; /* unit, where they are nearly so */
-    b->sine = s * per;
-    return fabs(off) < 1e-3 && b->material->unturned->prepare(b, r, vndf_vec3_from(vndf_to_axes(b, wi, turned)));
+    axes->cosine = c * per; /* unit, where they are nearly so */
+    axes->sine = s * per;
+    axes->near_cosine = (float)axes->cosine;
+    axes->near_sine = (float)axes->sine;
+    return fabs(off) < 1e-3;
+}
+
+int vndf_prepare_turned_visible(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_visible(b, r, wi);
+}
+
+int vndf_prepare_turned_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_bounded(b, r, wi);
+}
+
+int vndf_prepare_turned_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_all(b, r, wi);
 }
 
 /* ---- walks ---- */
@@ -75,4 +92,5 @@ static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
     return b->material->unturned->pdf(b, rounded_to_axes(b, wo));
 }
 
-const vndf_routines vndf_routines_turned_walk = {vndf_prepare_turned, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};
+const vndf_routines vndf_routines_turned_walk = {
+    vndf_prepare_turned_visible, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};
