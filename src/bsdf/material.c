@@ -101,8 +101,9 @@ static const vndf_routines *routines_of(const vndf_description *is, int frame)
     int bare = e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
     if (bare && e->normals == VNDF_NORMALS_VISIBLE && is->distribution == vndf_ggx())
         return &vndf_routines_bare_ggx[frame];
-    if (bare && e->normals == VNDF_NORMALS_BOUNDED && is->distribution == vndf_ggx())
-        return &vndf_routines_bare_bounded_ggx[frame];
+    if (bare && e->normals == VNDF_NORMALS_BOUNDED && is->distribution == vndf_ggx() &&
+        frame == VNDF_FRAME_ALIGNED)
+        return &vndf_routines_bare_bounded_ggx;
     if (bare)
         return &vndf_routines_bare[frame][e->normals];
     return &vndf_routines_reflection[frame][e->normals];

@@ -25,8 +25,7 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
     }
     vndf_vec3 wm = {drawn.x, drawn.y, drawn.z};
     float facing = vndf_dot(b->view.wi, wm);
-    vndf_leaving to =
-        choice.turned ? vndf_leave_near(b, wm, facing, choice) : vndf_leave_mirrored(b, wm, facing, choice);
+    vndf_leaving to = vndf_leave_nearly(b, wm, facing, choice);
     if (!(to.wo.z > 0.0f)) {
         vndf_scatter_nothing(s);
         return;

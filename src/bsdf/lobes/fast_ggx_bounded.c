@@ -4,7 +4,6 @@
  * trusted, reflection.c samples. */
 #include "bsdf/lobes/fast_ggx.h"
 #include "bsdf/lobes/reflection.h"
-#include "bsdf/lobes/turned.h"
 #include "sampler/bounded/ggx_draw.h"
 
 static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
@@ -19,6 +18,11 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
     return 1;
 }
 
+static void sample_exactly(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].sample(b, u, s);
+}
+
 /* How little wo turns when the normal does, beside the roughness: what rounds wo turns the azimuth of the stretched
  * normal by that much more than what rounds the normal. */
 VNDF_INLINE float reach_of(const vndf_bsdf *b, float facing)
@@ -27,19 +31,11 @@ VNDF_INLINE float reach_of(const vndf_bsdf *b, float facing)
     return reach < VNDF_TRUST_BOUNDED_REACH_MOST ? reach : VNDF_TRUST_BOUNDED_REACH_MOST;
 }
 
-/* wi mirrored at n, of which nothing is made unit; `twice` = 2 wi.n/|n|^2. */
-VNDF_INLINE vndf_leaving mirrored(const vndf_bsdf *b, const vndf_ggx_bounded *n, float twice, vndf_choice choice)
+static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    const vndf_vec3 m = {n->x, n->y, n->z};
-    return vndf_leave_mirrored(b, m, 0.5f * twice, choice);
-}
-
-VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s, vndf_choice choice)
-{
-    const vndf_routines *any = &vndf_routines_bare[choice.turned][VNDF_NORMALS_BOUNDED];
     vndf_outlook o = vndf_outlook_of(&b->view, &b->bounds.ggx);
     if (!vndf_outlook_is_trusted(&b->view, &o)) {
-        any->sample(b, u, s);
+        sample_exactly(b, u, s);
         return;
     }
     vndf_ggx_bounded n =
@@ -47,43 +43,26 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
     /* wi.M = |A wi| cos(g), so neither M nor wi.wm has to be made unit */
     float stretch = 2.0f * b->area - b->view.wi.z, twice = 2.0f * stretch * n.cosine / n.length2;
     float facing = 0.5f * twice * sqrtf(n.length2);
-    vndf_leaving to = mirrored(b, &n, twice, choice);
-    if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_TRUST_GGX_FACING && to.wo.z > 0.0f &&
+    vndf_vec3 wi = b->view.wi, wo = {twice * n.x - wi.x, twice * n.y - wi.y, twice * n.z - wi.z};
+    if (!(vndf_ggx_is_inside(&o, &n) && facing > VNDF_TRUST_GGX_FACING && wo.z > 0.0f &&
           vndf_ggx_is_settled(&b->view, &o, &n, reach_of(b, facing)))) {
-        any->sample(b, u, s);
+        sample_exactly(b, u, s);
         return;
     }
-    float weight = to.wo.z * (b->area * n.inside_mass) / vndf_fast_ggx_unmasked(b, to.in_axes);
+    float weight = wo.z * (b->area * n.inside_mass) / vndf_fast_ggx_unmasked(b, wo);
     float per = 1.0f / sqrtf(n.length2);
     vndf_vec3 wm = {n.x * per, n.y * per, n.z * per};
-    vndf_set_bare(s, to.wo, vndf_leaving_normal(b, wm, choice), weight,
-                  vndf_fast_ggx_density(b, vndf_sum_towards(b, to.wo, choice)) / n.inside_mass);
+    vndf_set_bare(s, wo, wm, weight, vndf_fast_ggx_density(b, vndf_sum(wi, wo)) / n.inside_mass);
 }
 
-static int prepare_turned(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    return vndf_turn_hit(b, r, &wi) && prepare(b, r, wi);
+    vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].eval(b, wo, seed, value, pdf);
 }
 
-#define ROUTINES(frame, turned)                                                                       \
-  static void sample_##frame(const vndf_bsdf *b, const float u[3], vndf_scattered *s)                 \
-  {                                                                                                   \
-    const vndf_choice choice = {VNDF_NORMALS_BOUNDED, 1, turned};                                     \
-    sample(b, u, s, choice);                                                                          \
-  }                                                                                                   \
-  static void eval_##frame(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf) \
-  {                                                                                                   \
-    vndf_routines_bare[turned][VNDF_NORMALS_BOUNDED].eval(b, wo, seed, value, pdf);                   \
-  }                                                                                                   \
-  static float pdf_##frame(const vndf_bsdf *b, vndf_vec3 wo)                                          \
-  {                                                                                                   \
-    return vndf_routines_bare[turned][VNDF_NORMALS_BOUNDED].pdf(b, wo);                               \
-  }
+static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    return vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].pdf(b, wo);
+}
 
-ROUTINES(aligned, 0)
-ROUTINES(turned, 1)
-
-const vndf_routines vndf_routines_bare_bounded_ggx[VNDF_FRAMES] = {
-    {prepare, sample_aligned, eval_aligned, pdf_aligned, NULL, VNDF_BLOCK_NONE},
-    {prepare_turned, sample_turned, eval_turned, pdf_turned, NULL, VNDF_BLOCK_NONE},
-};
+const vndf_routines vndf_routines_bare_bounded_ggx = {prepare, sample, eval, pdf, NULL, VNDF_BLOCK_NONE};

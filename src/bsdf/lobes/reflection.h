@@ -13,7 +13,7 @@ enum { VNDF_FRAME_ALIGNED, VNDF_FRAME_TURNED, VNDF_FRAMES };
 extern const vndf_routines vndf_routines_bare[VNDF_FRAMES][VNDF_NORMALS_COUNT],
     vndf_routines_reflection[VNDF_FRAMES][VNDF_NORMALS_COUNT];
 
-/* Bare, normals of GGX: visible ones, and visible ones that reflect upwards. */
-extern const vndf_routines vndf_routines_bare_ggx[VNDF_FRAMES], vndf_routines_bare_bounded_ggx[VNDF_FRAMES];
+/* Bare, normals of GGX: visible ones, and, where the hit is not turned, visible ones that reflect upwards. */
+extern const vndf_routines vndf_routines_bare_ggx[VNDF_FRAMES], vndf_routines_bare_bounded_ggx;
 
 #endif

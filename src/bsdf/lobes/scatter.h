@@ -89,32 +89,35 @@ VNDF_INLINE vndf_leaving vndf_leave(const vndf_bsdf *b, vndf_normal in_axes, vnd
     return to;
 }
 
+/* The same in float. */
+VNDF_INLINE vndf_vec3 vndf_nearly_from_axes(const vndf_bsdf *b, vndf_vec3 w)
+{
+    float c = b->axes.near_cosine, s = b->axes.near_sine;
+    return vndf_vec3_of(c * w.x - s * w.y, c * w.y + s * w.x, w.z);
+}
+
 /* A drawn normal as it leaves. */
 VNDF_INLINE vndf_vec3 vndf_leaving_normal(const vndf_bsdf *b, vndf_vec3 wm, vndf_choice choice)
 {
-    float c = b->axes.near_cosine, s = b->axes.near_sine;
-    return choice.turned ? vndf_vec3_of(c * wm.x - s * wm.y, c * wm.y + s * wm.x, wm.z) : wm;
+    return choice.turned ? vndf_nearly_from_axes(b, wm) : wm;
 }
 
-/* vndf_reflected; where wo is turned it is so before it is rounded, so that it is rounded no more than others. */
+/* wi mirrored at wm. What is turned is rounded no more than what is not: its level part is turned first. */
 VNDF_INLINE vndf_leaving vndf_leave_mirrored(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
 {
-    vndf_vec3 wi = b->view.wi;
-    if (!choice.turned) {
-        vndf_vec3 wo = vndf_packed(vndf_reflected(wi, wm, facing));
-        vndf_leaving to = {wo, wo};
-        return to;
+    vndf_vec3 wi = b->view.wi, wo = vndf_packed(vndf_reflected(wi, wm, facing));
+    vndf_leaving to = {wo, wo};
+    if (choice.turned) {
+        double twice = 2.0 * facing;
+        vndf_normal level = {twice * wm.x - wi.x, twice * wm.y - wi.y, 0.0};
+        vndf_vec3 turned = vndf_from_axes(b, level, choice);
+        to.wo = vndf_vec3_of(turned.x, turned.y, wo.z);
     }
-    vndf_vec3 near = vndf_packed(vndf_reflected(wi, wm, facing));
-    double twice = 2.0 * facing;
-    vndf_normal wo =
-        vndf_turned_by(b->axes.cosine, b->axes.sine, (vndf_normal){twice * wm.x - wi.x, twice * wm.y - wi.y, 0.0});
-    vndf_leaving to = {vndf_vec3_of((float)wo.x, (float)wo.y, near.z), near};
     return to;
 }
 
-/* The same in float: several roundings. */
-VNDF_INLINE vndf_leaving vndf_leave_near(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
+/* The same in float, where the density is that of the rounded wo in any case. */
+VNDF_INLINE vndf_leaving vndf_leave_nearly(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
 {
     vndf_vec3 wo = vndf_reflected(b->view.wi, wm, facing);
     vndf_leaving to = {vndf_leaving_normal(b, wo, choice), wo};
@@ -226,8 +229,8 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
     vndf_reflection_trust trust = vndf_trust_reflection(&at, n, choice);
     int trusted = settled & trust.trusted;
     if (!trusted) {
-        vndf_normal exactly = vndf_to_axes(b, to.wo, choice);
-        if (vndf_reflect_exactly(b, &exactly, out))
+        vndf_normal reflected = vndf_to_axes(b, to.wo, choice);
+        if (vndf_reflect_exactly(b, &reflected, out))
             return 1;
         if (choice.normals != VNDF_NORMALS_BOUNDED)
             return 0;
@@ -266,8 +269,8 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
     float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
     vndf_incident from = vndf_incident_of(b);
     if (rise != 0.0 && !(vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain))) {
-        vndf_normal exactly = vndf_to_axes(b, to.wo, choice);
-        return vndf_refract_exactly(b, &exactly, out);
+        vndf_normal refracted = vndf_to_axes(b, to.wo, choice);
+        return vndf_refract_exactly(b, &refracted, out);
     }
     vndf_event e = {vndf_mirrored(wo, -1.0f), wi.z, -wo.z, at->facing, beyond, n->wm.z};
     out->facing = at->facing;

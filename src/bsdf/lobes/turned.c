@@ -53,8 +53,8 @@ static vndf_vec3 rounded_to_axes(const vndf_bsdf *b, vndf_vec3 w)
     return vndf_vec3_from(vndf_to_axes(b, w, turned));
 }
 
-/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. A walk has no normal, and
- * takes the half vector. */
+/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. A walk has no normal,
+ * and takes the half vector. */
 static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, float u2)
 {
     if (s->lobe != VNDF_LOBE_REFLECTION)
