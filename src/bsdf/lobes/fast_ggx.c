@@ -23,10 +23,10 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
         any->sample(b, u, s);
         return;
     }
-    vndf_vec3 wm = {drawn.x, drawn.y, drawn.z};
-    float facing = vndf_dot(b->view.wi, wm);
-    vndf_leaving to = vndf_leave_nearly(b, wm, facing, choice);
-    if (!(to.wo.z > 0.0f)) {
+    vndf_vec3 wi = b->view.wi, wm = {drawn.x, drawn.y, drawn.z};
+    float facing = vndf_dot(wi, wm);
+    vndf_vec3 wo = vndf_reflected(wi, wm, facing);
+    if (!(wo.z > 0.0f)) {
         vndf_scatter_nothing(s);
         return;
     }
@@ -37,11 +37,16 @@ VNDF_INLINE void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s,
             any->scatter(b, wm, drawn.density, 1.0f, u, s);
         return;
     }
-    float weight = to.wo.z * b->area / vndf_fast_ggx_unmasked(b, to.in_axes);
-    int as_drawn = !choice.turned && vndf_is_fast_ggx_drawn(b, facing);
-    float density =
-        as_drawn ? 0.25f * drawn.density / facing : vndf_fast_ggx_density(b, vndf_sum_towards(b, to.wo, choice));
-    vndf_set_bare(s, to.wo, vndf_leaving_normal(b, wm, choice), weight, density);
+    vndf_vec3 to = wo; /* turned in float: the density is that of the rounded wo */
+    if (choice.turned) {
+        vndf_turn_nearly(b, &to);
+        vndf_turn_nearly(b, &wm);
+    }
+    float weight = wo.z * b->area / vndf_fast_ggx_unmasked(b, wo);
+    vndf_set_bare(s, to, wm, weight,
+                  !choice.turned && vndf_is_fast_ggx_drawn(b, facing)
+                      ? 0.25f * drawn.density / facing
+                      : vndf_fast_ggx_density(b, vndf_sum_towards(b, to, choice)));
 }
 
 /* Whether float is trusted for both directions and h, their sum. */

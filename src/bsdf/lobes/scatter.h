@@ -89,17 +89,22 @@ VNDF_INLINE vndf_leaving vndf_leave(const vndf_bsdf *b, vndf_normal in_axes, vnd
     return to;
 }
 
-/* The same in float. */
-VNDF_INLINE vndf_vec3 vndf_nearly_from_axes(const vndf_bsdf *b, vndf_vec3 w)
+/* The same in float, in place: a copy would be waited for. */
+VNDF_INLINE void vndf_turn_nearly(const vndf_bsdf *b, vndf_vec3 *w)
 {
-    float c = b->axes.near_cosine, s = b->axes.near_sine;
-    return vndf_vec3_of(c * w.x - s * w.y, c * w.y + s * w.x, w.z);
+    float c = b->axes.near_cosine, s = b->axes.near_sine, x = w->x;
+    w->x = c * x - s * w->y;
+    w->y = c * w->y + s * x;
 }
 
 /* A drawn normal as it leaves. */
 VNDF_INLINE vndf_vec3 vndf_leaving_normal(const vndf_bsdf *b, vndf_vec3 wm, vndf_choice choice)
 {
-    return choice.turned ? vndf_nearly_from_axes(b, wm) : wm;
+    if (choice.turned) {
+        vndf_turn_nearly(b, &wm);
+        wm = vndf_packed(wm);
+    }
+    return wm;
 }
 
 /* wi mirrored at wm. What is turned is rounded no more than what is not: its level part is turned first. */
@@ -113,14 +118,6 @@ VNDF_INLINE vndf_leaving vndf_leave_mirrored(const vndf_bsdf *b, vndf_vec3 wm, f
         vndf_vec3 turned = vndf_from_axes(b, level, choice);
         to.wo = vndf_vec3_of(turned.x, turned.y, wo.z);
     }
-    return to;
-}
-
-/* The same in float, where the density is that of the rounded wo in any case. */
-VNDF_INLINE vndf_leaving vndf_leave_nearly(const vndf_bsdf *b, vndf_vec3 wm, float facing, vndf_choice choice)
-{
-    vndf_vec3 wo = vndf_reflected(b->view.wi, wm, facing);
-    vndf_leaving to = {vndf_leaving_normal(b, wo, choice), wo};
     return to;
 }
 
