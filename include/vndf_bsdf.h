@@ -194,6 +194,12 @@ typedef struct vndf_roughness {
     float cos_rotation, sin_rotation;
 } vndf_roughness;
 
+/* The angle of the principal axes, and the same rounded; private. */
+struct vndf_axes {
+    double cosine, sine;
+    float near_cosine, near_sine;
+};
+
 /* A resolved material: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
@@ -204,6 +210,7 @@ typedef struct vndf_material {
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
     vndf_roughness roughness;
+    struct vndf_axes axes;                /* of this roughness */
     double per_wavelength;                /* one over their number */
     float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
     float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
@@ -236,13 +243,13 @@ struct vndf_compensation {
  * never touch it. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    vndf_view view;      /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
-    double eta;          /* index on the other side over that on the side of wi */
-    double carried;      /* what transmission has more than for importance: 1/eta^2 for radiance */
-    float side;          /* -1 where wi is on the side of -z, 1 else */
-    float area;          /* projected area along wi */
-    double cosine, sine; /* of the rotation */
-    vndf_bounds bounds;  /* of bounded normals */
+    vndf_view view; /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
+    double eta;     /* index on the other side over that on the side of wi */
+    double carried; /* what transmission has more than for importance: 1/eta^2 for radiance */
+    float side;     /* -1 where wi is on the side of -z, 1 else */
+    float area;     /* projected area along wi */
+    struct vndf_axes axes;
+    vndf_bounds bounds; /* of bounded normals */
     struct vndf_compensation compensation;
     vndf_mixture_view lobes;
 } vndf_bsdf;

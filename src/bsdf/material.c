@@ -79,34 +79,43 @@ static const vndf_masking_routine *masking_of(const vndf_effects *e)
     }
 }
 
-static const vndf_routines *routines_of(const vndf_description *is)
+static const vndf_routines *walk_of(const vndf_description *is, int frame)
+{
+    const vndf_effects *e = &is->effects;
+    if (frame == VNDF_FRAME_TURNED)
+        return &vndf_routines_turned_walk;
+    return e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f
+               ? &vndf_routines_unbent
+               : &vndf_routines_multiple;
+}
+
+static const vndf_routines *routines_of(const vndf_description *is, int frame)
 {
     const vndf_effects *e = &is->effects;
     if (e->scattering == VNDF_SCATTERING_MULTIPLE)
-        return e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f
-                   ? &vndf_routines_unbent
-                   : &vndf_routines_multiple;
+        return walk_of(is, frame);
     if (e->lobes == VNDF_LOBES_TRANSMISSION)
-        return &vndf_routines_transmission[e->normals];
+        return &vndf_routines_transmission[frame][e->normals];
     if (e->lobes == VNDF_LOBES_BOTH)
-        return &vndf_routines_both[e->normals];
+        return &vndf_routines_both[frame][e->normals];
     int bare = e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
     if (bare && e->normals == VNDF_NORMALS_VISIBLE && is->distribution == vndf_ggx())
-        return &vndf_routines_bare_ggx;
-    if (bare && e->normals == VNDF_NORMALS_BOUNDED && is->distribution == vndf_ggx())
+        return &vndf_routines_bare_ggx[frame];
+    if (bare && e->normals == VNDF_NORMALS_BOUNDED && is->distribution == vndf_ggx() &&
+        frame == VNDF_FRAME_ALIGNED)
         return &vndf_routines_bare_bounded_ggx;
     if (bare)
-        return &vndf_routines_bare[e->normals];
-    return &vndf_routines_reflection[e->normals];
+        return &vndf_routines_bare[frame][e->normals];
+    return &vndf_routines_reflection[frame][e->normals];
 }
 
 /* In the frame of the hit, which a shape has beside the effects. */
-static const vndf_routines *shaped(const vndf_routines *unturned, vndf_shape shape)
+static const vndf_routines *shaped(const vndf_description *is)
 {
-    switch (shape) {
-    case VNDF_SHAPE_ALIGNED: return unturned;
+    switch (is->effects.shape) {
+    case VNDF_SHAPE_ALIGNED: return routines_of(is, VNDF_FRAME_ALIGNED);
     case VNDF_SHAPE_ROTATED:
-    case VNDF_SHAPE_MATRIX: return &vndf_routines_turned;
+    case VNDF_SHAPE_MATRIX: return routines_of(is, VNDF_FRAME_TURNED);
     case VNDF_SHAPE_AFFINE:
     case VNDF_SHAPE_MIXTURE: break;
     }
@@ -164,8 +173,8 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->per_wavelength = 1.0 / m->is.wavelengths;
     m->fresnel = fresnel_of(e);
     m->masking = masking_of(e);
-    m->unturned = routines_of(is);
-    m->single = shaped(m->unturned, e->shape);
+    m->unturned = routines_of(is, VNDF_FRAME_ALIGNED);
+    m->single = shaped(is);
     m->specular = compensated(m->single, e->scattering);
     m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;
     m->steep = is_steep(&m->is);
@@ -176,5 +185,6 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
         vndf_compensation_resolve(m);
     if (e->shape == VNDF_SHAPE_MATRIX)
         vndf_turned_roughness(is->distribution, &is->affine, &m->roughness);
+    vndf_axes_of(&m->roughness, &m->axes);
     return VNDF_OK;
 }

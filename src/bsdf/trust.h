@@ -71,8 +71,8 @@ static const float VNDF_TRUST_REFRACTION_GAIN = 0.75f;
 /* The cosine of refraction: beside total reflection wo turns as fast as one over it. */
 static const double VNDF_TRUST_BEYOND = 0.1;
 
-/* Rotated lobes round wo once more, and once more where it is evaluated. */
-static const float VNDF_TRUST_ROTATED_GAIN = 0.55f;
+/* Rotated walks round wo once more, and once more where it is evaluated. */
+static const float VNDF_TRUST_WALK_GAIN = 0.55f;
 
 /* The second uniform number: the last normals of a table may be just before a jump of D. */
 static const float VNDF_TRUST_LAST = 0.9999f;

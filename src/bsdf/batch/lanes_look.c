@@ -18,14 +18,14 @@ static void look_at_ggx(vndf_look_block *b)
         shared = vndf_shared_hits(b->hit);
     for (uint32_t i = 0; i < b->count; i += VNDF_LANES) {
         vndf_hits h = b->hit ? shared : vndf_hits_at(b->material, b->in, i);
-        vndf_vec3_lanes wi = h.at.wi,
-                        wo = {lanes_load(b->in[VNDF_LOOK_WO_X] + i), lanes_load(b->in[VNDF_LOOK_WO_Y] + i),
+        vndf_vec3_lanes wo = {lanes_load(b->in[VNDF_LOOK_WO_X] + i), lanes_load(b->in[VNDF_LOOK_WO_Y] + i),
                               lanes_load(b->in[VNDF_LOOK_WO_Z] + i)};
-        lanes_f x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z, square = x * x + y * y + z * z;
+        vndf_vec3_lanes half = vndf_sum(h.at.wi, wo);
+        lanes_f square = half.x * half.x + half.y * half.y + half.z * half.z;
         lanes_m unit = vndf_is_near_unit_square(wo.x * wo.x + wo.y * wo.y + wo.z * wo.z), ready;
         lanes_m good = lanes_both(lanes_both(h.known, h.at.trusted), lanes_both(unit, lanes_less(four, square)));
         lanes_m up = lanes_less(nothing, wo.z);
-        lanes_f density = vndf_ggx_density_of(&h.at, wo);
+        lanes_f density = vndf_ggx_density_of(&h.at, half);
         if (b->value[0]) {
             lanes_f area = vndf_ggx_area_above(h.at.ax, h.at.ay, wo.x, wo.y, wo.z, &ready);
             lanes_f value = vndf_finite_lanes(density * (h.at.area / vndf_unmasked(&h.at, wo, area)));

@@ -67,7 +67,7 @@ VNDF_INLINE reflections reflect(const vndf_hits *h, const vndf_bsdf_normal *n, v
     lanes_m up = lanes_less(lanes_set(0.0f), r.wo.z), met = lanes_both(h->known, up);
     vndf_reflection_trust trust = vndf_trust_reflection(&h->at, n, choice);
     r.area = vndf_law_area_above(h->at.distribution, h->at.ax, h->at.ay, r.wo.x, r.wo.y, r.wo.z, &ready);
-    r.density = vndf_reflected_density(&h->at, n, r.wo, trust.as_drawn);
+    r.density = vndf_reflected_density(&h->at, n, vndf_sum(h->at.wi, r.wo), trust.as_drawn);
     r.good = lanes_both(lanes_both(met, ready), trust.trusted);
     r.rough = lanes_without(lanes_both(met, ready), trust.trusted);
     r.left = lanes_either(lanes_without(h->seen, h->known), lanes_without(met, ready));
@@ -89,7 +89,7 @@ VNDF_INLINE void store_reflections(const vndf_scattered_n *to, uint32_t i, const
 
 static void scatter_bare(vndf_scatter_block *b)
 {
-    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1};
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 1, 0};
     const vndf_scattered_n *to = &b->to;
     float area_i[VNDF_HIT_BLOCK], area_o[VNDF_HIT_BLOCK];
     vndf_sample_bits rough;
@@ -163,7 +163,7 @@ static void store_weights(const vndf_scatter_block *b, const work *w, int parts)
 
 static void reflect_block(vndf_scatter_block *b, work *w)
 {
-    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0, 0};
     const vndf_scattered_n *to = &b->to;
     vndf_hits shared;
     if (b->hit)
@@ -288,7 +288,7 @@ static void choose_lobes(const vndf_scatter_block *b, lobes *l)
 /* The lobe of each sample of a group, its direction and its density, stored where it is good. */
 static void follow_lobes(vndf_scatter_block *b, lobes *l)
 {
-    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0};
+    const vndf_choice choice = {VNDF_NORMALS_VISIBLE, 0, 0};
     const vndf_scattered_n *to = &b->to;
     const lanes_f nothing = lanes_set(0.0f);
     for (uint32_t i = 0, g = 0; i < b->count; i += VNDF_LANES, g++) {
@@ -304,7 +304,7 @@ static void follow_lobes(vndf_scatter_block *b, lobes *l)
         lanes_m settled = vndf_is_settled(&h->at, n, vndf_refraction_gain(lanes_load(l->turn + i), n->wm.z));
         lanes_f area = vndf_law_area_above(h->at.distribution, h->at.ax, h->at.ay, up.x, up.y, up.z, &ready);
         lanes_f density = lanes_pick(through, lanes_load(l->density + i),
-                                     vndf_reflected_density(&h->at, n, back, trust.as_drawn));
+                                     vndf_reflected_density(&h->at, n, vndf_sum(h->at.wi, back), trust.as_drawn));
         lanes_m met = lanes_both(h->known, lanes_less(nothing, up.z));
         met = lanes_without(met, lanes_without(through, lanes_less(nothing, n->facing)));
         lanes_m sure = lanes_either(lanes_both(through, settled), lanes_without(trust.trusted, through));

@@ -2,13 +2,12 @@
  * roughness that the density changes. Density and weight are those of the rounded wo. */
 #include "bsdf/lobes/scatter.h"
 
-static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, double value, vndf_outcome *out)
+static int evaluate(const vndf_bsdf *b, const vndf_half *half, double value, vndf_outcome *out)
 {
     double facing = half->event.facing_i;
     double density = vndf_bsdf_density(b, half->wm, b->material->is.effects.normals);
     if (!(density > 0.0))
         return 0;
-    out->wo = wo;
     out->facing = facing;
     out->density = vndf_density_from(density * half->jacobian);
     out->weight = (float)(value * half->event.cos_o * facing * (vndf_bsdf_ndf(b, half->wm) / density));
@@ -16,16 +15,15 @@ static int evaluate(const vndf_bsdf *b, vndf_vec3 wo, const vndf_half *half, dou
     return 1;
 }
 
-int vndf_reflect_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
+int vndf_reflect_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out)
 {
-    vndf_half half = vndf_half_reflected(b->view.wi, wo);
-    return half.event.facing_i > 0.0 &&
-           evaluate(b, wo, &half, b->material->masking->reflection(b, &half.event), out);
+    vndf_half half = vndf_half_reflected(b->view.wi, *wo);
+    return half.event.facing_i > 0.0 && evaluate(b, &half, b->material->masking->reflection(b, &half.event), out);
 }
 
-int vndf_refract_exactly(const vndf_bsdf *b, vndf_vec3 wo, vndf_outcome *out)
+int vndf_refract_exactly(const vndf_bsdf *b, const vndf_normal *wo, vndf_outcome *out)
 {
-    vndf_half half = vndf_half_refracted(b->view.wi, wo, b->eta);
+    vndf_half half = vndf_half_refracted(b->view.wi, *wo, b->eta);
     return vndf_is_refraction(&half) &&
-           evaluate(b, wo, &half, b->material->masking->transmission(b, &half.event), out);
+           evaluate(b, &half, b->material->masking->transmission(b, &half.event), out);
 }

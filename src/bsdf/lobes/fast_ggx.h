@@ -31,10 +31,11 @@ VNDF_INLINE float vndf_fast_ggx_unmasked(const vndf_bsdf *b, vndf_vec3 wo)
     return vndf_unmasked(&at, wo, vndf_fast_ggx_area(b, wo));
 }
 
-VNDF_INLINE float vndf_fast_ggx_density(const vndf_bsdf *b, vndf_vec3 wo)
+/* h = wi + wo */
+VNDF_INLINE float vndf_fast_ggx_density(const vndf_bsdf *b, vndf_vec3 h)
 {
     vndf_incident at = vndf_incident_of(b);
-    return vndf_ggx_density_of(&at, wo);
+    return vndf_ggx_density_of(&at, h);
 }
 
 /* Whether the sample takes the density of its normal instead. */

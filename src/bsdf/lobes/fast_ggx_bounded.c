@@ -20,7 +20,7 @@ static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 
 static void sample_exactly(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    vndf_routines_bare[VNDF_NORMALS_BOUNDED].sample(b, u, s);
+    vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].sample(b, u, s);
 }
 
 /* How little wo turns when the normal does, beside the roughness: what rounds wo turns the azimuth of the stretched
@@ -52,17 +52,17 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
     float weight = wo.z * (b->area * n.inside_mass) / vndf_fast_ggx_unmasked(b, wo);
     float per = 1.0f / sqrtf(n.length2);
     vndf_vec3 wm = {n.x * per, n.y * per, n.z * per};
-    vndf_set_bare(s, wo, wm, weight, vndf_fast_ggx_density(b, wo) / n.inside_mass);
+    vndf_set_bare(s, wo, wm, weight, vndf_fast_ggx_density(b, vndf_sum(wi, wo)) / n.inside_mass);
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    vndf_routines_bare[VNDF_NORMALS_BOUNDED].eval(b, wo, seed, value, pdf);
+    vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].eval(b, wo, seed, value, pdf);
 }
 
 static float pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return vndf_routines_bare[VNDF_NORMALS_BOUNDED].pdf(b, wo);
+    return vndf_routines_bare[VNDF_FRAME_ALIGNED][VNDF_NORMALS_BOUNDED].pdf(b, wo);
 }
 
 const vndf_routines vndf_routines_bare_bounded_ggx = {prepare, sample, eval, pdf, NULL, VNDF_BLOCK_NONE};

@@ -97,7 +97,8 @@ static void complete(const vndf_bsdf *b, vndf_vec3 wo, int reflects, event *e)
 static int event_between(const vndf_bsdf *b, vndf_vec3 wo, int reflects, event *e)
 {
     vndf_vec3 wi = b->view.wi;
-    e->half = reflects ? vndf_half_reflected(wi, wo) : vndf_half_refracted(wi, wo, b->eta);
+    vndf_normal o = vndf_normal_of(wo);
+    e->half = reflects ? vndf_half_reflected(wi, o) : vndf_half_refracted(wi, o, b->eta);
     if (!vndf_is_refraction(&e->half) || !(e->half.wm.z >= 0.0))
         return 0;
     complete(b, wo, reflects, e);
@@ -175,7 +176,7 @@ static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         return;
     }
     vndf_vec3 wo = lobe ? vndf_reflected(wi, wm, vndf_dot(wi, wm))
-                        : vndf_refracted(&at, vndf_bend_along(&at, sqrt(square), b->eta), b->eta);
+                        : vndf_vec3_from(vndf_bent(&at, vndf_bend_along(&at, sqrt(square), b->eta), b->eta));
     event e;
     double rise = vndf_mixture_rise(b, wo);
     if ((lobe ? rise > 0.0 : rise < 0.0) && event_between(b, wo, lobe, &e))

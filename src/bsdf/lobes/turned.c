@@ -4,21 +4,7 @@
 #include "math/vector.h"
 #include "sampler/affine/principal.h"
 
-/* By the angle of (c, s), in double: one rounding, of the result. */
-VNDF_INLINE vndf_vec3 turned_by(double c, double s, vndf_vec3 w)
-{
-    return vndf_vec3_of((float)(c * w.x - s * w.y), (float)(c * w.y + s * w.x), w.z);
-}
-
-VNDF_INLINE vndf_vec3 to_axes(const vndf_bsdf *b, vndf_vec3 w)
-{
-    return turned_by(b->cosine, -b->sine, w);
-}
-
-VNDF_INLINE vndf_vec3 from_axes(const vndf_bsdf *b, vndf_vec3 w)
-{
-    return turned_by(b->cosine, b->sine, w);
-}
+static const vndf_choice turned = {VNDF_NORMALS_VISIBLE, 0, 1};
 
 int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine, vndf_roughness *r)
 {
@@ -35,79 +21,76 @@ int vndf_turned_roughness(const vndf_distribution *d, const vndf_affine *affine,
     return 1;
 }
 
-static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+int vndf_axes_of(const vndf_roughness *r, struct vndf_axes *axes)
 {
     double c = r->cos_rotation, s = r->sin_rotation, off = c * c + s * s - 1.0, per = 1.0 - 0.5 * off;
-    b->cosine = c * per; /* unit, where they are nearly so */
-    b->sine = s * per;
-    return fabs(off) < 1e-3 && b->material->unturned->prepare(b, r, to_axes(b, wi));
+    axes->cosine = c * per; /* unit, where they are nearly so */
+    axes->sine = s * per;
+    axes->near_cosine = (float)axes->cosine;
+    axes->near_sine = (float)axes->sine;
+    return fabs(off) < 1e-3;
 }
 
-/* The normal of a sample in its axes, turned up; a walk has none, and takes the half vector. */
-static vndf_bsdf_normal normal_of(const vndf_bsdf *b, const vndf_scattered *s, float u2)
+int vndf_prepare_turned_visible(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
 {
-    vndf_vec3 wm = vndf_mirrored(s->wm, b->side);
-    if (b->material->is.effects.scattering == VNDF_SCATTERING_MULTIPLE)
-        wm = vndf_vec3_from(vndf_half_reflected(b->view.wi, vndf_mirrored(s->wo, b->side)).wm);
-    vndf_bsdf_normal n = {wm, s->density, vndf_dot(b->view.wi, wm), 0.0f, u2};
-    return n;
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_visible(b, r, wi);
 }
 
-/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. */
+int vndf_prepare_turned_bounded(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_bounded(b, r, wi);
+}
+
+int vndf_prepare_turned_all(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+{
+    return vndf_turn_hit(b, r, &wi) && vndf_prepare_all(b, r, wi);
+}
+
+/* ---- walks ---- */
+
+static vndf_vec3 rounded_to_axes(const vndf_bsdf *b, vndf_vec3 w)
+{
+    return vndf_vec3_from(vndf_to_axes(b, w, turned));
+}
+
+/* Whether the slope of wo is the drawn one (vndf_is_settled), though it is rounded twice more. A walk has no normal,
+ * and takes the half vector. */
 static int is_settled(const vndf_bsdf *b, const vndf_scattered *s, float u2)
 {
-    /* the density of bounded normals jumps in places that this test does not look for */
-    if (b->material->is.effects.normals == VNDF_NORMALS_BOUNDED || s->lobe != VNDF_LOBE_REFLECTION)
+    if (s->lobe != VNDF_LOBE_REFLECTION)
         return 0;
-    vndf_bsdf_normal n = normal_of(b, s, u2);
+    vndf_normal wo = vndf_normal_of(vndf_mirrored(s->wo, b->side));
+    vndf_vec3 wm = vndf_vec3_from(vndf_half_reflected(b->view.wi, wo).wm);
+    vndf_bsdf_normal n = {wm, s->density, vndf_dot(b->view.wi, wm), 0.0f, u2};
     vndf_incident at = vndf_incident_of(b);
-    float gain = VNDF_TRUST_ROTATED_GAIN * n.facing;
+    float gain = VNDF_TRUST_WALK_GAIN * n.facing;
     return gain > VNDF_TRUST_REFLECTION_FACING && vndf_keeps_reflectance(b, n.facing) &&
            vndf_is_settled(&at, &n, gain);
 }
 
-/* Density and weight of the rounded wo, where both density and f are in the range of float. The weight of a walk does
- * not depend on wo. */
-static void evaluate(const vndf_bsdf *b, vndf_vec3 wo, vndf_scattered *s)
-{
-    const vndf_material *m = b->material;
-    int walks = m->is.effects.scattering == VNDF_SCATTERING_MULTIPLE;
-    float f[VNDF_WAVELENGTHS], density;
-    if (walks)
-        density = m->unturned->pdf(b, wo);
-    else
-        m->unturned->eval(b, wo, 0, f, &density);
-    if (!(density > 0.0f)) {
-        vndf_scatter_nothing(s);
-        return;
-    }
-    s->density = density;
-    if (walks || !(density > VNDF_TRUST_DIVISOR && density < VNDF_TRUST_VALUE))
-        return;
-    for (int i = 0; i < m->is.wavelengths; i++)
-        if (f[i] < VNDF_TRUST_VALUE)
-            s->weight[i] = vndf_finite(f[i] * fabsf(wo.z) / density);
-}
-
+/* The density is that of the rounded wo; the weight of a walk does not depend on it. */
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     b->material->unturned->sample(b, u, s);
     int drawn = s->lobe == VNDF_LOBE_REFLECTION || s->lobe == VNDF_LOBE_TRANSMISSION;
     int settled = drawn && is_settled(b, s, u[1]);
-    s->wo = from_axes(b, s->wo);
-    s->wm = from_axes(b, s->wm);
-    if (drawn && !settled)
-        evaluate(b, to_axes(b, s->wo), s);
+    s->wo = vndf_from_axes(b, vndf_normal_of(s->wo), turned);
+    if (!drawn || settled)
+        return;
+    s->density = b->material->unturned->pdf(b, rounded_to_axes(b, s->wo));
+    if (!(s->density > 0.0f))
+        vndf_scatter_nothing(s);
 }
 
 static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    b->material->unturned->eval(b, to_axes(b, wo), seed, value, pdf);
+    b->material->unturned->eval(b, rounded_to_axes(b, wo), seed, value, pdf);
 }
 
 static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    return b->material->unturned->pdf(b, to_axes(b, wo));
+    return b->material->unturned->pdf(b, rounded_to_axes(b, wo));
 }
 
-const vndf_routines vndf_routines_turned = {prepare, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};
+const vndf_routines vndf_routines_turned_walk = {
+    vndf_prepare_turned_visible, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};

@@ -35,7 +35,8 @@ typedef struct vndf_bsdf_normal {
 /* The choices of a routine, constants. */
 typedef struct vndf_choice {
     vndf_normals_drawn normals;
-    int bare; /* no Fresnel term, height-correlated masking, seen from above alone */
+    int bare;   /* no Fresnel term, height-correlated masking, seen from above alone */
+    int turned; /* the hit is turned to its principal axes, and wo back from there (lobes/scatter.h) */
 } vndf_choice;
 
 /* ---- the direction ---- */
@@ -97,29 +98,34 @@ VNDF_INLINE vndf_reflection_trust vndf_trust_reflection(const vndf_incident *at,
 
 /* ---- density and weight ---- */
 
+VNDF_INLINE vndf_vec3_lanes vndf_sum(vndf_vec3_lanes a, vndf_vec3_lanes b)
+{
+    vndf_vec3_lanes sum = {a.x + b.x, a.y + b.y, a.z + b.z};
+    return sum;
+}
+
 /* Visible normals of GGX reflect to wo with the density D(wm)/(4 A(wi)). With H = wi + wo, each part of which is a sum
  * of two floats and so exact but for one rounding, and a = ax ay,
  *
  *     D(wm) = a t^2/pi,    t = a |H|^2/((ay Hx)^2 + (ax Hy)^2 + (a Hz)^2).
  *
  * So it is the density of the rounded wo, however smooth the surface is; relative error below 2e-6. */
-VNDF_INLINE lanes_f vndf_ggx_density_of(const vndf_incident *at, vndf_vec3_lanes wo)
+VNDF_INLINE lanes_f vndf_ggx_density_of(const vndf_incident *at, vndf_vec3_lanes h)
 {
-    lanes_f a = at->ax * at->ay, x = at->wi.x + wo.x, y = at->wi.y + wo.y, z = at->wi.z + wo.z;
-    lanes_f p = at->ay * x, q = at->ax * y, r = a * z;
-    lanes_f t = a * (x * x + y * y + z * z) / (p * p + q * q + r * r);
+    lanes_f a = at->ax * at->ay, p = at->ay * h.x, q = at->ax * h.y, r = a * h.z;
+    lanes_f t = a * (h.x * h.x + h.y * h.y + h.z * h.z) / (p * p + q * q + r * r);
     return 0.0795774715f * a / at->area * (t * t);
 }
 
-/* The density of a trusted reflection. */
-VNDF_INLINE lanes_f vndf_reflected_density(const vndf_incident *at, const vndf_bsdf_normal *n, vndf_vec3_lanes wo,
+/* The density of a trusted reflection, h = wi + wo. */
+VNDF_INLINE lanes_f vndf_reflected_density(const vndf_incident *at, const vndf_bsdf_normal *n, vndf_vec3_lanes h,
                                            lanes_m as_drawn)
 {
     if (!vndf_law_is_ggx(at->distribution) || !lanes_any(lanes_without(lanes_all(), as_drawn)))
         return 0.25f * n->density / n->facing;
     if (!lanes_any(as_drawn))
-        return vndf_ggx_density_of(at, wo);
-    return lanes_pick(as_drawn, 0.25f * n->density / n->facing, vndf_ggx_density_of(at, wo));
+        return vndf_ggx_density_of(at, h);
+    return lanes_pick(as_drawn, 0.25f * n->density / n->facing, vndf_ggx_density_of(at, h));
 }
 
 /* cos_i cos_o/G2, height-correlated (masking.h); `area` is that of wo. */
