@@ -98,7 +98,7 @@ static const char head[] =
     "vndf_mixture is up to VNDF_LOBES surfaces.\n"
     "// Directions are unit and may be below the surface; roughness is alpha, 0.02 to 1 and further with more\n"
     "// rounding. All of it is float: the density of a sample is that of its normal within 1e-5 for 99.9% of\n"
-    "// the samples above the horizon, and within 1e-3 for all; down to 130 degrees 1e-4 and 5e-3.\n//\n";
+    "// the samples above the horizon, and within 1e-3 for all; down to 130 degrees 3e-5 and 1e-4.\n//\n";
 
 static void put_head(FILE *to, const export_document *document)
 {
