@@ -50,7 +50,7 @@ function(try_compiler compiler language form)
     set(standard -x c -std=c99)
     set(slack 1)
     if("${ARGN}" MATCHES "fast-math")
-        set(slack 20) # the roundings that vndf_dot returns are optimised away
+        set(slack 10) # the roundings that vndf_dot returns are optimised away
     endif()
     if(language STREQUAL cpp)
         set(standard -x c++ -std=c++11)

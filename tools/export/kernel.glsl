@@ -127,17 +127,13 @@ vndf_table vndf_table_at(int base) {
 
 // The last of `count` ascending numbers, `stride` apart, that is at most x; the first if none is.
 int vndf_find(int first, int stride, int count, float x) {
-    int low = 0;
-    int high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (vndf_fetch(first + middle * stride) <= x) {
-            low = middle;
-        } else {
-            high = middle;
+    int i = 0;
+    for (int left = count; left > 1; left -= left / 2) {
+        if (vndf_fetch(first + (i + left / 2) * stride) <= x) {
+            i += left / 2;
         }
     }
-    return low;
+    return i;
 }
 
 // ---- mass and azimuth of a wedge --------------------------------------------------------------------
@@ -204,19 +200,15 @@ vndf_azimuth vndf_row_azimuth(vndf_wedge wedge, vndf_row row, int j, vndf_place 
 
 // The azimuth with the part `part` of the mass before it.
 vndf_azimuth vndf_row_draw(vndf_wedge wedge, vndf_row row, float part) {
-    int low = 0;
-    int high = wedge.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (vndf_row_fetch(row, 2 + middle) <= part) {
-            low = middle;
-        } else {
-            high = middle;
+    int j = 0;
+    for (int left = wedge.cells; left > 1; left -= left / 2) {
+        if (vndf_row_fetch(row, 2 + j + left / 2) <= part) {
+            j += left / 2;
         }
     }
-    float width = vndf_fetch(wedge.q + low + 1) - vndf_fetch(wedge.q + low);
-    float before = part - vndf_row_fetch(row, 2 + low);
-    return vndf_row_azimuth(wedge, row, low, vndf_cell_invert(vndf_row_cell(wedge, row, low, width), before));
+    float width = vndf_fetch(wedge.q + j + 1) - vndf_fetch(wedge.q + j);
+    float before = part - vndf_row_fetch(row, 2 + j);
+    return vndf_row_azimuth(wedge, row, j, vndf_cell_invert(vndf_row_cell(wedge, row, j, width), before));
 }
 
 // The density at an azimuth with a cosine >= 0.
@@ -358,20 +350,15 @@ vndf_law vndf_law_of(vndf_table table, float c, float k) {
     if ((c >= 0.0 && k >= 0.0) || !(law.mass > 0.0)) {
         return law;
     }
-    int low = 0;
-    int high = table.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if ((vndf_law_weight(table, law, middle) > 0.0) == (c > 0.0)) {
-            low = middle;
-        } else {
-            high = middle;
+    law.cut = 0;
+    for (int left = table.cells; left > 1; left -= left / 2) {
+        if ((vndf_law_weight(table, law, law.cut + left / 2) > 0.0) == (c > 0.0)) {
+            law.cut += left / 2;
         }
     }
-    law.cut = low;
     vndf_piece piece = vndf_piece_at_cut(table, law);
     law.part = piece.size;
-    law.mass = piece.cell.mass + vndf_law_sum(table, law, vndf_law_side(law, low));
+    law.mass = piece.cell.mass + vndf_law_sum(table, law, vndf_law_side(law, law.cut));
     return law;
 }
 
@@ -393,22 +380,18 @@ float vndf_slope_z(vndf_table table, vndf_slope slope) {
 
 // The slope X/Z.
 vndf_slope vndf_slope_of(vndf_table table, float x, float z) {
-    int low = 0;
-    int high = table.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        int at = table.knot + 8 * middle;
+    int cell = 0;
+    for (int left = table.cells; left > 1; left -= left / 2) {
+        int at = table.knot + 8 * (cell + left / 2);
         if (x * vndf_fetch(at + 1) >= z * vndf_fetch(at)) {
-            low = middle;
-        } else {
-            high = middle;
+            cell += left / 2;
         }
     }
-    int knot = table.knot + 8 * low;
+    int knot = table.knot + 8 * cell;
     float inner = max(x * vndf_fetch(knot + 1) - z * vndf_fetch(knot), 0.0);
     float outer = max(z * vndf_fetch(knot + 8) - x * vndf_fetch(knot + 9), 0.0);
     float whole = inner + outer;
-    return vndf_slope(low, vndf_place(vndf_ratio(inner, whole), vndf_pick(whole > 0.0, vndf_ratio(outer, whole), 1.0)));
+    return vndf_slope(cell, vndf_place(vndf_ratio(inner, whole), vndf_pick(whole > 0.0, vndf_ratio(outer, whole), 1.0)));
 }
 
 // The place in a piece from the place in its cell.
@@ -431,23 +414,20 @@ vndf_place vndf_piece_place(vndf_piece piece, vndf_place zeta) {
 // The cell in which the mass `goal` ends: before a place where c >= 0, beyond it where c < 0.
 int vndf_law_find(vndf_table table, vndf_law law, float goal) {
     bool above = law.c >= 0.0;
-    int low = 0;
-    int high = table.cells;
-    if (!above && law.cut < table.cells) {
-        low = law.cut;
-    } else if (law.cut < table.cells) {
-        high = law.cut + 1;
+    int cell = 0;
+    int end = table.cells;
+    if (above && law.cut < end) {
+        end = law.cut + 1;
+    } else if (law.cut < end) {
+        cell = law.cut;
     }
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        float sum = vndf_law_sum(table, law, middle);
+    for (int left = end - cell; left > 1; left -= left / 2) {
+        float sum = vndf_law_sum(table, law, cell + left / 2);
         if ((above && sum <= goal) || (!above && sum > goal)) {
-            low = middle;
-        } else {
-            high = middle;
+            cell += left / 2;
         }
     }
-    return low;
+    return cell;
 }
 
 // The place in cell j, which is `piece`, with that mass before or beyond it.
@@ -517,19 +497,6 @@ float vndf_slope_p22(vndf_table table, vndf_slope slope) {
 // 1 + c without a difference.
 float vndf_ggx_cap(float s, float c) {
     return vndf_pick(c < 0.0, s * s / (1.0 + abs(c)), 1.0 + c);
-}
-
-// A normal of any length: the sum of the direction and of a point on the cap of the sphere that is visible (Dupuy &
-// Benyoub 2023).
-vec3 vndf_ggx_draw(float s, float c, float u1, float u2) {
-    float cap = vndf_ggx_cap(s, c);
-    float v = 1.0 - u2;
-    float t = sqrt(u2 * (s * s + v * cap * cap));
-    float sine = sin(3.14159265 * u1);
-    float cosine = cos(3.14159265 * u1);
-    float unit = 1.0 / sqrt(sine * sine + cosine * cosine); // some processors round them by 5e-4
-    float along = vndf_ratio(v * (s * s - u2 * cap * cap), s + t) + 2.0 * t * (sine * unit) * (sine * unit);
-    return vec3(along, -2.0 * t * (sine * unit) * (cosine * unit), v * cap);
 }
 
 // N with sqrt(pi) exp(z^2) erfc(z) = 1/(z + N), z >= 0.
@@ -620,7 +587,7 @@ vndf_beckmann_slope vndf_beckmann_start(vndf_beckmann_law law, float u) {
 }
 
 // Three of Householder's steps of order four, held inside the law.
-vndf_beckmann_slope vndf_beckmann_draw(vndf_beckmann_law law, float part) {
+vndf_beckmann_slope vndf_beckmann_invert(vndf_beckmann_law law, float part) {
     float u = clamp(part, 1e-19, 0.99999994);
     vndf_beckmann_slope slope = vndf_beckmann_start(law, u);
     for (int i = 0; i < 3; i += 1) {
@@ -847,8 +814,17 @@ struct vndf_drawn {
     float density, w;
 };
 
-// Where rounding turns the normal away from wi, it is turned back. Below the horizon visible normals are next to the rim,
-// where the rounding of wm moves w.
+// By what the rounding of wm moves D where mean slopes are far beyond the roughness.
+float vndf_leaning(vndf_surface m, vec3 n, float reach, vec3 wm) {
+    if (m.mean_x * m.mean_x + m.mean_y * m.mean_y < 16.0 * vndf_determinant(m)) {
+        return 1.0;
+    }
+    float drawn = vndf_unit_ndf(m, vec3(n.x / reach, n.y / reach, n.z / reach));
+    float rounded = vndf_unit_ndf(m, vndf_unit_normal(m, wm, 1.0, 0.0));
+    return vndf_pick(drawn > 0.0, vndf_ratio(rounded, drawn), 1.0);
+}
+
+// Where rounding turns the normal away from wi, it is turned back.
 vndf_sampled vndf_sampled_at(vndf_view view, vndf_drawn drawn) {
     vec3 n = drawn.n;
     vndf_surface m = view.surface;
@@ -861,9 +837,9 @@ vndf_sampled vndf_sampled_at(vndf_view view, vndf_drawn drawn) {
     float lift = max(2e-7 * reach - facing, 0.0);
     vec3 wm = vec3((x + lift * view.wi.x) / reach, (y + lift * view.wi.y) / reach,
                    max((n.z + lift * view.wi.z) / reach, 0.0));
-    float moved = 1.0;
-    if (view.c < 0.0) {
-        moved = vndf_ratio(max(vndf_dot(view.wi, wm), 1e-8) * reach, view.size * drawn.w);
+    float moved = vndf_leaning(m, n, reach, wm);
+    if (view.c < 0.0) { // next to the rim, where the rounding of wm moves w
+        moved = moved * vndf_ratio(max(vndf_dot(view.wi, wm), 1e-8) * reach, view.size * drawn.w);
     }
     return vndf_sampled(wm, vndf_finite(drawn.density * moved * (reach * reach) * (reach / vndf_determinant(m))));
 }
@@ -909,15 +885,24 @@ vndf_drawn vndf_table_draw(vndf_view view, float u1, float u2) {
     return vndf_drawn(vec3(x * azimuth.cosine, y, z), density, w);
 }
 
-vndf_drawn vndf_ggx_drawn(vndf_view view, float u1, float u2) {
-    vec3 n = vndf_ggx_draw(view.s, view.c, u1, min(u2, 0.99999994));
+// The sum of the direction and of a point on the cap of the sphere that is visible (Dupuy & Benyoub 2023).
+vndf_drawn vndf_ggx_draw(vndf_view view, float u1, float u2) {
+    float s2 = view.s * view.s;
+    float cap = vndf_ggx_cap(view.s, view.c);
+    float v = 1.0 - u2;
+    float t = sqrt(u2 * (s2 + v * cap * cap));
+    float sine = sin(3.14159265 * u1);
+    float cosine = cos(3.14159265 * u1);
+    float unit = 1.0 / sqrt(sine * sine + cosine * cosine); // some processors round them by 5e-4
+    float along = vndf_ratio(v * (s2 - u2 * cap * cap), view.s + t) + 2.0 * t * (sine * unit) * (sine * unit);
+    vec3 n = vec3(along, -2.0 * t * (sine * unit) * (cosine * unit), v * cap);
     float square = n.x * n.x + n.y * n.y + n.z * n.z;
     return vndf_drawn(n, vndf_ratio(0.159154943, view.area * square), 0.5 * square);
 }
 
-vndf_drawn vndf_beckmann_drawn(vndf_view view, float u1, float u2) {
+vndf_drawn vndf_beckmann_draw(vndf_view view, float u1, float u2) {
     vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
-    vndf_beckmann_slope slope = vndf_beckmann_draw(law, u1);
+    vndf_beckmann_slope slope = vndf_beckmann_invert(law, u1);
     float y = vndf_erf_quantile(clamp(u2, 1e-19, 0.99999994));
     float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, slope.x, slope.d) - y * y) * slope.d / law.whole;
     return vndf_drawn(vec3(-slope.x, -y, 1.0), density, max(view.s, 1e-7) * slope.d);
@@ -927,18 +912,13 @@ vndf_drawn vndf_beckmann_drawn(vndf_view view, float u1, float u2) {
 vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {
     vndf_drawn drawn;
     if (view.surface.distribution == VNDF_GGX) {
-        drawn = vndf_ggx_drawn(view, u1, u2);
+        drawn = vndf_ggx_draw(view, u1, min(u2, 0.99999994));
     } else if (view.surface.distribution == VNDF_BECKMANN) {
-        drawn = vndf_beckmann_drawn(view, u1, u2);
+        drawn = vndf_beckmann_draw(view, u1, u2);
     } else {
         drawn = vndf_table_draw(view, u1, u2);
     }
-    vndf_sampled sampled = vndf_sampled_at(view, drawn);
-    vndf_surface m = view.surface;
-    if (m.mean_x * m.mean_x + m.mean_y * m.mean_y > 16.0 * vndf_determinant(m)) {
-        sampled.pdf = vndf_finite(vndf_pdf(view, sampled.wm)); // the rounding of wm moves its slope
-    }
-    return sampled;
+    return vndf_sampled_at(view, drawn);
 }
 
 // ---- masking ----------------------------------------------------------------------------------------
