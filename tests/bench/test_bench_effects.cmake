@@ -5,15 +5,7 @@ cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
 
-macro(run expected)
-    execute_process(COMMAND ${VNDF} bench effects ${ARGN} WORKING_DIRECTORY ${OUT}
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-    if(NOT status STREQUAL "${expected}")
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: vndf bench effects ${ARGN}\nexit status ${status}, expected ${expected}")
-        message("${output}${errors}")
-    endif()
-endmacro()
+set(command_words bench effects)
 
 # ---- refusals -----------------------------------------------------------------------------------
 

@@ -5,14 +5,7 @@ cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
 
-macro(run expected)
-    execute_process(COMMAND ${VNDF} albedo ${ARGN} WORKING_DIRECTORY ${OUT}
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-    if(NOT status STREQUAL "${expected}")
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: vndf albedo ${ARGN}\nexit status ${status}, expected ${expected}\n${output}${errors}")
-    endif()
-endmacro()
+set(command_words albedo)
 set(coarse --columns 12 --rows 10)
 
 # ---- text ---------------------------------------------------------------------------------------

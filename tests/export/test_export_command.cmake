@@ -7,14 +7,7 @@ set(small ${SOURCE}/tables/student-t-2.5-small.vndf)
 set(large ${SOURCE}/tables/student-t-2.5.vndf)
 set(languages c cpp cuda opencl glsl hlsl wgsl msl)
 
-macro(run expected)
-    execute_process(COMMAND ${VNDF} export ${ARGN} WORKING_DIRECTORY ${OUT}
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-    if(NOT status STREQUAL "${expected}")
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: vndf export ${ARGN}\nexit status ${status}, expected ${expected}\n${output}${errors}")
-    endif()
-endmacro()
+set(command_words export)
 
 # ---- every language -----------------------------------------------------------------------------
 
@@ -103,7 +96,7 @@ run(2 ggx --language c -o no.txt)
 has(errors "'ggx' is a closed form: every kernel has it")
 run(2 ${small} ${small} --language c -o no.txt)
 has(errors "which is taken; rename the file")
-foreach(prefix Vndf 2d a-b "abcdefghijabcdefghijabcdefghijabc")
+foreach(prefix Vndf 2d a-b a_ a__b gl gl_a "abcdefghijabcdefghijabcdefghijabc")
     run(2 ${small} --language c --prefix "${prefix}" -o no.txt)
     has(errors "--prefix")
 endforeach()

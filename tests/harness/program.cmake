@@ -1,7 +1,23 @@
-# What scripts that run the program share: has, expect, answers, split; `failures` counts, OUT is a fresh folder.
+# What scripts that run the program share: run, has, expect, answers, split; `failures` counts, OUT is a fresh folder.
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 set(failures 0)
+
+# run(STATUS WORDS...): the program, run in OUT with the words of `command_words` first and ${input} as stdin, ends with
+# this status; what it printed is in `output` and `errors`.
+set(command_words "")
+set(input "")
+macro(run expected)
+    file(WRITE ${OUT}/stdin.txt "${input}")
+    execute_process(COMMAND ${VNDF} ${command_words} ${ARGN} WORKING_DIRECTORY ${OUT} INPUT_FILE ${OUT}/stdin.txt
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    file(REMOVE ${OUT}/stdin.txt)
+    set(input "")
+    if(NOT status STREQUAL "${expected}")
+        math(EXPR failures "${failures} + 1")
+        message("FAILED: vndf ${command_words} ${ARGN}\nstatus ${status}, expected ${expected}\n${output}${errors}")
+    endif()
+endmacro()
 
 # has(VARIABLE text): the text that a run printed contains this.
 macro(has variable text)

@@ -104,8 +104,10 @@ static int read_settings(const export_words *given, export_document *document)
     if (!read_language(given, document))
         return 0;
     if (!translation_prefix(&document->as, prefix ? prefix : "vndf")) {
-        complain(name, "--prefix '%s': a lower-case letter, then up to %d letters, digits and '_'", prefix,
-                 PREFIX_MAX - 1);
+        complain(
+            name,
+            "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none last; not gl",
+            prefix, PREFIX_MAX - 1);
         return 0;
     }
     if (!option_count(name, "--lobes", &given->lobes, 1, 8, &lobes))

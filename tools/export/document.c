@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "export/kernel_text.h"
+#include "export/words.h"
 
 /* ---- names --------------------------------------------------------------------------------------- */
 
@@ -30,6 +31,29 @@ int document_name_table(exported_table *table)
     }
     table->name[n] = '\0';
     return n > 0;
+}
+
+/* ---- patterns ------------------------------------------------------------------------------------ */
+
+/* A text with the kernel's names, which get their prefix; $NAME and $N are the parameters, $TITLE is the language. */
+static void put_pattern(FILE *to, const translation *t, const char *pattern, const char *name, long n)
+{
+    size_t length;
+    for (const char *at = pattern; *at; at += length) {
+        word next = word_at(at);
+        int marked = at > pattern && at[-1] == '$';
+        length = next.kind == WORD_COMMENT ? strlen("//") : next.length;
+        if (marked && word_is(&next, "NAME"))
+            fputs(name, to);
+        else if (marked && word_is(&next, "N"))
+            fprintf(to, "%ld", n);
+        else if (marked && word_is(&next, "TITLE"))
+            fputs(t->to->title, to);
+        else if (next.kind == WORD_NAME)
+            translate_name(t, to, at, length);
+        else if (*at != '$')
+            fprintf(to, "%.*s", (int)length, at);
+    }
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */
@@ -65,20 +89,20 @@ static void put_certificate(FILE *to, const export_document *document, const exp
         c->quick > 0 ? "; measured quickly" : "");
 }
 
+static const char head[] =
+    "// Visible normals of any isotropic distribution, in $TITLE: written by vndf " VNDF_VERSION ".\n//\n"
+    "// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): "
+    "a normal wm\n"
+    "// that faces wi, and its density per steradian. vndf_pdf, vndf_visible and vndf_ndf answer for a given normal,\n"
+    "// vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions; "
+    "vndf_mixture is up to VNDF_LOBES surfaces.\n"
+    "// Directions are unit and may be below the surface; roughness is alpha, 0.02 to 1 and further with more\n"
+    "// rounding. All of it is float: the density of a sample is that of its normal within 1e-5 for 99.9% of\n"
+    "// the samples above the horizon, and within 1e-3 for all; down to 130 degrees 3e-5 and 1e-4.\n//\n";
+
 static void put_head(FILE *to, const export_document *document)
 {
-    const translation *t = &document->as;
-    fprintf(
-        to,
-        "// Visible normals of any isotropic distribution, in %s: written by vndf " VNDF_VERSION ".\n//\n"
-        "// %ssurface_of or a %ssurface, then %sview_of(surface, wi), then %ssample(view, u1, u2): a normal wm\n"
-        "// that faces wi, and its density per steradian. %spdf, %svisible and %sndf answer for a given normal,\n"
-        "// %slambda, %sg1, %sg2 and %sprojected_area for directions; %smixture is up to %sLOBES surfaces.\n"
-        "// Directions are unit and may be below the surface; roughness is alpha, 0.02 to 1 and further with more\n"
-        "// rounding. All of it is float: the density of a sample is that of its normal within 1e-5 for 99.9%% of\n"
-        "// the samples above the horizon, and within 1e-3 for all; down to 130 degrees 1e-4 and 5e-3.\n//\n",
-        t->to->title, t->lower, t->lower, t->lower, t->lower, t->lower, t->lower, t->lower, t->lower, t->lower,
-        t->lower, t->lower, t->lower, t->upper);
+    put_pattern(to, &document->as, head, "", 0);
     for (size_t i = 0; i < document->tables; i++)
         put_certificate(to, document, &document->table[i]);
     if (document->notice) {
@@ -92,9 +116,7 @@ static void put_head(FILE *to, const export_document *document)
 
 static void put_constant(FILE *to, const translation *t, const char *name, long value)
 {
-    char full[2 * PREFIX_MAX + 80];
-    snprintf(full, sizeof full, "%s%s", t->upper, name);
-    fprintf(to, t->to->constant, full, value);
+    put_pattern(to, t, t->to->constant, name, value);
 }
 
 static void put_constants(FILE *to, const export_document *document)
@@ -105,18 +127,6 @@ static void put_constants(FILE *to, const export_document *document)
         put_constant(to, &document->as, document->table[i].name, (long)document->table[i].base);
     put_constant(to, &document->as, "LOBES", document->lobes);
     fputs("\n", to);
-}
-
-/* `pattern` with %N for the count. */
-static void put_counted(FILE *to, const char *pattern, size_t count)
-{
-    for (; *pattern; pattern++)
-        if (pattern[0] == '%' && pattern[1] == 'N') {
-            fprintf(to, "%zu", count);
-            pattern++;
-        } else {
-            fputc(*pattern, to);
-        }
 }
 
 static void put_number(FILE *to, const language *as, float x)
@@ -130,8 +140,7 @@ static void put_number(FILE *to, const language *as, float x)
 static void put_numbers(FILE *to, const export_document *document)
 {
     const language *as = document->as.to;
-    fprintf(to, "%s%sNUMBERS", as->numbers_before, document->as.upper);
-    put_counted(to, as->numbers_open, document->count);
+    put_pattern(to, &document->as, as->numbers, "", (long)document->count);
     for (size_t i = 0; i < document->count; i++) {
         fputs(i % 8 ? ", " : i ? ",\n    " : "\n    ", to);
         put_number(to, as, document->numbers[i]);
@@ -139,14 +148,9 @@ static void put_numbers(FILE *to, const export_document *document)
     fprintf(to, "\n%s\n\n", as->numbers_close);
 }
 
-/* Before a name % stands for the prefix, in the case of the name. */
-static void put_bound(FILE *to, const export_document *document)
+static void put_bound(FILE *to, const translation *t)
 {
-    for (const char *at = document->as.to->bound; *at; at++)
-        if (*at == '%')
-            fputs(at[1] >= 'a' ? document->as.lower : document->as.upper, to);
-        else
-            fputc(*at, to);
+    put_pattern(to, t, t->to->bound, "", 0);
     fputs("\n", to);
 }
 
@@ -205,14 +209,14 @@ int document_write(const export_document *document, FILE *to)
         return 0;
     put_head(to, document);
     if (as->guarded)
-        fprintf(to, "#ifndef %sKERNEL\n#define %sKERNEL\n\n", document->as.upper, document->as.upper);
+        put_pattern(to, &document->as, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n", "", 0);
     if (*as->begin)
         fprintf(to, "%s\n", as->begin);
     put_constants(to, document);
     if (document->embeds)
         put_numbers(to, document);
     else if (as->buffer == BUFFER_BOUND)
-        put_bound(to, document);
+        put_bound(to, &document->as);
     translate(&document->as, to, text);
     if (as->guarded)
         fputs("\n#endif\n", to);

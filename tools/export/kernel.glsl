@@ -1,3 +1,45 @@
+// ---- products ---------------------------------------------------------------------------------------
+
+// The first half of the digits of a.
+float vndf_head(float a) {
+    float t = 4097.0 * a;
+    return t - (t - a);
+}
+
+// What the product a b loses where it is rounded (Dekker 1971).
+float vndf_product_rest(float a, float b) {
+    float c = vndf_head(a);
+    float d = vndf_head(b);
+    return ((c * d - a * b) + (c * (b - d) + (a - c) * d)) + (a - c) * (b - d);
+}
+
+// What a + b loses (Knuth 1969).
+float vndf_sum_rest(float a, float b) {
+    float sum = a + b;
+    float part = sum - a;
+    return (a - (sum - part)) + (b - part);
+}
+
+// What a . b loses.
+float vndf_dot_rest(vec3 a, vec3 b) {
+    float x = a.x * b.x;
+    float y = a.y * b.y;
+    float rest = vndf_product_rest(a.x, b.x) + vndf_product_rest(a.y, b.y) + vndf_product_rest(a.z, b.z);
+    return vndf_sum_rest(x, y) + vndf_sum_rest(x + y, a.z * b.z) + rest;
+}
+
+// a . b, to which its roundings return where its terms cancel; not by compilers that reorder sums.
+float vndf_dot(vec3 a, vec3 b) {
+    float x = a.x * b.x;
+    float y = a.y * b.y;
+    float z = a.z * b.z;
+    float sum = x + y + z;
+    if (abs(sum) < 0.1 * (abs(x) + abs(y) + abs(z))) {
+        return sum + vndf_dot_rest(a, b);
+    }
+    return sum;
+}
+
 // ---- cells ------------------------------------------------------------------------------------------
 
 // A cell of a piecewise density: its densities e0 and e1 at xi = 0 and xi = 1, and its mass m. With eta = 1 - xi and
@@ -85,17 +127,13 @@ vndf_table vndf_table_at(int base) {
 
 // The last of `count` ascending numbers, `stride` apart, that is at most x; the first if none is.
 int vndf_find(int first, int stride, int count, float x) {
-    int low = 0;
-    int high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (vndf_fetch(first + middle * stride) <= x) {
-            low = middle;
-        } else {
-            high = middle;
+    int i = 0;
+    for (int left = count; left > 1; left -= left / 2) {
+        if (vndf_fetch(first + (i + left / 2) * stride) <= x) {
+            i += left / 2;
         }
     }
-    return low;
+    return i;
 }
 
 // ---- mass and azimuth of a wedge --------------------------------------------------------------------
@@ -162,19 +200,15 @@ vndf_azimuth vndf_row_azimuth(vndf_wedge wedge, vndf_row row, int j, vndf_place 
 
 // The azimuth with the part `part` of the mass before it.
 vndf_azimuth vndf_row_draw(vndf_wedge wedge, vndf_row row, float part) {
-    int low = 0;
-    int high = wedge.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (vndf_row_fetch(row, 2 + middle) <= part) {
-            low = middle;
-        } else {
-            high = middle;
+    int j = 0;
+    for (int left = wedge.cells; left > 1; left -= left / 2) {
+        if (vndf_row_fetch(row, 2 + j + left / 2) <= part) {
+            j += left / 2;
         }
     }
-    float width = vndf_fetch(wedge.q + low + 1) - vndf_fetch(wedge.q + low);
-    float before = part - vndf_row_fetch(row, 2 + low);
-    return vndf_row_azimuth(wedge, row, low, vndf_cell_invert(vndf_row_cell(wedge, row, low, width), before));
+    float width = vndf_fetch(wedge.q + j + 1) - vndf_fetch(wedge.q + j);
+    float before = part - vndf_row_fetch(row, 2 + j);
+    return vndf_row_azimuth(wedge, row, j, vndf_cell_invert(vndf_row_cell(wedge, row, j, width), before));
 }
 
 // The density at an azimuth with a cosine >= 0.
@@ -316,20 +350,15 @@ vndf_law vndf_law_of(vndf_table table, float c, float k) {
     if ((c >= 0.0 && k >= 0.0) || !(law.mass > 0.0)) {
         return law;
     }
-    int low = 0;
-    int high = table.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if ((vndf_law_weight(table, law, middle) > 0.0) == (c > 0.0)) {
-            low = middle;
-        } else {
-            high = middle;
+    law.cut = 0;
+    for (int left = table.cells; left > 1; left -= left / 2) {
+        if ((vndf_law_weight(table, law, law.cut + left / 2) > 0.0) == (c > 0.0)) {
+            law.cut += left / 2;
         }
     }
-    law.cut = low;
     vndf_piece piece = vndf_piece_at_cut(table, law);
     law.part = piece.size;
-    law.mass = piece.cell.mass + vndf_law_sum(table, law, vndf_law_side(law, low));
+    law.mass = piece.cell.mass + vndf_law_sum(table, law, vndf_law_side(law, law.cut));
     return law;
 }
 
@@ -351,22 +380,18 @@ float vndf_slope_z(vndf_table table, vndf_slope slope) {
 
 // The slope X/Z.
 vndf_slope vndf_slope_of(vndf_table table, float x, float z) {
-    int low = 0;
-    int high = table.cells;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        int at = table.knot + 8 * middle;
+    int cell = 0;
+    for (int left = table.cells; left > 1; left -= left / 2) {
+        int at = table.knot + 8 * (cell + left / 2);
         if (x * vndf_fetch(at + 1) >= z * vndf_fetch(at)) {
-            low = middle;
-        } else {
-            high = middle;
+            cell += left / 2;
         }
     }
-    int knot = table.knot + 8 * low;
+    int knot = table.knot + 8 * cell;
     float inner = max(x * vndf_fetch(knot + 1) - z * vndf_fetch(knot), 0.0);
     float outer = max(z * vndf_fetch(knot + 8) - x * vndf_fetch(knot + 9), 0.0);
     float whole = inner + outer;
-    return vndf_slope(low, vndf_place(vndf_ratio(inner, whole), vndf_pick(whole > 0.0, vndf_ratio(outer, whole), 1.0)));
+    return vndf_slope(cell, vndf_place(vndf_ratio(inner, whole), vndf_pick(whole > 0.0, vndf_ratio(outer, whole), 1.0)));
 }
 
 // The place in a piece from the place in its cell.
@@ -389,23 +414,20 @@ vndf_place vndf_piece_place(vndf_piece piece, vndf_place zeta) {
 // The cell in which the mass `goal` ends: before a place where c >= 0, beyond it where c < 0.
 int vndf_law_find(vndf_table table, vndf_law law, float goal) {
     bool above = law.c >= 0.0;
-    int low = 0;
-    int high = table.cells;
-    if (!above && law.cut < table.cells) {
-        low = law.cut;
-    } else if (law.cut < table.cells) {
-        high = law.cut + 1;
+    int cell = 0;
+    int end = table.cells;
+    if (above && law.cut < end) {
+        end = law.cut + 1;
+    } else if (law.cut < end) {
+        cell = law.cut;
     }
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        float sum = vndf_law_sum(table, law, middle);
+    for (int left = end - cell; left > 1; left -= left / 2) {
+        float sum = vndf_law_sum(table, law, cell + left / 2);
         if ((above && sum <= goal) || (!above && sum > goal)) {
-            low = middle;
-        } else {
-            high = middle;
+            cell += left / 2;
         }
     }
-    return low;
+    return cell;
 }
 
 // The place in cell j, which is `piece`, with that mass before or beyond it.
@@ -432,7 +454,7 @@ float vndf_law_density(vndf_table table, vndf_law law, vndf_slope slope, vndf_pi
         zeta_per_xi = (piece.v0 + v) * both;
         xi = xi * zeta_per_xi;
         eta = eta * ((v + piece.v1) * both);
-        per = per * 2.0 * vndf_pick(piece.size < 1.0, w * vndf_pick(law.c < 0.0, 1e18, 1.0), v) * both;
+        per = per * 2.0 * vndf_pick(law.c < 0.0, w * 1e18, vndf_pick(piece.size < 1.0, w, v)) * both;
     }
     float x = vndf_slope_x(table, slope);
     float sum = x + vndf_slope_z(table, slope);
@@ -475,19 +497,6 @@ float vndf_slope_p22(vndf_table table, vndf_slope slope) {
 // 1 + c without a difference.
 float vndf_ggx_cap(float s, float c) {
     return vndf_pick(c < 0.0, s * s / (1.0 + abs(c)), 1.0 + c);
-}
-
-// A normal of any length: the sum of the direction and of a point on the cap of the sphere that is visible (Dupuy &
-// Benyoub 2023).
-vec3 vndf_ggx_draw(float s, float c, float u1, float u2) {
-    float cap = vndf_ggx_cap(s, c);
-    float v = 1.0 - u2;
-    float t = sqrt(u2 * (s * s + v * cap * cap));
-    float sine = sin(3.14159265 * u1);
-    float cosine = cos(3.14159265 * u1);
-    float unit = 1.0 / sqrt(sine * sine + cosine * cosine); // some processors round them by 5e-4
-    float along = vndf_ratio(v * (s * s - u2 * cap * cap), s + t) + 2.0 * t * (sine * unit) * (sine * unit);
-    return vec3(along, -2.0 * t * (sine * unit) * (cosine * unit), v * cap);
 }
 
 // N with sqrt(pi) exp(z^2) erfc(z) = 1/(z + N), z >= 0.
@@ -578,7 +587,7 @@ vndf_beckmann_slope vndf_beckmann_start(vndf_beckmann_law law, float u) {
 }
 
 // Three of Householder's steps of order four, held inside the law.
-vndf_beckmann_slope vndf_beckmann_draw(vndf_beckmann_law law, float part) {
+vndf_beckmann_slope vndf_beckmann_invert(vndf_beckmann_law law, float part) {
     float u = clamp(part, 1e-19, 0.99999994);
     vndf_beckmann_slope slope = vndf_beckmann_start(law, u);
     for (int i = 0; i < 3; i += 1) {
@@ -639,14 +648,21 @@ vndf_surface vndf_surface_scaled(vndf_surface surface) {
 
 // The projection of a direction on the mean plane: w.z where there is no mean slope.
 float vndf_cosine(vndf_surface surface, vec3 w) {
-    return w.z - (surface.mean_x * w.x + surface.mean_y * w.y);
+    if (surface.mean_x == 0.0 && surface.mean_y == 0.0) {
+        return w.z;
+    }
+    return vndf_dot(vec3(-surface.mean_x, -surface.mean_y, 1.0), w);
 }
 
 // wi is unit, and may be below the surface.
 vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
     vndf_surface scaled = vndf_surface_scaled(surface);
-    float x = scaled.xx * wi.x + scaled.yx * wi.y;
-    float y = scaled.xy * wi.x + scaled.yy * wi.y;
+    float x = scaled.xx * wi.x;
+    float y = scaled.yy * wi.y;
+    if (scaled.xy != 0.0 || scaled.yx != 0.0) {
+        x = vndf_dot(vec3(scaled.xx, scaled.yx, 0.0), wi);
+        y = vndf_dot(vec3(scaled.xy, scaled.yy, 0.0), wi);
+    }
     float z = vndf_cosine(surface, wi);
     float aside = sqrt(x * x + y * y);
     float across = max(aside, 1e-9 * abs(z)); // straight from below nothing would be visible
@@ -674,99 +690,16 @@ vndf_view vndf_view_of(vndf_surface surface, vec3 wi) {
     return vndf_view(scaled, wi, cos_phi, vndf_ratio(y, aside), s, c, size, front, wedge, area);
 }
 
-// ---- sampling ---------------------------------------------------------------------------------------
-
-// A normal, and the density per steradian with which it is drawn.
-struct vndf_sampled {
-    vec3 wm;
-    float pdf;
-};
-
-// A density on the rim of a lobe may leave the range of floats.
-float vndf_finite(float density) {
-    return clamp(density, 1.2e-38, 3.4e38);
-}
-
-// From the normal n at unit roughness, turned and of any length, whose density times |n|^3 is `density`. Where rounding
-// turns the normal away from wi, it is turned back.
-vndf_sampled vndf_sampled_at(vndf_view view, vec3 n, float density) {
-    vndf_surface m = view.surface;
-    float a = view.cos_phi * n.x - view.sin_phi * n.y;
-    float b = view.sin_phi * n.x + view.cos_phi * n.y;
-    float x = m.xx * a + m.xy * b - m.mean_x * n.z;
-    float y = m.yx * a + m.yy * b - m.mean_y * n.z;
-    float reach = sqrt(x * x + y * y + n.z * n.z);
-    float facing = view.wi.x * x + view.wi.y * y + view.wi.z * n.z;
-    float lift = max(2e-7 * reach - facing, 0.0);
-    vec3 wm = vec3((x + lift * view.wi.x) / reach, (y + lift * view.wi.y) / reach,
-                   max((n.z + lift * view.wi.z) / reach, 0.0));
-    return vndf_sampled(wm, vndf_finite(density * (reach * reach) * (reach / vndf_determinant(m))));
-}
-
-// The azimuth with the part `part` of half a turn's mass between the side of wi and it; its density is of the whole
-// turn.
-vndf_azimuth vndf_view_azimuth(vndf_view view, vndf_table table, float part) {
-    float total = view.front + view.wedge;
-    float goal = part * total;
-    float even = view.c * table.f0;
-    vndf_azimuth drawn = vndf_azimuth(1.0, 0.0, 0.0);
-    if (view.c < 0.0) {
-        drawn = vndf_row_draw(table.below, vndf_row_of(table.below, view.s), part);
-        drawn.cosine = max(drawn.cosine, 1e-7);
-    } else if (goal < view.front || !(view.wedge > 0.0)) {
-        drawn = vndf_front_draw(even, view.s * table.f1, max(view.front - goal, 0.0), view.front);
-    } else {
-        float rest = clamp(1.0 - (goal - view.front) / view.wedge, 0.0, 1.0);
-        drawn = vndf_row_draw(table.above, vndf_row_of(table.above, view.c), rest);
-        drawn.cosine = -drawn.cosine;
-        drawn.density = drawn.density * view.wedge;
-    }
-    drawn.density = drawn.density * 0.5 / total;
-    return drawn;
-}
-
-vndf_sampled vndf_table_sample(vndf_view view, float u1, float u2) {
-    vndf_table table = vndf_table_at(view.surface.distribution);
-    float side = 2.0 * u1 - 1.0;
-    vndf_azimuth azimuth = vndf_view_azimuth(view, table, abs(side));
-    float k = view.s * azimuth.cosine;
-    vndf_law law = vndf_law_of(table, view.c, k);
-    float goal = law.mass * vndf_pick(view.c >= 0.0, u2, 1.0 - u2);
-    int cell = vndf_law_find(table, law, goal);
-    vndf_piece piece = vndf_piece_of(table, law, cell);
-    vndf_slope slope = vndf_slope(cell, vndf_law_draw(table, law, cell, piece, goal));
-    float x = vndf_slope_x(table, slope);
-    float z = vndf_slope_z(table, slope);
-    float least = 1e-7 * (abs(view.c) * z + abs(k) * x);
-    float w = max(view.c * z + k * x, least);
-    float density = azimuth.density * vndf_law_density(table, law, slope, piece, w);
-    float y = x * vndf_pick(side < 0.0, -azimuth.sine, azimuth.sine);
-    return vndf_sampled_at(view, vec3(x * azimuth.cosine, y, z), density);
-}
-
-// Draws a visible normal with two uniform numbers in [0, 1].
-vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {
-    if (view.surface.distribution == VNDF_GGX) {
-        vec3 n = vndf_ggx_draw(view.s, view.c, u1, min(u2, 0.99999994));
-        float square = n.x * n.x + n.y * n.y + n.z * n.z;
-        return vndf_sampled_at(view, n, vndf_ratio(0.159154943, view.area * square));
-    }
-    if (view.surface.distribution == VNDF_BECKMANN) {
-        vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
-        vndf_beckmann_slope slope = vndf_beckmann_draw(law, u1);
-        float y = vndf_erf_quantile(clamp(u2, 1e-19, 0.99999994));
-        float exponent = vndf_beckmann_exponent(law, slope.x, slope.d) + y * y;
-        return vndf_sampled_at(view, vec3(-slope.x, -y, 1.0), 1.12837917 * exp(-exponent) * slope.d / law.whole);
-    }
-    return vndf_table_sample(view, u1, u2);
-}
-
 // ---- given normals ----------------------------------------------------------------------------------
 
 // The normal at unit roughness, turned if the view is; of any length, its z is wm.z.
 vec3 vndf_unit_normal(vndf_surface m, vec3 wm, float cos_phi, float sin_phi) {
-    float x = wm.x + m.mean_x * wm.z;
-    float y = wm.y + m.mean_y * wm.z;
+    float x = wm.x;
+    float y = wm.y;
+    if (m.mean_x != 0.0 || m.mean_y != 0.0) {
+        x = vndf_dot(vec3(1.0, 0.0, m.mean_x), wm);
+        y = vndf_dot(vec3(0.0, 1.0, m.mean_y), wm);
+    }
     float per = 1.0 / (m.xx * m.yy - m.xy * m.yx);
     float a = (m.yy * x - m.xy * y) * per;
     float b = (m.xx * y - m.yx * x) * per;
@@ -822,7 +755,7 @@ float vndf_table_pdf(vndf_view view, vec3 n, float facing) {
 }
 
 float vndf_facing(vndf_view view, vec3 wm) {
-    return view.wi.x * wm.x + view.wi.y * wm.y + view.wi.z * wm.z;
+    return vndf_dot(view.wi, wm);
 }
 
 // The area of the surface as it is seen from wi.
@@ -838,6 +771,11 @@ float vndf_visible(vndf_view view, vec3 wm) {
     }
     vec3 n = vndf_unit_normal(view.surface, wm, view.cos_phi, view.sin_phi);
     return vndf_ratio(vndf_unit_ndf(view.surface, n) * facing, vndf_projected_area(view));
+}
+
+// A density on the rim of a lobe may leave the range of floats.
+float vndf_finite(float density) {
+    return clamp(density, 1.2e-38, 3.4e38);
 }
 
 // The density with which vndf_sample draws wm.
@@ -859,6 +797,128 @@ float vndf_pdf(vndf_view view, vec3 wm) {
     float y = vndf_ratio(n.y, n.z);
     float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, x, d) - y * y) * d / law.whole;
     return vndf_finite(vndf_ratio(density, n.z * n.z * n.z * vndf_determinant(view.surface)));
+}
+
+// ---- sampling ---------------------------------------------------------------------------------------
+
+// A normal, and the density per steradian with which it is drawn.
+struct vndf_sampled {
+    vec3 wm;
+    float pdf;
+};
+
+// A normal at unit roughness as it is drawn, turned and of any length: `density` is that of its direction over |n|^3, and
+// w = n . (s, 0, c).
+struct vndf_drawn {
+    vec3 n;
+    float density, w;
+};
+
+// By what the rounding of wm moves D where mean slopes are far beyond the roughness.
+float vndf_leaning(vndf_surface m, vec3 n, float reach, vec3 wm) {
+    if (m.mean_x * m.mean_x + m.mean_y * m.mean_y < 16.0 * vndf_determinant(m)) {
+        return 1.0;
+    }
+    float drawn = vndf_unit_ndf(m, vec3(n.x / reach, n.y / reach, n.z / reach));
+    float rounded = vndf_unit_ndf(m, vndf_unit_normal(m, wm, 1.0, 0.0));
+    return vndf_pick(drawn > 0.0, vndf_ratio(rounded, drawn), 1.0);
+}
+
+// Where rounding turns the normal away from wi, it is turned back.
+vndf_sampled vndf_sampled_at(vndf_view view, vndf_drawn drawn) {
+    vec3 n = drawn.n;
+    vndf_surface m = view.surface;
+    float a = view.cos_phi * n.x - view.sin_phi * n.y;
+    float b = view.sin_phi * n.x + view.cos_phi * n.y;
+    float x = m.xx * a + m.xy * b - m.mean_x * n.z;
+    float y = m.yx * a + m.yy * b - m.mean_y * n.z;
+    float reach = sqrt(x * x + y * y + n.z * n.z);
+    float facing = view.wi.x * x + view.wi.y * y + view.wi.z * n.z;
+    float lift = max(2e-7 * reach - facing, 0.0);
+    vec3 wm = vec3((x + lift * view.wi.x) / reach, (y + lift * view.wi.y) / reach,
+                   max((n.z + lift * view.wi.z) / reach, 0.0));
+    float moved = vndf_leaning(m, n, reach, wm);
+    if (view.c < 0.0) { // next to the rim, where the rounding of wm moves w
+        moved = moved * vndf_ratio(max(vndf_dot(view.wi, wm), 1e-8) * reach, view.size * drawn.w);
+    }
+    return vndf_sampled(wm, vndf_finite(drawn.density * moved * (reach * reach) * (reach / vndf_determinant(m))));
+}
+
+// The azimuth with the part `part` of half a turn's mass between the side of wi and it; its density is of the whole
+// turn.
+vndf_azimuth vndf_view_azimuth(vndf_view view, vndf_table table, float part) {
+    float total = view.front + view.wedge;
+    float goal = part * total;
+    float even = view.c * table.f0;
+    vndf_azimuth drawn = vndf_azimuth(1.0, 0.0, 0.0);
+    if (view.c < 0.0) {
+        drawn = vndf_row_draw(table.below, vndf_row_of(table.below, view.s), part);
+        drawn.cosine = max(drawn.cosine, 1e-7);
+    } else if (goal < view.front || !(view.wedge > 0.0)) {
+        drawn = vndf_front_draw(even, view.s * table.f1, max(view.front - goal, 0.0), view.front);
+    } else {
+        float rest = clamp(1.0 - (goal - view.front) / view.wedge, 0.0, 1.0);
+        drawn = vndf_row_draw(table.above, vndf_row_of(table.above, view.c), rest);
+        drawn.cosine = -drawn.cosine;
+        drawn.density = drawn.density * view.wedge;
+    }
+    drawn.density = drawn.density * 0.5 / total;
+    return drawn;
+}
+
+vndf_drawn vndf_table_draw(vndf_view view, float u1, float u2) {
+    vndf_table table = vndf_table_at(view.surface.distribution);
+    float side = 2.0 * u1 - 1.0;
+    vndf_azimuth azimuth = vndf_view_azimuth(view, table, abs(side));
+    float k = view.s * azimuth.cosine;
+    vndf_law law = vndf_law_of(table, view.c, k);
+    float goal = law.mass * vndf_pick(view.c >= 0.0, u2, 1.0 - u2);
+    int cell = vndf_law_find(table, law, goal);
+    vndf_piece piece = vndf_piece_of(table, law, cell);
+    vndf_slope slope = vndf_slope(cell, vndf_law_draw(table, law, cell, piece, goal));
+    float x = vndf_slope_x(table, slope);
+    float z = vndf_slope_z(table, slope);
+    float least = 1e-7 * (abs(view.c) * z + abs(k) * x);
+    float w = max(view.c * z + k * x, least);
+    float density = azimuth.density * vndf_law_density(table, law, slope, piece, w);
+    float y = x * vndf_pick(side < 0.0, -azimuth.sine, azimuth.sine);
+    return vndf_drawn(vec3(x * azimuth.cosine, y, z), density, w);
+}
+
+// The sum of the direction and of a point on the cap of the sphere that is visible (Dupuy & Benyoub 2023).
+vndf_drawn vndf_ggx_draw(vndf_view view, float u1, float u2) {
+    float s2 = view.s * view.s;
+    float cap = vndf_ggx_cap(view.s, view.c);
+    float v = 1.0 - u2;
+    float t = sqrt(u2 * (s2 + v * cap * cap));
+    float sine = sin(3.14159265 * u1);
+    float cosine = cos(3.14159265 * u1);
+    float unit = 1.0 / sqrt(sine * sine + cosine * cosine); // some processors round them by 5e-4
+    float along = vndf_ratio(v * (s2 - u2 * cap * cap), view.s + t) + 2.0 * t * (sine * unit) * (sine * unit);
+    vec3 n = vec3(along, -2.0 * t * (sine * unit) * (cosine * unit), v * cap);
+    float square = n.x * n.x + n.y * n.y + n.z * n.z;
+    return vndf_drawn(n, vndf_ratio(0.159154943, view.area * square), 0.5 * square);
+}
+
+vndf_drawn vndf_beckmann_draw(vndf_view view, float u1, float u2) {
+    vndf_beckmann_law law = vndf_beckmann_of(view.s, view.c);
+    vndf_beckmann_slope slope = vndf_beckmann_invert(law, u1);
+    float y = vndf_erf_quantile(clamp(u2, 1e-19, 0.99999994));
+    float density = 1.12837917 * exp(-vndf_beckmann_exponent(law, slope.x, slope.d) - y * y) * slope.d / law.whole;
+    return vndf_drawn(vec3(-slope.x, -y, 1.0), density, max(view.s, 1e-7) * slope.d);
+}
+
+// Draws a visible normal with two uniform numbers in [0, 1].
+vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {
+    vndf_drawn drawn;
+    if (view.surface.distribution == VNDF_GGX) {
+        drawn = vndf_ggx_draw(view, u1, min(u2, 0.99999994));
+    } else if (view.surface.distribution == VNDF_BECKMANN) {
+        drawn = vndf_beckmann_draw(view, u1, u2);
+    } else {
+        drawn = vndf_table_draw(view, u1, u2);
+    }
+    return vndf_sampled_at(view, drawn);
 }
 
 // ---- masking ----------------------------------------------------------------------------------------

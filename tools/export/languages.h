@@ -31,24 +31,25 @@ typedef struct renamed {
 
 enum { RENAMED_MAX = 12 };
 
+/* Declarations are patterns: in them the kernel's names get their prefix, and words that begin with $ are filled in. */
 typedef struct language {
     const char *name, *title;
     struct_form structs;
     made_form made;
     buffer_form buffer;
-    int casts;                  /* (int)(x), not int(x) */
-    int typed_after;            /* x: f32, not float x */
-    int vec3_is_ours;           /* a struct of three floats */
-    const char *suffix;         /* of a number with a point */
-    const char *function;       /* before the type of a function */
-    const char *vec3_made;      /* before the parenthesis that makes a vec3; NULL if that is a function of ours */
-    const char *begin;          /* after the first comment */
-    const char *constant;       /* declares a whole number: %s is its name, %ld its value */
-    int guarded;                /* #ifndef around all, since files include one another */
-    const char *numbers_before; /* declares embedded numbers: before their name */
-    const char *numbers_open, *numbers_close; /* %N in both is their count */
-    const char *pointer;                      /* type of the pointer, for BUFFER_PARAMETER */
-    const char *bound;          /* declares the buffer, for BUFFER_BOUND; before a name % stands for the prefix */
+    int casts;             /* (int)(x), not int(x) */
+    int typed_after;       /* x: f32, not float x */
+    int vec3_is_ours;      /* a struct of three floats */
+    const char *suffix;    /* of a number with a point */
+    const char *function;  /* before the type of a function */
+    const char *vec3_made; /* before the parenthesis that makes a vec3; NULL if that is a function of ours */
+    const char *begin;     /* after the first comment */
+    const char *constant;  /* declares the whole number $NAME, which is $N */
+    int guarded;           /* #ifndef around all, since files include one another */
+    const char *numbers;   /* declares $N embedded numbers, up to what opens them */
+    const char *numbers_close;
+    const char *pointer;        /* type of the pointer, for BUFFER_PARAMETER */
+    const char *bound;          /* declares the buffer, for BUFFER_BOUND */
     const char *fetched;        /* number i of it */
     size_t most_embedded;       /* numbers; 0 for no limit */
     const char *why;            /* the limit */

@@ -2,12 +2,14 @@
  * value unless it is a struct, no operators of vectors. So words decide what they become; no tree is built. */
 #include "export/translate.h"
 
-#include <stdlib.h>
+#include <assert.h>
 #include <string.h>
 
 #include "export/words.h"
 
 enum { FUNCTIONS_MAX = 128, STRUCTS_MAX = 32, FIELDS_MAX = 16, DEPTH_MAX = 32 };
+
+/* The build translates the one kernel there is, so its shape is asserted, not judged. */
 
 /* What was declared so far. The first function that fetches is vndf_fetch itself. */
 typedef struct writer {
@@ -25,7 +27,8 @@ typedef struct writer {
 int translation_prefix(translation *t, const char *name)
 {
     size_t n = strlen(name);
-    if (n == 0 || n > PREFIX_MAX || name[0] < 'a' || name[0] > 'z')
+    if (n == 0 || n > PREFIX_MAX || name[0] < 'a' || name[0] > 'z' || name[n - 1] == '_' || strstr(name, "__") ||
+        strcmp(name, "gl") == 0 || strncmp(name, "gl_", 3) == 0)
         return 0;
     for (size_t i = 0; i < n; i++) {
         int letter = name[i] >= 'a' && name[i] <= 'z', digit = name[i] >= '0' && name[i] <= '9';
@@ -39,16 +42,11 @@ int translation_prefix(translation *t, const char *name)
     return 1;
 }
 
-static void put_prefixed(const translation *t, FILE *to, const char *name, size_t length)
+void translate_name(const translation *t, FILE *to, const char *name, size_t length)
 {
-    int lower = length > 5 && memcmp(name, "vndf_", 5) == 0, upper = length > 5 && memcmp(name, "VNDF_", 5) == 0;
+    int lower = length >= 5 && memcmp(name, "vndf_", 5) == 0, upper = length >= 5 && memcmp(name, "VNDF_", 5) == 0;
     size_t skip = lower || upper ? 5 : 0;
     fprintf(to, "%s%.*s", lower ? t->lower : upper ? t->upper : "", (int)(length - skip), name + skip);
-}
-
-void translate_name(const translation *t, FILE *to, const char *name)
-{
-    put_prefixed(t, to, name, strlen(name));
 }
 
 /* A name as the language has it. */
@@ -56,9 +54,9 @@ static void put_name(const writer *w, const word *name)
 {
     const char *own = language_word(w->t->to, name->text, name->length);
     if (own)
-        put_prefixed(w->t, w->to, own, strlen(own));
+        translate_name(w->t, w->to, own, strlen(own));
     else
-        put_prefixed(w->t, w->to, name->text, name->length);
+        translate_name(w->t, w->to, name->text, name->length);
 }
 
 static int is_among(const word *list, size_t count, const word *name)
@@ -125,7 +123,7 @@ static void put_comment(const writer *w, const word *comment)
         if (part.text >= comment->text + comment->length)
             return;
         if (part.kind == WORD_NAME)
-            put_prefixed(w->t, w->to, part.text, part.length);
+            translate_name(w->t, w->to, part.text, part.length);
         else
             put_word(w, &part);
         at = part.text + part.length;
@@ -181,7 +179,8 @@ static size_t take_fields(writer *w, field *fields)
     size_t count = 0;
     for (word type = take_solid(w); !word_is(&type, "}"); type = take_solid(w)) {
         word end = {WORD_SIGN, ",", 1};
-        for (int first = 1; count < FIELDS_MAX && word_is(&end, ","); first = 0, count++) {
+        for (int first = 1; word_is(&end, ","); first = 0, count++) {
+            assert(count < FIELDS_MAX);
             fields[count].type = type;
             fields[count].begins = first;
             end = take_field(w, &fields[count]);
@@ -260,6 +259,7 @@ static void put_struct(writer *w)
     take_solid(w);
     size_t count = take_fields(w, fields);
     take_solid(w); /* ; */
+    assert(w->struct_count < STRUCTS_MAX);
     w->structs[w->struct_count++] = name;
     fputs(to->structs == STRUCT_TYPEDEF ? "typedef struct " : "struct ", w->to);
     put_name(w, &name);
@@ -290,16 +290,16 @@ typedef struct body {
 static void open_as(writer *w, body *b, char open, char close)
 {
     fputc(open, w->to);
-    if (b->depth < DEPTH_MAX)
-        b->close[b->depth++] = close;
+    assert(b->depth < DEPTH_MAX);
+    b->close[b->depth++] = close;
 }
 
 /* A name before its parenthesis, which is taken too. */
 static void put_call(writer *w, body *b, const word *name)
 {
     const language *to = w->t->to;
-    word open = take(w), next = peek_solid(w->at);
-    (void)open;
+    w->at++; /* ( */
+    word next = peek_solid(w->at);
     if (word_is(name, "int") && to->casts) {
         fputs("(int)", w->to);
     } else if (word_is(name, "vec3") && to->vec3_made) {
@@ -426,6 +426,7 @@ static void put_function(writer *w, const word *type)
     word name = take_solid(w);
     take_solid(w); /* ( */
     int fetching = is_among(w->fetching, 1, &name) || fetches(w, strchr(w->at, '{') + 1);
+    assert(w->fetching_count < FUNCTIONS_MAX);
     if (fetching)
         w->fetching[w->fetching_count++] = name;
     fputs(to->function, w->to);
