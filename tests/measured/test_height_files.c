@@ -262,6 +262,7 @@ static void test_refused_maps(void)
     refused_map("Pf\n1 1\n-1\n1234", 14, "a PFM of one channel");
     refused_map("P6\n1 2\n255\n12345", 16, "1 x 2 pixels take 6 bytes after the head, and there are 5");
     refused_map("P6\n1 2\n255\n\0\0\0\0\0\0", 17, "2 of 2 pixels are no normals");
+    refused_map("P6\n1 2\n255\n\x7f\x7f\0\x7f\x7f\1", 17, "2 of 2 pixels are no normals with z above 0");
     refused_map("PF\n2 1\n-1\nabc", 13, "2 x 1 pixels take 24 bytes");
 }
 

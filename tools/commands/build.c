@@ -18,7 +18,7 @@ static const char name[] = "vndf build";
 
 static const char help[] =
     "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
-    "       vndf build (--height FILE | --normal-map FILE) [options] -o FILE\n"
+    "       vndf build (--rgl FILE | --height FILE | --normal-map FILE) [options] -o FILE\n"
     "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
@@ -236,6 +236,7 @@ int command_build(int argc, char **argv)
         {"--parameter", 1, 1, &given.parameter},
         {"--knots", 1, 1, &given.knots},
         {"--certificate", 1, 1, &given.certificate},
+        {"--rgl", 1, 1, &given.measured.rgl},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
         {"--size", 1, 1, &given.measured.size},

@@ -8,6 +8,7 @@
 #include "cli/source_words.h"
 #include "command.h"
 #include "core/checksum.h"
+#include "measured/rgl/rgl.h"
 #include "measured/surface/heights.h"
 #include "measured/surface/maps.h"
 #include "render/whole_file.h"
@@ -19,13 +20,15 @@ const char measured_help[] =
     "table: errors, residuals that say how well D explains the data, and for stretched surfaces the matrix of the\n"
     "lobe that they are: vndf sample --lobe 'table=FILE matrix=XX,XY,YX,YY'.\n"
     "\n"
+    "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
     "  --height FILE   heights of a surface: PFM, PGM, ASCII .sdf, numbers between blanks, or raw floats by --size\n"
     "    --step X[,Y]  how far samples are apart, in the unit of the heights (default 1, or what the .sdf says)\n"
     "    --cutoff N    takes waves shorter than N samples away first, 2 to 256 (Gaussian, ISO 16610-21)\n"
     "    --size WxH    FILE is W times H little-endian floats of 32 bits\n"
     "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
     "\n"
-    "example: vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n";
+    "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
+    "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n";
 
 /* The file of one command line. */
 typedef struct measured_file {
@@ -47,7 +50,11 @@ static int read_height(const measured_file *file, const measured_words *given, p
 static int read_normal_map(const measured_file *file, const measured_words *given, profile *rows, notes *found,
                            refusal *why);
 
+static int read_rgl(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                    refusal *why);
+
 static const kind kinds[] = {
+    {"--rgl", offsetof(measured_words, rgl), read_rgl},
     {"--height", offsetof(measured_words, height), read_height},
     {"--normal-map", offsetof(measured_words, normal_map), read_normal_map},
 };
@@ -195,6 +202,23 @@ static int read_normal_map(const measured_file *file, const measured_words *give
     if (good)
         *rows = law.rows;
     return good;
+}
+
+/* ---- reflectances -------------------------------------------------------------------------------- */
+
+static int read_rgl(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                    refusal *why)
+{
+    const unsigned char *bytes = (const unsigned char *)file->bytes;
+    (void)given;
+    if (!rgl_read(rows, file->path, bytes, file->size, found, why))
+        return 0;
+    vndf_distribution *table = profile_table(rows, file->path, why);
+    const vndf_surface surface = {table, 1, 1};
+    if (table)
+        rgl_residuals(&surface, file->path, bytes, file->size, found);
+    vndf_free(table);
+    return table != NULL;
 }
 
 /* ---- the source ---------------------------------------------------------------------------------- */
