@@ -1,5 +1,5 @@
-# `vndf build` from measured files and `vndf export` to them: what goes out comes in as the same distribution, tables say
-# what file they were made of, and wrong words and bad files end with exit status 2, a reason and no output.
+# `vndf build` from measured files and `vndf export` to them: what goes out comes in as the same distribution, tables
+# say what file they were made of, and wrong words and bad files end with exit status 2, a reason and no output.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -37,8 +37,10 @@ file(SIZE ${OUT}/spectral.bsdf size)
 expect("two channels take ${size} bytes" size LESS 4000000)
 
 file(WRITE ${OUT}/no.bsdf "tensor_fool")
-foreach(words "--rgl no.bsdf;no.bsdf: this is no tensor file" "--rgl none.bsdf;none.bsdf: No such file"
-        "--rgl out.bsdf --step 2;--step is for --height" "--rgl out.bsdf --family ggx;exactly one is needed")
+foreach(words "--rgl no.bsdf;no.bsdf: this is no tensor file"
+        "--rgl none.bsdf;none.bsdf: No such file"
+        "--rgl out.bsdf --step 2;--step is for --height"
+        "--rgl out.bsdf --family ggx;exactly one is needed")
     list(GET words 0 given)
     list(GET words 1 reason)
     separate_arguments(given)
@@ -47,16 +49,61 @@ foreach(words "--rgl no.bsdf;no.bsdf: this is no tensor file" "--rgl none.bsdf;n
 endforeach()
 run(2 build --rgl out.bsdf -o out.bsdf)
 has(errors "an input of this command")
-foreach(words "ggx --rgl;-o is missing" "ggx --rgl --language c -o bad.bsdf;--language is for kernels"
-        "ggx beckmann --rgl -o bad.bsdf;2 distributions are given" "ggx --brdf utia -o bad.bsdf;--brdf 'utia'"
-        "ggx --rgl --f0 2 -o bad.bsdf;--f0 '2' is not in the range" "ggx --rgl --f0 1,1 -o bad.bsdf;--f0 has 2 numbers; 1 or 3"
-        "ggx --rgl --wavelengths 500,400 -o bad.bsdf;they must ascend" "ggx --rgl --brdf rgl -o bad.bsdf;--rgl is --brdf rgl"
-        "ggx --rgl --alpha 0 -o bad.bsdf;--alpha '0' is not in the range" "ggx --alpha 1 --language c -o bad.h;--alpha is for"
+foreach(words "ggx --rgl;-o is missing"
+        "ggx --rgl --language c -o bad.bsdf;--language is for kernels"
+        "ggx beckmann --rgl -o bad.bsdf;2 distributions are given"
+        "ggx --brdf utia -o bad.bsdf;--brdf 'utia': rgl and merl"
+        "ggx --brdf merl --wavelengths 500 -o bad.bsdf;--wavelengths is for --brdf rgl"
+        "ggx --rgl --f0 2 -o bad.bsdf;--f0 '2' is not in the range"
+        "ggx --rgl --f0 1,1 -o bad.bsdf;--f0 has 2 numbers; 1 or 3"
+        "ggx --rgl --wavelengths 500,400 -o bad.bsdf;they must ascend"
+        "ggx --rgl --brdf rgl -o bad.bsdf;--rgl is --brdf rgl"
+        "ggx --rgl --alpha 0 -o bad.bsdf;--alpha '0' is not in the range"
+        "ggx --alpha 1 --language c -o bad.h;--alpha is for"
         "none.vndf --rgl -o bad.bsdf;none.vndf")
     list(GET words 0 given)
     list(GET words 1 reason)
     separate_arguments(given)
     run(2 export ${given})
+    has(errors "${reason}")
+endforeach()
+
+# ---- .binary and goniometers --------------------------------------------------------------------
+
+run(0 export beckmann --brdf merl --alpha 0.3 --f0 0.9,0.6,0.3 -o out.binary)
+file(SIZE ${OUT}/out.binary size)
+expect("a MERL file of ${size} bytes" size EQUAL 34992012)
+run(0 build --merl out.binary --channel red --max-bytes 2048 --certificate quick -o in.vndf)
+has(output "source --merl out.binary --channel red (crc32 ")
+number(scale scale) # the median slope of Beckmann is alpha sqrt(ln 2)
+expect("the median slope is ${scale}, 0.24977 went out" scale GREATER 0.2490 AND scale LESS 0.2505)
+number(f0 f0)
+expect("F0 is ${f0}, 0.9 went out" f0 GREATER 0.895 AND f0 LESS 0.905)
+
+set(text "theta_i,theta_o,brdf\n") # a peak that halves every 4 degrees of theta_h
+foreach(theta_o RANGE -40 80 4)
+    math(EXPR halvings "(${theta_o} - 20) / 8")
+    string(REPLACE "-" "" halvings ${halvings})
+    math(EXPR value "4096 >> ${halvings}")
+    string(APPEND text "20,${theta_o},${value}\n")
+endforeach()
+file(WRITE ${OUT}/scan.csv "${text}")
+run(0 build --gonio scan.csv --max-bytes 2048 --certificate quick -o scan.vndf)
+has(output "source --gonio scan.csv (crc32 ")
+has(output "\nmeasurements 31, 31 of them used\n")
+has(output "\nuncalibrated, f0 times a scale is ")
+run(0 build --gonio scan.csv --f0 0.5 --max-bytes 2048 --certificate quick -o scan.vndf)
+has(output "source --gonio scan.csv --f0 0.5 (crc32 ")
+has(output "\nf0 0.5\n")
+foreach(words "--merl scan.csv;this is no MERL file"
+        "--merl out.binary --channel grey;--channel 'grey' is none of"
+        "--gonio out.bsdf;out.bsdf: line 1"
+        "--gonio scan.csv --f0 2;--f0 '2' is not in the range"
+        "--gonio scan.csv --channel red;--channel is for --merl")
+    list(GET words 0 given)
+    list(GET words 1 reason)
+    separate_arguments(given)
+    run(2 build ${given} -o bad.vndf)
     has(errors "${reason}")
 endforeach()
 
@@ -95,9 +142,12 @@ has(output "source --height heights.txt --cutoff 4 (crc32 ")
 has(output "\ncutoff 4\nslopes 1936\n")
 run(0 build --height heights.txt --max-bytes 2048 -o -)
 
-foreach(words "--height heights.txt --size 48x48;48 x 48 floats take 9216 bytes" "--height heights.txt --cutoff 300;--cutoff '300'"
-        "--height heights.txt --step 0;--step '0' is not in the range" "--height heights.txt --size 48;is not WIDTHxHEIGHT"
-        "--height heights.txt --cutoff 46;4 slopes are needed" "--normal-map heights.txt;begin with P5 or P6"
+foreach(words "--height heights.txt --size 48x48;48 x 48 floats take 9216 bytes"
+        "--height heights.txt --cutoff 300;--cutoff '300'"
+        "--height heights.txt --step 0;--step '0' is not in the range"
+        "--height heights.txt --size 48;is not WIDTHxHEIGHT"
+        "--height heights.txt --cutoff 46;4 slopes"
+        "--normal-map heights.txt;begin with P5 or P6"
         "--normal-map heights.txt --cutoff 3;--cutoff is for --height")
     list(GET words 0 given)
     list(GET words 1 reason)

@@ -18,7 +18,7 @@ static const char name[] = "vndf build";
 
 static const char help[] =
     "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
-    "       vndf build (--rgl FILE | --height FILE | --normal-map FILE) [options] -o FILE\n"
+    "       vndf build (--rgl | --merl | --gonio | --height | --normal-map) FILE [options] -o FILE\n"
     "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
@@ -237,6 +237,10 @@ int command_build(int argc, char **argv)
         {"--knots", 1, 1, &given.knots},
         {"--certificate", 1, 1, &given.certificate},
         {"--rgl", 1, 1, &given.measured.rgl},
+        {"--merl", 1, 1, &given.measured.merl},
+        {"--gonio", 1, 1, &given.measured.gonio},
+        {"--channel", 1, 1, &given.measured.channel},
+        {"--f0", 1, 1, &given.measured.f0},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
         {"--size", 1, 1, &given.measured.size},

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { POINTS = 4, PANELS = 6, STEPS = 12, TABLE_ROWS = 300 };
+enum { POINTS = 4, PANELS = 6, STEPS = 12, TABLE_ROWS = 100 };
 
 static const double two_pi = 6.283185307179586477;
 

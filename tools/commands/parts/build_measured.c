@@ -8,6 +8,8 @@
 #include "cli/source_words.h"
 #include "command.h"
 #include "core/checksum.h"
+#include "measured/brdf/gonio.h"
+#include "measured/brdf/merl.h"
 #include "measured/rgl/rgl.h"
 #include "measured/surface/heights.h"
 #include "measured/surface/maps.h"
@@ -21,6 +23,11 @@ const char measured_help[] =
     "lobe that they are: vndf sample --lobe 'table=FILE matrix=XX,XY,YX,YY'.\n"
     "\n"
     "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
+    "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
+    "    --channel red|green|blue|luminance    (default luminance)\n"
+    "  --gonio FILE    a CSV with the columns theta_i,theta_o (degrees; the mirror direction is theta_o = theta_i)\n"
+    "                  and brdf (f) or intensity (f cos theta_o), in the plane of incidence\n"
+    "    --f0 X        reflectance at normal incidence (without it, from the scale of the data)\n"
     "  --height FILE   heights of a surface: PFM, PGM, ASCII .sdf, numbers between blanks, or raw floats by --size\n"
     "    --step X[,Y]  how far samples are apart, in the unit of the heights (default 1, or what the .sdf says)\n"
     "    --cutoff N    takes waves shorter than N samples away first, 2 to 256 (Gaussian, ISO 16610-21)\n"
@@ -28,6 +35,7 @@ const char measured_help[] =
     "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
     "\n"
     "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
+    "         vndf build --merl gold-paint.binary --channel red -o gold-paint.vndf\n"
     "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n";
 
 /* The file of one command line. */
@@ -53,7 +61,14 @@ static int read_normal_map(const measured_file *file, const measured_words *give
 static int read_rgl(const measured_file *file, const measured_words *given, profile *rows, notes *found,
                     refusal *why);
 
+static int read_merl(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                     refusal *why);
+static int read_gonio(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                      refusal *why);
+
 static const kind kinds[] = {
+    {"--merl", offsetof(measured_words, merl), read_merl},
+    {"--gonio", offsetof(measured_words, gonio), read_gonio},
     {"--rgl", offsetof(measured_words, rgl), read_rgl},
     {"--height", offsetof(measured_words, height), read_height},
     {"--normal-map", offsetof(measured_words, normal_map), read_normal_map},
@@ -77,6 +92,8 @@ static const rider riders[] = {
     {"--size", offsetof(measured_words, size), {"--height", NULL}},
     {"--step", offsetof(measured_words, step), {"--height", NULL}},
     {"--cutoff", offsetof(measured_words, cutoff), {"--height", NULL}},
+    {"--channel", offsetof(measured_words, channel), {"--merl", NULL}},
+    {"--f0", offsetof(measured_words, f0), {"--gonio", NULL}},
 };
 
 enum { RIDERS = sizeof riders / sizeof riders[0] };
@@ -219,6 +236,40 @@ static int read_rgl(const measured_file *file, const measured_words *given, prof
         rgl_residuals(&surface, file->path, bytes, file->size, found);
     vndf_free(table);
     return table != NULL;
+}
+
+static int read_channel(const char *command, const measured_words *given, merl_channel *channel)
+{
+    static const char *const names[4] = {"red", "green", "blue", "luminance"};
+    const char *wanted = given->channel.count ? only_word(&given->channel) : "luminance";
+    for (int i = 0; i < 4; i++)
+        if (strcmp(wanted, names[i]) == 0) {
+            *channel = (merl_channel)i;
+            return 1;
+        }
+    complain(command, "--channel '%s' is none of red, green, blue and luminance", wanted);
+    return 0;
+}
+
+static int read_merl(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                     refusal *why)
+{
+    merl_channel channel;
+    return read_channel(file->command, given, &channel) &&
+           merl_read(rows, file->path, (const unsigned char *)file->bytes, file->size, channel, found, why);
+}
+
+static int read_gonio(const measured_file *file, const measured_words *given, profile *rows, notes *found,
+                      refusal *why)
+{
+    gonio_points points;
+    double f0 = -1;
+    if (!option_number(file->command, "--f0", &given->f0, 0, 1, &f0) ||
+        !gonio_read(&points, file->path, file->bytes, file->size, why))
+        return 0;
+    int good = gonio_law(&points, f0, file->path, rows, found, why);
+    gonio_free(&points);
+    return good;
 }
 
 /* ---- the source ---------------------------------------------------------------------------------- */

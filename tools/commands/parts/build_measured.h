@@ -10,7 +10,7 @@ typedef struct measured_words {
     words rgl, merl, height, normal_map, gonio; /* files */
     words size, step, cutoff;                   /* of heights */
     words channel;                              /* of MERL */
-    words f0;                                   /* of MERL and goniometers */
+    words f0;                                   /* of goniometers */
 } measured_words;
 
 /* What --help says of them. A string literal may have 4095 characters, so it is no part of the other. */

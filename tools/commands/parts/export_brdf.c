@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
+#include "measured/brdf/merl.h"
 #include "measured/rgl/rgl.h"
 
 const char brdf_help[] =
@@ -14,11 +15,13 @@ const char brdf_help[] =
     "\n"
     "  --rgl            the same as --brdf rgl: a .bsdf that Mitsuba 3 (plugin measured) renders as it is; with\n"
     "                   --wavelengths, its spectral variants and pbrt-v4\n"
+    "  --brdf merl      a .binary of MERL, 33 MiB\n"
     "  --alpha A        roughness (default 1, D as the table holds it)\n"
     "  --f0 R[,G,B]     reflectance at normal incidence, 0 to 1 (default 1: all light is reflected)\n"
     "  --wavelengths L,...   nanometres, ascending, up to 16; --f0 then has one number, or one for each\n"
     "\n"
-    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n";
+    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n"
+    "         vndf export beckmann --brdf merl --alpha 0.2 -o beckmann.binary\n";
 
 int brdf_wanted(const brdf_words *given)
 {
@@ -71,13 +74,20 @@ static int read_form(const char *command, const brdf_words *given, rgl_form *for
     return read_wavelengths(command, given, form) && read_f0(command, given, form);
 }
 
+static int is_merl(const brdf_words *given)
+{
+    return given->brdf.count && strcmp(only_word(&given->brdf), "merl") == 0;
+}
+
 static int check_words(const char *command, const brdf_words *given)
 {
     const char *kind = given->rgl.count ? "rgl" : only_word(&given->brdf);
     if (given->rgl.count && given->brdf.count)
         return complain(command, "--rgl and --brdf are given; --rgl is --brdf rgl");
-    if (strcmp(kind, "rgl") != 0)
-        return complain(command, "--brdf '%s': rgl is known", kind);
+    if (strcmp(kind, "rgl") != 0 && !is_merl(given))
+        return complain(command, "--brdf '%s': rgl and merl are known", kind);
+    if (is_merl(given) && given->wavelengths.count)
+        return complain(command, "--wavelengths is for --brdf rgl");
     if (given->tables.count != 1)
         return complain(command, "%zu distributions are given; --brdf takes one", given->tables.count);
     if (!given->output.count)
@@ -87,13 +97,14 @@ static int check_words(const char *command, const brdf_words *given)
 
 /* ---- work ---------------------------------------------------------------------------------------- */
 
-static int write_file(const char *command, const char *path, const vndf_distribution *distribution,
+static int write_file(const char *command, const brdf_words *given, const vndf_distribution *distribution,
                       const rgl_form *form)
 {
     output_file output;
-    if (!output_open(&output, command, path))
+    if (!output_open(&output, command, only_word(&given->output)))
         return STATUS_USE;
-    if (!rgl_write(output.file, distribution, form))
+    if (!(is_merl(given) ? merl_write(output.file, distribution, form->alpha, form->f0)
+                         : rgl_write(output.file, distribution, form)))
         return output_give_up(&output, "no memory, or no place on the disk");
     return output_commit(&output);
 }
@@ -109,7 +120,7 @@ int export_brdf(const char *command, const brdf_words *given)
         return STATUS_USE;
     snprintf(description, sizeof description, "vndf %.500s, alpha %g", table, (double)form.alpha);
     form.description = description;
-    int status = write_file(command, only_word(&given->output), chosen.distribution, &form);
+    int status = write_file(command, given, chosen.distribution, &form);
     distribution_close(&chosen);
     return status;
 }

@@ -98,7 +98,7 @@ static void fill_density(rgl_arrays *a, int incident)
 
 /* ---- what is reflected --------------------------------------------------------------------------- */
 
-/* R (1 - rise) and R rise, in cells of the unit square, POINTS^2 for each of the grid; where wo is above the horizon. */
+/* R (1 - rise) and R rise in POINTS^2 places of each cell; and where wo is above the horizon. */
 typedef struct reflected {
     float low[FINE_SIDE][FINE_SIDE], high[FINE_SIDE][FINE_SIDE], is_seen[FINE_SIDE][FINE_SIDE];
     double low_grid[SIDE][SIDE], high_grid[SIDE][SIDE];
