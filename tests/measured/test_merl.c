@@ -75,6 +75,7 @@ static void test_round_trip(float alpha)
     printf("GGX %g: D off by %.4f\n%s", (double)alpha, off, said.text);
     double f0 = 0.2126 * 0.9 + 0.7152 * 0.6 + 0.0722 * 0.3;
     TEST(off < 0.01);
+    TEST_HAS(said.text, "bins middle\n");
     TEST(number_after(said.text, "diffuse ") == 0);
     TEST_RELATIVE(number_after(said.text, "\nf0 "), f0, 0.01);
     TEST_NEAR(number_after(said.text, "\nf90 "), 1, 0.05);
@@ -96,6 +97,36 @@ static void test_diffuse(void)
     TEST_RELATIVE(number_after(said.text, "\nf0 "), 0.9, 0.02);
     TEST(number_after(said.text, "residual_reflectance ") < 0.01);
     TEST(read_file(0.3, MERL_BLUE, &said) < 0.01 && number_after(said.text, "diffuse ") == 0);
+}
+
+/* Values at the lower ends of bins, or masked by the product of G1, as programs that fill files often have them: found
+ * out, and taken as that. */
+static void test_convention(double place, int is_separable)
+{
+    notes said;
+    const double alpha = 0.5;
+    for (int half = 0; half < 90; half++)
+        for (int i = 0; i < 90; i++)
+            for (int k = 0; k < 180; k++) {
+                double theta_h = (half + place) * (half + place) * PI / 2 / 8100;
+                double theta_d = (i + place) * PI / 180, phi_d = (k + place) * PI / 180;
+                double s = sin(theta_h), c = cos(theta_h), x = sin(theta_d) * cos(phi_d), z = cos(theta_d);
+                double cos_i = c * z - s * x, cos_o = c * z + s * x, f = 0;
+                if (cos_i > 0 && cos_o > 0) {
+                    double a_i = (cos_i + sqrt(cos_i * cos_i + alpha * alpha * (1 - cos_i * cos_i))) / 2;
+                    double a_o = (cos_o + sqrt(cos_o * cos_o + alpha * alpha * (1 - cos_o * cos_o))) / 2;
+                    f = ggx(theta_h, alpha) /
+                        (4 * (is_separable ? a_i * a_o : a_i * cos_o + a_o * cos_i - cos_i * cos_o));
+                }
+                put(0, (size_t)((half * 90 + i) * 180 + k), f / scale[0]);
+            }
+    double off = read_file(alpha, MERL_RED, &said);
+    printf("of another program: D off by %.4f\n%s", off, said.text);
+    TEST(off < 0.01);
+    TEST_HAS(said.text, place == 0 ? "bins lower end\n" : "bins middle\n");
+    TEST_HAS(said.text, is_separable ? "masking separable\n" : "masking correlated\n");
+    TEST_NEAR(number_after(said.text, "diffuse "), 0, 1e-4);
+    TEST(number_after(said.text, "residual_reflectance ") < 1e-3);
 }
 
 /* What measurements could not see is negative. */
@@ -120,10 +151,10 @@ static void test_eigenvector(void)
 {
     power_bins bins;
     double f[POWER_ANGLES], ndf[POWER_ANGLES] = {0}, f0, whole = 0;
-    power_even(&bins, 90);
+    power_even(&bins, 90, 0.5);
     for (int i = 0; i < 90; i++)
         f[i] = exp(-3 * bins.theta[i]) * (1 + 0.5 * sin(7 * bins.theta[i]));
-    TEST(power_iterate(&bins, f, ndf, &f0) && f0 > 0);
+    TEST(power_iterate(&bins, POWER_CORRELATED, f, ndf, &f0) && f0 > 0);
     for (int i = 0; i < 90; i++)
         whole += 2 * PI * bins.share[i] * cos(bins.theta[i]) * ndf[i];
     TEST_RELATIVE(whole, 1.0, 1e-12);
@@ -138,7 +169,7 @@ static void test_eigenvector(void)
     }
     for (int i = 0; i < 90; i++)
         f[i] = 0;
-    TEST(!power_iterate(&bins, f, ndf, &f0));
+    TEST(!power_iterate(&bins, POWER_CORRELATED, f, ndf, &f0));
 }
 
 /* ---- refusals ------------------------------------------------------------------------------------ */
@@ -180,6 +211,8 @@ int main(void)
     test_round_trip(0.3f);
     test_diffuse();
     test_missing();
+    test_convention(0, 0);
+    test_convention(0.5, 1);
     test_refusals();
     free(bytes);
     return test_done();

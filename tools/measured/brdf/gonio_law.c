@@ -175,7 +175,7 @@ int gonio_law(const gonio_points *points, double f0, const char *name, profile *
     choose(l, points);
     group(l);
     note(to, "measurements %zu, %zu of them used", points->count, l->count);
-    power_even(&l->bins, POWER_ANGLES / 2);
+    power_even(&l->bins, POWER_ANGLES / 2, 0.5);
     l->f0 = f0 < 0 ? 0.5 : f0;
     l->change = 1;
     for (int i = 0; i < AREAS; i++)

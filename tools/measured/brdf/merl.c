@@ -8,7 +8,7 @@
 #include "measured/brdf/power.h"
 #include "measured/model.h"
 
-enum { HALVES = 90, DIFFERENCES = 90, HALF_TURN = 180, HEAD = 12, AREAS = 2001 };
+enum { HALVES = 90, DIFFERENCES = 90, HALF_TURN = 180, HEAD = 12, AREAS = 541 };
 /* Every n-th bin is compared with the model. */
 enum { STEP_D = 3, STEP_PHI = 12, PROBES = HALVES * (DIFFERENCES / STEP_D) * (HALF_TURN / STEP_PHI) };
 
@@ -18,9 +18,10 @@ static const double luminance[3] = {0.2126, 0.7152, 0.0722};
 
 /* ---- directions ---------------------------------------------------------------------------------- */
 
-static double half_angle(int bin)
+/* `place` of the way through its bin. */
+static double half_angle(int bin, double place)
 {
-    double u = (bin + 0.5) / HALVES;
+    double u = (bin + place) / HALVES;
     return pi / 2 * u * u;
 }
 
@@ -33,9 +34,12 @@ static void directions_of(double theta_h, double theta_d, double phi_d, directio
     *wo = direction_mirrored(*wi, (direction){s, 0, c});
 }
 
-/* D / (4 (A_i cos_o + A_o cos_i - cos_i cos_o)): f where F is 1. */
-static double masked_ndf(double ndf, double area_i, double cos_i, double area_o, double cos_o)
+/* f where F is 1: D / (4 (A_i cos_o + A_o cos_i - cos_i cos_o)), or D / (4 A_i A_o). */
+static double masked_ndf(power_masking masking, double ndf, double area_i, double cos_i, double area_o,
+                         double cos_o)
 {
+    if (masking == POWER_SEPARABLE)
+        return ndf / (4 * area_i * area_o);
     return ndf / (4 * (area_i * cos_o + area_o * cos_i - cos_i * cos_o));
 }
 
@@ -44,6 +48,7 @@ static double masked_ndf(double ndf, double area_i, double cos_i, double area_o,
 typedef struct merl_file {
     const unsigned char *numbers;
     int azimuths; /* of phi_d */
+    double place; /* of a number in its bin: 1/2 in the middle, 0 at the lower end */
     merl_channel channel;
 } merl_file;
 
@@ -54,6 +59,7 @@ typedef struct probe {
 
 typedef struct search {
     power_bins bins;
+    power_masking masking;
     double back[POWER_ANGLES]; /* f of light that goes back */
     double ndf[POWER_ANGLES], f0, low, high, residual;
     double area[AREAS]; /* over theta */
@@ -114,9 +120,9 @@ static int read_back(const merl_file *file, search *s)
 static void add_probe(search *s, const merl_file *file, int half, int difference, int azimuth)
 {
     static const double least = 0.17364817766693; /* cos 80 degrees */
-    double theta_h = half_angle(half), theta_d = (difference + 0.5) / DIFFERENCES * pi / 2;
+    double theta_h = half_angle(half, file->place), theta_d = (difference + file->place) / DIFFERENCES * pi / 2;
     direction wi, wo;
-    directions_of(theta_h, theta_d, (azimuth + 0.5) / file->azimuths * pi, &wi, &wo);
+    directions_of(theta_h, theta_d, (azimuth + file->place) / file->azimuths * pi, &wi, &wo);
     double found = value_at(file, half, difference, azimuth);
     if (!(wi.z > least && wo.z > least) || !(found >= 0))
         return;
@@ -145,8 +151,8 @@ static double area_of(const search *s, double cosine)
 /* f of the model at a probe, F being 1. */
 static double shape_at(const search *s, const probe *p)
 {
-    return masked_ndf(power_ndf(&s->bins, s->ndf, p->theta_h), area_of(s, p->cos_i), p->cos_i,
-                      area_of(s, p->cos_o), p->cos_o);
+    double ndf = power_ndf(&s->bins, s->ndf, p->theta_h);
+    return masked_ndf(s->masking, ndf, area_of(s, p->cos_i), p->cos_i, area_of(s, p->cos_o), p->cos_o);
 }
 
 /* Least squares for the two ends of F over relative weights, so that the dim wide part counts as the bright peak. */
@@ -187,7 +193,7 @@ static double try_diffuse(search *s, double diffuse)
     double f[POWER_ANGLES];
     for (int i = 0; i < s->bins.count; i++)
         f[i] = s->back[i] < 0 ? -1 : fmax(s->back[i] - diffuse, 0);
-    if (!power_iterate(&s->bins, f, s->ndf, &s->f0))
+    if (!power_iterate(&s->bins, s->masking, f, s->ndf, &s->f0))
         return 1;
     for (int i = 0; i < AREAS; i++)
         s->area[i] = power_area(&s->bins, s->ndf, pi / 2 * i / (AREAS - 1));
@@ -242,31 +248,61 @@ static int open_file(merl_file *file, const char *name, const unsigned char *byt
 }
 
 /* F0 of each channel by itself, with its own D; diffuse light counts in. */
-static void note_channels(merl_file file, notes *to)
+static void note_channels(merl_file file, power_masking masking, notes *to)
 {
     static const char *const names[3] = {"f0_red", "f0_green", "f0_blue"};
     search *s = calloc(1, sizeof *s);
     for (int i = 0; i < 3 && s; i++) {
         file.channel = (merl_channel)i;
-        power_even(&s->bins, HALVES);
+        power_even(&s->bins, HALVES, file.place);
         read_back(&file, s);
-        if (power_iterate(&s->bins, s->back, s->ndf, &s->f0))
+        if (power_iterate(&s->bins, masking, s->back, s->ndf, &s->f0))
             note(to, "%s %.4g", names[i], s->f0);
     }
     free(s);
 }
 
+/* Reads what is compared; how many angles have no light that goes back. */
+static int open_search(search *s, const merl_file *file)
+{
+    s->count = 0;
+    power_even(&s->bins, HALVES, file->place);
+    read_probes(s, file);
+    return read_back(file, s);
+}
+
+/* Files that programs filled may have their numbers at the lower ends of bins, or be masked by the product of both ways.
+ * They are taken so where that explains them with half of the error. */
+static void find_convention(search *s, merl_file *file)
+{
+    static const double places[4] = {0.5, 0, 0.5, 0};
+    static const power_masking maskings[4] = {POWER_CORRELATED, POWER_CORRELATED, POWER_SEPARABLE,
+                                              POWER_SEPARABLE};
+    double best = INFINITY;
+    int chosen = 0;
+    for (int i = 0; i < 4; i++) {
+        file->place = places[i];
+        s->masking = maskings[i];
+        open_search(s, file);
+        double residual = s->count > 0 ? fmin(try_diffuse(s, find_diffuse(s)), 1) : 1;
+        chosen = residual < best / 2 ? i : chosen;
+        best = chosen == i ? residual : best;
+    }
+    file->place = places[chosen];
+    s->masking = maskings[chosen];
+}
+
 static int search_file(search *s, const merl_file *file, const char *name, notes *to, refusal *why)
 {
-    power_even(&s->bins, HALVES);
-    int missing = read_back(file, s);
-    read_probes(s, file);
+    int missing = open_search(s, file);
     if (s->count == 0)
         return refuse_data(why, name, "no direction within 80 degrees has a value");
     double diffuse = find_diffuse(s);
     if (try_diffuse(s, diffuse) >= 1 || !(s->f0 > 0))
         return refuse_data(why, name,
                            "no light comes back to where it came from, or D explains nothing of the file");
+    note(to, "bins %s", file->place > 0 ? "middle" : "lower end");
+    note(to, "masking %s", s->masking == POWER_SEPARABLE ? "separable" : "correlated");
     note(to, "angles_without_light %d", missing);
     note(to, "diffuse %.4g", diffuse * pi);
     note(to, "f0 %.4g", s->low);
@@ -278,7 +314,7 @@ static int search_file(search *s, const merl_file *file, const char *name, notes
 int merl_read(profile *rows, const char *name, const unsigned char *bytes, size_t size, merl_channel channel,
               notes *to, refusal *why)
 {
-    merl_file file = {NULL, 0, channel};
+    merl_file file = {NULL, 0, 0.5, channel};
     *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0};
     if (!open_file(&file, name, bytes, size, why))
         return 0;
@@ -288,13 +324,15 @@ int merl_read(profile *rows, const char *name, const unsigned char *bytes, size_
     int good = s && s->probes && profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, HALVES);
     if (!good)
         refuse_data(why, name, "there is no memory for %d rows", HALVES);
+    if (good)
+        find_convention(s, &file);
     good = good && search_file(s, &file, name, to, why);
     for (int i = 0; i < HALVES && good; i++) {
         rows->x[i] = s->bins.theta[i];
         rows->value[i] = s->ndf[i];
     }
     if (good)
-        note_channels(file, to);
+        note_channels(file, s->masking, to);
     else
         profile_free(rows);
     if (s)
@@ -318,13 +356,13 @@ static double value_of(const vndf_surface *surface, double ndf, double theta_h, 
     directions_of(theta_h, theta_d, phi_d, &wi, &wo);
     if (!(wi.z > 0) || !(wo.z > 0))
         return 0;
-    return masked_ndf(ndf, model_area(surface, wi), wi.z, model_area(surface, wo), wo.z);
+    return masked_ndf(POWER_CORRELATED, ndf, model_area(surface, wi), wi.z, model_area(surface, wo), wo.z);
 }
 
 static void fill(float *values, const vndf_surface *surface)
 {
     for (int half = 0; half < HALVES; half++) {
-        double theta_h = half_angle(half), ndf = model_ndf(surface, theta_h);
+        double theta_h = half_angle(half, 0.5), ndf = model_ndf(surface, theta_h);
         for (int i = 0; i < DIFFERENCES; i++)
             for (int k = 0; k < HALF_TURN; k++)
                 *values++ = (float)value_of(surface, ndf, theta_h, (i + 0.5) / DIFFERENCES * pi / 2,

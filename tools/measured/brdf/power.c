@@ -6,12 +6,13 @@ enum { STEPS = 60 };
 
 static const double pi = 3.14159265358979323846;
 
-void power_even(power_bins *made, int count)
+/* A bin reaches half way to its neighbours, and the last one to 90 degrees. */
+void power_even(power_bins *made, int count, double place)
 {
     made->count = count;
     for (int i = 0; i < count; i++) {
-        double from = (double)i / count, to = (i + 1.0) / count, middle = (i + 0.5) / count;
-        made->theta[i] = pi / 2 * middle * middle;
+        double at = i + place, from = fmax(at - 0.5, 0) / count, to = i + 1 < count ? (at + 0.5) / count : 1;
+        made->theta[i] = pi / 2 * at * at / count / count;
         made->share[i] = cos(pi / 2 * from * from) - cos(pi / 2 * to * to);
     }
 }
@@ -42,7 +43,14 @@ double power_normalise(const power_bins *bins, double *ndf)
     return whole;
 }
 
-int power_iterate(const power_bins *bins, const double *f, double *ndf, double *f0)
+/* F0 D by f at bin i and the D so far, which has the integral 1. */
+static double next_at(const power_bins *bins, power_masking masking, double f, const double *ndf, int i)
+{
+    double area = power_area(bins, ndf, bins->theta[i]), c = cos(bins->theta[i]);
+    return 4 * f * (masking == POWER_SEPARABLE ? area * area : c * (2 * area - c));
+}
+
+int power_iterate(const power_bins *bins, power_masking masking, const double *f, double *ndf, double *f0)
 {
     double before = 0, next[POWER_ANGLES];
     if (!(power_normalise(bins, ndf) > 0))
@@ -52,9 +60,7 @@ int power_iterate(const power_bins *bins, const double *f, double *ndf, double *
     for (int step = 0; step < STEPS && (step < 4 || fabs(*f0 - before) > 1e-10 * *f0); step++) {
         before = *f0;
         for (int i = 0; i < bins->count; i++)
-            next[i] = f[i] >= 0 ? 4 * cos(bins->theta[i]) * f[i] * both_sides(bins, ndf, bins->theta[i])
-                      : i > 0   ? next[i - 1]
-                                : 0;
+            next[i] = f[i] >= 0 ? next_at(bins, masking, f[i], ndf, i) : i > 0 ? next[i - 1] : 0;
         *f0 = power_normalise(bins, next);
         if (!(*f0 > 0))
             return 0;
