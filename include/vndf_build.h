@@ -40,6 +40,16 @@ VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 
+/* The same from numbers in memory: x[], theta_m in radians from 0 to pi/2 or the slope length, ascending from 0 or
+ * above by more than 1e-12 of itself, and value[], D or P22, finite and not negative; 2 to VNDF_LIMIT_CSV_ROWS of each.
+ * A row at 90 degrees (within 1e-9 radians) is for D alone. The numbers are copied. `name` says what they are, and may
+ * be NULL; with a checksum of the numbers it becomes the provenance: "--rows NAME (crc32 ...)". If a row is refused,
+ * returns NULL and VNDF_ERROR_DISTRIBUTION with its number, counted from 0. */
+typedef enum vndf_rows_over { VNDF_ROWS_OVER_THETA, VNDF_ROWS_OVER_SLOPE } vndf_rows_over;
+typedef enum vndf_rows_of { VNDF_ROWS_OF_NDF, VNDF_ROWS_OF_P22 } vndf_rows_of;
+VNDF_API vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
+                                       size_t count, const char *name, vndf_error *error);
+
 /* A family by name: ggx, beckmann, student-t:GAMMA, gtr:GAMMA, epd:P, abc:B,C or abc:MATERIAL,
  * sgd:ALPHA,P or sgd:MATERIAL/CHANNEL, hyper-cauchy:..., phong:N, mix:(...). vndf_family_help lists them. */
 VNDF_API vndf_source *vndf_source_family(const char *specification, vndf_error *error);
@@ -69,6 +79,13 @@ VNDF_API double vndf_source_p22(const vndf_source *source, double r);
 
 /* How the source was given, as arguments of `vndf build`. The text belongs to the source. */
 VNDF_API const char *vndf_source_description(const vndf_source *source);
+
+/* Puts other words in the place of that text, which tables keep as provenance: for programs that make rows or a
+ * function out of data of their own, "--rgl leather.bsdf (crc32 0f3a22bc)". One line of 1 to VNDF_LIMIT_NAME_LENGTH
+ * characters without control characters, its quotes closed; the text is copied. VNDF_ERROR_ARGUMENT for any other, for
+ * a source by --ndf, --slope or --family, whose description makes it again, and for words that begin with one of these
+ * three. Not while a build reads the source. */
+VNDF_API vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error);
 
 VNDF_API void vndf_source_free(vndf_source *source);
 

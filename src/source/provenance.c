@@ -1,12 +1,15 @@
-/* Reads provenance back. Descriptions come from table files, so they are not trusted: every word is checked. */
+/* Reads provenance back, and lets programs bring words of their own. Descriptions come from table files, so they are
+ * not trusted: every word is checked. */
 #include "source/provenance.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
 #include "source/formula/expression.h"
 #include "source/number.h"
 #include "source/resolution.h"
+#include "source/source.h"
 #include "source/words.h"
 
 static const char *const options[] = {"--ndf", "--slope", "--family"};
@@ -84,6 +87,50 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
                   vndf_excerpt(excerpt, description, strlen(description)));
     vndf_words_free(&words);
     return source;
+}
+
+/* ---- other words --------------------------------------------------------------------------------- */
+
+static vndf_status check_words(const char *text, vndf_error *error)
+{
+    vndf_words words;
+    size_t length = strlen(text);
+    if (length == 0 || length > VNDF_LIMIT_NAME_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a description of %zu characters; 1 to %d are possible",
+                         length, VNDF_LIMIT_NAME_LENGTH);
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)text[i] < 32 || text[i] == 127)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "column %zu of the description: a control character",
+                             i + 1);
+    vndf_error inner = {VNDF_OK, ""};
+    if (vndf_words_split(text, &words, &inner) != VNDF_OK)
+        return vndf_fail(error, inner.status == VNDF_ERROR_MEMORY ? inner.status : VNDF_ERROR_ARGUMENT,
+                         "the description, %s", inner.message);
+    int taken = is_rebuildable(&words);
+    vndf_words_free(&words);
+    return taken ? vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                             "the description begins as that of a formula or a family does, which it is not")
+                 : VNDF_OK;
+}
+
+vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error)
+{
+    vndf_text text = {NULL, 0, 0, 0};
+    if (!source || !words)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the %s is NULL", source ? "description" : "source");
+    if (source->rebuildable)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the description '%.100s' makes this source again; it stays",
+                         source->description);
+    vndf_status status = check_words(words, error);
+    if (status != VNDF_OK)
+        return status;
+    vndf_text_add(&text, words);
+    char *description = vndf_text_finish(&text, error);
+    if (!description)
+        return VNDF_ERROR_MEMORY;
+    free(source->description);
+    source->description = description;
+    return VNDF_OK;
 }
 
 vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error)

@@ -19,7 +19,7 @@ set(below_source core simd math)
 set(below_fit core simd math source table sampler)
 set(run_time core simd math table sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
-set(shared core/replace_file.h)
+set(shared core/replace_file.h core/checksum.h)
 # What the build writes: the kernel of tools/export in C.
 set(written exported_kernel.h)
 
@@ -29,7 +29,7 @@ set(subs_bsdf terms albedo lobes walk batch)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate family)
 
-set(rooms_tools cli draw measure bench report render compare export commands)
+set(rooms_tools cli draw measure bench report render compare export measured commands)
 set(below_cli "")
 set(below_draw cli)
 set(below_measure cli)
@@ -38,11 +38,13 @@ set(below_report cli draw measure bench)
 set(below_render cli draw)
 set(below_compare cli draw render)
 set(below_export draw)
-set(below_commands cli draw measure bench report render compare export)
+set(below_measured cli render)
+set(below_commands cli draw measure bench report render compare export measured)
 
 set(subs_bench methods effects)
 set(subs_commands parts)
 set(subs_export page)
+set(subs_measured surface rgl brdf)
 set(subs_render image geometry scene perfect path)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign

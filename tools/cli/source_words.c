@@ -163,6 +163,19 @@ void source_text(const source_words *given, char *text, size_t size)
     *t.at = '\0';
 }
 
+void source_text_add(const char *option, const words *values, char *text, size_t size)
+{
+    text_end t = {text + strlen(text), text + size - 1};
+    for (size_t i = 0; i < values->count; i++) {
+        if (t.at > text)
+            put(&t, ' ');
+        put_text(&t, option);
+        put(&t, ' ');
+        put_word(&t, values->item[i]);
+    }
+    *t.at = '\0';
+}
+
 void source_text_name(const source_words *given, char *text, size_t size)
 {
     const words *all[] = {&given->ndf, &given->slope, &given->csv, &given->family};

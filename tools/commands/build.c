@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "command.h"
 #include "commands/parts/build_family.h"
+#include "commands/parts/build_measured.h"
 #include "commands/describe.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -17,6 +18,7 @@ static const char name[] = "vndf build";
 
 static const char help[] =
     "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
+    "       vndf build (--rgl | --merl | --gonio | --height | --normal-map) FILE [options] -o FILE\n"
     "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
@@ -54,6 +56,9 @@ static const char help[] =
     "                  (student-t from 1.6; the line `grazing` of vndf info)\n"
     "  --knots N       2 to 256 knots, where that distance is least\n"
     "  --max-bytes N   of each table; --sphere as above\n"
+    "\n";
+
+static const char examples[] =
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
@@ -62,6 +67,7 @@ static const char help[] =
 
 typedef struct build_words {
     source_words source;
+    measured_words measured;
     words list, bytes, tv, sphere, breaks, finest, parameter, knots, certificate, output;
 } build_words;
 
@@ -135,8 +141,8 @@ static int save_to_stdout(const vndf_distribution *table)
     return good ? output_finish_stdout(name) : complain(name, "no memory for the table");
 }
 
-/* And says what it is, if there is a place for it. */
-static int save_table(const vndf_distribution *table, const char *path)
+/* And says what it is and what was found in its data, if there is a place for it. */
+static int save_table(const vndf_distribution *table, const notes *found, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
     if (output_is_stdout(path))
@@ -146,27 +152,29 @@ static int save_table(const vndf_distribution *table, const char *path)
     vndf_info info = vndf_distribution_info(table);
     describe_info(&info);
     describe_certificate(&info.certificate);
+    fputs(found->text, stdout);
     return STATUS_GOOD;
 }
 
-static int build_and_save(const vndf_source *source, const build_words *given, unsigned held)
+static int build_and_save(const vndf_source *source, const notes *found, const build_words *given, unsigned held)
 {
     if (!output_replaceable(name, only_word(&given->output)))
         return STATUS_USE;
     vndf_distribution *table = build_table(source, given, held);
     if (!table)
         return STATUS_USE;
-    int status = save_table(table, only_word(&given->output));
+    int status = save_table(table, found, only_word(&given->output));
     vndf_free(table);
     return status;
 }
 
 static int check_words(const build_words *given)
 {
-    size_t sources = source_words_count(&given->source);
+    size_t sources = source_words_count(&given->source) + measured_words_count(&given->measured);
     int set = source_words_check_set(name, &given->source);
     if (sources != 1)
-        return complain(name, "%s of --ndf, --slope, --csv and --family; exactly one is needed",
+        return complain(name,
+                        "%s of --ndf, --slope, --csv, --family and files of measurements; exactly one is needed",
                         sources ? "more than one" : "none");
     if (given->parameter.count && !given->source.family.count)
         return complain(name, "--parameter is for --family; a formula has its parameters by --set");
@@ -178,6 +186,8 @@ static int check_words(const build_words *given)
         return complain(name, "--knots is for --parameter LOW..HIGH");
     if (given->knots.count && given->tv.count)
         return complain(name, "--knots and --max-tv are given; with --parameter one of them is possible");
+    if (set == PARSE_GO_ON)
+        set = measured_words_check(name, &given->measured);
     if (set == PARSE_GO_ON && !given->output.count)
         return complain(name, "-o FILE is missing");
     return set;
@@ -195,11 +205,13 @@ static int build_one_family(const build_words *given)
 
 static int build_one_table(const build_words *given)
 {
-    vndf_source *source = source_from_words(name, &given->source);
+    notes found = {"", 0};
+    vndf_source *source = measured_words_count(&given->measured) ? measured_source(name, &given->measured, &found)
+                                                                 : source_from_words(name, &given->source);
     if (!source)
         return STATUS_USE;
     unsigned held = output_hold_signals();
-    int status = build_and_save(source, given, held);
+    int status = build_and_save(source, &found, given, held);
     vndf_source_free(source);
     output_release_signals(held);
     return status;
@@ -210,16 +222,35 @@ int command_build(int argc, char **argv)
     build_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},  {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv},  {"--family", 1, 1, &given.source.family},
-        {"--list", 0, 1, &given.list},       {"--set", 1, WORDS_MAX, &given.source.set},
-        {"--max-bytes", 1, 1, &given.bytes}, {"--max-tv", 1, 1, &given.tv},
-        {"--sphere", 0, 1, &given.sphere},   {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
-        {"--finest", 1, 1, &given.finest},   {"--parameter", 1, 1, &given.parameter},
-        {"--knots", 1, 1, &given.knots},     {"--certificate", 1, 1, &given.certificate},
+        {"--ndf", 1, 1, &given.source.ndf},
+        {"--slope", 1, 1, &given.source.slope},
+        {"--csv", 1, 1, &given.source.csv},
+        {"--family", 1, 1, &given.source.family},
+        {"--list", 0, 1, &given.list},
+        {"--set", 1, WORDS_MAX, &given.source.set},
+        {"--max-bytes", 1, 1, &given.bytes},
+        {"--max-tv", 1, 1, &given.tv},
+        {"--sphere", 0, 1, &given.sphere},
+        {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
+        {"--finest", 1, 1, &given.finest},
+        {"--parameter", 1, 1, &given.parameter},
+        {"--knots", 1, 1, &given.knots},
+        {"--certificate", 1, 1, &given.certificate},
+        {"--rgl", 1, 1, &given.measured.rgl},
+        {"--merl", 1, 1, &given.measured.merl},
+        {"--gonio", 1, 1, &given.measured.gonio},
+        {"--channel", 1, 1, &given.measured.channel},
+        {"--f0", 1, 1, &given.measured.f0},
+        {"--height", 1, 1, &given.measured.height},
+        {"--normal-map", 1, 1, &given.measured.normal_map},
+        {"--size", 1, 1, &given.measured.size},
+        {"--step", 1, 1, &given.measured.step},
+        {"--cutoff", 1, 1, &given.measured.cutoff},
         {"-o", 1, 1, &given.output},
     };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
+    char text[sizeof help + sizeof examples + MEASURED_HELP_MAX];
+    snprintf(text, sizeof text, "%s%s%s", help, measured_help, examples);
+    const command_form form = {name, text, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON && given.list.count)
         return print_list();

@@ -7,6 +7,7 @@
 #include "cli/files.h"
 #include "cli/output.h"
 #include "command.h"
+#include "commands/parts/export_brdf.h"
 #include "commands/parts/named_tables.h"
 #include "export/document.h"
 
@@ -14,6 +15,7 @@ static const char name[] = "vndf export";
 
 static const char help[] =
     "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
+    "       vndf export FILE|ggx|beckmann (--rgl | --brdf KIND) -o OUT [options]\n"
     "\n"
     "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
     "sample with density, density of a normal, D, Lambda, G1, G2, projected area; alpha, matrices with mean slopes,\n"
@@ -32,10 +34,12 @@ static const char help[] =
     "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
     "shows what to call from which host.\n"
     "\n"
-    "exit status: 0 good, 2 wrong use\n"
-    "\n"
     "example: vndf export tables/student-t-2.5-small.vndf --language glsl -o normals.glsl\n"
-    "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n";
+    "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n"
+    "\n";
+
+static const char help_end[] = "\n"
+                               "exit status: 0 good, 2 wrong use\n";
 
 typedef struct export_words {
     words tables, language, output, embed, buffer, prefix, lobes, notice;
@@ -186,19 +190,60 @@ static int run(const export_words *given, export_document *document)
     return status;
 }
 
+/* ---- reflectances -------------------------------------------------------------------------------- */
+
+static int run_brdf(const export_words *given, brdf_words *brdf)
+{
+    const words *const others[] = {&given->language, &given->embed, &given->buffer,
+                                   &given->prefix,   &given->lobes, &given->notice};
+    static const char *const names[] = {"--language", "--embed", "--buffer", "--prefix", "--lobes", "--notice"};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (others[i]->count)
+            return complain(name, "%s is for kernels, not for --rgl and --brdf", names[i]);
+    brdf->tables = given->tables;
+    brdf->output = given->output;
+    return export_brdf(name, brdf);
+}
+
+static int check_not_brdf(const brdf_words *brdf)
+{
+    if (brdf->alpha.count || brdf->f0.count || brdf->wavelengths.count)
+        return complain(name, "%s is for --rgl and --brdf",
+                        brdf->alpha.count ? "--alpha"
+                        : brdf->f0.count  ? "--f0"
+                                          : "--wavelengths");
+    return PARSE_GO_ON;
+}
+
 int command_export(int argc, char **argv)
 {
     export_words given = {0};
+    brdf_words brdf = {0};
     export_document document = {0};
     char *notice = NULL;
     const option_form options[] = {
-        {"--language", 1, 1, &given.language}, {"-o", 1, 1, &given.output},       {"--embed", 0, 1, &given.embed},
-        {"--buffer", 1, 1, &given.buffer},     {"--prefix", 1, 1, &given.prefix}, {"--lobes", 1, 1, &given.lobes},
+        {"--language", 1, 1, &given.language},
+        {"-o", 1, 1, &given.output},
+        {"--embed", 0, 1, &given.embed},
+        {"--buffer", 1, 1, &given.buffer},
+        {"--prefix", 1, 1, &given.prefix},
+        {"--lobes", 1, 1, &given.lobes},
         {"--notice", 1, 1, &given.notice},
+        {"--rgl", 0, 1, &brdf.rgl},
+        {"--brdf", 1, 1, &brdf.brdf},
+        {"--alpha", 1, 1, &brdf.alpha},
+        {"--f0", 1, 1, &brdf.f0},
+        {"--wavelengths", 1, 1, &brdf.wavelengths},
     };
-    const command_form form = {name,   help, options,          sizeof options / sizeof options[0],
+    char text[sizeof help + sizeof help_end + BRDF_HELP_MAX];
+    snprintf(text, sizeof text, "%s%s%s", help, brdf_help, help_end);
+    const command_form form = {name,   text, options,          sizeof options / sizeof options[0],
                                "FILE", 1,    EXPORT_TABLES_MAX};
     int parsed = parse_arguments(&form, argc, argv, &given.tables);
+    if (parsed == PARSE_GO_ON && brdf_wanted(&brdf))
+        return run_brdf(&given, &brdf);
+    if (parsed == PARSE_GO_ON)
+        parsed = check_not_brdf(&brdf);
     if (parsed != PARSE_GO_ON)
         return parsed;
     int good = read_settings(&given, &document) && read_notice(&given, &document, &notice);

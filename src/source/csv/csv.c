@@ -174,8 +174,7 @@ static char *describe(const char *name, const char *text, size_t size, vndf_erro
     return vndf_text_finish(&words, error);
 }
 
-/* Takes description. */
-static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_error *error)
+vndf_source *vndf_csv_source(const vndf_csv_rows *rows, char *description, vndf_error *error)
 {
     csv_source *source = calloc(1, sizeof *source);
     if (source) {
@@ -186,7 +185,7 @@ static vndf_source *make(const vndf_csv_rows *rows, char *description, vndf_erro
     int many = rows->count > BREAKS;
     if (!source || !source->breaks || !vndf_curve_allocate(&source->curve, rows->count) ||
         (many && !vndf_rows_allocate(&source->rows, rows->count))) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a CSV of %zu rows", rows->count);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", rows->count);
         if (source)
             destroy(&source->base);
         else
@@ -223,7 +222,7 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
         return NULL;
     }
     char *description = describe(name, text, size, error);
-    vndf_source *source = description ? make(&rows, description, error) : NULL;
+    vndf_source *source = description ? vndf_csv_source(&rows, description, error) : NULL;
     vndf_csv_rows_free(&rows);
     return source;
 }

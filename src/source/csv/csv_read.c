@@ -151,16 +151,21 @@ static vndf_status read_number(reader *r, span field, const char *name, double *
     return VNDF_OK;
 }
 
+int vndf_csv_is_grazing(double theta)
+{
+    return fabs(theta - right_angle) <= 1e-9;
+}
+
 /* Degrees to radians. 90 degrees is exact; in radians an angle within 1e-9 of it counts as 90 degrees. */
 static vndf_status convert_angle(reader *r, double *x)
 {
     int degrees = r->rows->first == VNDF_CSV_THETA_DEG;
     double limit = degrees ? 90 : right_angle;
-    int grazing = degrees ? *x == 90 : fabs(*x - right_angle) <= 1e-9;
+    int grazing = degrees ? *x == 90 : vndf_csv_is_grazing(*x);
     if (r->rows->first == VNDF_CSV_SLOPE)
         return VNDF_OK;
     if (grazing && r->rows->second == VNDF_CSV_P22)
-        return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
+        return refuse(r, VNDF_CSV_GRAZING);
     if (!grazing && *x >= limit)
         return refuse(r, "%s is %.10g; angles from the normal are at most %.10g", first_names[r->rows->first], *x,
                       limit);
@@ -204,8 +209,7 @@ static vndf_status read_row(reader *r, span line)
         status = convert_angle(r, &x);
     if (status != VNDF_OK)
         return status;
-    /* The abscissa of the interpolation could not tell closer rows apart. */
-    if (rows->count > 0 && !(x > rows->x[rows->count - 1] * (1 + 1e-12)))
+    if (rows->count > 0 && !(x > rows->x[rows->count - 1] * (1 + VNDF_CSV_APART)))
         return refuse(r, "%s is %s, which is not above that of line %zu; rows must ascend and not repeat",
                       first_names[rows->first], vndf_excerpt(excerpt, field[0].text, field[0].size), r->last_row);
     return append(r, x, value);

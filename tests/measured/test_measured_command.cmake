@@ -1,0 +1,163 @@
+# `vndf build` from measured files and `vndf export` to them: what goes out comes in as the same distribution, tables
+# say what file they were made of, and wrong words and bad files end with exit status 2, a reason and no output.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+# number(VARIABLE KEY): of a line `KEY number`.
+macro(number variable key)
+    set(${variable} "none")
+    if("\n${output}" MATCHES "\n${key} ([-+.e0-9]+)")
+        set(${variable} ${CMAKE_MATCH_1})
+    endif()
+endmacro()
+
+macro(run expected)
+    execute_process(COMMAND ${VNDF} ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status OUTPUT_VARIABLE output
+        ERROR_VARIABLE errors)
+    expect("vndf ${ARGN} ends with ${status}: ${output}${errors}" status EQUAL ${expected})
+endmacro()
+
+# ---- .bsdf --------------------------------------------------------------------------------------
+
+run(0 export ggx --rgl --alpha 0.4 --f0 0.9,0.6,0.3 -o out.bsdf)
+expect("export prints on stdout" "x${output}" STREQUAL x)
+run(0 build --rgl out.bsdf --max-bytes 2048 --certificate quick -o in.vndf)
+file(READ ${OUT}/out.bsdf hex LIMIT 14 HEX)
+expect("the file begins with ${hex}" hex STREQUAL "74656e736f725f66696c65000100")
+has(output "source --rgl out.bsdf (crc32 ")
+number(f0 f0)
+expect("F0 is ${f0}, 0.6 went out" f0 GREATER 0.598 AND f0 LESS 0.602)
+number(scale scale) # the median slope of GGX is its alpha
+expect("the median slope is ${scale}, 0.4 went out" scale GREATER 0.3998 AND scale LESS 0.4002)
+number(residual residual_reflectance)
+expect("the residual is ${residual}" residual LESS 0.005)
+run(0 export in.vndf --brdf rgl --wavelengths 400,700 --f0 0.5 -o spectral.bsdf)
+file(SIZE ${OUT}/spectral.bsdf size)
+expect("two channels take ${size} bytes" size LESS 4000000)
+
+file(WRITE ${OUT}/no.bsdf "tensor_fool")
+foreach(words "--rgl no.bsdf;no.bsdf: this is no tensor file"
+        "--rgl none.bsdf;none.bsdf: No such file"
+        "--rgl out.bsdf --step 2;--step is for --height"
+        "--rgl out.bsdf --family ggx;exactly one is needed")
+    list(GET words 0 given)
+    list(GET words 1 reason)
+    separate_arguments(given)
+    run(2 build ${given} -o bad.vndf)
+    has(errors "${reason}")
+endforeach()
+run(2 build --rgl out.bsdf -o out.bsdf)
+has(errors "an input of this command")
+foreach(words "ggx --rgl;-o is missing"
+        "ggx --rgl --language c -o bad.bsdf;--language is for kernels"
+        "ggx beckmann --rgl -o bad.bsdf;2 distributions are given"
+        "ggx --brdf utia -o bad.bsdf;--brdf 'utia': rgl and merl"
+        "ggx --brdf merl --wavelengths 500 -o bad.bsdf;--wavelengths is for --brdf rgl"
+        "ggx --rgl --f0 2 -o bad.bsdf;--f0 '2' is not in the range"
+        "ggx --rgl --f0 1,1 -o bad.bsdf;--f0 has 2 numbers; 1 or 3"
+        "ggx --rgl --wavelengths 500,400 -o bad.bsdf;they must ascend"
+        "ggx --rgl --brdf rgl -o bad.bsdf;--rgl is --brdf rgl"
+        "ggx --rgl --alpha 0 -o bad.bsdf;--alpha '0' is not in the range"
+        "ggx --alpha 1 --language c -o bad.h;--alpha is for"
+        "none.vndf --rgl -o bad.bsdf;none.vndf")
+    list(GET words 0 given)
+    list(GET words 1 reason)
+    separate_arguments(given)
+    run(2 export ${given})
+    has(errors "${reason}")
+endforeach()
+
+# ---- .binary and goniometers --------------------------------------------------------------------
+
+run(0 export beckmann --brdf merl --alpha 0.3 --f0 0.9,0.6,0.3 -o out.binary)
+file(SIZE ${OUT}/out.binary size)
+expect("a MERL file of ${size} bytes" size EQUAL 34992012)
+run(0 build --merl out.binary --channel red --max-bytes 2048 --certificate quick -o in.vndf)
+has(output "source --merl out.binary --channel red (crc32 ")
+number(scale scale) # the median slope of Beckmann is alpha sqrt(ln 2)
+expect("the median slope is ${scale}, 0.24977 went out" scale GREATER 0.2490 AND scale LESS 0.2505)
+number(f0 f0)
+expect("F0 is ${f0}, 0.9 went out" f0 GREATER 0.895 AND f0 LESS 0.905)
+
+set(text "theta_i,theta_o,brdf\n") # a peak that halves every 4 degrees of theta_h
+foreach(theta_o RANGE -40 80 4)
+    math(EXPR halvings "(${theta_o} - 20) / 8")
+    string(REPLACE "-" "" halvings ${halvings})
+    math(EXPR value "4096 >> ${halvings}")
+    string(APPEND text "20,${theta_o},${value}\n")
+endforeach()
+file(WRITE ${OUT}/scan.csv "${text}")
+run(0 build --gonio scan.csv --max-bytes 2048 --certificate quick -o scan.vndf)
+has(output "source --gonio scan.csv (crc32 ")
+has(output "\nmeasurements 31, 31 of them used\n")
+has(output "\nuncalibrated, f0 times a scale is ")
+run(0 build --gonio scan.csv --f0 0.5 --max-bytes 2048 --certificate quick -o scan.vndf)
+has(output "source --gonio scan.csv --f0 0.5 (crc32 ")
+has(output "\nf0 0.5\n")
+foreach(words "--merl scan.csv;this is no MERL file"
+        "--merl out.binary --channel grey;--channel 'grey' is none of"
+        "--gonio out.bsdf;out.bsdf: line 1"
+        "--gonio scan.csv --f0 2;--f0 '2' is not in the range"
+        "--gonio scan.csv --channel red;--channel is for --merl")
+    list(GET words 0 given)
+    list(GET words 1 reason)
+    separate_arguments(given)
+    run(2 build ${given} -o bad.vndf)
+    has(errors "${reason}")
+endforeach()
+
+# ---- surfaces -----------------------------------------------------------------------------------
+
+# 48 x 48 whole numbers by a recurrence, twice smoothed along rows: slopes of both axes differ.
+set(state 1)
+set(text "# heights\n")
+foreach(y RANGE 1 48)
+    set(before 500)
+    foreach(x RANGE 1 48)
+        math(EXPR state "(${state} * 1103515245 + 12345) % 2147483648")
+        math(EXPR before "(3 * ${before} + ${state} / 65536 % 1000) / 4")
+        string(APPEND text " ${before}")
+    endforeach()
+    string(APPEND text "\n")
+endforeach()
+file(WRITE ${OUT}/heights.txt "${text}")
+run(0 build --height heights.txt --step 400,400 --certificate quick -o heights.vndf)
+has(output "source --height heights.txt --step 400,400 (crc32 ")
+has(output "\nheights 48 x 48, 400 x 400 apart\nslopes 2116\n")
+number(rms rms_slope)
+number(anisotropy anisotropy)
+expect("anisotropy ${anisotropy}, though the rows are smooth" anisotropy GREATER 1.2)
+expect("no matrix" output MATCHES "\nmatrix [.0-9]+,[-.e0-9]+,[-.e0-9]+,[.0-9]+\n")
+foreach(key p22_error_median p22_error_99 residual_bins residual_isotropy residual_isotropy_by_chance residual_smith_60)
+    number(value ${key})
+    expect("build prints no ${key}" NOT value STREQUAL none)
+endforeach()
+run(0 build --height heights.txt --step 200 --certificate quick --max-bytes 2048 -o heights.vndf)
+set(before ${rms})
+number(rms rms_slope)
+expect("half the step: rms ${rms} after ${before}" rms GREATER ${before})
+run(0 build --height heights.txt --cutoff 4 --certificate quick -o heights.vndf)
+has(output "source --height heights.txt --cutoff 4 (crc32 ")
+has(output "\ncutoff 4\nslopes 1936\n")
+run(0 build --height heights.txt --max-bytes 2048 -o -)
+
+foreach(words "--height heights.txt --size 48x48;48 x 48 floats take 9216 bytes"
+        "--height heights.txt --cutoff 300;--cutoff '300'"
+        "--height heights.txt --step 0;--step '0' is not in the range"
+        "--height heights.txt --size 48;is not WIDTHxHEIGHT"
+        "--height heights.txt --cutoff 46;4 slopes"
+        "--normal-map heights.txt;begin with P5 or P6"
+        "--normal-map heights.txt --cutoff 3;--cutoff is for --height")
+    list(GET words 0 given)
+    list(GET words 1 reason)
+    separate_arguments(given)
+    run(2 build ${given} -o bad.vndf)
+    has(errors "${reason}")
+endforeach()
+file(GLOB bad ${OUT}/bad*)
+expect("a refused command leaves ${bad}" NOT bad)
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

@@ -1,0 +1,126 @@
+#include "commands/parts/export_brdf.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/output.h"
+#include "cli/subject.h"
+#include "command.h"
+#include "measured/brdf/merl.h"
+#include "measured/rgl/rgl.h"
+
+const char brdf_help[] =
+    "As reflectances, for hosts that read measured ones: what a surface of this D mirrors once, F by Schlick, masked\n"
+    "by Smith with heights correlated. FILE is one table, ggx or beckmann.\n"
+    "\n"
+    "  --rgl            the same as --brdf rgl: a .bsdf that Mitsuba 3 (plugin measured) renders as it is; with\n"
+    "                   --wavelengths, its spectral variants and pbrt-v4\n"
+    "  --brdf merl      a .binary of MERL, 33 MiB\n"
+    "  --alpha A        roughness (default 1, D as the table holds it)\n"
+    "  --f0 R[,G,B]     reflectance at normal incidence, 0 to 1 (default 1: all light is reflected)\n"
+    "  --wavelengths L,...   nanometres, ascending, up to 16; --f0 then has one number, or one for each\n"
+    "\n"
+    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n"
+    "         vndf export beckmann --brdf merl --alpha 0.2 -o beckmann.binary\n";
+
+int brdf_wanted(const brdf_words *given)
+{
+    return given->rgl.count || given->brdf.count;
+}
+
+/* ---- words --------------------------------------------------------------------------------------- */
+
+static int read_wavelengths(const char *command, const brdf_words *given, rgl_form *form)
+{
+    double nanometres[RGL_CHANNELS];
+    if (!given->wavelengths.count)
+        return 1;
+    size_t count = parse_numbers(command, "--wavelengths", only_word(&given->wavelengths), 1, 1e6, 1, RGL_CHANNELS,
+                                 nanometres);
+    for (size_t i = 0; i < count; i++) {
+        form->wavelength[i] = (float)nanometres[i];
+        if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1])) {
+            complain(command, "--wavelengths '%s': they must ascend", only_word(&given->wavelengths));
+            return 0;
+        }
+    }
+    form->channels = (int)count;
+    form->is_spectral = 1;
+    return count > 0;
+}
+
+/* One number for all channels, or one for each. */
+static int read_f0(const char *command, const brdf_words *given, rgl_form *form)
+{
+    size_t channels = (size_t)form->channels, count = 1;
+    form->f0[0] = 1;
+    if (given->f0.count)
+        count = parse_numbers(command, "--f0", only_word(&given->f0), 0, 1, 1, channels, form->f0);
+    if (count > 1 && count < channels) {
+        complain(command, "--f0 has %zu numbers; 1 or %zu are needed", count, channels);
+        return 0;
+    }
+    for (size_t i = count; i < channels; i++)
+        form->f0[i] = form->f0[0];
+    return count > 0;
+}
+
+static int read_form(const char *command, const brdf_words *given, rgl_form *form)
+{
+    double alpha = 1;
+    if (!option_number(command, "--alpha", &given->alpha, 1e-4, 10, &alpha))
+        return 0;
+    form->alpha = (float)alpha;
+    return read_wavelengths(command, given, form) && read_f0(command, given, form);
+}
+
+static int is_merl(const brdf_words *given)
+{
+    return given->brdf.count && strcmp(only_word(&given->brdf), "merl") == 0;
+}
+
+static int check_words(const char *command, const brdf_words *given)
+{
+    const char *kind = given->rgl.count ? "rgl" : only_word(&given->brdf);
+    if (given->rgl.count && given->brdf.count)
+        return complain(command, "--rgl and --brdf are given; --rgl is --brdf rgl");
+    if (strcmp(kind, "rgl") != 0 && !is_merl(given))
+        return complain(command, "--brdf '%s': rgl and merl are known", kind);
+    if (is_merl(given) && given->wavelengths.count)
+        return complain(command, "--wavelengths is for --brdf rgl");
+    if (given->tables.count != 1)
+        return complain(command, "%zu distributions are given; --brdf takes one", given->tables.count);
+    if (!given->output.count)
+        return complain(command, "-o is missing");
+    return STATUS_GOOD;
+}
+
+/* ---- work ---------------------------------------------------------------------------------------- */
+
+static int write_file(const char *command, const brdf_words *given, const vndf_distribution *distribution,
+                      const rgl_form *form)
+{
+    output_file output;
+    if (!output_open(&output, command, only_word(&given->output)))
+        return STATUS_USE;
+    if (!(is_merl(given) ? merl_write(output.file, distribution, form->alpha, form->f0)
+                         : rgl_write(output.file, distribution, form)))
+        return output_give_up(&output, "no memory, or no place on the disk");
+    return output_commit(&output);
+}
+
+int export_brdf(const char *command, const brdf_words *given)
+{
+    rgl_form form = {.alpha = 1, .channels = 3};
+    chosen_distribution chosen;
+    char description[600];
+    const char *table = given->tables.count ? given->tables.item[0] : "";
+    if (check_words(command, given) != STATUS_GOOD || !read_form(command, given, &form) ||
+        !distribution_open(&chosen, command, table))
+        return STATUS_USE;
+    snprintf(description, sizeof description, "vndf %.500s, alpha %g", table, (double)form.alpha);
+    form.description = description;
+    int status = write_file(command, given, chosen.distribution, &form);
+    distribution_close(&chosen);
+    return status;
+}

@@ -1,0 +1,120 @@
+#include "measured/profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { POINTS = 4, PANELS = 6, STEPS = 12, TABLE_ROWS = 100 };
+
+static const double two_pi = 6.283185307179586477;
+
+int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count)
+{
+    *made = (profile){over, of, calloc(count, sizeof(double)), calloc(count, sizeof(double)), count};
+    if (made->x && made->value)
+        return 1;
+    profile_free(made);
+    return 0;
+}
+
+void profile_free(profile *freed)
+{
+    free(freed->x);
+    free(freed->value);
+    freed->x = freed->value = NULL;
+    freed->count = 0;
+}
+
+vndf_source *profile_source(const profile *from, const char *name, refusal *why)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = vndf_source_rows(from->over, from->of, from->x, from->value, from->count, NULL, &error);
+    if (!source)
+        refuse_data(why, name, "what was found is no curve: %s", error.message);
+    return source;
+}
+
+/* A build takes a second for thousands of rows; for areas every n-th is enough. */
+static vndf_source *thin_source(const profile *from, const char *name, refusal *why)
+{
+    double x[TABLE_ROWS], value[TABLE_ROWS];
+    profile thin = {from->over, from->of, x, value, TABLE_ROWS};
+    if (from->count <= TABLE_ROWS)
+        return profile_source(from, name, why);
+    for (size_t i = 0; i < TABLE_ROWS; i++) {
+        size_t row = i * (from->count - 1) / (TABLE_ROWS - 1);
+        x[i] = from->x[row];
+        value[i] = from->value[row];
+    }
+    return profile_source(&thin, name, why);
+}
+
+vndf_distribution *profile_table(const profile *from, const char *name, refusal *why)
+{
+    const vndf_build_options options = {.max_bytes = 8192, .quick = 1, .sphere = 1};
+    vndf_error error = {VNDF_OK, ""};
+    vndf_source *source = thin_source(from, name, why);
+    vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;
+    if (source && !table)
+        refuse_data(why, name, "no table can be made of it: %s", error.message);
+    vndf_source_free(source);
+    return table;
+}
+
+/* ---- masses ---- */
+
+/* By Gauss-Legendre, exact to degree 7. */
+static double panel_mass(const vndf_source *source, double from, double to)
+{
+    static const double place[POINTS] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                         0.93056815579702629};
+    static const double weight[POINTS] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                          0.17392742256872693};
+    double sum = 0;
+    for (int i = 0; i < POINTS; i++) {
+        double r = from + (to - from) * place[i];
+        sum += weight[i] * vndf_source_p22(source, r) * r;
+    }
+    return two_pi * sum * (to - from);
+}
+
+double profile_mass(const vndf_source *source, double from, double to)
+{
+    double sum = 0, most = isfinite(to) ? to : from * 1e6;
+    /* Beyond a finite stretch the panels double: P22 falls at least as r^-4 there. */
+    for (double left = from; !isfinite(to) && left < most; left *= 1.5)
+        sum += panel_mass(source, left, 1.5 * left);
+    for (int i = 0; isfinite(to) && i < PANELS; i++)
+        sum += panel_mass(source, from + (to - from) * i / PANELS, from + (to - from) * (i + 1) / PANELS);
+    return sum;
+}
+
+/* One step; the largest part by which a bin was wrong, or -1. */
+static double match_once(profile *changed, const double *edge, const double *mass, const char *name, refusal *why)
+{
+    double worst = 0, whole = 0;
+    vndf_source *source = profile_source(changed, name, why);
+    if (!source)
+        return -1;
+    for (size_t i = 0; i < changed->count; i++)
+        whole += mass[i];
+    for (size_t i = 0; i < changed->count; i++) {
+        double found = profile_mass(source, edge[i], edge[i + 1]);
+        worst = fmax(worst, fabs(found - mass[i]) / whole);
+        if (found > 0)
+            changed->value[i] *= mass[i] / found;
+    }
+    vndf_source_free(source);
+    return worst;
+}
+
+int profile_match(profile *changed, const double *edge, const double *mass, const char *name, double *left,
+                  refusal *why)
+{
+    *left = 1;
+    for (int step = 0; step<STEPS && * left> 1e-6; step++) {
+        *left = match_once(changed, edge, mass, name, why);
+        if (*left < 0)
+            return 0;
+    }
+    return 1;
+}
