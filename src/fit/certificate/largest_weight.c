@@ -98,15 +98,20 @@ static int has_room(vndf_weights *w, size_t n, int *starved)
     return 1;
 }
 
-enum { GROUP = 16 };
+enum { GROUP = 32 };
 
-/* Whether one of GROUP points has a ratio above `least`: without a branch, so that compilers make lanes of it. */
+/* Whether one of GROUP points has a ratio above `least`, by the signs of differences: without a branch, so that
+ * compilers make lanes of it. */
 static int has_larger(const double *reference, const double *drawn, double least)
 {
-    uint64_t larger = 0;
-    for (size_t i = 0; i < GROUP; i++)
-        larger += reference[i] > least * drawn[i];
-    return larger > 0;
+    uint64_t signs = 0;
+    for (size_t i = 0; i < GROUP; i++) {
+        double beyond = least * drawn[i] - reference[i];
+        uint64_t bits;
+        memcpy(&bits, &beyond, sizeof bits);
+        signs |= bits;
+    }
+    return (signs >> 63) > 0;
 }
 
 /* Takes the points with a ratio above `least`; their count. Most groups of points have none. */
