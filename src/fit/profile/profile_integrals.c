@@ -78,6 +78,9 @@ vndf_moments vndf_profile_moments(const vndf_profile *profile, double a, double 
     return sum;
 }
 
+/* Less than this part of a sum changes no bit of it. */
+static const double LOST = 0x1p-55;
+
 double vndf_profile_e(const vndf_profile *profile, double rho)
 {
     const vndf_panel *p = &profile->panel[panel_of(profile, rho)];
@@ -85,8 +88,11 @@ double vndf_profile_e(const vndf_profile *profile, double rho)
         return profile->f0;
     if (rho <= p->r)
         return 0.0;
+    double inside = p->e + p->f1 * (1 / p->r - 1 / rho);
+    if (p->m0 < LOST * inside)
+        return inside;
     vndf_moments in = part(profile, p->r, rho);
-    return p->e + p->f1 * (1 / p->r - 1 / rho) + ((rho - p->r) * in.m0 - in.m1) / rho;
+    return inside + ((rho - p->r) * in.m0 - in.m1) / rho;
 }
 
 double vndf_profile_s(const vndf_profile *profile, double rho)
@@ -95,7 +101,9 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
     if (rho >= end->r)
         return profile->tail_m1 * end->r / rho; /* or a little more: no panel resolves it */
     double from = rho > p->r ? rho : p->r;
-    double inside = p[1].s + p[1].t0 * (p[1].r - from) + part(profile, from, p[1].r).m1;
+    double inside = p[1].s + p[1].t0 * (p[1].r - from);
+    if (!(p->m0 * (p[1].r - p->r) < LOST * inside))
+        inside += part(profile, from, p[1].r).m1;
     return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
 }
 
@@ -185,12 +193,11 @@ VNDF_INLINE kernel near_panels(const vndf_profile *profile, double k, double fro
  * than half of the last digit. The kernels are at most R, pi/2 + R and 1/(2 k) there. */
 VNDF_INLINE int is_lost(const vndf_panel *p, double k, const kernel *sum, int all)
 {
-    const double part = 0x1p-55;
     double first = 2 * (p->s + p->r * p->t0), none = 2 * p->t0;
     if (!all)
-        return first < part * sum->mass;
-    return first < part * sum->mass && HALF_PI * none + first < part * sum->slope &&
-           none < part * 2 * k * sum->curve;
+        return first < LOST * sum->mass;
+    return first < LOST * sum->mass && HALF_PI * none + first < LOST * sum->slope &&
+           none < LOST * 2 * k * sum->curve;
 }
 
 /* Integral from k outwards. Up to 3 k the root of the kernel shows, and the panels are integrated anew. */
