@@ -10,9 +10,13 @@ vndf_area_value vndf_side_area(const vndf_side *side, double y)
     return side->below ? vndf_profile_area_below(side->profile, y) : vndf_profile_area_above(side->profile, y);
 }
 
-double vndf_side_share(const vndf_side *side, double y)
+double vndf_side_mass(const vndf_side *side, double y)
 {
-    double mass = vndf_side_area(side, y).mass;
+    return side->below ? vndf_profile_mass_below(side->profile, y) : vndf_profile_mass_above(side->profile, y);
+}
+
+double vndf_side_share(const vndf_side *side, double y, double mass)
+{
     if (!side->below)
         return mass / (mass + y * side->profile->f0 * HALF_PI + (1 - y) * side->profile->f1);
     double seen = mass / (side->profile->f1 * hypot(y, 1 - y));
@@ -51,7 +55,7 @@ void vndf_area_fit_piece(const vndf_side *side, double a, double b, vndf_area_kn
     double h = b - a, piece[VNDF_AREA_ORDER];
     free_end->curve = 0.0;
     vndf_area_piece(h, *from, *to, piece);
-    double missing = 32 * (vndf_side_area(side, a + h / 2).mass - vndf_area_piece_at(piece, 0.5));
+    double missing = 32 * (vndf_side_mass(side, a + h / 2) - vndf_area_piece_at(piece, 0.5));
     free_end->curve = fmin(fmax(missing * 2 / (h * h), 0.0), CURVE_MOST);
 }
 
@@ -60,7 +64,7 @@ static double whole_at(const vndf_side *side, double y, double mass)
 {
     double seen = mass + 0.1 * vndf_profile_claimed(side->profile) * side->profile->f1;
     if (!side->below)
-        return mass / vndf_side_share(side, y);
+        return mass / vndf_side_share(side, y, mass);
     return side->areas < 1 ? fmin(seen / side->areas, mass + (1 - y) / 2) : seen;
 }
 
@@ -73,7 +77,7 @@ vndf_interval_miss vndf_area_fit_error(double a, double b, void *user)
     vndf_area_fit_piece(side, a, b, &from, &to);
     vndf_area_piece(h, from, to, piece);
     for (unsigned i = 0; i < sizeof at / sizeof *at; i++) {
-        double y = a + at[i] * h, reference = vndf_side_area(side, y).mass;
+        double y = a + at[i] * h, reference = vndf_side_mass(side, y);
         double error = fabs(vndf_area_piece_at(piece, at[i]) - reference);
         worst = fmax(worst, error / whole_at(side, y, reference));
     }

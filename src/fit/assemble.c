@@ -35,7 +35,7 @@ static const double ROWS_END = 1.0 / 32;
 
 static int begin_rows(vndf_refinement *rows, vndf_wedge_fit *fit, size_t limit)
 {
-    double least = vndf_side_least(&fit->side);
+    double least = fit->least;
     const double whole[] = {0.0, 0.5, 1.0}, seen[] = {0.0, least, (least + 1) / 2, 1.0};
     const double few[] = {0.0, 1.0}, few_seen[] = {0.0, least, 1.0};
     int ends = least > ROWS_END, all = fit->side.weight >= 1;
@@ -153,8 +153,7 @@ static void put_row(vndf_wedge *wedge, uint32_t i, const vndf_row *row, uint32_t
 static int row_knots(const vndf_plan *plan, const vndf_refinement *rows, vndf_wedge_fit *fit, uint32_t count,
                      double *knots)
 {
-    double edge = vndf_side_least(&fit->side);
-    const vndf_even even = {&edge, 1, ROW_ROUNDS, vndf_wedge_row_error, fit};
+    const vndf_even even = {&fit->least, 1, ROW_ROUNDS, vndf_wedge_row_error, fit};
     vndf_refinement_knots(rows, count, knots);
     return !plan->budget.even_rows || vndf_even_knots(knots, count, &even);
 }
@@ -190,7 +189,7 @@ static uint32_t keep_normal(const vndf_side *side, double *knots, uint32_t count
 {
     uint32_t n = 1;
     for (uint32_t i = 1; i < count; i++)
-        if (vndf_side_area(side, knots[i]).mass >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
+        if (vndf_side_mass(side, knots[i]) >= 1e-36 && (float)knots[i] > (float)knots[n - 1])
             knots[n++] = knots[i];
     return n;
 }

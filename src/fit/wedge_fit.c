@@ -37,8 +37,8 @@ static double wedge_density(const vndf_wedge_fit *fit, direction d, double cos_p
 {
     double rho = cos_phi > 0 ? d.k / cos_phi : HUGE_VAL;
     if (fit->side.below)
-        return cos_phi * vndf_profile_s(fit->side.profile, rho);
-    return d.k < HUGE_VAL ? vndf_profile_e(fit->side.profile, rho) : fit->side.profile->f0;
+        return cos_phi * vndf_strip_at(fit->strip, rho);
+    return d.k < HUGE_VAL ? vndf_strip_at(fit->strip, rho) : fit->side.profile->f0;
 }
 
 /* tan of the azimuth that halves the mass, by a sum over a logarithmic grid. */
@@ -111,8 +111,8 @@ static judge judge_at(const vndf_wedge_fit *fit, double y)
 {
     direction d = direction_at(fit, y);
     double t = median_tangent(fit, d), n = sqrt(1 + t * t);
-    double mass = vndf_side_area(&fit->side, y).mass / (fit->side.below ? d.s : d.c);
-    judge made = {d, 1 / n, t / n, mass > 0 ? vndf_side_share(&fit->side, y) / mass : 0.0};
+    double all = vndf_side_mass(&fit->side, y), mass = all / (fit->side.below ? d.s : d.c);
+    judge made = {d, 1 / n, t / n, mass > 0 ? vndf_side_share(&fit->side, y, all) / mass : 0.0};
     return made;
 }
 
@@ -188,9 +188,11 @@ void vndf_wedge_fit_use(vndf_wedge_fit *fit, uint32_t cells)
 int vndf_wedge_fit_from(vndf_wedge_fit *fit, vndf_side side, uint32_t most_cells, double enough)
 {
     fit->side = side;
+    fit->least = vndf_side_least(&side);
     fit->cells = 0;
     fit->cache = calloc(1, sizeof *fit->cache);
-    if (!fit->cache || !place_cells(fit, most_cells, enough))
+    fit->strip = vndf_strip_from(side.profile, side.below);
+    if (!fit->cache || !fit->strip || !place_cells(fit, most_cells, enough))
         return 0;
     vndf_wedge_fit_use(fit, vndf_wedge_fit_cells(fit, enough));
     return 1;
@@ -202,6 +204,8 @@ void vndf_wedge_fit_free(vndf_wedge_fit *fit)
         forget_rows(fit);
     free(fit->cache);
     fit->cache = NULL;
+    vndf_strip_free(fit->strip);
+    fit->strip = NULL;
     vndf_refinement_free(&fit->q);
 }
 
@@ -291,6 +295,7 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
 }
 
 /* Where a quadratic through both ends and the middle misses most, and on either side of these places. */
+static const double ROUNDED_SHARE = 1e-6; /* far more than areas err */
 static const double PROBES[] = {0.1, 0.22, 0.35, 0.65, 0.78, 0.9};
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
@@ -303,9 +308,14 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
     vndf_row middle;
     vndf_wedge_fit_middle(fit, first, second, &middle);
     rows three = {first, &middle, second};
-    for (unsigned i = 0; i < sizeof PROBES / sizeof *PROBES; i++) {
-        double share = vndf_side_share(&fit->side, a + PROBES[i] * (b - a));
-        found.alone = fmax(found.alone, row_miss(fit, three, PROBES[i]) * share);
+    double most = HUGE_VAL; /* no share before a probe is larger than its own */
+    for (unsigned i = sizeof PROBES / sizeof *PROBES; i-- > 0;) {
+        double y = a + PROBES[i] * (b - a), miss = row_miss(fit, three, PROBES[i]);
+        if (miss * most <= found.alone)
+            continue;
+        double share = vndf_side_share(&fit->side, y, vndf_side_mass(&fit->side, y));
+        found.alone = fmax(found.alone, miss * share);
+        most = share * (1 + ROUNDED_SHARE);
     }
     return found;
 }

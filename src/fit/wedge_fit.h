@@ -3,6 +3,7 @@
 #define VNDF_FIT_WEDGE_FIT_H
 
 #include "fit/area_fit.h"
+#include "fit/profile/strip.h"
 #include "fit/refine.h"
 #include "table/table.h"
 
@@ -10,10 +11,12 @@ typedef struct vndf_row_cache vndf_row_cache;
 
 typedef struct vndf_wedge_fit {
     vndf_side side;
+    double least;                         /* vndf_side_least */
     vndf_refinement q;                    /* where cells of q begin, in order of need */
     uint32_t cells;                       /* of a row, now */
     float node[VNDF_WEDGE_CELLS_MAX + 1]; /* their ends in q */
     vndf_row_cache *cache;                /* rows made so far */
+    vndf_strip *strip;                    /* E or S: densities of azimuths */
 } vndf_wedge_fit;
 
 /* One row: aspect, and mass and density of its cells, total mass 1. */

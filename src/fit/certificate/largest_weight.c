@@ -82,33 +82,6 @@ static double beyond_of(size_t bucket)
     return beyond;
 }
 
-/* A ratio of at least 1 + beyond above which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies, or 0. */
-static double least_beyond(const vndf_points *p, double beyond)
-{
-    double mass[BUCKETS] = {0}, sum = 0.0, least = 1 + beyond;
-    for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] > least * p->drawn[i])
-            mass[bucket_of(vndf_weight_ratio(p->reference[i], p->drawn[i]) - 1)] += p->reference[i];
-    for (size_t i = BUCKETS - 1; i > bucket_of(beyond); i--) {
-        sum += mass[i];
-        if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
-            return (1 + beyond_of(i)) * (1 - 1e-12);
-    }
-    return 0.0;
-}
-
-/* The same, 0 if no ratio above 1 is. Begins near what the last direction had: the fewer points are beyond that, the
- * faster it is. */
-static double least_that_counts(const vndf_points *p, double last)
-{
-    double beyond = last / 4, least = 0.0;
-    while (least == 0.0 && beyond > 1e-12) {
-        least = least_beyond(p, beyond);
-        beyond /= 32;
-    }
-    return least;
-}
-
 /* Whether there is room for another weight after n. */
 static int has_room(vndf_weights *w, size_t n, int *starved)
 {
@@ -125,15 +98,74 @@ static int has_room(vndf_weights *w, size_t n, int *starved)
     return 1;
 }
 
+enum { GROUP = 32 };
+
+/* Whether one of GROUP points has a ratio above `least`, by the signs of differences: without a branch, so that
+ * compilers make lanes of it. */
+static int has_larger(const double *reference, const double *drawn, double least)
+{
+    uint64_t signs = 0;
+    for (size_t i = 0; i < GROUP; i++) {
+        double beyond = least * drawn[i] - reference[i];
+        uint64_t bits;
+        memcpy(&bits, &beyond, sizeof bits);
+        signs |= bits;
+    }
+    return (signs >> 63) > 0;
+}
+
+/* Takes the points with a ratio above `least`; their count. Most groups of points have none. */
+static size_t take_larger(vndf_weights *w, const vndf_points *p, double least, int *starved)
+{
+    size_t n = 0;
+    for (size_t from = 0; from < p->count; from += GROUP) {
+        size_t end = from + GROUP < p->count ? from + GROUP : p->count;
+        if (end == from + GROUP && !has_larger(p->reference + from, p->drawn + from, least))
+            continue;
+        for (size_t i = from; i < end; i++)
+            if (p->reference[i] > least * p->drawn[i] && has_room(w, n, starved)) {
+                vndf_weight one = {vndf_weight_ratio(p->reference[i], p->drawn[i]), p->reference[i]};
+                w->that_count[n++] = one;
+            }
+    }
+    return n;
+}
+
+/* A ratio above 1 + beyond beyond which a little more than VNDF_VALIDATION_LEFT_OUT of the mass lies, or 0. */
+static double least_beyond(const vndf_weight *weights, size_t count, double beyond)
+{
+    double mass[BUCKETS] = {0}, sum = 0.0;
+    for (size_t i = 0; i < count; i++)
+        mass[bucket_of(weights[i].ratio - 1)] += weights[i].mass;
+    for (size_t i = BUCKETS - 1; i > bucket_of(beyond); i--) {
+        sum += mass[i];
+        if (sum > 1.01 * VNDF_VALIDATION_LEFT_OUT)
+            return (1 + beyond_of(i)) * (1 - 1e-12);
+    }
+    return 0.0;
+}
+
+/* Moves weights of at least `least` to the front, in their order; their count. */
+static size_t keep_from(vndf_weight *weights, size_t count, double least)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++)
+        if (weights[i].ratio >= least)
+            weights[n++] = weights[i];
+    return n;
+}
+
+/* Begins near what the last direction had: the fewer points are beyond that, the faster it is. If no ratio above 1
+ * counts, all points are looked at. */
 double vndf_largest_weight(vndf_weights *w, const vndf_points *p, int *starved)
 {
-    double least = least_that_counts(p, w->beyond);
+    double beyond = w->beyond / 4, least = 0.0;
     size_t n = 0;
-    for (size_t i = 0; i < p->count; i++)
-        if (p->reference[i] >= least * p->drawn[i] && has_room(w, n, starved)) {
-            vndf_weight one = {vndf_weight_ratio(p->reference[i], p->drawn[i]), p->reference[i]};
-            w->that_count[n++] = one;
-        }
+    for (; least == 0.0 && beyond > 1e-12; beyond /= 32) {
+        n = take_larger(w, p, 1 + beyond, starved);
+        least = least_beyond(w->that_count, n, beyond);
+    }
+    n = least > 0.0 ? keep_from(w->that_count, n, least) : take_larger(w, p, -1.0, starved);
     double weight = weight_among(w->that_count, n);
     w->beyond = fmax(fmin(weight, 1e6) - 1, 1e-6);
     return weight;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sampler/tabulated/theory.h"
+#include "sampler/tabulated/exact.h"
 #include "sampler/surface.h"
 #include "sampler/tabulated/wedge.h"
 
@@ -351,14 +351,14 @@ typedef struct quarter {
 } quarter;
 
 /* Gauss point g of a part of a cell. */
-static slice ray_in(const vndf_view *view, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
+static slice ray_in(const vndf_azimuth_fan *fan, const quarter *turn, uint32_t cell, uint32_t part, uint32_t parts,
                     uint32_t g)
 {
     double width = ((double)turn->node[cell + 1] - turn->node[cell]) / parts;
     double q = turn->node[cell] + width * (part + vndf_gauss_coarse_node[g]), p = turn->p, r = turn->r;
     double x = p * (1 - q * q), y = r * 2 * q, n2 = x * x + y * y, n = sqrt(n2);
     double weight = 2 * vndf_gauss_coarse_weight[g] * width * 2 * p * r * (1 + q * q) / n2;
-    slice at = {vndf_azimuth_slice_at(view, (turn->away ? -x : x) / n, y / n), weight};
+    slice at = {vndf_azimuth_slice_in(fan, (turn->away ? -x : x) / n, y / n), weight};
     return at;
 }
 
@@ -385,14 +385,14 @@ static void add_slice_of(vndf_validation *v, const slice *at)
 typedef void add_slice(vndf_validation *v, const slice *at);
 
 /* Adds the azimuths of a quarter turn, on at least `least` cells; their drawn mass. */
-static double add_azimuths(vndf_validation *v, const vndf_view *view, const quarter *turn, uint32_t least,
+static double add_azimuths(vndf_validation *v, const vndf_azimuth_fan *fan, const quarter *turn, uint32_t least,
                            add_slice *add)
 {
     uint32_t parts = parts_for(turn->cells, least);
     double drawn = 0.0;
     for (uint32_t i = 0; i < turn->cells * parts * VNDF_GAUSS_COARSE; i++) {
         uint32_t part = i / VNDF_GAUSS_COARSE;
-        slice at = ray_in(view, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
+        slice at = ray_in(fan, turn, part / parts, part % parts, parts, i % VNDF_GAUSS_COARSE);
         drawn += at.weight * at.drawn.azimuth;
         add(v, &at);
     }
@@ -420,23 +420,23 @@ static void share_sums(vndf_validation *v, const quarter *turn, size_t first_sli
 
 /* The few azimuths that are looked at along the radius underestimate the mass of all: cells at the azimuth of a jump
  * are steep. Without the radius many more cost little. */
-static void add_quarter(vndf_validation *v, const vndf_view *view, const quarter *turn)
+static void add_quarter(vndf_validation *v, const vndf_azimuth_fan *fan, const quarter *turn)
 {
     size_t first_slice = v->slice_count, first_sum = v->sums.count;
-    double taken = add_azimuths(v, view, turn, v->rule.azimuth_parts, add_slice_of);
-    v->lack += add_azimuths(v, view, turn, v->rule.sums, add_sum) - taken;
+    double taken = add_azimuths(v, fan, turn, v->rule.azimuth_parts, add_slice_of);
+    v->lack += add_azimuths(v, fan, turn, v->rule.sums, add_sum) - taken;
     share_sums(v, turn, first_slice, first_sum);
 }
 
-static void add_sums(vndf_validation *v, const vndf_view *view, const quarter *turn)
+static void add_sums(vndf_validation *v, const vndf_azimuth_fan *fan, const quarter *turn)
 {
-    add_azimuths(v, view, turn, v->rule.foreseen, add_sum);
+    add_azimuths(v, fan, turn, v->rule.foreseen, add_sum);
 }
 
-typedef void add_turn(vndf_validation *v, const vndf_view *view, const quarter *turn);
+typedef void add_turn(vndf_validation *v, const vndf_azimuth_fan *fan, const quarter *turn);
 
 /* The quarter turn towards wi, in panels that are closer towards 90 degrees, where cos a vanishes. */
-static void add_front(vndf_validation *v, const vndf_view *view, add_turn *add)
+static void add_front(vndf_validation *v, const vndf_azimuth_fan *fan, add_turn *add)
 {
     uint32_t cells = v->rule.front_panels;
     float node[FRONT_PANELS_MOST + 1];
@@ -445,23 +445,25 @@ static void add_front(vndf_validation *v, const vndf_view *view, add_turn *add)
         double w = (double)i / cells;
         node[i] = (float)tan(PI / 4 * w * (1.5 - 0.5 * w));
     }
-    add(v, view, &turn);
+    add(v, fan, &turn);
 }
 
 /* Both quarter turns of the direction (s, 0, c), after those of the last direction are forgotten. */
 static void add_turns(vndf_validation *v, double s, double c, double area, add_turn *add)
 {
     vndf_view view = view_of(v->table, s, c);
+    vndf_stretched w = vndf_stretched_of(&view);
+    vndf_azimuth_fan fan = vndf_azimuth_fan_of(v->table, w.s, w.c, 1);
     v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
     v->samples.count = v->sums.count = v->slice_count = 0;
     v->lack = v->blur = 0.0;
     if (c >= 0)
-        add_front(v, &view, add);
+        add_front(v, &fan, add);
     const vndf_wedge *side = vndf_wedge_of(v->table, c);
     vndf_azimuth_row row = vndf_wedge_row(side, (float)vndf_wedge_y(view.of.table.s, view.of.table.c));
     quarter wedge = {side->q, side->cell_count, row.p, row.r, c >= 0};
     if (view.of.table.wedge > 0 && row.p > 0)
-        add(v, &view, &wedge);
+        add(v, &fan, &wedge);
 }
 
 /* ---- the largest weight ---- */

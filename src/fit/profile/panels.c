@@ -90,8 +90,8 @@ static estimate rule(vndf_profile *profile, double u0, double u1)
         double w = vndf_gauss_weight[i] * (u1 - u0) * r * r * p, f = r * r * p;
         sum.m0 += w;
         sum.m1 += w * beyond[i];
-        least = fmin(least, f);
-        most = fmax(most, f);
+        least = f < least ? f : least;
+        most = f > most ? f : most;
     }
     double step = profile->normalization * DBL_TRUE_MIN * profile->scale * profile->scale; /* of small values */
     sum.noise = ROUNDED * (1 + fabs(u0)) * (most - least) + step * r0 * r0 * (u1 - u0);
@@ -147,7 +147,23 @@ static double roughness(const vndf_profile *profile, double u0, double u1)
     return width < HUGE_VAL ? 2 * width * (u1 - u0) : 0.0;
 }
 
-static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least)
+/* Whether the source is proven to give next to nothing between two slopes, so that nothing narrow lies there. The
+ * points say where it is worth while to ask. */
+static int is_nothing(const vndf_profile *profile, double u0, double u1, estimate whole, double least)
+{
+    const double part = 0.01;
+    double end = exp(u1), floor = floor_at(profile, exp(u0)) * end * end * (u1 - u0);
+    if (!profile->source->reach || !(whole.m0 <= part * least + 2 * floor) ||
+        !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
+        return 0;
+    vndf_reach bound = profile->source->reach(profile->source, exp(u0) * profile->scale, end * profile->scale);
+    double most = profile->normalization * profile->scale * profile->scale * bound.high * end * end * (u1 - u0);
+    return bound.low >= 0.0 && most <= part * least;
+}
+
+/* `simple`: nothing narrow lies here. */
+static void resolve(vndf_profile *profile, double u0, double u1, estimate whole, int depth, double least,
+                    int simple)
 {
     double middle = u0 + (u1 - u0) * VNDF_UNEVEN, gap = exp(u0) * expm1(middle - u0);
     estimate l = rule(profile, u0, middle), r = rule(profile, middle, u1);
@@ -158,13 +174,14 @@ static void resolve(vndf_profile *profile, double u0, double u1, estimate whole,
     if (depth >= DEPTH_ROUGH)
         slack += roughness(profile, u0, u1);
     int good = agree(sum.m0, whole.m0, part, slack) && agree(sum.m1, whole.m1, part, slack * gap);
-    if (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX)) {
+    simple = simple && good;
+    if (simple || (depth >= DEPTH_SEEN && (good || depth >= DEPTH_MAX))) {
         push(profile, u0, sum, !good);
         return;
     }
     size_t first = profile->count;
-    resolve(profile, u0, middle, l, depth + 1, least);
-    resolve(profile, middle, u1, r, depth + 1, least);
+    resolve(profile, u0, middle, l, depth + 1, least, 0);
+    resolve(profile, middle, u1, r, depth + 1, least, 0);
     if (good && depth < DEPTH_SEEN && profile->count == first + 2 && !vndf_profile_stopped(profile)) {
         profile->count = first; /* neither half needed more: the whole is enough */
         push(profile, u0, sum, 0);
@@ -218,16 +235,37 @@ static double *make_edges(const vndf_profile *profile, size_t *count)
     return edge;
 }
 
+/* The panels between two edges. */
+static void fill_between(vndf_profile *profile, double u0, double u1, double least, unsigned char *simple)
+{
+    estimate whole = rule(profile, u0, u1);
+    size_t before = profile->count;
+    *simple = *simple || is_nothing(profile, u0, u1, whole, least);
+    resolve(profile, u0, u1, whole, 0, least, *simple);
+    *simple = profile->count == before + 1;
+}
+
+/* As many as there are edges now, all 0 unless as many are known from the pass before. */
+static int know_simple(vndf_simple *simple, size_t edges)
+{
+    if (simple->count == edges)
+        return 1;
+    free(simple->between);
+    simple->between = calloc(edges, sizeof *simple->between);
+    simple->count = simple->between ? edges : 0;
+    return simple->between != NULL;
+}
+
 /* Fills panels from r = 2^-VNDF_OCTAVES to 2^VNDF_OCTAVES of the source's own unit, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile)
+void vndf_panels_fill(vndf_profile *profile, vndf_simple *simple)
 {
     size_t edges;
     double least = fmax(NEGLIGIBLE * vndf_panels_peak(profile), LEAST), *edge = make_edges(profile, &edges);
     profile->count = 0;
-    if (!edge)
+    if (!edge || !know_simple(simple, edges))
         profile->guard->starved = 1;
     for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++)
-        resolve(profile, edge[i], edge[i + 1], rule(profile, edge[i], edge[i + 1]), 0, least);
+        fill_between(profile, edge[i], edge[i + 1], least, simple->between + i);
     if (!vndf_profile_stopped(profile) && grow(profile)) {
         vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
         profile->panel[profile->count] = end;
@@ -281,10 +319,13 @@ int vndf_panels_points(vndf_profile *profile)
     free(profile->point);
     profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
     for (size_t i = 0; profile->point && i < profile->count; i++) {
-        double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r);
+        double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r), r[VNDF_GAUSS], p22[VNDF_GAUSS];
+        for (int k = 0; k < VNDF_GAUSS; k++)
+            r[k] = exp(u0 + (u1 - u0) * vndf_gauss_node[k]);
+        vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
         for (int k = 0; k < VNDF_GAUSS; k++) {
-            double r = exp(u0 + (u1 - u0) * vndf_gauss_node[k]);
-            vndf_profile_point point = {r, vndf_gauss_weight[k] * (u1 - u0) * r * r * density(profile, r)};
+            double p = finite(profile, r[k], p22[k]);
+            vndf_profile_point point = {r[k], vndf_gauss_weight[k] * (u1 - u0) * r[k] * r[k] * p};
             profile->point[i * VNDF_GAUSS + (size_t)k] = point;
         }
     }

@@ -16,8 +16,15 @@ int vndf_profile_stopped(const vndf_profile *profile);
 /* The largest P r^2 that one looks at to see what is negligible. */
 double vndf_panels_peak(vndf_profile *profile);
 
+/* Whether one panel was enough between two edges in the pass before: all passes look at the same slopes. Zeroed before
+ * the first pass; free `between` after the last. */
+typedef struct vndf_simple {
+    unsigned char *between; /* edge i and the next */
+    size_t count;           /* edges */
+} vndf_simple;
+
 /* Makes the panels, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile);
+void vndf_panels_fill(vndf_profile *profile, vndf_simple *simple);
 
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);

@@ -84,6 +84,10 @@ typedef struct vndf_area_value {
 vndf_area_value vndf_profile_area_above(const vndf_profile *profile, double y);
 vndf_area_value vndf_profile_area_below(const vndf_profile *profile, double y);
 
+/* The masses alone, in less time; the same bits. */
+double vndf_profile_mass_above(const vndf_profile *profile, double y);
+double vndf_profile_mass_below(const vndf_profile *profile, double y);
+
 /* Projected area of the unit problem for the direction (s, 0, c), s >= 0, of any length. */
 double vndf_profile_area(const vndf_profile *profile, double s, double c);
 

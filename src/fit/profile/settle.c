@@ -1,5 +1,6 @@
 /* What a microsurface must be, and its mass and scale: P22 has a finite area, and two integrations of it agree. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "core/error.h"
 #include "fit/profile/panels.h"
@@ -54,9 +55,9 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-static vndf_status measure(vndf_profile *profile, vndf_error *error)
+static vndf_status measure(vndf_profile *profile, vndf_simple *simple, vndf_error *error)
 {
-    vndf_panels_fill(profile);
+    vndf_panels_fill(profile, simple);
     if (!vndf_profile_stopped(profile))
         vndf_panels_sum(profile);
     return check_values(profile, error);
@@ -74,8 +75,9 @@ static double narrowest(const vndf_profile *profile)
 }
 
 /* Pass 1 works in the unit of the source, the next passes at canonical scale with the floor, until two find the
- * same mass: a peak that one pass stepped over shows in the next, whose panels begin elsewhere. */
-vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
+ * same mass. Their panels begin at the same slopes, but for rounding; where one panel was enough between two edges, the
+ * next pass looks no closer. */
+static vndf_status settle(vndf_profile *profile, vndf_simple *simple, vndf_error *error)
 {
     enum { PASSES = 4 };
     double most = vndf_panels_peak(profile); /* first scale to a size that neither overflows nor vanishes */
@@ -85,7 +87,7 @@ vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
             "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor", most);
     if (most > 0.0)
         profile->normalization = 1.0 / most;
-    vndf_status status = measure(profile, error);
+    vndf_status status = measure(profile, simple, error);
     if (status == VNDF_OK)
         status = check_ends(profile, error);
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
@@ -99,7 +101,7 @@ vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
         if (!(profile->scale > 1e-17 && profile->scale < 1e17))
             return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                              "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
-        status = measure(profile, error);
+        status = measure(profile, simple, error);
     }
     if (status != VNDF_OK)
         return status;
@@ -108,4 +110,12 @@ vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
                      "P22 has a feature too narrow to be resolved: two integrations of it disagree; the narrowest "
                      "part that was tried lies at slope %.9g",
                      narrowest(profile) * profile->scale);
+}
+
+vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
+{
+    vndf_simple simple = {NULL, 0};
+    vndf_status status = settle(profile, &simple, error);
+    free(simple.between);
+    return status;
 }

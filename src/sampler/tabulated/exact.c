@@ -18,19 +18,16 @@
 
 /* ---- density ---- */
 
-static vndf_azimuth_slice slice_from(const vndf_view *view, const vndf_stretched *w, double cosine, double sine,
-                                     double k)
+static vndf_azimuth_slice slice_from(const vndf_azimuth_fan *fan, double cosine, double sine, double k)
 {
-    const vndf_distribution *d = view->distribution;
-    vndf_azimuth_slice slice = {d, w->c, k, vndf_exact_azimuth_density(d, w, cosine, sine), 0.0, 0.0, 0};
+    vndf_azimuth_slice slice = {fan->table, fan->c, k, vndf_azimuth_fan_density(fan, cosine, sine), 0.0, 0.0, 0};
     vndf_exact_law_find(&slice);
     return slice;
 }
 
-vndf_azimuth_slice vndf_azimuth_slice_at(const vndf_view *view, double cosine, double sine)
+vndf_azimuth_slice vndf_azimuth_slice_in(const vndf_azimuth_fan *fan, double cosine, double sine)
 {
-    vndf_stretched w = vndf_stretched_of(view);
-    return slice_from(view, &w, cosine, sine, w.s * cosine);
+    return slice_from(fan, cosine, sine, fan->s * cosine);
 }
 
 vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm)
@@ -44,7 +41,8 @@ vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm)
         cosine = per * (w.s > 0.0 ? level : mx);
         sine = per * fabs(w.s > 0.0 ? w.x * my - w.y * mx : my);
     }
-    return slice_from(view, &w, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
+    vndf_azimuth_fan fan = vndf_azimuth_fan_of(view->distribution, w.s, w.c, (w.c >= 0.0) != (cosine >= 0.0));
+    return slice_from(&fan, cosine, sine, x > 0.0 ? level * w.per_length / x : w.s);
 }
 
 double vndf_engine_density_on(const vndf_view *view, const vndf_azimuth_slice *slice, vndf_normal wm,

@@ -15,6 +15,25 @@
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/tabulated/theory.h"
 
+/* ---- azimuths of one direction ---- */
+
+/* Rows of cells and their shares. */
+typedef struct vndf_exact_row {
+    const vndf_row_cell *cell[3]; /* of each row */
+    const float *q;
+    double share[3], p, r;
+    uint32_t cells;
+} vndf_exact_row;
+
+/* What all azimuths of the stretched direction (s, 0, c) have in common. */
+struct vndf_azimuth_fan {
+    const vndf_distribution *table;
+    double s, c;
+    double mass, per; /* of the wedge above the horizon, 1 below it; per mass of a whole turn */
+    vndf_exact_row row; /* of the wedge, if it was asked for */
+};
+vndf_azimuth_fan vndf_azimuth_fan_of(const vndf_distribution *d, double s, double c, int wedge);
+
 /* ---- rational cells (math/rational_cell.h) ---- */
 
 typedef struct vndf_exact_cell {
@@ -67,8 +86,8 @@ typedef struct vndf_exact_azimuth {
     int in_wedge;
 } vndf_exact_azimuth;
 
-/* Mass per radian, 1 in a whole turn, for the stretched direction w. */
-double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine);
+/* Mass per radian, 1 in a whole turn. */
+double vndf_azimuth_fan_density(const vndf_azimuth_fan *fan, double cosine, double sine);
 
 /* The azimuth |a| with the part `half` of half a turn's mass between the side of wi and it. In a wedge *near gets the
  * shares of rows and the cell. */

@@ -53,23 +53,17 @@ static vndf_exact_part row_part(const vndf_wedge *w, double y, double cosine, do
 
 /* ---- the density of a row ---- */
 
-/* Rows of cells and their shares. The certificates of shipped tables were measured with this order of operations;
- * another order would change a last digit in them. */
-typedef struct mixed_row {
-    const vndf_row_cell *cell[3]; /* of each row */
-    const float *q;
-    double share[3], p, r;
-    uint32_t cells;
-} mixed_row;
+/* The certificates of shipped tables were measured with this order of operations; another order would change a last
+ * digit in them. */
 
-static double mixed_mass(const mixed_row *row, uint32_t j)
+static double mixed_mass(const vndf_exact_row *row, uint32_t j)
 {
     const vndf_row_cell *const *cell = row->cell;
     return row->share[0] * cell[0][j].mass + row->share[1] * cell[1][j].mass + row->share[2] * cell[2][j].mass;
 }
 
 /* Density where cell j begins. */
-static double mixed_density(const mixed_row *row, uint32_t j)
+static double mixed_density(const vndf_exact_row *row, uint32_t j)
 {
     const vndf_row_cell *const *cell = row->cell;
     return row->share[0] * cell[0][j].density + row->share[1] * cell[1][j].density +
@@ -83,17 +77,17 @@ static uint32_t knot_before(const vndf_guide *guide, const float *knots, double 
     return i - (i > 0 && y < knots[i]);
 }
 
-static mixed_row wedge_row(const vndf_wedge *w, double y)
+static vndf_exact_row wedge_row(const vndf_wedge *w, double y)
 {
     uint32_t i = knot_before(&w->row_guide, w->row_y, y);
     double m = (y - w->row_y[i]) / (w->row_y[i + 1] - w->row_y[i]), rest = 1.0 - m;
     size_t first = 2 * (size_t)i;
-    mixed_row row = {{vndf_row_cells(w, first), vndf_row_cells(w, first + 1), vndf_row_cells(w, first + 2)},
-                     w->q,
-                     {rest * rest, 2.0 * rest * m, m * m},
-                     0.0,
-                     0.0,
-                     w->cell_count};
+    vndf_exact_row row = {{vndf_row_cells(w, first), vndf_row_cells(w, first + 1), vndf_row_cells(w, first + 2)},
+                          w->q,
+                          {rest * rest, 2.0 * rest * m, m * m},
+                          0.0,
+                          0.0,
+                          w->cell_count};
     for (size_t n = 0; n < 3; n++) {
         row.p += row.share[n] * w->row_span[i].p[n];
         row.r += row.share[n] * w->row_span[i].r[n];
@@ -102,7 +96,7 @@ static mixed_row wedge_row(const vndf_wedge *w, double y)
 }
 
 /* Mass per radian at an azimuth, cos >= 0; 1 - q is formed without a difference. */
-static double row_density(const mixed_row *row, double cosine, double sine)
+static double row_density(const vndf_exact_row *row, double cosine, double sine)
 {
     double c = row->r * cosine, s = row->p * sine, n = sqrt(c * c + s * s);
     if (!(n > 0.0))
@@ -122,20 +116,27 @@ static double row_density(const mixed_row *row, double cosine, double sine)
 
 /* ---- half a turn ---- */
 
-double vndf_exact_azimuth_density(const vndf_distribution *d, const vndf_stretched *w, double cosine, double sine)
+vndf_azimuth_fan vndf_azimuth_fan_of(const vndf_distribution *d, double s, double c, int wedge)
 {
-    int toward = cosine >= 0.0, above = w->c >= 0.0;
-    const vndf_wedge *side = vndf_wedge_of(d, w->c);
+    int above = c >= 0.0;
+    const vndf_wedge *side = vndf_wedge_of(d, c);
     /* below it may underflow */
-    double y = vndf_wedge_y(w->s, w->c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
-    double front = above ? w->c * (d->f0_total * QUARTER_TURN) + w->s * d->f1_total : 0.0;
-    double per = 0.5 / (front + mass);
+    double y = vndf_wedge_y(s, c), mass = above ? vndf_wedge_mass(side, y) : 1.0;
+    double front = above ? c * (d->f0_total * QUARTER_TURN) + s * d->f1_total : 0.0;
+    vndf_azimuth_fan fan = {.table = d, .s = s, .c = c, .mass = mass, .per = 0.5 / (front + mass)};
+    if (wedge && (s > 0.0 || above))
+        fan.row = wedge_row(side, y);
+    return fan;
+}
+
+double vndf_azimuth_fan_density(const vndf_azimuth_fan *fan, double cosine, double sine)
+{
+    int toward = cosine >= 0.0, above = fan->c >= 0.0;
     if (above && toward)
-        return per * (w->c * d->f0_total + w->s * d->f1_total * cosine);
-    if (above == toward || !(w->s > 0.0 || above))
+        return fan->per * (fan->c * fan->table->f0_total + fan->s * fan->table->f1_total * cosine);
+    if (above == toward || !(fan->row.p > 0.0))
         return 0.0;
-    mixed_row row = wedge_row(side, y);
-    return row.p > 0.0 ? per * mass * row_density(&row, fabs(cosine), sine) : 0.0;
+    return fan->per * fan->mass * row_density(&fan->row, fabs(cosine), sine);
 }
 
 static vndf_front front_of(const vndf_view *view)

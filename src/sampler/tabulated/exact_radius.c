@@ -176,29 +176,29 @@ double vndf_engine_piece_density(const vndf_azimuth_slice *law, const vndf_engin
 }
 
 /* Many places of a piece that is not cut and whose density does not begin at 0, without a branch: compilers make lanes
- * of it. The bits are those of one place. */
+ * of it. Of one place they differ by rounding: X cancels, and one quotient serves all. */
 static void densities_plain(const vndf_azimuth_slice *law, const vndf_engine_piece *p,
                             const vndf_engine_places *at, double *restrict density)
 {
-    const double *restrict xi = at->xi, *restrict eta = at->eta, *restrict x = at->x;
+    const double *restrict xi = at->xi, *restrict eta = at->eta;
     const vndf_exact_cell cell = cell_of(p);
-    const double azimuth = law->azimuth, mass = law->mass;
+    const double per = law->azimuth / law->mass;
     for (size_t i = 0; i < at->count; i++) {
         vndf_exact_place in = {xi[i], eta[i]};
-        density[i] = azimuth * x[i] * (vndf_exact_cell_density(&cell, in) / x[i]) / mass;
+        density[i] = per * vndf_exact_cell_density(&cell, in);
     }
 }
 
 static void densities_weighted(const vndf_azimuth_slice *law, const vndf_engine_piece *p,
                                const vndf_engine_places *at, double *restrict density)
 {
-    const double *restrict xi = at->xi, *restrict eta = at->eta, *restrict x = at->x;
+    const double *restrict xi = at->xi, *restrict eta = at->eta;
     const vndf_exact_cell cell = cell_of(p);
-    const double azimuth = law->azimuth, mass = law->mass, v0 = p->v0, v1 = p->v1, per = 1.0 / (v0 + v1);
+    const double v0 = p->v0, v1 = p->v1, per = 1.0 / (v0 + v1), over = 2.0 * per * (law->azimuth / law->mass);
     for (size_t i = 0; i < at->count; i++) {
         double v = v0 * eta[i] + v1 * xi[i];
         vndf_exact_place in = {xi[i] * ((v0 + v) * per), eta[i] * ((v + v1) * per)};
-        density[i] = azimuth * x[i] * (2.0 * v * per * vndf_exact_cell_density(&cell, in) / x[i]) / mass;
+        density[i] = over * (v * vndf_exact_cell_density(&cell, in));
     }
 }
 

@@ -75,7 +75,10 @@ typedef struct vndf_azimuth_slice {
     double mass, part; /* c F0 + k F1 as far as it is visible; the visible part of the cell of the cut */
     uint32_t cut;      /* that cell; radial_count if there is none */
 } vndf_azimuth_slice;
-vndf_azimuth_slice vndf_azimuth_slice_at(const vndf_view *view, double cosine, double sine);
+
+/* At any azimuth of one direction: the fan is found once for all of them (exact.h). */
+typedef struct vndf_azimuth_fan vndf_azimuth_fan;
+vndf_azimuth_slice vndf_azimuth_slice_in(const vndf_azimuth_fan *fan, double cosine, double sine);
 
 /* The slice through a normal of any length. */
 vndf_azimuth_slice vndf_azimuth_slice_of(const vndf_view *view, vndf_normal wm);
