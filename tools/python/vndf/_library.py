@@ -179,7 +179,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "source_ndf_expression": (_p, [_s, _p, c_size_t, _error]),
     "source_slope_expression": (_p, [_s, _p, c_size_t, _error]),
     "source_csv_file": (_p, [_s, _error]),
-    "source_csv_text": (_p, [_s, _s, c_size_t, _error]),
+    "source_rows": (_p, [_i, _i, _p, _p, c_size_t, _s, _error]),
     "source_family": (_p, [_s, _error]),
     "source_ndf_callback": (_p, [density_function, _p, _s, _error]),
     "source_slope_callback": (_p, [density_function, _p, _s, _error]),

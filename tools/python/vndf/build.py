@@ -73,13 +73,12 @@ class Source:
         Shape-preserving interpolation joins the rows. `name` stands in the table as its origin."""
         if (theta is None) == (slope is None) or (ndf is None) == (p22 is None):
             raise TypeError("rows need one of theta and slope, and one of ndf and p22")
-        at = np.asarray(slope if theta is None else theta, np.float64)
-        value = np.asarray(p22 if ndf is None else ndf, np.float64)
+        at = np.ascontiguousarray(slope if theta is None else theta, np.float64)
+        value = np.ascontiguousarray(p22 if ndf is None else ndf, np.float64)
         if at.ndim != 1 or at.shape != value.shape:
             raise ValueError(f"rows are two arrays of one shape (n,), not {at.shape} and {value.shape}")
-        header = f"{'slope' if theta is None else 'theta'},{'p22' if ndf is None else 'ndf'}\n"
-        text = (header + "".join(f"{x!r},{y!r}\n" for x, y in zip(at.tolist(), value.tolist()))).encode()
-        return Source(checked("source_csv_text", name.encode(), text, len(text)))
+        addresses = at.ctypes.data, value.ctypes.data
+        return Source(checked("source_rows", theta is None, ndf is None, *addresses, at.size, name.encode()))
 
     @staticmethod
     def slope_function(function: Callable[[float], float], name: str = "Python function") -> Source:
