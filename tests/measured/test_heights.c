@@ -67,7 +67,7 @@ static void test_stretched(void)
     TEST_NEAR(law.matrix[0] / law.matrix[2], 2, 0.15);
     TEST_NEAR(law.matrix[1], 0, 0.05);
     TEST(surface_from_beckmann(source, alpha) < 0.04);
-    TEST_HAS(said.text, "\nmatrix 1.3");
+    TEST_HAS(said.text, "\nmatrix 1.");
     vndf_source_free(source);
     profile_free(&law.rows);
     heights_free(&field);
