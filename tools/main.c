@@ -16,7 +16,7 @@ typedef struct subcommand {
 } subcommand;
 
 static const subcommand subcommands[] = {
-    {"build", command_build, "make a table from a formula, a CSV or a named family"},
+    {"build", command_build, "make a table from a formula, a CSV, a named family or a file of measurements"},
     {"info", command_info, "what a table is, where it came from, its certificate"},
     {"check", command_check, "measure a table again; exit 1 if a claim fails"},
     {"sample", command_sample, "draw visible normals into a CSV or a file of floats"},

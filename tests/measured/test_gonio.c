@@ -12,8 +12,8 @@ static char text[1 << 18];
 static size_t make_scans(const vndf_surface *surface, double f0, double step, double scale, int is_intensity)
 {
     static const double incident[4] = {5, 20, 40, 60};
-    size_t used =
-        (size_t)sprintf(text, "# scans\r\n\n %s ,theta_o, theta_i\r\n", is_intensity ? "intensity" : "brdf");
+    size_t used = (size_t)sprintf(text, "\xEF\xBB\xBF# scans\r\n\n %s ,theta_o, theta_i\r\n",
+                                  is_intensity ? "intensity" : "brdf");
     for (int i = 0; i < 4; i++)
         for (double o = -88; o <= 88; o += step) {
             double theta_i = incident[i] * PI / 180, theta_o = o * PI / 180;

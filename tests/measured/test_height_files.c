@@ -42,7 +42,7 @@ static size_t make_raw(void)
 
 static size_t make_text(void)
 {
-    size_t at = (size_t)sprintf(file, "# heights\r\n\n");
+    size_t at = (size_t)sprintf(file, "\xEF\xBB\xBF# heights\r\n\n");
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++)
             at += (size_t)sprintf(file + at, "%s%.9g", x ? "\t " : "", (double)height_at(x, y));

@@ -36,9 +36,17 @@ run(0 export in.vndf --brdf rgl --wavelengths 400,700 --f0 0.5 -o spectral.bsdf)
 file(SIZE ${OUT}/spectral.bsdf size)
 expect("two channels take ${size} bytes" size LESS 4000000)
 
+run(0 build --rgl out.bsdf --matrix --max-bytes 2048 --certificate quick -o fitted.vndf)
+has(output "source --rgl out.bsdf --matrix (crc32 ")
+number(anisotropy anisotropy)
+expect("GGX has an anisotropy of ${anisotropy}" anisotropy LESS 1.01)
+number(scale scale)
+expect("the median slope is ${scale} by drawing" scale GREATER 0.399 AND scale LESS 0.401)
+
 file(WRITE ${OUT}/no.bsdf "tensor_fool")
 foreach(words "--rgl no.bsdf;no.bsdf: this is no tensor file"
         "--rgl none.bsdf;none.bsdf: No such file"
+        "--height no.bsdf --matrix;--matrix is for --rgl"
         "--rgl out.bsdf --step 2;--step is for --height"
         "--rgl out.bsdf --family ggx;exactly one is needed")
     list(GET words 0 given)

@@ -221,6 +221,46 @@ static void test_anisotropy(void)
     refused(file_bytes, size, "D is anisotropic: 0.075 of all normals would have to turn about z");
 }
 
+/* GGX of roughness 0.6 along 30 degrees and 0.2 across is GGX of 0.3464 under a matrix with the axes sqrt 3. */
+static void test_matrix(void)
+{
+    enum { AZIMUTHS = 129, ANGLES = 257 };
+    static float ndf[AZIMUTHS][ANGLES];
+    const tensor_written field = {"ndf", TENSOR_F32, 2, {AZIMUTHS, ANGLES}, ndf};
+    const double pi = 3.14159265358979, c30 = sqrt(0.75), s30 = 0.5;
+    for (int i = 0; i < AZIMUTHS; i++)
+        for (int j = 0; j < ANGLES; j++) {
+            double theta = pi / 2 * j * j / 65536, phi = 2 * pi * i / 128 - pi, s = sin(theta), c = cos(theta);
+            double x = s * cos(phi), y = s * sin(phi), along = (c30 * x + s30 * y) / 0.6,
+                   across = (c30 * y - s30 * x) / 0.2;
+            double q = along * along + across * across + c * c;
+            ndf[i][j] = (float)(1 / (pi * 0.12 * q * q));
+        }
+    size_t size = small_file(&field, 1);
+    refused(file_bytes, size, "--matrix fits the matrix of an isotropic one");
+    profile rows;
+    refusal why = {""};
+    notes said = {"", 0};
+    if (!TEST(rgl_fit(&rows, "turned", file_bytes, size, &said, &why)))
+        return;
+    double xx = 0, xy = 0, yx = 0, yy = 0, alpha = sqrt(0.12), off = 0;
+    const char *matrix = strstr(said.text, "matrix ");
+    TEST(matrix && sscanf(matrix, "matrix %lf,%lf,%lf,%lf", &xx, &xy, &yx, &yy) == 4);
+    const double long_axis = sqrt(3), short_axis = 1 / sqrt(3); /* R diag R^T, R by 30 degrees */
+    TEST_NEAR(xx, 0.75 * long_axis + 0.25 * short_axis, 0.01);
+    TEST_NEAR(yy, 0.25 * long_axis + 0.75 * short_axis, 0.01);
+    TEST_NEAR(xy, c30 * s30 * (long_axis - short_axis), 0.01);
+    TEST(xy == yx);
+    for (size_t i = 0; i < rows.count && rows.x[i] < 10 * alpha; i++) {
+        double q = 1 + rows.x[i] * rows.x[i] / (alpha * alpha);
+        off = fmax(off, fabs(rows.value[i] * pi * alpha * alpha * q * q - 1));
+    }
+    printf("anisotropic GGX: P22 under the matrix off by %.4f\n%s", off, said.text);
+    TEST(off < 0.05);
+    TEST(number_after(said.text, "residual_isotropy ") < 0.01);
+    profile_free(&rows);
+}
+
 int main(void)
 {
     vndf_distribution *table = vndf_load(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", NULL);
@@ -233,6 +273,7 @@ int main(void)
         test_round_trip(table, "Student-T", 0.1f);
     test_refusals();
     test_anisotropy();
+    test_matrix();
     vndf_free(table);
     free(file_bytes);
     return test_done();

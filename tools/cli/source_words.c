@@ -170,6 +170,8 @@ void source_text_add(const char *option, const words *values, char *text, size_t
         if (t.at > text)
             put(&t, ' ');
         put_text(&t, option);
+        if (strcmp(values->item[i], option) == 0) /* a flag */
+            continue;
         put(&t, ' ');
         put_word(&t, values->item[i]);
     }

@@ -26,7 +26,7 @@ vndf_distribution *table_from_words(const char *command, const source_words *giv
 /* As a shell would take it, with quotes where they are needed; cut where `size` ends. */
 void source_text(const source_words *given, char *text, size_t size);
 
-/* Adds " OPTION VALUE" for each of the values to what stands in text, cut in the same way. */
+/* Adds " OPTION VALUE" for each of the values to what stands in text, cut in the same way; " OPTION" for a flag. */
 void source_text_add(const char *option, const words *values, char *text, size_t size);
 
 /* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */

@@ -241,6 +241,7 @@ int command_build(int argc, char **argv)
         {"--gonio", 1, 1, &given.measured.gonio},
         {"--channel", 1, 1, &given.measured.channel},
         {"--f0", 1, 1, &given.measured.f0},
+        {"--matrix", 0, 1, &given.measured.matrix},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
         {"--size", 1, 1, &given.measured.size},

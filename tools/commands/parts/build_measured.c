@@ -23,6 +23,7 @@ const char measured_help[] =
     "lobe that they are: vndf sample --lobe 'table=FILE matrix=XX,XY,YX,YY'.\n"
     "\n"
     "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
+    "    --matrix      an anisotropic one as the matrix of an isotropic D, which is printed\n"
     "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
     "    --channel red|green|blue|luminance    (default luminance)\n"
     "  --gonio FILE    a CSV with the columns theta_i,theta_o (degrees; the mirror direction is theta_o = theta_i)\n"
@@ -92,6 +93,7 @@ static const rider riders[] = {
     {"--size", offsetof(measured_words, size), {"--height", NULL}},
     {"--step", offsetof(measured_words, step), {"--height", NULL}},
     {"--cutoff", offsetof(measured_words, cutoff), {"--height", NULL}},
+    {"--matrix", offsetof(measured_words, matrix), {"--rgl", NULL}},
     {"--channel", offsetof(measured_words, channel), {"--merl", NULL}},
     {"--f0", offsetof(measured_words, f0), {"--gonio", NULL}},
 };
@@ -227,7 +229,8 @@ static int read_rgl(const measured_file *file, const measured_words *given, prof
                     refusal *why)
 {
     const unsigned char *bytes = (const unsigned char *)file->bytes;
-    (void)given;
+    if (given->matrix.count)
+        return rgl_fit(rows, file->path, bytes, file->size, found, why);
     if (!rgl_read(rows, file->path, bytes, file->size, found, why))
         return 0;
     vndf_distribution *table = profile_table(rows, file->path, why);

@@ -9,6 +9,7 @@
 typedef struct measured_words {
     words rgl, merl, height, normal_map, gonio; /* files */
     words size, step, cutoff;                   /* of heights */
+    words matrix;                               /* of .bsdf */
     words channel;                              /* of MERL */
     words f0;                                   /* of goniometers */
 } measured_words;

@@ -135,7 +135,7 @@ static int read_points(reader *r, gonio_points *made)
 
 int gonio_read(gonio_points *made, const char *name, const char *bytes, size_t size, refusal *why)
 {
-    reader r = {{bytes, size, 0, 1}, {THETA_I, THETA_O, BRDF}, name, why};
+    reader r = {text_from(bytes, size), {THETA_I, THETA_O, BRDF}, name, why};
     *made = (gonio_points){NULL, 0};
     if (read_header(&r) && read_points(&r, made))
         return 1;

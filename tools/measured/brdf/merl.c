@@ -10,7 +10,7 @@
 
 enum { HALVES = 90, DIFFERENCES = 90, HALF_TURN = 180, HEAD = 12, AREAS = 541 };
 /* Every n-th bin is compared with the model. */
-enum { STEP_D = 3, STEP_PHI = 12, PROBES = HALVES * (DIFFERENCES / STEP_D) * (HALF_TURN / STEP_PHI) };
+enum { STEP_D = 3, STEP_PHI = 30, PROBES = HALVES * (DIFFERENCES / STEP_D) * (HALF_TURN / STEP_PHI) };
 
 static const double pi = 3.14159265358979323846;
 static const double scale[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
@@ -271,8 +271,8 @@ static int open_search(search *s, const merl_file *file)
     return read_back(file, s);
 }
 
-/* Files that programs filled may have their numbers at the lower ends of bins, or be masked by the product of both ways.
- * They are taken so where that explains them with half of the error. */
+/* Files that programs filled may have their numbers at the lower ends of bins, or be masked by the product of both
+ * ways. They are taken so where that explains them with half of the error. */
 static void find_convention(search *s, merl_file *file)
 {
     static const double places[4] = {0.5, 0, 0.5, 0};

@@ -1,9 +1,10 @@
-/* MERL files (W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003): three
- * numbers of 32 bits, 90 90 180 (or 360), then red, green and blue, each 90 x 90 x 180 doubles, the azimuth fastest;
- * all with the least byte first. f is a number times 1/1500, 1.15/1500 and 1.66/1500. Its bins, counted from the half
- * vector h: theta_h even in its square root from 0 to 90 degrees, theta_d even, phi_d even over half a turn. A number is
- * taken as f in the middle of its bin, and masked with heights correlated. Programs that fill such files often have f at
- * the lower end, or the product of G1 of both ways: these are taken where they explain the file with half the error. */
+/* MERL files (W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003):
+ * three numbers of 32 bits, 90 90 180 (or 360), then red, green and blue, each 90 x 90 x 180 doubles, the azimuth
+ * fastest; all with the least byte first. f is a number times 1/1500, 1.15/1500 and 1.66/1500. Its bins, counted
+ * from the half vector h: theta_h even in its square root from 0 to 90 degrees, theta_d even, phi_d even over half
+ * a turn. A number is taken as f in the middle of its bin, and masked with heights correlated. Programs that fill
+ * such files often have f at the lower end, or the product of G1 of both ways: these are taken where they explain
+ * the file with half the error. */
 #ifndef TOOLS_MEASURED_BRDF_MERL_H
 #define TOOLS_MEASURED_BRDF_MERL_H
 

@@ -30,8 +30,8 @@ void power_even(power_bins *made, int count, double place);
 
 typedef enum power_masking { POWER_CORRELATED, POWER_SEPARABLE } power_masking;
 
-/* Replaces ndf[], a first guess or zeros, by the eigenvector (or fixed point) for f[], and *f0 by the eigenvalue. Where f is
- * negative nothing is known: there D is that of the bin before. 0 if there is no light. */
+/* Replaces ndf[], a first guess or zeros, by the eigenvector (or fixed point) for f[], and *f0 by the eigenvalue.
+ * Where f is negative nothing is known: there D is that of the bin before. 0 if there is no light. */
 int power_iterate(const power_bins *bins, power_masking masking, const double *f, double *ndf, double *f0);
 
 /* Scales D to the integral 1 over the projected hemisphere; returns what it was. */

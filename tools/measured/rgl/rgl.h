@@ -27,6 +27,10 @@
 #define RGL_ANISOTROPY_MOST 0.05
 int rgl_read(profile *rows, const char *name, const unsigned char *bytes, size_t size, notes *to, refusal *why);
 
+/* The same of an anisotropic material, as an isotropic D under a matrix: slopes are drawn evenly from `ndf`, and
+ * their law is that of measured/surface/slopes.h, whose lines go to *to, the matrix among them. */
+int rgl_fit(profile *rows, const char *name, const unsigned char *bytes, size_t size, notes *to, refusal *why);
+
 /* How well a surface with that D explains the rest of the file: how far `sigma` is from its area, at most, up to 85
  * degrees; the F0 and F90 of the mean of all channels whose model (measured/model.h) is nearest, and the part of the
  * light that it has elsewhere. What the file does not hold is left out. */

@@ -4,7 +4,7 @@
 
 #include "measured/model.h"
 #include "measured/rgl/rgl.h"
-#include "measured/rgl/tensor.h"
+#include "measured/rgl/fields.h"
 #include "measured/rgl/warp.h"
 
 enum { ANGLES_LEAST = 8, ANGLES_MOST = 65536, GRID_MOST = 4096, PROBES = 24 };
@@ -51,7 +51,7 @@ static double anisotropy_of(const tensor_field *ndf)
     return whole > 0 ? off / 2 / whole : 0;
 }
 
-static int check_numbers(const tensor_field *field, const char *name, refusal *why)
+static int are_numbers(const tensor_field *field, const char *name, refusal *why)
 {
     for (size_t i = 0; i < field->count; i++) {
         double value = tensor_at(field, i);
@@ -62,10 +62,10 @@ static int check_numbers(const tensor_field *field, const char *name, refusal *w
     return 1;
 }
 
-static const tensor_field *open_ndf(const tensor_file *file, const char *name, refusal *why)
+const tensor_field *rgl_ndf(const tensor_file *file, const char *name, refusal *why)
 {
     const tensor_field *ndf = tensor_floats(file, "ndf", 2, name, why);
-    if (!ndf || !check_numbers(ndf, name, why))
+    if (!ndf || !are_numbers(ndf, name, why))
         return NULL;
     if (ndf->shape[0] >= 1 && ndf->shape[1] >= ANGLES_LEAST && ndf->shape[1] <= ANGLES_MOST)
         return ndf;
@@ -246,7 +246,7 @@ int rgl_read(profile *rows, const char *name, const unsigned char *bytes, size_t
     *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0};
     if (!tensor_read(&file, name, bytes, size, why))
         return 0;
-    const tensor_field *ndf = open_ndf(&file, name, why);
+    const tensor_field *ndf = rgl_ndf(&file, name, why);
     if (!ndf)
         return 0;
     double anisotropy = anisotropy_of(ndf);
@@ -254,7 +254,7 @@ int rgl_read(profile *rows, const char *name, const unsigned char *bytes, size_t
         return refuse_data(
             why, name,
             "D is anisotropic: %.3g of all normals would have to turn about z to make it isotropic, %.3g "
-            "is the most; a table holds an isotropic D",
+            "is the most; --matrix fits the matrix of an isotropic one",
             anisotropy, RGL_ANISOTROPY_MOST);
     if (!read_rows(rows, ndf, name, why))
         return 0;

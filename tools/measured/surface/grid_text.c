@@ -2,6 +2,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+grid_text text_from(const char *bytes, size_t size)
+{
+    grid_text text = {bytes, size, 0, 1};
+    if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0)
+        text.at = 3;
+    return text;
+}
 
 static int is_blank(char c)
 {

@@ -12,6 +12,9 @@ typedef struct grid_text {
     size_t line; /* of the next byte, from 1 */
 } grid_text;
 
+/* At the beginning of a text, past the mark of UTF-8 that spreadsheets write. */
+grid_text text_from(const char *bytes, size_t size);
+
 /* The next word of the same line; 0 at its end or the end of the text. A word is cut after WORD_MAX - 1 characters. A
  * character that is none of ASCII stands as '?'. */
 int text_word(grid_text *from, char word[WORD_MAX]);

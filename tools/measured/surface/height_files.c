@@ -76,7 +76,7 @@ static int read_rows(text_rows *rows, grid_text *text, const char *name, refusal
 
 int heights_read_text(height_field *made, const char *name, const char *bytes, size_t size, refusal *why)
 {
-    grid_text text = {bytes, size, 0, 1};
+    grid_text text = text_from(bytes, size);
     text_rows rows = {NULL, 0, 0, 0, 0};
     *made = (height_field){0, 0, 1, 1, 0, NULL};
     int good = read_rows(&rows, &text, name, why) && heights_make(made, rows.width, rows.height, name, why);

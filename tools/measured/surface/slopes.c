@@ -10,6 +10,9 @@
 
 enum { BINS_MOST = 96, RINGS = 8, SECTORS = 12, DRAWS = 200, TAIL_LEAST = 100 };
 
+static const double LEFT_MOST = 0.01;
+static const double WIDER = 1.01; /* one edge over the edge before, at least */
+
 int slopes_make(slope_set *made, size_t room)
 {
     *made = (slope_set){malloc(room * sizeof(float)), malloc(room * sizeof(float)), malloc(room), 0, room, 0};
@@ -75,7 +78,8 @@ static void place_edges(bins *b, const double *r, size_t count, double narrowest
     while (b->count + 1 < BINS_MOST && (1 - part) * (double)count > TAIL_LEAST) {
         part += 1 - part > 1.5 * step ? step : (1 - part) / 2;
         double edge = r[(size_t)(part * (double)(count - 1))];
-        if (edge > b->edge[b->count] && edge - b->edge[b->count] >= narrowest && edge < r[count - 1])
+        if (edge > WIDER * b->edge[b->count] && edge - b->edge[b->count] >= narrowest &&
+            WIDER * edge < r[count - 1])
             b->edge[++b->count] = edge;
     }
     b->edge[++b->count] = INFINITY;
@@ -94,19 +98,22 @@ static size_t bin_of(const bins *b, double r)
     return low;
 }
 
-/* Where the mean square of the lengths in a bin is: for a density that falls evenly in r^2 it has its mean there. */
+/* Where the mean square of the lengths in a bin is: for a density that falls evenly in r^2 it has its mean there. The
+ * last bin has no end, and a heavy tail no mean square: there it is the mean of the logarithm. */
 static void place_rows(bins *b, const double *r, size_t count)
 {
-    double square[BINS_MOST] = {0}, number[BINS_MOST] = {0};
+    double square[BINS_MOST] = {0}, number[BINS_MOST] = {0}, logarithm = 0;
     for (size_t i = 0; i < count; i++) {
         size_t bin = bin_of(b, r[i]);
         square[bin] += r[i] * r[i];
+        logarithm += bin + 1 == b->count ? log(r[i]) : 0;
         number[bin]++;
     }
     for (size_t i = 0; i < b->count; i++) {
         b->mass[i] = number[i] / (double)count;
         b->middle[i] = sqrt(square[i] / fmax(number[i], 1));
     }
+    b->middle[b->count - 1] = exp(logarithm / fmax(number[b->count - 1], 1));
 }
 
 /* ---- errors -------------------------------------------------------------------------------------- */
@@ -230,7 +237,11 @@ static int make_rows(const bins *b, const char *name, profile *rows, double *lef
         rows->x[i] = b->middle[i];
         rows->value[i] = b->mass[i] / (next * next - b->edge[i] * b->edge[i]);
     }
-    return profile_match(rows, b->edge, b->mass, name, left, why);
+    if (!profile_match(rows, b->edge, b->mass, name, left, why))
+        return 0;
+    return *left < LEFT_MOST ||
+           refuse_data(why, name, "no smooth curve has the masses of %zu bins; %.2g of all is wrong", b->count,
+                       *left);
 }
 
 static void count_parts(bins *b, const slope_set *slopes, const double *r)
