@@ -29,7 +29,7 @@ typedef struct vndf_exact_row {
 struct vndf_azimuth_fan {
     const vndf_distribution *table;
     double s, c;
-    double mass, per; /* of the wedge above the horizon, 1 below it; per mass of a whole turn */
+    double mass, per;   /* of the wedge above the horizon, 1 below it; per mass of a whole turn */
     vndf_exact_row row; /* of the wedge, if it was asked for */
 };
 vndf_azimuth_fan vndf_azimuth_fan_of(const vndf_distribution *d, double s, double c, int wedge);
