@@ -23,6 +23,20 @@ double vndf_side_share(const vndf_side *side, double y, double mass)
     return side->weight * vndf_profile_fade(side->profile, seen, side->fade);
 }
 
+double vndf_side_largest(const vndf_side *side, const double *y, const double *miss, size_t count)
+{
+    const double rounded = 1e-6; /* far more than areas err */
+    double largest = 0.0, most = HUGE_VAL;
+    for (size_t i = count; i-- > 0;) {
+        if (miss[i] * most <= largest)
+            continue;
+        double share = vndf_side_share(side, y[i], vndf_side_mass(side, y[i]));
+        largest = fmax(largest, miss[i] * share);
+        most = share * (1 + rounded);
+    }
+    return largest;
+}
+
 double vndf_side_least(const vndf_side *side)
 {
     double low = 0.0, high = 1.0;

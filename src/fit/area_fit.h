@@ -26,6 +26,9 @@ double vndf_side_mass(const vndf_side *side, double y);
  * `weight`. */
 double vndf_side_share(const vndf_side *side, double y, double mass);
 
+/* The largest miss times the share where it is; y ascending. Asks for few shares: each bounds those before it. */
+double vndf_side_largest(const vndf_side *side, const double *y, const double *miss, size_t count);
+
 /* The y below which the certificate claims nothing (vndf_profile_claimed); 0 above the horizon. */
 double vndf_side_least(const vndf_side *side);
 

@@ -295,8 +295,8 @@ static double row_miss(const vndf_wedge_fit *fit, rows r, double mix)
 }
 
 /* Where a quadratic through both ends and the middle misses most, and on either side of these places. */
-static const double ROUNDED_SHARE = 1e-6; /* far more than areas err */
 static const double PROBES[] = {0.1, 0.22, 0.35, 0.65, 0.78, 0.9};
+enum { PROBE_COUNT = sizeof PROBES / sizeof *PROBES };
 
 vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
 {
@@ -308,14 +308,11 @@ vndf_interval_miss vndf_wedge_row_error(double a, double b, void *user)
     vndf_row middle;
     vndf_wedge_fit_middle(fit, first, second, &middle);
     rows three = {first, &middle, second};
-    double most = HUGE_VAL; /* no share before a probe is larger than its own */
-    for (unsigned i = sizeof PROBES / sizeof *PROBES; i-- > 0;) {
-        double y = a + PROBES[i] * (b - a), miss = row_miss(fit, three, PROBES[i]);
-        if (miss * most <= found.alone)
-            continue;
-        double share = vndf_side_share(&fit->side, y, vndf_side_mass(&fit->side, y));
-        found.alone = fmax(found.alone, miss * share);
-        most = share * (1 + ROUNDED_SHARE);
+    double y[PROBE_COUNT], miss[PROBE_COUNT];
+    for (unsigned i = 0; i < PROBE_COUNT; i++) {
+        y[i] = a + PROBES[i] * (b - a);
+        miss[i] = row_miss(fit, three, PROBES[i]);
     }
+    found.alone = vndf_side_largest(&fit->side, y, miss, PROBE_COUNT);
     return found;
 }

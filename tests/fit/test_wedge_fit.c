@@ -1,6 +1,6 @@
 /* What the fit of azimuth rows takes for granted. E and S by polynomials are those of the profile to 1e-13, wherever
  * they are asked and however often, at a small part of the cost. The masses of wedges alone have the bits of the masses
- * with derivatives. The share of a wedge rises with y, so that a share bounds all before it. */
+ * with derivatives. The share of a wedge rises with y, so that the largest error is found without asking for all. */
 #include "fit/area_fit.h"
 #include "fit/profile/strip.h"
 #include "harness/test.h"
@@ -62,6 +62,21 @@ static void test_shares(const vndf_profile *profile, int below)
     TEST(most > 0.1);
 }
 
+static void test_largest(const vndf_profile *profile, int below)
+{
+    const vndf_side side = {profile, below, 0.3, 0.05, 0.2};
+    unsigned long long state = 7;
+    for (int i = 0; i < 100; i++) {
+        double y[6], miss[6], largest = 0, from = test_uniform(&state), width = (1 - from) * test_uniform(&state);
+        for (int n = 0; n < 6; n++) {
+            y[n] = from + width * (n + 1) / 7;
+            miss[n] = 0.5 + test_uniform(&state);
+            largest = fmax(largest, miss[n] * vndf_side_share(&side, y[n], vndf_side_mass(&side, y[n])));
+        }
+        TEST(vndf_side_largest(&side, y, miss, 6) == largest);
+    }
+}
+
 int main(void)
 {
     for (unsigned i = 0; i < sizeof P22 / sizeof *P22; i++) {
@@ -71,6 +86,7 @@ int main(void)
         for (int below = 0; TEST(profile != NULL) && below < 2; below++) {
             test_strip(profile, P22[i], below);
             test_shares(profile, below);
+            test_largest(profile, below);
         }
         if (profile)
             test_masses(profile);

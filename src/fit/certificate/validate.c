@@ -241,7 +241,7 @@ static int is_visible(const slice *at, double r)
 
 static vndf_engine_places places_of(const vndf_validation_places *p, const vndf_validation_cell *cell)
 {
-    vndf_engine_places places = {p->xi + cell->first, p->eta + cell->first, p->x + cell->first, cell->count};
+    vndf_engine_places places = {p->xi + cell->first, p->eta + cell->first, cell->count};
     return places;
 }
 
@@ -558,19 +558,15 @@ static int room_for(vndf_points *points, size_t capacity)
 
 static int places_for(vndf_validation_places *p, size_t n)
 {
-    p->xi = malloc(3 * n * sizeof *p->xi);
+    p->xi = malloc(2 * n * sizeof *p->xi);
     p->eta = p->xi ? p->xi + n : NULL;
-    p->x = p->xi ? p->eta + n : NULL;
     return p->xi != NULL;
 }
 
-static void put_place(const vndf_validation *v, const vndf_validation_places *p, uint32_t cell, size_t i,
-                      double xi)
+static void put_place(const vndf_validation_places *p, size_t i, double xi)
 {
-    const vndf_knot *at = v->table->knots.at + cell;
     p->xi[i] = xi;
     p->eta[i] = 1 - xi;
-    p->x[i] = p->eta[i] * at[0].x + xi * at[1].x;
 }
 
 /* Point i, which belongs to a cell. */
@@ -578,11 +574,10 @@ static void put_point(vndf_validation *v, vndf_validation_cell *cell, size_t i)
 {
     const vndf_validation_lines *lines = &v->lines;
     const vndf_validation_node *node = v->node + i;
-    uint32_t j = (uint32_t)(cell - v->cells);
-    put_place(v, &lines->at, j, i, node->xi);
+    put_place(&lines->at, i, node->xi);
     for (size_t n = 0; n < 2; n++) {
         double way = (i - cell->first + n) % 2 ? -node->rounding : node->rounding;
-        put_place(v, &lines->moved[n], j, i, fmax(fmin(node->xi + way, 1), 0));
+        put_place(&lines->moved[n], i, fmax(fmin(node->xi + way, 1), 0));
     }
     lines->weight[i] = node->weight;
     lines->mass[i] = node->mass;

@@ -30,9 +30,9 @@ typedef struct vndf_validation_node {
     double xi, weight, r, mass, rounding;
 } vndf_validation_node;
 
-/* Places number by number: xi, 1 - xi, and the X of the slope; one block, which begins at xi. */
+/* Places number by number: xi and 1 - xi; one block, which begins at xi. */
 typedef struct vndf_validation_places {
-    double *xi, *eta, *x;
+    double *xi, *eta;
 } vndf_validation_places;
 
 /* The same points number by number; and moved by rounding, every second one inwards and the others outwards. */

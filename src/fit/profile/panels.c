@@ -246,26 +246,27 @@ static void fill_between(vndf_profile *profile, double u0, double u1, double lea
 }
 
 /* As many as there are edges now, all 0 unless as many are known from the pass before. */
-static int know_simple(vndf_simple *simple, size_t edges)
+static int know_edges(vndf_known *known, size_t edges)
 {
-    if (simple->count == edges)
+    if (known->count == edges)
         return 1;
-    free(simple->between);
-    simple->between = calloc(edges, sizeof *simple->between);
-    simple->count = simple->between ? edges : 0;
-    return simple->between != NULL;
+    free(known->simple);
+    known->simple = calloc(edges, sizeof *known->simple);
+    known->count = known->simple ? edges : 0;
+    return known->simple != NULL;
 }
 
 /* Fills panels from r = 2^-VNDF_OCTAVES to 2^VNDF_OCTAVES of the source's own unit, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile, vndf_simple *simple)
+void vndf_panels_fill(vndf_profile *profile, vndf_known *known)
 {
     size_t edges;
-    double least = fmax(NEGLIGIBLE * vndf_panels_peak(profile), LEAST), *edge = make_edges(profile, &edges);
+    double least = fmax(NEGLIGIBLE * profile->normalization * known->peak, LEAST);
+    double *edge = make_edges(profile, &edges);
     profile->count = 0;
-    if (!edge || !know_simple(simple, edges))
+    if (!edge || !know_edges(known, edges))
         profile->guard->starved = 1;
     for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++)
-        fill_between(profile, edge[i], edge[i + 1], least, simple->between + i);
+        fill_between(profile, edge[i], edge[i + 1], least, known->simple + i);
     if (!vndf_profile_stopped(profile) && grow(profile)) {
         vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
         profile->panel[profile->count] = end;

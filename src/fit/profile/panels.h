@@ -13,18 +13,20 @@ static const double VNDF_POWER_MARGIN = 1e-6;
 /* Whether the guard or the limit of panels stops the work. */
 int vndf_profile_stopped(const vndf_profile *profile);
 
-/* The largest P r^2 that one looks at to see what is negligible. */
+/* The largest P r^2 at a few thousand slopes, to see what is negligible. */
 double vndf_panels_peak(vndf_profile *profile);
 
-/* Whether one panel was enough between two edges in the pass before: all passes look at the same slopes. Zeroed before
- * the first pass; free `between` after the last. */
-typedef struct vndf_simple {
-    unsigned char *between; /* edge i and the next */
-    size_t count;           /* edges */
-} vndf_simple;
+/* What passes know of those before, since all look at the same slopes: the largest P22 r^2 of the source; and whether
+ * one panel was enough between two edges. Zeroed before the first pass but for the peak; free `simple` after the
+ * last. */
+typedef struct vndf_known {
+    double peak;
+    unsigned char *simple; /* edge i and the next */
+    size_t count;          /* edges */
+} vndf_known;
 
 /* Makes the panels, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile, vndf_simple *simple);
+void vndf_panels_fill(vndf_profile *profile, vndf_known *known);
 
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);

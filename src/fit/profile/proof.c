@@ -176,10 +176,13 @@ static void view_panel(view *v, const vndf_profile *profile, size_t panel)
     v->inner = log(profile->panel[panel].r * profile->scale);
     v->outer = log(profile->panel[panel + 1].r * profile->scale);
     v->middle = v->inner + (v->outer - v->inner) * VNDF_UNEVEN;
-    for (int i = 0; i < 2 * VNDF_GAUSS; i++) {
-        double from = i < VNDF_GAUSS ? v->inner : v->middle, to = i < VNDF_GAUSS ? v->middle : v->outer;
-        double u = from + (to - from) * vndf_gauss_node[i % VNDF_GAUSS];
-        v->value[i / VNDF_GAUSS][i % VNDF_GAUSS] = integrand(profile, exp(u));
+    for (int n = 0; n < 2; n++) {
+        double from = n ? v->middle : v->inner, to = n ? v->outer : v->middle, r[VNDF_GAUSS];
+        for (int i = 0; i < VNDF_GAUSS; i++)
+            r[i] = exp(from + (to - from) * vndf_gauss_node[i]) / profile->scale;
+        vndf_profile_p22_many(profile, r, VNDF_GAUSS, v->value[n]);
+        for (int i = 0; i < VNDF_GAUSS; i++)
+            v->value[n][i] = v->value[n][i] * r[i] * r[i];
     }
 }
 

@@ -55,9 +55,9 @@ static vndf_status check_ends(vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-static vndf_status measure(vndf_profile *profile, vndf_simple *simple, vndf_error *error)
+static vndf_status measure(vndf_profile *profile, vndf_known *known, vndf_error *error)
 {
-    vndf_panels_fill(profile, simple);
+    vndf_panels_fill(profile, known);
     if (!vndf_profile_stopped(profile))
         vndf_panels_sum(profile);
     return check_values(profile, error);
@@ -77,17 +77,18 @@ static double narrowest(const vndf_profile *profile)
 /* Pass 1 works in the unit of the source, the next passes at canonical scale with the floor, until two find the
  * same mass. Their panels begin at the same slopes, but for rounding; where one panel was enough between two edges, the
  * next pass looks no closer. */
-static vndf_status settle(vndf_profile *profile, vndf_simple *simple, vndf_error *error)
+static vndf_status settle(vndf_profile *profile, vndf_known *known, vndf_error *error)
 {
     enum { PASSES = 4 };
-    double most = vndf_panels_peak(profile); /* first scale to a size that neither overflows nor vanishes */
+    double most = known->peak =
+        vndf_panels_peak(profile); /* scale to a size that neither overflows nor vanishes */
     if (most > 0.0 && most < LEAST_PEAK)
         return vndf_fail(
             error, VNDF_ERROR_DISTRIBUTION,
             "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor", most);
     if (most > 0.0)
         profile->normalization = 1.0 / most;
-    vndf_status status = measure(profile, simple, error);
+    vndf_status status = measure(profile, known, error);
     if (status == VNDF_OK)
         status = check_ends(profile, error);
     for (int pass = 0; status == VNDF_OK && pass < PASSES; pass++) {
@@ -101,7 +102,7 @@ static vndf_status settle(vndf_profile *profile, vndf_simple *simple, vndf_error
         if (!(profile->scale > 1e-17 && profile->scale < 1e17))
             return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                              "the median slope is %g; from 1e-17 to 1e17 can be tabulated", profile->scale);
-        status = measure(profile, simple, error);
+        status = measure(profile, known, error);
     }
     if (status != VNDF_OK)
         return status;
@@ -114,8 +115,8 @@ static vndf_status settle(vndf_profile *profile, vndf_simple *simple, vndf_error
 
 vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error)
 {
-    vndf_simple simple = {NULL, 0};
-    vndf_status status = settle(profile, &simple, error);
-    free(simple.between);
+    vndf_known known = {0.0, NULL, 0};
+    vndf_status status = settle(profile, &known, error);
+    free(known.simple);
     return status;
 }

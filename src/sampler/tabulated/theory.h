@@ -105,9 +105,9 @@ vndf_engine_piece vndf_engine_piece_of(const vndf_azimuth_slice *slice, uint32_t
 double vndf_engine_piece_density(const vndf_azimuth_slice *slice, const vndf_engine_piece *piece, uint32_t cell,
                                  double xi, double eta);
 
-/* Places of a cell: xi, eta = 1 - xi, and the X of their slopes, eta X_j + xi X_(j+1). */
+/* Places of a cell: xi and eta = 1 - xi. */
 typedef struct vndf_engine_places {
-    const double *xi, *eta, *x;
+    const double *xi, *eta;
     size_t count;
 } vndf_engine_places;
 
