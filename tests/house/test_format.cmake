@@ -13,7 +13,8 @@ if(NOT found MATCHES "version ${version}\\.")
     return()
 endif()
 
-file(GLOB_RECURSE files ${SOURCE}/include/*.h ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch])
+file(GLOB_RECURSE files ${SOURCE}/include/*.h ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch]
+    ${SOURCE}/include/*.hpp ${SOURCE}/tests/*.cpp)
 list(LENGTH files count)
 if(count LESS 400)
     message(FATAL_ERROR "${count} sources under ${SOURCE}")

@@ -1,4 +1,4 @@
-# cmake --install puts headers, both libraries, the program, the CMake package and the pkg-config file
+# cmake --install puts headers, both libraries, the program, the tables, the CMake package and the pkg-config file
 # under a prefix of the user's choice, and the installed program runs. The consumer tests use this copy.
 cmake_minimum_required(VERSION 3.16)
 
@@ -12,9 +12,10 @@ endif()
 get_filename_component(shared_name ${SHARED_LIBRARY} NAME)
 get_filename_component(static_name ${STATIC_LIBRARY} NAME)
 get_filename_component(program_name ${VNDF} NAME)
-file(GLOB headers RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h)
-foreach(name IN ITEMS ${headers} ${shared_name} ${static_name} ${program_name}
-        vndfConfig.cmake vndfConfigVersion.cmake vndf.pc)
+file(GLOB headers RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h ${SOURCE}/include/*.hpp)
+file(GLOB tables RELATIVE ${SOURCE}/tables ${SOURCE}/tables/*.vndf)
+foreach(name IN ITEMS ${headers} ${tables} ${shared_name} ${static_name} ${program_name}
+        vndfConfig.cmake vndfTargets.cmake vndfConfigVersion.cmake vndf.pc)
     file(GLOB_RECURSE found ${PREFIX}/*/${name})
     if(NOT found)
         message(SEND_ERROR "${name} was not installed under ${PREFIX}")

@@ -1,0 +1,18 @@
+// A program of somebody else in C++17, by vndf.hpp: the checks of consumer.c, and a shipped table.
+#include <cmath>
+#include <cstdio>
+
+#include <vndf.hpp>
+
+int main()
+{
+    const auto [wm, pdf] = vndf::surface(vndf::ggx(), 1.0f).at({0.0f, 0.0f, 1.0f}).sample(0.25f, 0.5f);
+    const double difference = static_cast<double>(pdf) - static_cast<double>(wm.z) / 3.14159265358979;
+    const auto p22 = vndf::source::slope_expression("exp(-r)")->p22(0.0);
+    const auto table = vndf::distribution::load(TABLES "/student-t-2.5.vndf");
+    if (!table)
+        std::puts(table.message());
+    std::printf("vndf %s: %.6f %.6f %.6f pdf %.6f\n", vndf::version(), static_cast<double>(wm.x),
+                static_cast<double>(wm.y), static_cast<double>(wm.z), static_cast<double>(pdf));
+    return !(table && std::fabs(difference) < 1e-6 && std::fabs(*p22 - 1.0) < 1e-6);
+}
