@@ -24,7 +24,7 @@ static void judge(int good, profile *rows, const notes *said, const refusal *why
 static void try_gonio(const char *bytes, size_t size)
 {
     gonio_points points;
-    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0};
+    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
     notes said = {"", 0};
     refusal why = {""};
     int good =

@@ -78,7 +78,7 @@ static void test_scans(void)
 static void refused(const char *csv, const char *message)
 {
     gonio_points points;
-    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0};
+    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
     refusal why = {""};
     notes said = {"", 0};
     int good = gonio_read(&points, "bad.csv", csv, strlen(csv), &why) &&

@@ -148,6 +148,15 @@ expect("half the step: rms ${rms} after ${before}" rms GREATER ${before})
 run(0 build --height heights.txt --cutoff 4 --certificate quick -o heights.vndf)
 has(output "source --height heights.txt --cutoff 4 (crc32 ")
 has(output "\ncutoff 4\nslopes 1936\n")
+run(0 build --height heights.txt --max-bytes 2048 --certificate quick --profile curve.csv -o heights.vndf)
+number(scale scale)
+file(READ ${OUT}/curve.csv curve)
+has(curve "# --height heights.txt (crc32 ")
+expect("no errors in ${curve}" curve MATCHES "\nslope,p22\n[.e0-9-]+,[.e0-9-]+\n# [+]- 0[.][0-9]+\n")
+set(before ${scale})
+run(0 build --csv curve.csv --max-bytes 2048 --certificate quick -o again.vndf)
+number(scale scale)
+expect("the median slope of the profile is ${scale}, of the table ${before}" scale STREQUAL before)
 run(0 build --height heights.txt --max-bytes 2048 -o -)
 
 foreach(words "--height heights.txt --size 48x48;48 x 48 floats take 9216 bytes"
@@ -156,6 +165,10 @@ foreach(words "--height heights.txt --size 48x48;48 x 48 floats take 9216 bytes"
         "--height heights.txt --size 48;is not WIDTHxHEIGHT"
         "--height heights.txt --cutoff 46;4 slopes"
         "--normal-map heights.txt;begin with P5 or P6"
+        "--height heights.txt --profile heights.txt;an input of this command"
+        "--height heights.txt --profile bad.vndf;-o and --profile both name"
+        "--height heights.txt --profile -;--profile '-': a file is needed"
+        "--family ggx --profile bad.csv;--profile is for files of measurements"
         "--normal-map heights.txt --cutoff 3;--cutoff is for --height")
     list(GET words 0 given)
     list(GET words 1 reason)

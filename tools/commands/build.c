@@ -9,6 +9,7 @@
 #include "commands/parts/build_family.h"
 #include "commands/parts/build_measured.h"
 #include "commands/describe.h"
+#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/source_words.h"
@@ -190,6 +191,9 @@ static int check_words(const build_words *given)
         set = measured_words_check(name, &given->measured);
     if (set == PARSE_GO_ON && !given->output.count)
         return complain(name, "-o FILE is missing");
+    const char *profile = only_word(&given->measured.profile);
+    if (set == PARSE_GO_ON && profile && files_same(profile, only_word(&given->output)))
+        return complain(name, "-o and --profile both name '%s'", profile);
     return set;
 }
 
@@ -242,6 +246,7 @@ int command_build(int argc, char **argv)
         {"--channel", 1, 1, &given.measured.channel},
         {"--f0", 1, 1, &given.measured.f0},
         {"--matrix", 0, 1, &given.measured.matrix},
+        {"--profile", 1, 1, &given.measured.profile},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
         {"--size", 1, 1, &given.measured.size},

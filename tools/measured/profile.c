@@ -9,7 +9,7 @@ static const double two_pi = 6.283185307179586477;
 
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count)
 {
-    *made = (profile){over, of, calloc(count, sizeof(double)), calloc(count, sizeof(double)), count};
+    *made = (profile){over, of, calloc(count, sizeof(double)), calloc(count, sizeof(double)), count, NULL};
     if (made->x && made->value)
         return 1;
     profile_free(made);
@@ -20,8 +20,24 @@ void profile_free(profile *freed)
 {
     free(freed->x);
     free(freed->value);
-    freed->x = freed->value = NULL;
+    free(freed->error);
+    freed->x = freed->value = freed->error = NULL;
     freed->count = 0;
+}
+
+int profile_write(FILE *file, const profile *from, const char *title)
+{
+    fprintf(file, "# %s\n", title);
+    if (from->error)
+        fputs("# +- after a row: one standard deviation of its value, relative\n", file);
+    fprintf(file, "%s,%s\n", from->over == VNDF_ROWS_OVER_SLOPE ? "slope" : "theta",
+            from->of == VNDF_ROWS_OF_P22 ? "p22" : "ndf");
+    for (size_t i = 0; i < from->count; i++) {
+        fprintf(file, "%.17g,%.17g\n", from->x[i], from->value[i]);
+        if (from->error)
+            fprintf(file, "# +- %.3g\n", from->error[i]);
+    }
+    return fflush(file) == 0 && !ferror(file);
 }
 
 vndf_source *profile_source(const profile *from, const char *name, refusal *why)
@@ -37,7 +53,7 @@ vndf_source *profile_source(const profile *from, const char *name, refusal *why)
 static vndf_source *thin_source(const profile *from, const char *name, refusal *why)
 {
     double x[TABLE_ROWS], value[TABLE_ROWS];
-    profile thin = {from->over, from->of, x, value, TABLE_ROWS};
+    profile thin = {from->over, from->of, x, value, TABLE_ROWS, NULL};
     if (from->count <= TABLE_ROWS)
         return profile_source(from, name, why);
     for (size_t i = 0; i < TABLE_ROWS; i++) {

@@ -2,6 +2,8 @@
 #ifndef TOOLS_MEASURED_PROFILE_H
 #define TOOLS_MEASURED_PROFILE_H
 
+#include <stdio.h>
+
 #include "measured/refusal.h"
 #include "vndf_build.h"
 
@@ -10,11 +12,15 @@ typedef struct profile {
     vndf_rows_of of;
     double *x, *value; /* owned; zeroed where they are made */
     size_t count;
+    double *error; /* owned: of the values, relative, one standard deviation; NULL where it is not known */
 } profile;
 
 /* Room for `count` rows. 0 if there is no memory. */
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count);
 void profile_free(profile *freed);
+
+/* Writes the rows as a CSV that `vndf build --csv` reads, with `title` and the errors as comments; 0 if that fails. */
+int profile_write(FILE *file, const profile *from, const char *title);
 
 /* The curve through the rows, to be freed; NULL and the reason if they are none: not finite, not ascending. */
 vndf_source *profile_source(const profile *from, const char *name, refusal *why);

@@ -34,6 +34,7 @@ const char measured_help[] =
     "    --cutoff N    takes waves shorter than N samples away first, 2 to 256 (Gaussian, ISO 16610-21)\n"
     "    --size WxH    FILE is W times H little-endian floats of 32 bits\n"
     "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
+    "  --profile OUT   the curve that was found, as a CSV for --csv, with its errors where they are known\n"
     "\n"
     "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
     "         vndf build --merl gold-paint.binary --channel red -o gold-paint.vndf\n"
@@ -127,6 +128,11 @@ int measured_words_check(const char *command, const measured_words *given)
             return complain(command, "%s is for %s%s%s", r->option, r->with[0], r->with[1] ? " and " : "",
                             r->with[1] ? r->with[1] : "");
     }
+    const char *written = only_word(&given->profile);
+    if (written && !of)
+        return complain(command, "--profile is for files of measurements");
+    if (written && output_is_stdout(written))
+        return complain(command, "--profile '-': a file is needed");
     return PARSE_GO_ON;
 }
 
@@ -296,20 +302,37 @@ static int describe(const measured_file *file, const measured_words *given, cons
     return 0;
 }
 
+/* The rows of a source that says what it is, to --profile; 0 after a complaint. */
+static int write_profile(const measured_file *file, const char *path, const profile *rows,
+                         const vndf_source *source)
+{
+    output_file output;
+    if (!path)
+        return 1;
+    if (!output_open(&output, file->command, path))
+        return 0;
+    if (profile_write(output.file, rows, vndf_source_description(source)))
+        return output_commit(&output) == STATUS_GOOD;
+    output_give_up(&output, "no place on the disk");
+    return 0;
+}
+
 static vndf_source *source_of(const measured_file *file, const kind *of, const measured_words *given, notes *found)
 {
-    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0};
+    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
     refusal why = {""};
     vndf_source *source = NULL;
     if (of->read(file, given, &rows, found, &why))
         source = profile_source(&rows, file->path, &why);
-    profile_free(&rows);
     if (!source && why.message[0])
         complain(file->command, "%s", why.message);
-    if (!source || describe(file, given, of->option, source))
-        return source;
-    vndf_source_free(source);
-    return NULL;
+    if (source && (!describe(file, given, of->option, source) ||
+                   !write_profile(file, only_word(&given->profile), &rows, source))) {
+        vndf_source_free(source);
+        source = NULL;
+    }
+    profile_free(&rows);
+    return source;
 }
 
 vndf_source *measured_source(const char *command, const measured_words *given, notes *found)

@@ -12,6 +12,7 @@ typedef struct measured_words {
     words matrix;                               /* of .bsdf */
     words channel;                              /* of MERL */
     words f0;                                   /* of goniometers */
+    words profile;                              /* what is written beside the table */
 } measured_words;
 
 /* What --help says of them. A string literal may have 4095 characters, so it is no part of the other. */

@@ -165,7 +165,7 @@ static void note_law(const law *l, notes *to)
 int gonio_law(const gonio_points *points, double f0, const char *name, profile *rows, notes *to, refusal *why)
 {
     law *l = calloc(1, sizeof *l);
-    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0};
+    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0, NULL};
     if (l)
         l->at = malloc((points->count + 1) * sizeof *l->at);
     if (!l || !l->at) {

@@ -315,7 +315,7 @@ int merl_read(profile *rows, const char *name, const unsigned char *bytes, size_
               notes *to, refusal *why)
 {
     merl_file file = {NULL, 0, 0.5, channel};
-    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0};
+    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0, NULL};
     if (!open_file(&file, name, bytes, size, why))
         return 0;
     search *s = calloc(1, sizeof *s);

@@ -72,7 +72,7 @@ int rgl_fit(profile *rows, const char *name, const unsigned char *bytes, size_t 
     tensor_file file;
     slope_set slopes = {NULL, NULL, NULL, 0, 0, 0};
     slope_law law;
-    *rows = (profile){VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0};
+    *rows = (profile){VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
     const tensor_field *ndf = tensor_read(&file, name, bytes, size, why) ? rgl_ndf(&file, name, why) : NULL;
     if (!ndf)
         return 0;

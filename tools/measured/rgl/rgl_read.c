@@ -243,7 +243,7 @@ void rgl_residuals(const vndf_surface *surface, const char *name, const unsigned
 int rgl_read(profile *rows, const char *name, const unsigned char *bytes, size_t size, notes *to, refusal *why)
 {
     tensor_file file;
-    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0};
+    *rows = (profile){VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, NULL, NULL, 0, NULL};
     if (!tensor_read(&file, name, bytes, size, why))
         return 0;
     const tensor_field *ndf = rgl_ndf(&file, name, why);

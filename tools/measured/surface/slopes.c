@@ -230,11 +230,14 @@ static double *lengths(const slope_set *slopes, const double unstretch[3])
 
 static int make_rows(const bins *b, const char *name, profile *rows, double *left, refusal *why)
 {
-    if (!profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count))
+    if (profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count))
+        rows->error = malloc(b->count * sizeof *rows->error);
+    if (!rows->error)
         return refuse_data(why, name, "there is no memory for %zu rows", b->count);
     for (size_t i = 0; i < b->count; i++) {
         double next = isfinite(b->edge[i + 1]) ? b->edge[i + 1] : 2 * b->middle[i] - b->edge[i];
         rows->x[i] = b->middle[i];
+        rows->error[i] = b->error[i];
         rows->value[i] = b->mass[i] / (next * next - b->edge[i] * b->edge[i]);
     }
     if (!profile_match(rows, b->edge, b->mass, name, left, why))
