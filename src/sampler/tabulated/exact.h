@@ -13,44 +13,8 @@
 
 #include "sampler/stretch.h"
 #include "sampler/tabulated/density_wedge.h"
+#include "sampler/tabulated/exact_cell.h"
 #include "sampler/tabulated/theory.h"
-
-/* ---- rational cells (math/rational_cell.h) ---- */
-
-typedef struct vndf_exact_cell {
-    double e0, e1, mass;
-} vndf_exact_cell;
-
-/* A place between two knots: xi and eta = 1 - xi, each exact where it is small. */
-typedef struct vndf_exact_place {
-    double xi, eta;
-} vndf_exact_place;
-
-/* Mass per xi. */
-VNDF_INLINE double vndf_exact_cell_density(const vndf_exact_cell *cell, vndf_exact_place at)
-{
-    double m = cell->mass, w = at.xi * at.eta, q = 1.0 + ((cell->e0 + cell->e1) / m - 2.0) * w;
-    return (cell->e1 * at.xi * at.xi + 2.0 * m * w + cell->e0 * at.eta * at.eta) / (q * q);
-}
-
-/* Mass before a place. */
-VNDF_INLINE double vndf_exact_cell_before(const vndf_exact_cell *cell, vndf_exact_place at)
-{
-    double m = cell->mass, w = at.xi * at.eta, below = m + (cell->e0 + cell->e1 - 2.0 * m) * w;
-    return below > 0.0 ? m * (m * at.xi * at.xi + cell->e0 * w) / below : 0.0;
-}
-
-/* The place with the mass `before` before it, or the nearer end: the root of math/rational_cell.h. */
-VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell, double before)
-{
-    double m = cell->mass, t = before > 0.0 ? (before < m ? before : m) : 0.0, twice = 2.0 * t * m;
-    double middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
-    double sum = fabs(b) + sqrt(middle * middle + twice * (2.0 * m * (m - t)));
-    double above = b >= 0.0 ? twice : sum, below = b >= 0.0 ? sum : 2.0 * (m * m - b);
-    double per = below > 0.0 ? 1.0 / below : 0.0, rest = below > above ? below - above : 0.0;
-    vndf_exact_place at = {above * per, below > 0.0 ? rest * per : 1.0};
-    return at;
-}
 
 /* ---- parts of a mass ---- */
 
