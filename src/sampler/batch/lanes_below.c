@@ -60,7 +60,7 @@ VNDF_INLINE vndf_direction direction_at(const gathered *from, uint32_t i, double
                         doubles_load(from->of[WI_Z] + i)};
     doubles square = w.x * w.x + w.y * w.y + w.z * w.z;
     doubles_m good = doubles_both(is_between(least, w.ax, most), is_between(least, w.ay, most));
-    good = doubles_both(good, is_between(doubles_set(0.25), square, doubles_set(4.0)));
+    good = doubles_both(good, is_between(doubles_set(1e-12), square, doubles_set(1e12)));
     vndf_direction safe = {doubles_pick(good, w.ax, one), doubles_pick(good, w.ay, one),
                            doubles_pick(good, w.x, one), doubles_pick(good, w.y, one),
                            doubles_pick(good, w.z, doubles_set(-1.0))};
@@ -91,25 +91,47 @@ VNDF_INLINE void scatter(vndf_sample_block *b, const gathered *from, uint32_t fi
     }
 }
 
+/* Groups that take a step together. */
+enum { GROUPS = 64 / VNDF_DOUBLES };
+
+static void draw(const vndf_distribution *d, vndf_sample_block *b, const gathered *from, uint32_t first,
+                 int groups)
+{
+    double scale = vndf_unit_scale(d);
+    vndf_below_sample n[GROUPS];
+    for (int k = 0; k < groups; k++) {
+        uint32_t i = first + (uint32_t)k * VNDF_DOUBLES;
+        n[k].g.wi = direction_at(from, i, scale, &n[k].trusted);
+        n[k].half = doubles_widen(doubles_narrow(2.0 * doubles_load(from->of[U1] + i) - 1.0));
+        vndf_below_begin(d, &n[k]);
+    }
+    for (int k = 0; k < groups; k++)
+        vndf_below_turn(d, &n[k]);
+    for (int k = 0; k < groups; k++)
+        vndf_below_cut(d, doubles_load(from->of[U2] + first + (uint32_t)k * VNDF_DOUBLES), &n[k]);
+    for (int k = 0; k < groups; k++)
+        vndf_below_reach(d, &n[k]);
+    for (int k = 0; k < groups; k++)
+        vndf_below_end(d, &n[k]);
+    for (int k = 0; k < groups; k++) {
+        doubles_m seen = doubles_less(doubles_set(0.0), vndf_query_facing(&n[k].g));
+        doubles_m trusted = doubles_both(n[k].trusted, seen);
+        doubles density = vndf_query_of_wedge(d, &n[k].g, 1, &n[k].near, &trusted);
+        scatter(b, from, first + (uint32_t)k * VNDF_DOUBLES, &n[k].g, density, trusted);
+    }
+}
+
 #  if VNDF_LANES == 16
 void vndf_sample_below_avx512(const vndf_distribution *d, vndf_sample_block *b)
 #  else
 void vndf_sample_below_avx2(const vndf_distribution *d, vndf_sample_block *b)
 #  endif
 {
-    double scale = vndf_unit_scale(d);
     gathered from;
     gather(b, &from);
-    for (uint32_t i = 0; i < from.count; i += VNDF_DOUBLES) {
-        doubles_m trusted;
-        vndf_query g;
-        vndf_wedge_near near;
-        g.wi = direction_at(&from, i, scale, &trusted);
-        doubles half = doubles_widen(doubles_narrow(2.0 * doubles_load(from.of[U1] + i) - 1.0));
-        vndf_below_draw(d, &g, half, doubles_load(from.of[U2] + i), &near, &trusted);
-        trusted = doubles_both(trusted, doubles_less(doubles_set(0.0), vndf_query_facing(&g)));
-        doubles density = vndf_query_of_wedge(d, &g, 1, &near, &trusted);
-        scatter(b, &from, i, &g, density, trusted);
+    for (uint32_t i = 0; i < from.count; i += GROUPS * VNDF_DOUBLES) {
+        uint32_t groups = (from.count - i + VNDF_DOUBLES - 1) / VNDF_DOUBLES;
+        draw(d, b, &from, i, groups < GROUPS ? (int)groups : GROUPS);
     }
 }
 

@@ -197,6 +197,15 @@ static void draw_below(const vndf_batch *b, vndf_sample_block *block, int wide)
         vndf_sample_below_avx2(b->distribution, block);
 }
 
+/* Whether a table is seen from below the horizon alone: then the first lanes would leave every sample. */
+static int is_below(const vndf_batch *b, const vndf_sample_block *block)
+{
+    uint32_t i = 0;
+    while (!block->view && vndf_is_table(b->distribution) && i < block->count && block->wi_z[i] < 0.0f)
+        i++;
+    return i == block->count;
+}
+
 static void leave_all(vndf_sample_block *block)
 {
     for (block->left_count = 0; block->left_count < block->count; block->left_count++)
@@ -225,7 +234,7 @@ static void sample_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
         read_block(&block, b, first, c, &own);
         place_results(&block, &own, first, apart, c);
-        if (below)
+        if (is_below(b, &block))
             leave_all(&block);
         else
             draw_block(b, &block, wide);

@@ -53,34 +53,26 @@ VNDF_INLINE doubles vndf_below_mass_before(const vndf_wedge *w, const vndf_share
            s->last * doubles_gather(w->cdf + 2 * (size_t)w->stride, at);
 }
 
-/* The azimuth with the part `part` of the row's mass before it. */
-VNDF_INLINE vndf_below_azimuth vndf_below_draw_azimuth(const vndf_wedge *w, doubles y, doubles part,
-                                                       vndf_wedge_near *near)
+/* The azimuth with the mass `target` of a row before it, in the cell that was found. */
+VNDF_INLINE vndf_below_azimuth vndf_below_draw_azimuth(const vndf_wedge *w, const vndf_wedge_near *near,
+                                                       doubles target)
 {
     const double least = 1e-7; /* at a right angle from wi nothing is visible */
-    vndf_shares s = near->shares = vndf_shares_at(w, y);
-    doubles target = part * s.square;
-    doubles_u j = near->azimuth = vndf_below_find_azimuth(w, &s, target);
+    const vndf_shares *s = &near->shares;
+    doubles_u j = near->azimuth;
     doubles from = vndf_cell_end(w, 0, j), to = vndf_cell_end(w, 1, j), h = to - from;
-    vndf_mixed_cell mixed = vndf_shares_cell(w, &s, j);
+    vndf_mixed_cell mixed = vndf_shares_cell(w, s, j);
     vndf_exact_cell cell = {mixed.begin * h, mixed.end * h, mixed.mass};
-    vndf_exact_place in = vndf_exact_cell_invert(&cell, target - vndf_below_mass_before(w, &s, j));
+    vndf_exact_place in = vndf_exact_cell_invert(&cell, target - vndf_below_mass_before(w, s, j));
     doubles q = from + in.xi * h, rest = (1.0 - to) + in.eta * h;
-    doubles along = s.p * rest * (1.0 + q), aside = 2.0 * s.r * q, n = doubles_root(along * along + aside * aside);
+    doubles along = s->p * rest * (1.0 + q), aside = 2.0 * s->r * q,
+            n = doubles_root(along * along + aside * aside);
     doubles some = least * n;
     vndf_below_azimuth a = {doubles_pick(doubles_less(some, along), along, some), aside, n};
     return a;
 }
 
 /* ---- radius: k = 1 ---- */
-
-/* A part of the law (vndf_engine_piece), and the knots of its cell. */
-typedef struct vndf_below_piece {
-    vndf_exact_cell cell;
-    doubles v0, v1, begin, length;
-    doubles_four knots; /* x0, z0, x1, z1 */
-    doubles beyond;     /* mass beyond the cell */
-} vndf_below_piece;
 
 VNDF_INLINE doubles_four vndf_below_cell(const vndf_distribution *d, doubles_u j)
 {
@@ -89,82 +81,44 @@ VNDF_INLINE doubles_four vndf_below_cell(const vndf_distribution *d, doubles_u j
     return vndf_radial_location_cell(d, &at);
 }
 
-/* What cells have in common: knots, and W at both. */
-VNDF_INLINE vndf_below_piece vndf_below_knots(const vndf_distribution *d, doubles c, doubles_u j, doubles *w0,
-                                              doubles *w1)
+/* The knots of a cell, W there, below 0 where a knot is not visible, and the mass beyond the cell. */
+typedef struct vndf_below_knots {
+    doubles x0, z0, x1, z1, w0, w1, beyond;
+} vndf_below_knots;
+
+VNDF_INLINE vndf_below_knots vndf_below_knots_of(const vndf_distribution *d, doubles c, doubles_u j)
 {
     doubles_lines knots = doubles_lines_at(&d->knots.at->x, 2, j),
                   tail = doubles_lines_at(&d->knots.tail[1].s, 2, j);
-    doubles_four sums = doubles_load_four(&tail, 0);
-    vndf_below_piece p;
-    p.knots = doubles_load_four(&knots, 0);
-    *w0 = c * p.knots.b + p.knots.a;
-    *w1 = doubles_positive(c * p.knots.d + p.knots.c);
-    p.beyond = sums.a + *w1 * sums.b;
-    return p;
-}
-
-/* The visible part of the cell of the cut: the outer one, so the cubic is turned. */
-VNDF_INLINE vndf_below_piece vndf_below_at_cut(const vndf_distribution *d, doubles c, doubles_u cut)
-{
-    const doubles nothing = doubles_set(0.0);
-    doubles end, w;
-    vndf_below_piece p = vndf_below_knots(d, c, cut, &end, &w);
-    doubles_four f = vndf_below_cell(d, cut);
-    vndf_bump bump = vndf_bump_of(f), bend = {bump.a + bump.b, nothing - bump.b};
-    doubles h = vndf_visible_part(w, end), half = 0.5 * w * h;
-    doubles cubic = f.b * (1.0 - h) + f.a * h + h * (1.0 - h) * (bend.a + bend.b * h);
-    p.cell.e0 = doubles_positive(cubic) * half;
-    p.cell.e1 = f.b * half;
-    p.cell.mass = w * h * vndf_bump_part(f.b, f.a, bend, h);
-    p.v0 = nothing;
-    p.v1 = w;
-    p.begin = 1.0 - h;
-    p.length = h;
-    return p;
-}
-
-/* A cell beyond it, where V is W. */
-VNDF_INLINE vndf_below_piece vndf_below_beyond(const vndf_distribution *d, doubles c, doubles_u j)
-{
-    doubles w0, w1;
-    vndf_below_piece p = vndf_below_knots(d, c, j, &w0, &w1);
-    doubles_four f = vndf_below_cell(d, j);
-    w0 = doubles_positive(w0);
-    doubles half = 0.5 * (w0 + w1);
-    p.cell.e0 = f.a * half;
-    p.cell.e1 = f.b * half;
-    p.cell.mass = w0 * f.c + w1 * f.d;
-    p.v0 = w0;
-    p.v1 = w1;
-    p.begin = doubles_set(0.0);
-    p.length = doubles_set(1.0);
-    return p;
-}
-
-VNDF_INLINE vndf_below_piece vndf_below_pick(doubles_m m, const vndf_below_piece *yes, const vndf_below_piece *no)
-{
-    vndf_below_piece p = *no; /* one cell has one pair of knots, and one mass beyond it */
-    p.cell.e0 = doubles_pick(m, yes->cell.e0, no->cell.e0);
-    p.cell.e1 = doubles_pick(m, yes->cell.e1, no->cell.e1);
-    p.cell.mass = doubles_pick(m, yes->cell.mass, no->cell.mass);
-    p.v0 = doubles_pick(m, yes->v0, no->v0);
-    p.v1 = doubles_pick(m, yes->v1, no->v1);
-    p.begin = doubles_pick(m, yes->begin, no->begin);
-    p.length = doubles_pick(m, yes->length, no->length);
-    return p;
-}
-
-/* The place with the mass `before` before it in the piece (exact_radius.c, place_in_piece). */
-VNDF_INLINE vndf_exact_place vndf_below_place(const vndf_below_piece *p, doubles before)
-{
-    vndf_exact_place zeta = vndf_exact_cell_invert(&p->cell, before);
-    doubles v = doubles_root(p->v0 * p->v0 * zeta.eta + p->v1 * p->v1 * zeta.xi);
-    doubles_m seen = doubles_less(doubles_set(0.0), v), part = doubles_less(p->length, doubles_set(1.0));
-    doubles xi = doubles_pick(seen, zeta.xi * (p->v1 + v), zeta.xi);
-    doubles eta = doubles_pick(seen, zeta.eta * (p->v0 + v), zeta.eta), per = p->length / (xi + eta);
-    vndf_exact_place at = {doubles_pick(part, p->begin + xi * per, xi), doubles_pick(part, eta * per, eta)};
+    doubles_four k = doubles_load_four(&knots, 0), sums = doubles_load_four(&tail, 0);
+    vndf_below_knots at = {k.a, k.b, k.c, k.d, c * k.b + k.a, doubles_positive(c * k.d + k.c), sums.a};
+    at.beyond += at.w1 * sums.b;
     return at;
+}
+
+/* The mass of the law, whose cut is in a cell: its outer part is visible, so the cubic is turned. */
+VNDF_INLINE doubles vndf_below_mass(const vndf_distribution *d, doubles c, doubles_u cut)
+{
+    vndf_below_knots at = vndf_below_knots_of(d, c, cut);
+    doubles_four f = vndf_below_cell(d, cut);
+    vndf_bump bump = vndf_bump_of(f), bend = {bump.a + bump.b, doubles_set(0.0) - bump.b};
+    doubles h = vndf_visible_part(at.w1, at.w0);
+    return at.w1 * h * vndf_bump_part(f.b, f.a, bend, h) + at.beyond;
+}
+
+/* The place with the mass `target` beyond it in a cell beyond the cut, where V is W (exact_radius.c). */
+VNDF_INLINE vndf_exact_place vndf_below_place(const vndf_distribution *d, const vndf_below_knots *at, doubles_u j,
+                                              doubles target)
+{
+    doubles_four f = vndf_below_cell(d, j);
+    doubles w0 = doubles_positive(at->w0), w1 = at->w1, half = 0.5 * (w0 + w1), mass = w0 * f.c + w1 * f.d;
+    vndf_exact_cell cell = {f.a * half, f.b * half, mass};
+    vndf_exact_place zeta = vndf_exact_cell_invert(&cell, mass - (target - at->beyond));
+    doubles v = doubles_root(w0 * w0 * zeta.eta + w1 * w1 * zeta.xi);
+    doubles_m seen = doubles_less(doubles_set(0.0), v);
+    vndf_exact_place in = {doubles_pick(seen, zeta.xi * (w1 + v), zeta.xi),
+                           doubles_pick(seen, zeta.eta * (w0 + v), zeta.eta)};
+    return in;
 }
 
 VNDF_INLINE doubles_u vndf_below_find_radius(const vndf_distribution *d, doubles c, doubles_u cut, doubles target)
@@ -179,47 +133,68 @@ VNDF_INLINE doubles_u vndf_below_find_radius(const vndf_distribution *d, doubles
     return doubles_load_u(cell);
 }
 
-/* A slope X/Z. */
-typedef struct vndf_below_slope {
-    doubles x, z;
-} vndf_below_slope;
+/* ---- the steps ---- */
 
-/* The slope of the law with the weights c < 0 and 1. */
-VNDF_INLINE vndf_below_slope vndf_below_draw_radius(const vndf_distribution *d, doubles c, doubles u,
-                                                    vndf_wedge_near *near, doubles_m *trusted)
+/* A sample between its steps. Each step goes over several groups of lanes before the next begins: the operations of
+ * one group wait for each other, groups do not. */
+typedef struct vndf_below_sample {
+    vndf_query g; /* wi; in the end the normal, rounded to float */
+    vndf_below_view w;
+    vndf_wedge_near near;
+    vndf_below_azimuth a;
+    doubles half, target,
+        c; /* 2 u1 - 1; the mass to find; the weight of the law of the radius, where the other is 1 */
+    doubles_m trusted;
+} vndf_below_sample;
+
+/* Uniform numbers are u1, as half, and u2. */
+VNDF_INLINE void vndf_below_begin(const vndf_distribution *d, vndf_below_sample *n)
 {
-    doubles_u cut = near->cut = vndf_radial_location_at(d, doubles_abs(c), doubles_set(1.0)).cell;
-    vndf_below_piece p = vndf_below_at_cut(d, c, cut);
-    doubles mass = p.cell.mass + p.beyond, target = (1.0 - u) * mass;
-    *trusted = doubles_both(*trusted, doubles_less(doubles_set(0.0), mass));
-    doubles_u j = near->cell = vndf_below_find_radius(d, c, cut, target);
-    vndf_below_piece beyond = vndf_below_beyond(d, c, j);
-    p = vndf_below_pick(doubles_at_most_u(j, cut), &p, &beyond);
-    vndf_exact_place at = vndf_below_place(&p, p.cell.mass - (target - p.beyond));
-    vndf_below_slope slope = {at.eta * p.knots.a + at.xi * p.knots.c, at.eta * p.knots.b + at.xi * p.knots.d};
-    return slope;
+    n->w = vndf_below_view_of(&n->g.wi, &n->trusted);
+    n->near.shares = vndf_shares_at(&d->below, n->w.s);
+    n->target = doubles_abs(n->half) * n->near.shares.square;
 }
 
-/* ---- both ---- */
-
-/* The normal for uniform numbers u1, as half = 2 u1 - 1, and u2; rounded to float. g holds wi, and gets the normal. */
-VNDF_INLINE void vndf_below_draw(const vndf_distribution *d, vndf_query *g, doubles half, doubles u2,
-                                 vndf_wedge_near *near, doubles_m *trusted)
+VNDF_INLINE void vndf_below_turn(const vndf_distribution *d, vndf_below_sample *n)
 {
-    const doubles one = doubles_set(1.0);
-    vndf_below_view w = vndf_below_view_of(&g->wi, trusted);
-    vndf_below_azimuth a = vndf_below_draw_azimuth(&d->below, w.s, doubles_abs(half), near);
-    doubles k = w.s * a.cosine;
-    *trusted = doubles_both(*trusted, doubles_less(doubles_set(0.0), k));
-    doubles c = w.c * a.n / doubles_pick(*trusted, k, one);
-    vndf_below_slope slope = vndf_below_draw_radius(d, c, u2, near, trusted);
-    doubles sine = doubles_sign(a.sine, half);
-    doubles x = slope.x * g->wi.ax * (w.cos_phi * a.cosine - w.sin_phi * sine);
-    doubles y = slope.x * g->wi.ay * (w.sin_phi * a.cosine + w.cos_phi * sine), z = slope.z * a.n;
+    n->near.azimuth = vndf_below_find_azimuth(&d->below, &n->near.shares, n->target);
+}
+
+/* The law of the radius at the azimuth. */
+VNDF_INLINE void vndf_below_cut(const vndf_distribution *d, doubles u2, vndf_below_sample *n)
+{
+    const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    n->a = vndf_below_draw_azimuth(&d->below, &n->near, n->target);
+    doubles k = n->w.s * n->a.cosine;
+    n->trusted = doubles_both(n->trusted, doubles_less(nothing, k));
+    n->c = n->w.c * n->a.n / doubles_pick(n->trusted, k, one);
+    n->near.cut = vndf_radial_location_at(d, doubles_abs(n->c), one).cell;
+    doubles mass = vndf_below_mass(d, n->c, n->near.cut);
+    n->target = (1.0 - u2) * mass;
+    n->trusted = doubles_both(n->trusted, doubles_less(nothing, mass));
+}
+
+VNDF_INLINE void vndf_below_reach(const vndf_distribution *d, vndf_below_sample *n)
+{
+    n->near.cell = vndf_below_find_radius(d, n->c, n->near.cut, n->target);
+}
+
+/* The normal at the slope in the cell that was found. In the cell of the cut its density would not be trusted. */
+VNDF_INLINE void vndf_below_end(const vndf_distribution *d, vndf_below_sample *n)
+{
+    const vndf_below_azimuth *a = &n->a;
+    const vndf_below_view *w = &n->w;
+    vndf_below_knots k = vndf_below_knots_of(d, n->c, n->near.cell);
+    vndf_exact_place at = vndf_below_place(d, &k, n->near.cell, n->target);
+    n->trusted = doubles_both(n->trusted, doubles_at_most_u(n->near.cut + 1u, n->near.cell));
+    doubles across = at.eta * k.x0 + at.xi * k.x1, up = at.eta * k.z0 + at.xi * k.z1;
+    doubles sine = doubles_sign(a->sine, n->half);
+    doubles x = across * n->g.wi.ax * (w->cos_phi * a->cosine - w->sin_phi * sine);
+    doubles y = across * n->g.wi.ay * (w->sin_phi * a->cosine + w->cos_phi * sine), z = up * a->n;
     doubles per = 1.0 / doubles_root(x * x + y * y + z * z);
-    g->x = doubles_widen(doubles_narrow(x * per));
-    g->y = doubles_widen(doubles_narrow(y * per));
-    g->z = doubles_widen(doubles_narrow(z * per));
+    n->g.x = doubles_widen(doubles_narrow(x * per));
+    n->g.y = doubles_widen(doubles_narrow(y * per));
+    n->g.z = doubles_widen(doubles_narrow(z * per));
 }
 
 #endif

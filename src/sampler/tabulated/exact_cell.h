@@ -3,6 +3,7 @@
 #ifndef VNDF_SAMPLER_TABULATED_EXACT_CELL_H
 #define VNDF_SAMPLER_TABULATED_EXACT_CELL_H
 
+#include "simd/count.h"
 #include "simd/doubles.h"
 #include "table/table.h"
 
@@ -57,8 +58,10 @@ VNDF_INLINE uint32_t vndf_count_beyond(const vndf_knots *knots, uint32_t from, u
 {
     const vndf_knot *at = knots->at + from;
     const vndf_tail_sums *tail = knots->tail + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i++) {
+    uint32_t count = 0, i = 0;
+    for (; i + 8 <= n; i += 8)
+        count += vndf_count_more(&at[i].x, &tail[i].s, c, target);
+    for (; i < n; i++) {
         float w = c * at[i].z + at[i].x;
         count += tail[i].s + (w > 0.0f ? w : 0.0f) * tail[i].t > target;
     }
