@@ -90,8 +90,8 @@ VNDF_INLINE uint32_t vndf_count_more(const float *xz, const float *eg, float a, 
     __m256 k0 = _mm256_loadu_ps(xz), k1 = _mm256_loadu_ps(xz + 8);
     __m256 s0 = _mm256_loadu_ps(eg), s1 = _mm256_loadu_ps(eg + 8);
     __m256 w = _mm256_set1_ps(a) * _mm256_shuffle_ps(k0, k1, 0xdd) + _mm256_shuffle_ps(k0, k1, 0x88);
-    __m256 seen = _mm256_max_ps(w, _mm256_setzero_ps());
-    __m256 sum = _mm256_shuffle_ps(s0, s1, 0x88) + seen * _mm256_shuffle_ps(s0, s1, 0xdd);
+    __m256 weight = _mm256_max_ps(w, _mm256_setzero_ps());
+    __m256 sum = _mm256_shuffle_ps(s0, s1, 0x88) + weight * _mm256_shuffle_ps(s0, s1, 0xdd);
     __m256 yes = _mm256_cmp_ps(sum, _mm256_set1_ps(least), _CMP_GT_OQ);
     return (uint32_t)__builtin_popcount((unsigned)_mm256_movemask_ps(yes));
 }

@@ -7,7 +7,7 @@
 #  include "sampler/area.h"
 #  include "sampler/batch/density_of.h"
 #  include "sampler/surface.h"
-#  include "sampler/tabulated/below.h"
+#  include "sampler/batch/below.h"
 
 enum { ALPHA_X, ALPHA_Y, WI_X, WI_Y, WI_Z, U1, U2, INPUTS };
 

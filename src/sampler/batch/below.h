@@ -1,12 +1,12 @@
-/* The draw of the exact tier (exact.h) for directions below the horizon, in lanes of doubles. The steps, and their order
- * of operations, are those of exact.c, exact_azimuth.c and exact_radius.c, which serve one: the bits are the same. What
- * is rare there clears `trusted` here. */
-#ifndef VNDF_SAMPLER_TABULATED_BELOW_H
-#define VNDF_SAMPLER_TABULATED_BELOW_H
+/* The draw of the exact tier (tabulated/exact.h) for directions below the horizon, in lanes of doubles. The steps, and
+ * their order of operations, are those of exact.c, exact_azimuth.c and exact_radius.c, which serve one: the bits are the
+ * same. What is rare there clears `trusted` here. */
+#ifndef VNDF_SAMPLER_BATCH_BELOW_H
+#define VNDF_SAMPLER_BATCH_BELOW_H
 
 #include "sampler/tabulated/azimuth.h"
 #include "sampler/tabulated/density_wedge.h"
-#include "sampler/tabulated/exact_cell.h"
+#include "sampler/tabulated/exact.h"
 
 /* The stretched direction (stretch.h): s and c, and the azimuth to turn to as floats. */
 typedef struct vndf_below_view {
