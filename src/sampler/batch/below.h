@@ -1,6 +1,6 @@
 /* The draw of the exact tier (tabulated/exact.h) for directions below the horizon, in lanes of doubles. The steps, and
- * their order of operations, are those of exact.c, exact_azimuth.c and exact_radius.c, which serve one: the bits are the
- * same. What is rare there clears `trusted` here. */
+ * their order of operations, are those of exact.c, exact_azimuth.c and exact_radius.c, which serve one: the bits are
+ * the same. What is rare there clears `trusted` here. */
 #ifndef VNDF_SAMPLER_BATCH_BELOW_H
 #define VNDF_SAMPLER_BATCH_BELOW_H
 

@@ -46,18 +46,14 @@ VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell,
 
 /* ---- the search below the horizon, for k = 1 ---- */
 
-/* How many of n knots have more than `target` beyond them. */
+/* How many of n knots, a multiple of eight, have more than `target` beyond them. */
 VNDF_INLINE uint32_t vndf_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float target)
 {
     const vndf_knot *at = knots->at + from;
     const vndf_tail_sums *tail = knots->tail + from;
-    uint32_t count = 0, i = 0;
-    for (; i + 8 <= n; i += 8)
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < n; i += 8)
         count += vndf_count_more(&at[i].x, &tail[i].s, c, target);
-    for (; i < n; i++) {
-        float w = c * at[i].z + at[i].x;
-        count += tail[i].s + (w > 0.0f ? w : 0.0f) * tail[i].t > target;
-    }
     return count;
 }
 
