@@ -49,12 +49,7 @@ VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell,
 /* How many of n knots, a multiple of eight, have more than `target` beyond them. */
 VNDF_INLINE uint32_t vndf_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float target)
 {
-    const vndf_knot *at = knots->at + from;
-    const vndf_tail_sums *tail = knots->tail + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i += 8)
-        count += vndf_count_more(&at[i].x, &tail[i].s, c, target);
-    return count;
+    return vndf_count_more(&knots->at[from].x, &knots->tail[from].s, n, c, target);
 }
 
 /* The cell in which the mass `target` beyond begins, by blocks from infinity inwards. A knot that is not visible counts
