@@ -62,6 +62,17 @@ VNDF_INLINE lanes_m vndf_trusts_pole(lanes_f x, lanes_f y, lanes_f gain)
     return lanes_less(lanes_set(VNDF_TRUST_POLE * VNDF_TRUST_POLE), (x * x + y * y) * (gain * gain));
 }
 
+/* The level part of wi.wm over that of wi, times how far wo turns with the normal: where it changes its sign, the
+ * normal of a table goes from the front to the wedge, whose density is another by what the table is off. Asked of hits
+ * that are turned; of 5e7 samples of others one is off by more than 1e-5, 3e-3 for a table of 2 KiB. */
+static const float VNDF_TRUST_WO_SIDE = 1e-6f;
+
+VNDF_INLINE lanes_m vndf_trusts_wo_side(lanes_f along, lanes_f across2, lanes_f gain)
+{
+    lanes_f turned = along * gain;
+    return lanes_at_most(VNDF_TRUST_WO_SIDE * VNDF_TRUST_WO_SIDE * across2, turned * turned);
+}
+
 /* The cosine to the normal: rounding moves it by 1e-7, and F over it. */
 static const float VNDF_TRUST_REFLECTION_FACING = 0.1f, VNDF_TRUST_REFRACTION_FACING = 0.1f;
 

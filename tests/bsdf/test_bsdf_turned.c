@@ -2,7 +2,8 @@
  * of Beckmann and a table, bare and of glass, roughness 0.05 to 0.15, the density of a sample is as close to that of
  * vndf_bsdf_pdf, root of the mean square, within 8%; and as many samples, within a hundredth, are evaluated anew
  * where they went: their density is that of vndf_bsdf_pdf to the bit. A rotation that a hit brings gives the bits of
- * the same rotation of a material. */
+ * the same rotation of a material. Walks have the density of vndf_bsdf_pdf, within 1e-5, and so have hits that a
+ * rounding might take from the front of a table to its wedge. */
 #include "bsdf/bsdf_case.h"
 
 enum { SAMPLES = 40000, OF_ONE = 20 };
@@ -102,6 +103,40 @@ static void test_rotation_of_hit(const oracle_ndf *ndf)
     }
 }
 
+/* ---- the side of wi ---- */
+
+/* u1 of a normal between the front of a table and its wedge, within some roundings. */
+static float at_side(const vndf_bsdf *b, unsigned long long *state)
+{
+    double front = (double)b->view.of.table.front, part = front / (front + (double)b->view.of.table.wedge);
+    return (float)(0.5 + 0.5 * part + 4e-7 * (test_uniform_double(state) - 0.5));
+}
+
+/* The border between front and wedge, where the density of a table jumps. */
+static void test_side(const oracle_ndf *ndf, int both)
+{
+    unsigned long long state = 8;
+    double worst = 0;
+    for (int k = 0; k < 2000; k++) {
+        vndf_description is = describe(ndf, both, VNDF_SHAPE_ROTATED, &state);
+        vndf_material m;
+        vndf_bsdf b;
+        vndf_scattered s;
+        float u[3];
+        is.alpha_y = is.alpha_x *= 3.0f;
+        vndf_vec3 wi =
+            oracle_toward(0.05 + 0.95 * test_uniform_double(&state), 2 * PI * test_uniform_double(&state));
+        bsdf_numbers(&state, u);
+        TEST(vndf_material_resolve(&is, &m, NULL) == VNDF_OK && vndf_bsdf_at(&b, &m, wi));
+        u[0] = at_side(&b, &state);
+        vndf_bsdf_sample(&b, u, &s);
+        if (s.lobe != VNDF_LOBE_NONE)
+            worst = fmax(worst, fabs((double)vndf_bsdf_pdf(&b, s.wo) / (double)s.density - 1));
+    }
+    printf("%s, %s: density beside the wedge within %.2g\n", ndf->name, both ? "glass" : "bare", worst);
+    TEST(worst <= 1e-5);
+}
+
 /* ---- walks ---- */
 
 static void test_walks(const oracle_ndf *ndf)
@@ -140,6 +175,8 @@ int main(void)
         test_roundings(&ndf, 1);
         test_rotation_of_hit(&ndf);
         test_walks(&ndf);
+        for (int both = 0; both < 2 && i == 2; both++)
+            test_side(&ndf, both);
         oracle_ndf_close(&ndf);
     }
     return test_done();

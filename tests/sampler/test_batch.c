@@ -91,24 +91,44 @@ static size_t differences(const vndf_batch *b, const numbers *given, const numbe
     return different;
 }
 
+static void test_count(const vndf_distribution *d, const char *name, const numbers *given, size_t count,
+                       unsigned shared, vndf_instructions limit)
+{
+    static numbers made, alone;
+    made = alone = *given;
+    vndf_batch b = batch_of(d, given, count, shared, limit);
+    vndf_sample_n(&b, given->of[U1], given->of[U2], normals_of(&alone), alone.of[PDF]);
+    vndf_sample_weight_n(&b, given->of[U1], given->of[U2], normals_of(&made), made.of[PDF], made.of[WEIGHT]);
+    TEST(memcmp(alone.of[X], made.of[X], (size_t)(PDF - X + 1) * sizeof alone.of[X]) == 0);
+    size_t different = differences(&b, given, &made);
+    if (!TEST(different == 0))
+        fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name, (int)limit, shared,
+                (unsigned long)different, (unsigned long)count);
+    TEST(made.of[X][count] == given->of[X][count]); /* nothing beyond the end */
+}
+
 static void test_sample(const vndf_distribution *d, const char *name, vndf_instructions limit)
 {
     static const size_t counts[] = {0, 1, 2, 7, 15, 16, 17, 255, 256, 257, COUNT_MOST - 1};
-    static numbers given, made, alone;
+    static numbers given;
     for (unsigned shared = 0; shared < 4; shared++)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             fill(&given, 99 + c);
-            made = alone = given;
-            vndf_batch b = batch_of(d, &given, counts[c], shared, limit);
-            vndf_sample_n(&b, given.of[U1], given.of[U2], normals_of(&alone), alone.of[PDF]);
-            vndf_sample_weight_n(&b, given.of[U1], given.of[U2], normals_of(&made), made.of[PDF], made.of[WEIGHT]);
-            TEST(memcmp(alone.of[X], made.of[X], (size_t)(PDF - X + 1) * sizeof alone.of[X]) == 0);
-            size_t different = differences(&b, &given, &made);
-            if (!TEST(different == 0))
-                fprintf(stderr, "  %s, instructions %d, shared %u: %lu of %lu samples differ\n", name, (int)limit,
-                        shared, (unsigned long)different, (unsigned long)counts[c]);
-            TEST(made.of[X][counts[c]] == given.of[X][counts[c]]); /* nothing beyond the end */
+            test_count(d, name, &given, counts[c], shared, limit);
         }
+}
+
+/* All directions are below the horizon, so that one that all share is so too. */
+static void test_below(const vndf_distribution *d, const char *name, vndf_instructions limit)
+{
+    static numbers given;
+    fill(&given, 41);
+    for (size_t i = 0; i < COUNT_MOST; i++)
+        given.of[WI_Z][i] = -fabsf(given.of[WI_Z][i]);
+    for (unsigned shared = 0; shared < 4; shared++) {
+        test_count(d, name, &given, 33, shared, limit);
+        test_count(d, name, &given, COUNT_MOST - 1, shared, limit);
+    }
 }
 
 /* Normals over directions, the density over u1. */
@@ -138,6 +158,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, vndf
         vndf_instructions used = vndf_instructions_used((vndf_instructions)limit);
         TEST(used >= VNDF_INSTRUCTIONS_PORTABLE && (limit == VNDF_INSTRUCTIONS_BEST || (int)used <= limit));
         test_sample(d, name, (vndf_instructions)limit);
+        test_below(d, name, (vndf_instructions)limit);
         test_in_place(d, (vndf_instructions)limit);
     }
 }

@@ -62,6 +62,13 @@ VNDF_INLINE lanes_m vndf_is_settled(const vndf_incident *at, const vndf_bsdf_nor
     return lanes_both(turns, lanes_less(n->u2, lanes_set(VNDF_TRUST_LAST)));
 }
 
+/* Whether wo stands for a normal on the same side of wi, in front or in the wedge. */
+VNDF_INLINE lanes_m vndf_keeps_side(const vndf_incident *at, const vndf_bsdf_normal *n, lanes_f gain)
+{
+    vndf_vec3_lanes i = at->wi, m = n->wm;
+    return vndf_trusts_wo_side(i.x * m.x + i.y * m.y, i.x * i.x + i.y * i.y, gain);
+}
+
 /* How far a refraction turns with wm, by which vndf_is_settled asks; `turn` = |along|/eta. */
 VNDF_INLINE lanes_f vndf_refraction_gain(lanes_f turn, lanes_f z)
 {

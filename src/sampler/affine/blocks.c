@@ -182,6 +182,21 @@ static int is_straight(const vndf_axes_block *at, uint32_t i)
     return at->sine[i] == 0.0 && at->mean_x[i] == 0.0 && at->mean_y[i] == 0.0;
 }
 
+/* Below the horizon of the axes: what draw_one does, in lanes. */
+static void draw_below(const vndf_surfaces *of, vndf_sample_block *block)
+{
+    const vndf_axes_block *at = of->axes;
+    if (!vndf_is_table(of->distribution) || block->view || block->left_count == 0)
+        return;
+    if (of->wide)
+        vndf_sample_below_avx512(of->distribution, block);
+    else
+        vndf_sample_below_avx2(of->distribution, block);
+    for (uint32_t i = 0; i < block->count; i++)
+        if (block->wi_z[i] < 0.0f && !is_straight(at, i))
+            block->density[i] = 0.0f;
+}
+
 /* What vndf_affine_sample does along the axes. A density that has to be evaluated is 0 here, which is not trusted;
  * what is invalid is left. */
 static void draw_one(const vndf_surfaces *of, vndf_sample_block *block, uint32_t i, vndf_left *left)
@@ -248,6 +263,7 @@ void vndf_block_draw(const vndf_surfaces *of, const float *u1, const float *u2, 
     block.z = real->z;
     block.density = real->density;
     draw_plain(of, &block);
+    draw_below(of, &block);
     draw_left(of, &block, left);
     make_real(of, count, real);
     for (uint32_t k = 0; k < real->lost.count; k++)

@@ -29,6 +29,11 @@ typedef struct vndf_sample_block {
 #if VNDF_HAS_LANES
 void vndf_sample_block_avx2(const vndf_distribution *d, vndf_sample_block *block);
 void vndf_sample_block_avx512(const vndf_distribution *d, vndf_sample_block *block);
+
+/* Draws those of the samples that were left which a table sees from below the horizon, by the exact tier in lanes of
+ * doubles (below.h); the block has no view. Leaves what the scalar calls are to draw; weights become 0. */
+void vndf_sample_below_avx2(const vndf_distribution *d, vndf_sample_block *block);
+void vndf_sample_below_avx512(const vndf_distribution *d, vndf_sample_block *block);
 #endif
 
 #endif

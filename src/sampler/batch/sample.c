@@ -187,15 +187,41 @@ static void draw_block(const vndf_batch *b, vndf_sample_block *block, int wide)
         vndf_sample_block_avx2(b->distribution, block);
 }
 
+static void draw_below(const vndf_batch *b, vndf_sample_block *block, int wide)
+{
+    if (!vndf_is_table(b->distribution) || block->view || block->left_count == 0)
+        return;
+    if (wide)
+        vndf_sample_below_avx512(b->distribution, block);
+    else
+        vndf_sample_below_avx2(b->distribution, block);
+}
+
+/* Whether a table is seen from below the horizon alone: then the first lanes would leave every sample. */
+static int is_below(const vndf_batch *b, const vndf_sample_block *block)
+{
+    uint32_t i = 0;
+    while (!block->view && vndf_is_table(b->distribution) && i < block->count && block->wi_z[i] < 0.0f)
+        i++;
+    return i == block->count;
+}
+
+static void leave_all(vndf_sample_block *block)
+{
+    for (block->left_count = 0; block->left_count < block->count; block->left_count++)
+        block->left[block->left_count] = block->left_count;
+}
+
 static void sample_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
 {
     int wide = vndf_instructions_used(b->limit) == VNDF_INSTRUCTIONS_AVX512;
     int apart = b->count >= VNDF_BLOCK_SAMPLES && is_apart(b, c);
+    int one = vndf_batch_is_one_view(b), below = one && vndf_is_table(b->distribution) && b->wi_z[0] < 0.0f;
     vndf_view view;
     vndf_sample_block block;
     copies own;
     block.view = NULL;
-    if (vndf_batch_is_one_view(b)) {
+    if (one && !below) {
         view = vndf_batch_view(b, 0);
         block.view = &view;
     }
@@ -208,7 +234,11 @@ static void sample_in_lanes(const vndf_batch *b, const vndf_batch_call *c)
         block.count = left < VNDF_BLOCK_SAMPLES ? (uint32_t)left : VNDF_BLOCK_SAMPLES;
         read_block(&block, b, first, c, &own);
         place_results(&block, &own, first, apart, c);
-        draw_block(b, &block, wide);
+        if (is_below(b, &block))
+            leave_all(&block);
+        else
+            draw_block(b, &block, wide);
+        draw_below(b, &block, wide);
         sample_left(&block, b, first);
         if (block.weight)
             weigh_left(&block, b, first);

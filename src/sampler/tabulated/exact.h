@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "simd/count.h"
 #include "sampler/stretch.h"
 #include "sampler/tabulated/density_wedge.h"
 #include "sampler/tabulated/theory.h"
@@ -34,16 +35,57 @@ struct vndf_azimuth_fan {
 };
 vndf_azimuth_fan vndf_azimuth_fan_of(const vndf_distribution *d, double s, double c, int wedge);
 
-/* ---- rational cells (math/rational_cell.h) ---- */
+/* ---- rational cells (math/rational_cell.h), for one or for lanes (batch/below.h) ---- */
 
 typedef struct vndf_exact_cell {
-    double e0, e1, mass;
+    doubles e0, e1, mass;
 } vndf_exact_cell;
 
 /* A place between two knots: xi and eta = 1 - xi, each exact where it is small. */
 typedef struct vndf_exact_place {
-    double xi, eta;
+    doubles xi, eta;
 } vndf_exact_place;
+
+/* The place with the mass `before` before it, or the nearer end: the root of math/rational_cell.h. */
+VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell, doubles before)
+{
+    const doubles one = doubles_set(1.0), nothing = doubles_set(0.0);
+    doubles m = cell->mass, within = doubles_pick(doubles_less(before, m), before, m);
+    doubles t = doubles_pick(doubles_less(nothing, before), within, nothing), twice = 2.0 * t * m;
+    doubles middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
+    doubles sum = doubles_abs(b) + doubles_root(middle * middle + twice * (2.0 * m * (m - t)));
+    doubles_m rises = doubles_at_most(nothing, b);
+    doubles above = doubles_pick(rises, twice, sum), below = doubles_pick(rises, sum, 2.0 * (m * m - b));
+    doubles_m there = doubles_less(nothing, below);
+    doubles per = doubles_pick(there, 1.0 / below, nothing);
+    doubles rest = doubles_pick(doubles_less(above, below), below - above, nothing);
+    vndf_exact_place at = {above * per, doubles_pick(there, rest * per, one)};
+    return at;
+}
+
+/* ---- the search below the horizon, for k = 1 ---- */
+
+/* How many of n knots, a multiple of eight, have more than `target` beyond them. */
+VNDF_INLINE uint32_t vndf_count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float target)
+{
+    return vndf_count_more(&knots->at[from].x, &knots->tail[from].s, n, c, target);
+}
+
+/* The cell in which the mass `target` beyond begins, by blocks from infinity inwards. A knot that is not visible counts
+ * as the cut. */
+VNDF_INLINE uint32_t vndf_find_beyond(const vndf_distribution *d, float c, uint32_t cut, float target)
+{
+    uint32_t last = d->radial_count - 1, block = vndf_count_beyond(&d->blocks, 0, d->blocks.count, c, target);
+    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
+    uint32_t j = block + vndf_count_beyond(&d->knots, block, VNDF_BLOCK, c, target);
+    j = j > 0 ? j - 1 : 0;
+    j = j > cut ? j : cut;
+    return j < last ? j : last;
+}
+
+#if VNDF_LANES == 1
+
+/* ---- densities and masses of cells ---- */
 
 /* Mass per xi. */
 VNDF_INLINE double vndf_exact_cell_density(const vndf_exact_cell *cell, vndf_exact_place at)
@@ -57,18 +99,6 @@ VNDF_INLINE double vndf_exact_cell_before(const vndf_exact_cell *cell, vndf_exac
 {
     double m = cell->mass, w = at.xi * at.eta, below = m + (cell->e0 + cell->e1 - 2.0 * m) * w;
     return below > 0.0 ? m * (m * at.xi * at.xi + cell->e0 * w) / below : 0.0;
-}
-
-/* The place with the mass `before` before it, or the nearer end: the root of math/rational_cell.h. */
-VNDF_INLINE vndf_exact_place vndf_exact_cell_invert(const vndf_exact_cell *cell, double before)
-{
-    double m = cell->mass, t = before > 0.0 ? (before < m ? before : m) : 0.0, twice = 2.0 * t * m;
-    double middle = cell->e0 * m - t * (cell->e0 + cell->e1), b = middle + twice;
-    double sum = fabs(b) + sqrt(middle * middle + twice * (2.0 * m * (m - t)));
-    double above = b >= 0.0 ? twice : sum, below = b >= 0.0 ? sum : 2.0 * (m * m - b);
-    double per = below > 0.0 ? 1.0 / below : 0.0, rest = below > above ? below - above : 0.0;
-    vndf_exact_place at = {above * per, below > 0.0 ? rest * per : 1.0};
-    return at;
 }
 
 /* ---- parts of a mass ---- */
@@ -114,4 +144,5 @@ vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, ui
 /* The part before a slope, and its rate per radian between the normal and z: 0 at the cut and beside it. */
 vndf_exact_part vndf_exact_law_part(const vndf_azimuth_slice *law, vndf_exact_slope slope);
 
+#endif
 #endif

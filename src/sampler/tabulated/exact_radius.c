@@ -302,32 +302,6 @@ static uint32_t search_before(const vndf_azimuth_slice *law, double u, double ta
     return j < last ? j : last;
 }
 
-/* How many of n knots have more than `target` beyond them, k = 1. */
-static uint32_t count_beyond(const vndf_knots *knots, uint32_t from, uint32_t n, float c, float target)
-{
-    const vndf_knot *at = knots->at + from;
-    const vndf_tail_sums *tail = knots->tail + from;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        float w = c * at[i].z + at[i].x;
-        count += tail[i].s + (w > 0.0f ? w : 0.0f) * tail[i].t > target;
-    }
-    return count;
-}
-
-/* The same beyond the cut, c < 0, by blocks from infinity inwards. A knot that is not visible counts as the cut. */
-static uint32_t search_beyond(const vndf_azimuth_slice *law, double target)
-{
-    const vndf_distribution *d = law->table;
-    float c = (float)law->c, goal = (float)target;
-    uint32_t last = d->radial_count - 1, block = count_beyond(&d->blocks, 0, d->blocks.count, c, goal);
-    block = block > 0 ? (block - 1) * VNDF_BLOCK : 0;
-    uint32_t j = block + count_beyond(&d->knots, block, VNDF_BLOCK, c, goal);
-    j = j > 0 ? j - 1 : 0;
-    j = j > law->cut ? j : law->cut;
-    return j < last ? j : last;
-}
-
 /* The place in a piece from the place in its rational cell, xi from zeta (math/weighted_cell.h): xi : eta =
  * zeta/(v0 + V) : (1 - zeta)/(v1 + V). Unless the piece is cut, the result may have any factor. */
 static vndf_exact_place place_in_piece(const vndf_engine_piece *p, vndf_exact_place zeta)
@@ -352,7 +326,8 @@ vndf_exact_slope vndf_exact_law_draw(const vndf_azimuth_slice *law, double u, ui
         return horizon;
     int above = law->c >= 0.0;
     double target = (above ? u : 1.0 - u) * law->mass;
-    uint32_t j = *cell = above ? search_before(law, u, target) : search_beyond(law, target);
+    uint32_t j = *cell = above ? search_before(law, u, target)
+                               : vndf_find_beyond(law->table, (float)law->c, law->cut, (float)target);
     vndf_engine_piece p = vndf_engine_piece_of(law, j);
     vndf_exact_cell inside = cell_of(&p);
     double before = above ? target - mass_before(law, j) : p.mass - (target - mass_beyond(law, j + 1));
