@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/inline.h"
 #include "sampler/tabulated/exact.h"
 #include "sampler/surface.h"
 #include "sampler/tabulated/wedge.h"
@@ -204,6 +205,13 @@ typedef struct slice {
     double weight;
 } slice;
 
+VNDF_INLINE void add_total(vndf_validation_total *total, double drawn, double reference)
+{
+    total->drawn += drawn;
+    total->reference += reference;
+    total->miss += fabs(drawn - reference);
+}
+
 static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piece *piece, uint32_t j,
                      const vndf_validation_node *n)
 {
@@ -211,8 +219,10 @@ static void add_node(vndf_validation *v, const slice *at, const vndf_engine_piec
     double mask = at->drawn.c + at->drawn.k * n->r;
     if (mask > 0 && to->count < to->capacity) {
         double drawn = vndf_engine_piece_density(&at->drawn, piece, j, n->xi, 1 - n->xi);
-        to->reference[to->count] = n->mass * mask * (at->weight / v->area);
-        to->drawn[to->count++] = at->weight * n->weight * drawn;
+        double reference = n->mass * mask * (at->weight / v->area), mass = at->weight * n->weight * drawn;
+        add_total(&v->total, mass, reference);
+        to->reference[to->count] = reference;
+        to->drawn[to->count++] = mass;
         if (n->rounding > 0) {
             double xi = fmax(fmin(n->xi + (to->count % 2 ? 1 : -1) * n->rounding, 1), 0);
             double moved = vndf_engine_piece_density(&at->drawn, piece, j, xi, 1 - xi);
@@ -261,7 +271,7 @@ typedef struct run {
     size_t point, sample, count;
 } run;
 
-/* Turns the densities of a run into masses. */
+/* Turns the densities of a run into masses, and adds them up in their order while they are at hand. */
 static void end_run(vndf_validation *v, const slice *at, run *of)
 {
     const vndf_validation_lines *lines = &v->lines;
@@ -270,10 +280,13 @@ static void end_run(vndf_validation *v, const slice *at, run *of)
     double *restrict drawn = v->samples.drawn + of->sample, *restrict reference =
                                                                 v->samples.reference + of->sample;
     double c = at->drawn.c, k = at->drawn.k, part = at->weight, per_area = at->weight / v->area;
+    vndf_validation_total total = v->total;
     for (size_t i = 0; i < of->count; i++) {
         drawn[i] = part * weight[i] * drawn[i];
         reference[i] = mass[i] * (c + k * r[i]) * per_area;
+        add_total(&total, drawn[i], reference[i]);
     }
+    v->total = total;
     of->count = 0;
 }
 
@@ -457,6 +470,7 @@ static void add_turns(vndf_validation *v, double s, double c, double area, add_t
     v->area = area / (s + fabs(c)); /* as the view has it: s + |c| = 1 */
     v->samples.count = v->sums.count = v->slice_count = 0;
     v->lack = v->blur = 0.0;
+    v->total = (vndf_validation_total){0.0, 0.0, 0.0};
     if (c >= 0)
         add_front(v, &fan, add);
     const vndf_wedge *side = vndf_wedge_of(v->table, c);
@@ -517,19 +531,15 @@ vndf_finding vndf_validation_direction(vndf_validation *v, double s, double c)
     vndf_finding f = {0, 0, 0, 0, 0};
     s = (float)s; /* the direction as the run time receives it */
     c = (float)c;
-    double area = vndf_validation_claimed(v, s, c), drawn = 0.0, reference = 0.0, miss = 0.0;
+    double area = vndf_validation_claimed(v, s, c);
     if (!(area > 0))
         return f;
     f.measured = 1;
     f.area_error = fabs(vndf_unit_area(v->table, s, c) / area - 1);
     add_turns(v, s, c, area, add_quarter);
-    for (size_t i = 0; i < v->samples.count; i++) {
-        drawn += v->samples.drawn[i];
-        reference += v->samples.reference[i];
-        miss += fabs(v->samples.drawn[i] - v->samples.reference[i]);
-    }
+    double miss = v->total.miss, reference = v->total.reference;
     f.tv = fmin((miss + fabs(reference - 1) + v->blur) / 2, 1); /* mass that no point meets is missed, too */
-    f.consistency = fabs(drawn + v->lack - 1);
+    f.consistency = fabs(v->total.drawn + v->lack - 1);
     f.max_weight = largest_weight(v);
     return f;
 }

@@ -52,6 +52,11 @@ typedef struct vndf_validation_slice {
     size_t first, count, first_sum, sums;
 } vndf_validation_slice;
 
+/* Sums over samples: the drawn mass, the true one, and |drawn - true|. */
+typedef struct vndf_validation_total {
+    double drawn, reference, miss;
+} vndf_validation_total;
+
 typedef struct vndf_validation {
     const vndf_distribution *table;
     const vndf_profile *profile;
@@ -62,7 +67,8 @@ typedef struct vndf_validation {
     vndf_validation_cell *cells;
     vndf_validation_lines lines;
     vndf_points samples; /* of one direction after the other */
-    vndf_points sums;    /* of its azimuths, many more of them: the law of the radius taken as true */
+    vndf_validation_total total;
+    vndf_points sums; /* of its azimuths, many more of them: the law of the radius taken as true */
     vndf_validation_slice *slices;
     vndf_weights weights;
     double *beside; /* the densities of a cell at moved points */
