@@ -1,5 +1,5 @@
 /* explorer.html is the frame. A line of it that is {{file}} stands for that file, and {{choices}}, {{certificates}},
- * {{numbers}} and {{kernel}} for what differs from page to page. */
+ * {{numbers}} and {{kernel}} for what differs from page to page. Words after a file's name are its $1 and $2. */
 #define _POSIX_C_SOURCE 200809L
 #include "export/page/explorer.h"
 
@@ -136,40 +136,64 @@ static const page_part parts[] = {{"choices", put_choices},
                                   {"numbers", put_numbers},
                                   {"kernel", put_kernel}};
 
-static int is_named(const char *name, const char *from, size_t length)
-{
-    return strlen(name) == length && memcmp(name, from, length) == 0;
-}
-
-static const char *const *text_named(const char *from, size_t length)
+static const char *const *text_named(const char *name)
 {
     for (const embedded_text *text = page_texts; text->name; text++)
-        if (is_named(text->name, from, length))
+        if (strcmp(text->name, name) == 0)
             return text->lines;
     return NULL;
 }
 
-static int put_lines(const export_document *document, FILE *to, const char *const *lines);
+/* What stands between the braces: a name, and words that go into its text. */
+typedef struct page_call {
+    char name[32], word[2][16];
+    int words;
+} page_call;
 
-/* What {{name}} stands for. */
-static int put_part(const export_document *document, FILE *to, const char *from, size_t length)
+static page_call call_from(const char *text, size_t length)
 {
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        if (is_named(parts[i].name, from, length))
-            return parts[i].put(document, to);
-    const char *const *lines = text_named(from, length);
-    return lines && put_lines(document, to, lines);
+    page_call call = {"", {"", ""}, 0};
+    char line[80];
+    snprintf(line, sizeof line, "%.*s", (int)length, text);
+    call.words = sscanf(line, "%31s %15s %15s", call.name, call.word[0], call.word[1]) - 1;
+    return call;
 }
 
-static int put_lines(const export_document *document, FILE *to, const char *const *lines)
+static void put_line(FILE *to, const char *line, const page_call *call)
+{
+    for (; *line; line++) {
+        int which = *line == '$' ? line[1] - '1' : -1;
+        if (which >= 0 && which < call->words) {
+            fputs(call->word[which], to);
+            line++;
+        } else {
+            fputc(*line, to);
+        }
+    }
+    fputs("\n", to);
+}
+
+static int put_lines(const export_document *document, FILE *to, const char *const *lines, const page_call *call);
+
+static int put_part(const export_document *document, FILE *to, const page_call *call)
+{
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        if (strcmp(parts[i].name, call->name) == 0)
+            return parts[i].put(document, to);
+    const char *const *lines = text_named(call->name);
+    return lines && put_lines(document, to, lines, call);
+}
+
+static int put_lines(const export_document *document, FILE *to, const char *const *lines, const page_call *call)
 {
     for (; *lines; lines++) {
         size_t length = strlen(*lines);
         if (length > 4 && strncmp(*lines, "{{", 2) == 0) {
-            if (!put_part(document, to, *lines + 2, length - 4))
+            const page_call inner = call_from(*lines + 2, length - 4);
+            if (!put_part(document, to, &inner))
                 return 0;
         } else {
-            fprintf(to, "%s\n", *lines);
+            put_line(to, *lines, call);
         }
     }
     return 1;
@@ -177,6 +201,6 @@ static int put_lines(const export_document *document, FILE *to, const char *cons
 
 int explorer_write(const export_document *document, FILE *to)
 {
-    static const char frame[] = "explorer.html";
-    return put_part(document, to, frame, strlen(frame));
+    static const page_call frame = {"explorer.html", {"", ""}, 0};
+    return put_part(document, to, &frame);
 }

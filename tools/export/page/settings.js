@@ -1,6 +1,6 @@
 // ---- settings: controls, and the address of the page ----------------------------------------------
 
-const LIGHTS = ["sky", "studio", "lamp", "white"], MATERIALS = ["gold", "copper", "silver", "red", "black"];
+const LIGHTS = ["sky", "studio", "lamp", "white"], MATERIALS = ["gold", "copper", "silver", "red", "black", "glass"];
 const LEAST_ALPHA = 0.02;
 
 const settings = {a: 0, b: -1, alpha: [0.2, 0.2], turn: 0, theta: 60, material: "gold", light: "sky", around: 0,

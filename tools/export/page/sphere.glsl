@@ -5,18 +5,25 @@ uniform highp sampler2D before; // the sums of the samples so far
 uniform bool first;
 uniform vec2 size;  // pixels
 uniform vec2 pixel_step, normal_step, lamp_step, base_step; // from one sample to the next
-uniform int material; // 0 gold, 1 copper, 2 silver, 3 red plastic, 4 black plastic
+uniform int material; // 0 gold, 1 copper, 2 silver, 3 red plastic, 4 black plastic, 5 glass
 out vec4 sum;
+
+const float ETA = 1.5; // of plastic and glass
+
+// What a boundary reflects at the cosine c, where n is the index on this side over that beyond.
+float fresnel(float c, float n) {
+    float below = 1.0 - n * n * (1.0 - c * c);
+    float t = sqrt(max(below, 0.0));
+    vec2 r = vec2(n * c - t, c - n * t) / vec2(n * c + t, c + n * t);
+    return below > 0.0 ? 0.5 * dot(r, r) : 1.0;
+}
 
 // The mirror's colour at the cosine c.
 vec3 mirror(float c) {
     float up = 1.0 - clamp(c, 0.0, 1.0);
     float power = up * up * up * up * up;
     if (material >= 3) {
-        float g = sqrt(1.25 + c * c); // eta 1.5
-        float a = (g - c) / (g + c);
-        float b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
-        return vec3(0.5 * a * a * (1.0 + b * b));
+        return vec3(fresnel(c, 1.0 / ETA));
     }
     vec3 front = vec3(0.972, 0.96, 0.915);
     front = material == 0 ? vec3(1.022, 0.782, 0.344) : front;
@@ -66,6 +73,21 @@ vec3 mirrored(frame f, vndf_view view, bool from_lamp, vec2 u) {
     return comes * mirror(facing) * light_kept(view, wo);
 }
 
+// The light of one sample through a ball of glass, which is polished where the light comes in.
+vec3 through_glass(frame f, vndf_view view, vec2 u) {
+    vec3 wm = vndf_sample(view, u.x, u.y).wm;
+    vec3 wo = refract(-view.wi, wm, 1.0 / ETA);
+    vec3 d = world(f, wo);
+    vec3 normal = normalize(f.z - 2.0 * dot(f.z, d) * d); // where d meets the ball from within
+    vec3 to = refract(d, -normal, ETA);
+    float passes = (1.0 - fresnel(dot(view.wi, wm), 1.0 / ETA)) * (1.0 - fresnel(dot(d, normal), ETA));
+    if (wo.z >= 0.0 || passes <= 0.0) {
+        return vec3(0.0);
+    }
+    vec3 comes = wide_light(to) + (hits_lamp(to) ? shine : vec3(0.0));
+    return comes * passes * vndf_g1(surface_here(), vec3(wo.xy, -wo.z));
+}
+
 // One sample of the lamp on the base of a plastic.
 vec3 lamp_on_base(frame f, vec3 wi, vec2 u) {
     vec3 wo = local(f, lamp_direction(u));
@@ -97,7 +119,9 @@ vec3 seen(vec3 eye, vec3 d, vec2 u_normal, vec2 u_lamp, vec2 u_base) {
     for (int kind = 0; kind < 2; kind += 1) {
         gets += mirrored(f, view, kind == 1, kind == 1 ? u_lamp : u_normal);
     }
-    if (material >= 3) {
+    if (material == 5) {
+        gets += through_glass(f, view, u_base);
+    } else if (material >= 3) {
         gets += of_base(f, view.wi, u_base) + lamp_on_base(f, view.wi, u_lamp);
     }
     return gets;
