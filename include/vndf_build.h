@@ -214,7 +214,7 @@ typedef struct vndf_family_options {
  * of a family with one number may stand alone, "student-t". Mixtures are linear in p, or in 1/p where low > 0 and that
  * makes the distance smaller by a quarter at least. Parameters of knots have seven digits, and the table of a knot is
  * the one that vndf_build makes there. NULL and an error as for vndf_build; VNDF_ERROR_TARGET if 256 knots do not reach
- * the distance. Takes a build for each knot, 0.2 to 0.5 s. Free the result with vndf_family_free. */
+ * the distance. Takes a build for each knot, 0.15 to 0.6 s. Free the result with vndf_family_free. */
 VNDF_API vndf_family *vndf_build_family(const char *specification, double low, double high,
                                         const vndf_family_options *options, vndf_error *error);
 
