@@ -119,13 +119,13 @@ static float at_side(const vndf_bsdf *b, unsigned long long *state)
     return (float)(0.5 + 0.5 * part + 4e-7 * (test_uniform_double(state) - 0.5));
 }
 
-/* The border between front and wedge, where the density of a table jumps. */
+/* The border between front and wedge, where the density of a table jumps: of turned hits, and of others. */
 static void test_side(const oracle_ndf *ndf, int both)
 {
     unsigned long long state = 8;
     double worst = 0;
-    for (int k = 0; k < 2000; k++) {
-        vndf_description is = describe(ndf, both, VNDF_SHAPE_ROTATED, &state);
+    for (int k = 0; k < 4000; k++) {
+        vndf_description is = describe(ndf, both, k % 2 ? VNDF_SHAPE_ROTATED : VNDF_SHAPE_ALIGNED, &state);
         vndf_material m;
         vndf_bsdf b;
         vndf_scattered s;

@@ -225,8 +225,6 @@ VNDF_INLINE int vndf_reflect(const vndf_bsdf *b, const vndf_bsdf_normal *n, vndf
         return 0;
     vndf_reflection_trust trust = vndf_trust_reflection(&at, n, choice);
     int trusted = settled & trust.trusted;
-    if (choice.turned && trust.as_drawn)
-        trusted &= vndf_keeps_side(&at, n, n->facing);
     if (!trusted) {
         vndf_normal reflected = vndf_to_axes(b, to.wo, choice);
         if (vndf_reflect_exactly(b, &reflected, out))
@@ -268,8 +266,6 @@ VNDF_INLINE int vndf_refract(const vndf_bsdf *b, const vndf_bsdf_normal *n, cons
     float gain = vndf_refraction_gain((float)fabs(along / eta), n->wm.z);
     vndf_incident from = vndf_incident_of(b);
     int trusted = vndf_trusts_refraction(at, beyond) && vndf_is_settled(&from, n, gain);
-    if (choice.turned)
-        trusted &= vndf_keeps_side(&from, n, gain);
     if (rise != 0.0 && !trusted) {
         vndf_normal refracted = vndf_to_axes(b, to.wo, choice);
         return vndf_refract_exactly(b, &refracted, out);

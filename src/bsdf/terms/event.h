@@ -52,6 +52,13 @@ VNDF_INLINE vndf_vec3_lanes vndf_reflected(vndf_vec3_lanes wi, vndf_vec3_lanes w
 
 /* ---- trust ---- */
 
+/* Whether wo stands for a normal on the same side of wi, in front or in the wedge. */
+VNDF_INLINE lanes_m vndf_keeps_side(const vndf_incident *at, const vndf_bsdf_normal *n, lanes_f gain)
+{
+    vndf_vec3_lanes i = at->wi, m = n->wm;
+    return vndf_trusts_wo_side(i.x * m.x + i.y * m.y, i.x * i.x + i.y * i.y, gain);
+}
+
 /* Whether the slope that wo stands for is the one that was drawn; `gain` is how far wo turns with the normal. */
 VNDF_INLINE lanes_m vndf_is_settled(const vndf_incident *at, const vndf_bsdf_normal *n, lanes_f gain)
 {
@@ -59,14 +66,8 @@ VNDF_INLINE lanes_m vndf_is_settled(const vndf_incident *at, const vndf_bsdf_nor
     lanes_m steeper = vndf_law_is_steeper(at->distribution, at->ax, at->ay, x, y);
     turn = lanes_pick(steeper, turn * VNDF_TRUST_STEEPER, turn);
     lanes_m turns = lanes_both(vndf_trusts_turn(at->ax, at->ay, gain, turn), vndf_trusts_pole(x, y, gain));
+    turns = lanes_both(turns, vndf_keeps_side(at, n, gain));
     return lanes_both(turns, lanes_less(n->u2, lanes_set(VNDF_TRUST_LAST)));
-}
-
-/* Whether wo stands for a normal on the same side of wi, in front or in the wedge. */
-VNDF_INLINE lanes_m vndf_keeps_side(const vndf_incident *at, const vndf_bsdf_normal *n, lanes_f gain)
-{
-    vndf_vec3_lanes i = at->wi, m = n->wm;
-    return vndf_trusts_wo_side(i.x * m.x + i.y * m.y, i.x * i.x + i.y * i.y, gain);
 }
 
 /* How far a refraction turns with wm, by which vndf_is_settled asks; `turn` = |along|/eta. */
