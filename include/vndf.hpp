@@ -42,8 +42,8 @@
 // which must not move either. Temporary owners are refused where that would dangle. Owners are as safe for threads
 // as in C; a callable that several threads use at once has to allow it.
 //
-// Map: results, distributions, surfaces, affine surfaces, mixtures, families, sources, building, albedos, materials, spans,
-// batches of surfaces, batches of hits.
+// Map: results, distributions, surfaces, affine surfaces, mixtures, families, sources, building, albedos, materials,
+// spans, batches of surfaces, batches of hits.
 #ifndef VNDF_HPP
 #define VNDF_HPP
 

@@ -1,5 +1,5 @@
-# What tools/package says is so: the newest version in CHANGELOG.md is that of the header, and README.md names the SONAME,
-# the version of symbols, the package, and every header.
+# What tools/package says is so: the newest version in CHANGELOG.md is that of the header, and README.md names the
+# SONAME, the version of symbols, the package, and every header.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tools/package/CHANGELOG.md changes)

@@ -190,7 +190,8 @@ endforeach()
 
 string(REPEAT "." 121 too_long)
 foreach(tower include src tools tests)
-    file(GLOB_RECURSE files ${SOURCE}/${tower}/*.[ch] ${SOURCE}/${tower}/*.cmake ${SOURCE}/${tower}/CMakeLists.txt)
+    file(GLOB_RECURSE files ${SOURCE}/${tower}/*.[ch] ${SOURCE}/${tower}/*.[ch]pp ${SOURCE}/${tower}/*.cmake
+        ${SOURCE}/${tower}/CMakeLists.txt)
     foreach(file IN LISTS files)
         file(STRINGS ${file} lines REGEX "^${too_long}")
         if(lines)
