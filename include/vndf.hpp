@@ -42,8 +42,8 @@
 // which must not move either. Temporary owners are refused where that would dangle. Owners are as safe for threads
 // as in C; a callable that several threads use at once has to allow it.
 //
-// Map: results, distributions, surfaces, affine surfaces, mixtures, families, sources, building, albedos, materials, spans,
-// batches of surfaces, batches of hits.
+// Map: results, distributions, surfaces, affine surfaces, mixtures, families, sources, building, albedos, materials,
+// spans, batches of surfaces, batches of hits.
 #ifndef VNDF_HPP
 #define VNDF_HPP
 
@@ -368,7 +368,6 @@ class text
 
 class distribution;
 class source;
-struct build_options;
 
 // A distribution that somebody else owns, or a closed form: what surfaces are made from. Null is allowed.
 class distribution_ref
@@ -520,6 +519,7 @@ class surface : public vndf_surface
 
 // ---- affine surfaces ------------------------------------------------------------------------------
 
+// vndf_affine_view with its calls.
 class affine_view : public vndf_affine_view
 {
   public:
@@ -544,7 +544,7 @@ class affine_view : public vndf_affine_view
     }
 };
 
-// vndf_affine with its calls: slopes s = M u + mean, M = (m.xx m.xy; m.yx m.yy).
+// Slopes s = M u + mean, M = (xx xy; yx yy).
 struct matrix {
     float xx, xy, yx, yy;
 };
@@ -553,6 +553,7 @@ struct slope {
     float x, y;
 };
 
+// vndf_affine with its calls.
 class affine : public vndf_affine
 {
   public:
@@ -586,6 +587,7 @@ struct uniforms_of_lobe {
     int lobe;
 };
 
+// vndf_mixture_view with its calls.
 class mixture_view : public vndf_mixture_view
 {
   public:
@@ -646,8 +648,6 @@ class mixture : public vndf_mixture
 };
 
 // ---- families -------------------------------------------------------------------------------------
-
-struct family_options;
 
 // The family at a parameter; valid while the family lives.
 struct placed {

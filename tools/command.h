@@ -3,6 +3,8 @@
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
 
+#include <stddef.h>
+
 enum {
     STATUS_GOOD = 0, /* done, and the answer is yes */
     STATUS_NO = 1,   /* done, and the answer is no: a claim failed */
@@ -24,5 +26,19 @@ int command_export(int argc, char **argv);
 int command_explore(int argc, char **argv);
 int command_render(int argc, char **argv);
 int command_compare(int argc, char **argv);
+int command_help(int argc, char **argv);
+
+typedef struct subcommand {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *purpose;
+} subcommand;
+
+/* All of them, in the order of `vndf --help`. */
+extern const subcommand subcommands[];
+extern const size_t subcommand_count;
+
+/* What `vndf --help` prints; an exit status. */
+int print_help(void);
 
 #endif

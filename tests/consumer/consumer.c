@@ -1,11 +1,12 @@
 /* A program of somebody else in C. At normal incidence and alpha = 1 the visible normals of GGX have the
- * density wm.z/pi; P22 of the formula exp(-r) at r = 0 is 1; a shipped table is in the folder TABLES. */
+ * density wm.z/pi; P22 of the formula exp(-r) at r = 0 is 1; a shipped table is in the folder of the
+ * argument. */
 #include <stdio.h>
 
 #include <vndf.h>
 #include <vndf_build.h>
 
-int main(void)
+int main(int argc, char **argv)
 {
     const vndf_surface surface = {vndf_ggx(), 1.0f, 1.0f};
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
@@ -15,7 +16,9 @@ int main(void)
     const double difference = (double)pdf - (double)wm.z / 3.14159265358979;
     vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
     const double p22 = source ? vndf_source_p22(source, 0.0) : 0.0;
-    vndf_distribution *table = vndf_load(TABLES "/student-t-2.5.vndf", NULL);
+    char path[1024];
+    snprintf(path, sizeof path, "%s/student-t-2.5.vndf", argc > 1 ? argv[1] : "");
+    vndf_distribution *table = vndf_load(path, NULL);
     const int found = table != NULL;
 
     vndf_source_free(source);

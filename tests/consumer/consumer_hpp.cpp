@@ -1,15 +1,17 @@
-// A program of somebody else in C++17, by vndf.hpp: the checks of consumer.c, and a shipped table.
+// A program of somebody else in C++17, by vndf.hpp: the checks of consumer.c, and a shipped table of the
+// folder in the argument.
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include <vndf.hpp>
 
-int main()
+int main(int argc, char **argv)
 {
     const auto [wm, pdf] = vndf::surface(vndf::ggx(), 1.0f).at({0.0f, 0.0f, 1.0f}).sample(0.25f, 0.5f);
     const double difference = static_cast<double>(pdf) - static_cast<double>(wm.z) / 3.14159265358979;
     const auto p22 = vndf::source::slope_expression("exp(-r)")->p22(0.0);
-    const auto table = vndf::distribution::load(TABLES "/student-t-2.5.vndf");
+    const auto table = vndf::distribution::load(std::string(argc > 1 ? argv[1] : "") + "/student-t-2.5.vndf");
     if (!table)
         std::puts(table.message());
     std::printf("vndf %s: %.6f %.6f %.6f pdf %.6f\n", vndf::version(), static_cast<double>(wm.x),

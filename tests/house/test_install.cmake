@@ -1,5 +1,6 @@
-# cmake --install puts headers, both libraries, the program, the tables, the CMake package and the pkg-config file
-# under a prefix of the user's choice, and the installed program runs. The consumer tests use this copy.
+# cmake --install puts headers, both libraries, the program, its manual page and completions, the tables, the CMake
+# package and the pkg-config file under a prefix of the user's choice, and the installed program runs. The consumer
+# tests use this copy.
 cmake_minimum_required(VERSION 3.16)
 
 file(REMOVE_RECURSE ${PREFIX})
@@ -15,12 +16,16 @@ get_filename_component(program_name ${VNDF} NAME)
 file(GLOB headers RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h ${SOURCE}/include/*.hpp)
 file(GLOB tables RELATIVE ${SOURCE}/tables ${SOURCE}/tables/*.vndf)
 foreach(name IN ITEMS ${headers} ${tables} ${shared_name} ${static_name} ${program_name}
-        vndfConfig.cmake vndfTargets.cmake vndfConfigVersion.cmake vndf.pc)
+        vndf.1 _vndf vndf.fish vndfConfig.cmake vndfTargets.cmake vndfConfigVersion.cmake vndf.pc)
     file(GLOB_RECURSE found ${PREFIX}/*/${name})
     if(NOT found)
         message(SEND_ERROR "${name} was not installed under ${PREFIX}")
     endif()
 endforeach()
+
+if(NOT EXISTS ${PREFIX}/share/bash-completion/completions/vndf)
+    message(SEND_ERROR "the completion of bash was not installed under ${PREFIX}/share")
+endif()
 
 file(GLOB_RECURSE program ${PREFIX}/bin/${program_name})
 execute_process(COMMAND ${program} --version RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -1,8 +1,10 @@
 # The shared library exports the functions that the headers declare with VNDF_API, all of them and nothing
-# else; every external symbol of the static library begins with vndf_.
+# else, with the version of src/vndf.map, which lists them; every external symbol of the static library begins with
+# vndf_. With RENEW: writes src/vndf.map from the headers, for those who declare a function or change the version.
 cmake_minimum_required(VERSION 3.16)
 
-if(NOT NM)
+if(RENEW)
+elseif(NOT NM)
     message("SKIPPED: no nm was found")
     return()
 elseif(SANITIZE)
@@ -51,8 +53,52 @@ function(report_difference all but message)
     endforeach()
 endfunction()
 
-read_symbols(exported -D --defined-only ${SHARED_LIBRARY})
+# src/vndf.map of these functions.
+string(REGEX REPLACE "^([0-9]+\\.[0-9]+).*$" "VNDF_\\1" node ${VERSION})
+function(map_of functions result)
+    list(SORT functions)
+    list(TRANSFORM functions APPEND "<semicolon>\n")
+    list(TRANSFORM functions PREPEND "        ")
+    string(REPLACE ";" "" functions "${functions}")
+    string(REPLACE "<semicolon>" ";" functions "${functions}")
+    set(${result} "# What the shared library exports. `cmake --build BUILD --target symbols` writes it from the headers.
+${node} {
+    global:
+${functions}    local:
+        *;
+};
+" PARENT_SCOPE)
+endfunction()
+
 read_declarations(declared)
+map_of("${declared}" expected)
+if(RENEW)
+    file(WRITE ${SOURCE}/src/vndf.map "${expected}")
+    return()
+endif()
+file(READ ${SOURCE}/src/vndf.map map)
+if(NOT map STREQUAL expected)
+    foreach(name IN LISTS declared)
+        if(NOT map MATCHES "[ \n]${name};\n")
+            message(SEND_ERROR "src/vndf.map does not list ${name}")
+        endif()
+    endforeach()
+    message(SEND_ERROR "src/vndf.map is not what the headers declare for ${node}: the target `symbols` writes it")
+endif()
+
+read_symbols(exported -D --defined-only ${SHARED_LIBRARY})
+# Newer versions of nm print that of a symbol behind it.
+if(NOT node IN_LIST exported AND NOT exported MATCHES "@@${node}(;|$)")
+    message(SEND_ERROR "the shared library does not define the version ${node}")
+endif()
+list(REMOVE_ITEM exported ${node})
+foreach(name IN LISTS exported)
+    if(name MATCHES "@" AND NOT name MATCHES "@@${node}$")
+        message(SEND_ERROR "${name} does not have the version ${node}")
+    endif()
+endforeach()
+list(TRANSFORM exported REPLACE "@.*$" "")
+list(REMOVE_ITEM exported ${node})
 list(LENGTH declared count)
 if(count EQUAL 0)
     message(FATAL_ERROR "no function is declared with VNDF_API in ${SOURCE}/include")

@@ -131,10 +131,26 @@ static int take_positional(const command_form *form, const char *word, words *po
     return complain(form->command, "'%s' is one word too many; expected only %s", word, form->positional);
 }
 
+/* Of take_form, while it runs. */
+static form_taker *taker;
+static void *taker_user;
+
+void take_form(int (*run)(int argc, char **argv), form_taker *take, void *user)
+{
+    taker = take;
+    taker_user = user;
+    run(0, NULL);
+    taker = NULL;
+}
+
 int parse_arguments(const command_form *form, int argc, char **argv, words *positional)
 {
     int result = PARSE_GO_ON;
     int options_end = 0;
+    if (taker) {
+        taker(form, taker_user);
+        return STATUS_GOOD;
+    }
     for (int i = 0; i < argc && result == PARSE_GO_ON; i++) {
         int is_option = !options_end && argv[i][0] == '-' && argv[i][1] != '\0';
         if (is_option && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))

@@ -41,6 +41,10 @@ enum { PARSE_GO_ON = -1 };
  * which the program is to end: help was asked for and printed, or a word was refused. */
 int parse_arguments(const command_form *form, int argc, char **argv, words *positional);
 
+/* Calls run(0, NULL): the form that it gives to parse_arguments goes to `take`, and nothing is parsed or done. */
+typedef void form_taker(const command_form *form, void *user);
+void take_form(int (*run)(int argc, char **argv), form_taker *take, void *user);
+
 /* The one value of an option that may be given once, or NULL. */
 const char *only_word(const words *values);
 

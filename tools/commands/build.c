@@ -254,7 +254,7 @@ int command_build(int argc, char **argv)
         {"--cutoff", 1, 1, &given.measured.cutoff},
         {"-o", 1, 1, &given.output},
     };
-    char text[sizeof help + sizeof examples + MEASURED_HELP_MAX];
+    static char text[sizeof help + sizeof examples + MEASURED_HELP_MAX]; /* `vndf help` reads it later */
     snprintf(text, sizeof text, "%s%s%s", help, measured_help, examples);
     const command_form form = {name, text, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);

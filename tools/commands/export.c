@@ -235,7 +235,7 @@ int command_export(int argc, char **argv)
         {"--f0", 1, 1, &brdf.f0},
         {"--wavelengths", 1, 1, &brdf.wavelengths},
     };
-    char text[sizeof help + sizeof help_end + BRDF_HELP_MAX];
+    static char text[sizeof help + sizeof help_end + BRDF_HELP_MAX]; /* `vndf help` reads it later */
     snprintf(text, sizeof text, "%s%s%s", help, brdf_help, help_end);
     const command_form form = {name,   text, options,          sizeof options / sizeof options[0],
                                "FILE", 1,    EXPORT_TABLES_MAX};
