@@ -54,6 +54,7 @@
 #include <exception>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <new>
@@ -345,6 +346,9 @@ template <class T> class handle
     const T *get() const noexcept { return owned_.get(); }
     // Hands it to the caller, who frees it.
     T *release() noexcept { return owned_.release(); }
+
+  protected:
+    T *owned() noexcept { return owned_.get(); }
 
   private:
     std::unique_ptr<T, freer> owned_;
@@ -762,6 +766,17 @@ class source : public detail::handle<vndf_source>
             return vndf_source_csv_text(name.c_str(), rows.data(), rows.size(), error);
         });
     }
+    // Two containers of doubles of one length: vectors, arrays, spans.
+    template <class Places, class Values>
+    static result<source> rows(vndf_rows_over over, const Places &x, vndf_rows_of of, const Values &value,
+                               text name) noexcept
+    {
+        if (std::size(x) != std::size(value))
+            return detail::failed(VNDF_ERROR_ARGUMENT, "rows have as many places as values");
+        return made([&](vndf_error *error) {
+            return vndf_source_rows(over, of, std::data(x), std::data(value), std::size(x), name.c_str(), error);
+        });
+    }
     static result<source> family(text specification) noexcept
     {
         return made([&](vndf_error *error) { return vndf_source_family(specification.c_str(), error); });
@@ -785,6 +800,11 @@ class source : public detail::handle<vndf_source>
         return detail::number_of([&] { return *this ? vndf_source_p22(get(), r) : 0.0; });
     }
     const char *description() const noexcept { return *this ? vndf_source_description(get()) : ""; }
+    result<void> describe(text words) noexcept
+    {
+        return detail::status_of(
+            [&](vndf_error *error) { return vndf_source_describe(owned(), words.c_str(), error); });
+    }
     // C does not know the callable, so it cannot be handed over.
     vndf_source *release() = delete;
 

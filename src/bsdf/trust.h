@@ -63,8 +63,8 @@ VNDF_INLINE lanes_m vndf_trusts_pole(lanes_f x, lanes_f y, lanes_f gain)
 }
 
 /* The level part of wi.wm over that of wi, times how far wo turns with the normal: where it changes its sign, the
- * normal of a table goes from the front to the wedge, whose density is another by what the table is off: unasked, one of
- * 5e7 samples is off by more than 1e-5, 3e-3 for a table of 2 KiB. */
+ * normal of a table goes from the front to the wedge, whose density is another by what the table is off: unasked, one
+ * of 5e7 samples is off by more than 1e-5, 3e-3 for a table of 2 KiB. */
 static const float VNDF_TRUST_WO_SIDE = 1e-6f;
 
 VNDF_INLINE lanes_m vndf_trusts_wo_side(lanes_f along, lanes_f across2, lanes_f gain)

@@ -188,6 +188,11 @@ void test_sources()
     TEST(vndf::source::ndf_expression("c^2") && vndf::source::family("gtr:1.5"));
     TEST(vndf::source::csv_file(VNDF_SOURCE_DIR "/tables/example.csv"));
     TEST(vndf::source::csv_text("mine", "slope,p22\n0,1\n1,0.5\n2,0\n"));
+    const double slope[] = {0, 1, 2};
+    const std::vector<double> p22 = {1, 0.5, 0};
+    auto rows = vndf::source::rows(VNDF_ROWS_OVER_SLOPE, slope, VNDF_ROWS_OF_P22, p22, "mine");
+    TEST(rows && *rows->p22(1) == 0.5 && rows->describe("--gauge 7") && rows->description()[2] == 'g');
+    TEST(!vndf::source::rows(VNDF_ROWS_OVER_SLOPE, slope, VNDF_ROWS_OF_P22, std::vector<double>(2), "mine"));
     const auto wrong = vndf::source::slope_expression("exp(-k*r");
     TEST(!wrong && wrong.status() == VNDF_ERROR_SYNTAX && !*wrong && wrong->description()[0] == '\0');
     TEST(*wrong->p22(1) == 0 && !vndf::build(*wrong) && !vndf::ggx().certify(*wrong));
