@@ -1,4 +1,5 @@
 """A table built from Python is the table of `vndf build`; what goes wrong is an exception with the library's words."""
+import copy
 import math
 import os
 import pickle
@@ -111,9 +112,36 @@ class Refused(unittest.TestCase):
             (lambda: vndf.Material(vndf.ggx(), fresnel="mirror"), ValueError),
             (lambda: vndf.Material(vndf.ggx(), fresnel="conductor", eta=(1, 2), k=(1, 2, 3)), ValueError),
             (lambda: vndf.Mixture(), ValueError),
+            (lambda: vndf.Mixture([(vndf.Surface(vndf.ggx()), 1)]), TypeError),
+            (lambda: vndf.Surface("ggx", 0.3), TypeError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.0), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3, math.nan), ValueError),
+            (lambda: vndf.Material("ggx"), TypeError),
+            (lambda: vndf.Material(vndf.ggx(), fresnel="conductor", eta=(1, 2, 3, 4, 5)), ValueError),
+            (lambda: vndf.build("exp(-r)"), TypeError),
+            (lambda: vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=-1), ValueError),
+            (lambda: vndf.certify(None, None), TypeError),
+            (lambda: vndf.Source.slope(None), TypeError),
+            (lambda: vndf.Source.slope_function(3), TypeError),
+            (lambda: vndf.load("a\0b"), ValueError),
+            (lambda: vndf.Source.family("gg\0x"), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).sample(None, (0.1, 0.2)), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).g1(None), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).ndf(None), ValueError),
         ):
             with self.assertRaises(error):
                 call()
+
+    def test_what_owns_memory_is_owned_once(self):
+        source = vndf.Source.slope("exp(-r)")
+        family = vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1])
+        for owner in (source, family, vndf.Material(vndf.ggx(), 0.3)):
+            self.assertIs(copy.copy(owner), owner)
+            self.assertIs(copy.deepcopy(owner), owner)
+            with self.assertRaisesRegex(TypeError, "cannot be pickled"):
+                pickle.dumps(owner)
+        surface = pickle.loads(pickle.dumps(vndf.Surface(vndf.build(source, max_bytes=2048), 0.3)))
+        self.assertGreater(surface.g1((0.6, 0.0, 0.8)), 0.5)
 
     def test_what_python_raises_comes_through(self):
         def fails(r):

@@ -9,6 +9,8 @@ import numpy as np
 
 import vndf
 
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
 path = sys.argv[1]
 width = int(sys.argv[2]) if len(sys.argv) > 2 else 400
 samples = int(sys.argv[3]) if len(sys.argv) > 3 else 64

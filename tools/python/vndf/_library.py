@@ -269,7 +269,42 @@ def checked(name: str, *arguments: Any) -> Any:
 
 def path_bytes(path: Any) -> bytes:
     """A path as the C library takes it."""
-    return os.fsencode(path)
+    return _without_zero(os.fsencode(path))
+
+
+def text_bytes(text: str) -> bytes:
+    """A text as the C library takes it."""
+    if not isinstance(text, str):
+        raise TypeError(f"a text is wanted, not {text!r}")
+    return _without_zero(text.encode())
+
+
+def _without_zero(data: bytes) -> bytes:
+    if b"\0" in data:
+        raise ValueError(f"{data!r} holds a zero byte, which would end it")
+    return data
+
+
+def want(value: Any, kind: Any) -> None:
+    """Refuses what is not of this class, or of one of these."""
+    if not isinstance(value, kind):
+        names = " or a ".join(f"vndf.{k.__name__}" for k in (kind if isinstance(kind, tuple) else (kind,)))
+        raise TypeError(f"a {names} is wanted, not {value!r}")
+
+
+class Owner:
+    """What frees its pointer: it is not copied, and pickles only where a class says how."""
+
+    _pointer = 0
+
+    def __copy__(self) -> Owner:
+        return self  # immutable
+
+    def __deepcopy__(self, memo: Any) -> Owner:
+        return self
+
+    def __reduce__(self) -> Any:
+        raise TypeError(f"a vndf.{type(self).__name__} cannot be pickled: save it to a file, or make it again")
 
 
 def members(struct: Any) -> dict[str, Any]:

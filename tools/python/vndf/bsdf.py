@@ -12,10 +12,10 @@ import numpy as np
 
 from . import _library
 from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
-from ._library import checked, library, members, path_bytes
+from ._library import Owner, checked, library, members, path_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
-from .surface import Mixture
+from .surface import Mixture, roughness
 
 _CHOICES = {
     "lobes": ["reflection", "transmission", "both"],
@@ -38,11 +38,11 @@ class Scattered(NamedTuple):
     wo: Floats  #: unit, shape (3, ...)
     weight: Floats  #: f |cos_o| / density, shape (wavelengths, ...)
     density: Floats  #: per steradian, shape (...)
-    lobe: np.ndarray[Any, np.dtype[np.uint8]]  #: LOBE_NONE (lost), _REFLECTION, _TRANSMISSION or _STRAIGHT
+    lobe: np.ndarray[Any, np.dtype[np.uint8]]  #: LOBE_NONE (0: no sample), _REFLECTION, _TRANSMISSION or _STRAIGHT
     wm: Floats  #: the facet that was met, shape (3, ...); 0 where there is none or a walk met many
 
 
-class Albedo:
+class Albedo(Owner):
     """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
 
     def __init__(self, pointer: int) -> None:
@@ -89,7 +89,7 @@ class Albedo:
         return as_float(look(alpha))[()]
 
 
-class Material:
+class Material(Owner):
     """A rough material: a distribution, its shape, its optics and its effects. Numbers may be arrays where a texture
     brings one for each hit: alpha, alpha_y, rotation, matrix, mean, and all of a mixture.
 
@@ -116,6 +116,7 @@ class Material:
         k: Numbers = 0.0, f0: Numbers = 0.04, wavelengths: Optional[int] = None, albedo: Optional[Albedo] = None,
         order_limit: int = 0,
     ) -> None:  # fmt: skip
+        want(distribution, (Distribution, Mixture))
         if mean is not None and matrix is None:
             raise TypeError("a mean slope needs a matrix")
         if isinstance(distribution, Mixture):
@@ -128,6 +129,8 @@ class Material:
         if wavelengths is None:
             wavelengths = max(array.size for array in optics.values())
             wavelengths = 3 if wavelengths == 1 else wavelengths
+        if not 1 <= wavelengths <= _library.WAVELENGTHS:
+            raise ValueError(f"{wavelengths} wavelengths; 1 to {_library.WAVELENGTHS} are possible")
         self.wavelengths = wavelengths
         self._kept = (distribution, albedo)
         description = _library.vndf_description(
@@ -242,8 +245,8 @@ def _pointers(addresses: Sequence[int]) -> Any:
 
 
 def _fill(member: Any, values: Floats, count: int, name: str) -> None:
-    if values.size not in (1, count) or not 1 <= count <= _library.WAVELENGTHS:
-        raise ValueError(f"{name} has {values.size} numbers for {count} wavelengths (1 to {_library.WAVELENGTHS})")
+    if values.size not in (1, count):
+        raise ValueError(f"{name} has {values.size} numbers for {count} wavelengths")
     for i, value in enumerate(np.broadcast_to(values.ravel(), (count,)).tolist()):
         member[i] = value
 
@@ -258,8 +261,8 @@ def _shape_of_hits(
     if shape in ("matrix", "affine"):
         moved = components((0.0, 0.0) if mean is None else mean, 2, "mean")
         return {"shape": matrix_components(matrix, "matrix") + moved}
-    roughness = [as_float(alpha), as_float(alpha if alpha_y is None else alpha_y)]
+    shapes = roughness(alpha, alpha_y)
     if rotation is not None:
         angle = np.asarray(rotation, np.float64)
-        roughness += [as_float(np.cos(angle)), as_float(np.sin(angle))]
-    return {"shape": roughness}
+        shapes += [as_float(np.cos(angle)), as_float(np.sin(angle))]
+    return {"shape": shapes}

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import Numbers
-from ._library import checked, library, path_bytes
+from ._library import Owner, checked, library, path_bytes, text_bytes, want
 from .distribution import Certificate, Distribution, Path, certificate_of
 
 _T = TypeVar("_T")
@@ -18,7 +18,7 @@ _T = TypeVar("_T")
 Progress = Callable[[float, str], Any]
 
 
-class Source:
+class Source(Owner):
     """A distribution of normals as it is given, at any scale, normalised or not.
 
     ``Source.slope("exp(-a*r)", a=3)``: P22, the density of slopes, in r = tan(theta).
@@ -53,7 +53,7 @@ class Source:
     @staticmethod
     def family(specification: str) -> Source:
         """A family or a measured material by name, as ``vndf build --family`` takes it."""
-        return Source(checked("source_family", specification.encode()))
+        return Source(checked("source_family", text_bytes(specification)))
 
     @staticmethod
     def csv(path: Path) -> Source:
@@ -70,7 +70,8 @@ class Source:
         name: str = "rows",
     ) -> Source:
         """Arrays of shape (n,): ascending angles `theta` (radians) or slopes, and D (`ndf`) or P22 there, >= 0.
-        Shape-preserving interpolation joins the rows. `name` stands in the table as its origin."""
+        Shape-preserving interpolation joins the rows; beyond the last one P22 falls on as vndf_build.h says: end with 0
+        where the support ends. `name` stands in the table as its origin."""
         if (theta is None) == (slope is None) or (ndf is None) == (p22 is None):
             raise TypeError("rows need one of theta and slope, and one of ndf and p22")
         at = np.ascontiguousarray(slope if theta is None else theta, np.float64)
@@ -78,7 +79,7 @@ class Source:
         if at.ndim != 1 or at.shape != value.shape:
             raise ValueError(f"rows are two arrays of one shape (n,), not {at.shape} and {value.shape}")
         addresses = at.ctypes.data, value.ctypes.data
-        return Source(checked("source_rows", theta is None, ndf is None, *addresses, at.size, name.encode()))
+        return Source(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
 
     @staticmethod
     def slope_function(function: Callable[[float], float], name: str = "Python function") -> Source:
@@ -112,8 +113,8 @@ class Source:
 def _expression(name: str, formula: str, parameters: dict[str, float]) -> Source:
     array = (_library.vndf_parameter * max(len(parameters), 1))()
     for slot, (key, value) in zip(array, parameters.items()):
-        slot.name, slot.value = key.encode(), value
-    return Source(checked(name, formula.encode(), array, len(parameters)))
+        slot.name, slot.value = text_bytes(key), value
+    return Source(checked(name, text_bytes(formula), array, len(parameters)))
 
 
 class _Failure:
@@ -134,13 +135,19 @@ class _Failure:
             raise raised
 
 
+def _number(value: Any) -> float:
+    if isinstance(value, str):
+        raise TypeError(f"a function returned {value!r}, which is no number")
+    return float(value)
+
+
 class _Function(_Failure):
     def __init__(self, function: Callable[[float], float]) -> None:
         super().__init__()
 
         def call(x: float, user: Any) -> float:
             try:
-                return 0.0 if self.failed() else float(function(x))
+                return 0.0 if self.failed() else _number(function(x))
             except BaseException as raised:
                 self.keep(raised)
                 return 0.0
@@ -149,8 +156,10 @@ class _Function(_Failure):
 
 
 def _function(name: str, function: Callable[[float], float], origin: str) -> Source:
+    if not callable(function):
+        raise TypeError(f"a function is wanted, not {function!r}")
     called = _Function(function)
-    return Source(checked(name, called.pointer, None, origin.encode()), called)
+    return Source(checked(name, called.pointer, None, text_bytes(origin)), called)
 
 
 class Reporter(_Failure):
@@ -221,8 +230,11 @@ def build(
 
     Raises :class:`vndf.Error` if the source cannot be the normals of a microsurface, with the reason, or if the
     target cannot be met, with what was reached. What `progress` or the function of the source raises comes through."""
+    want(source, Source)
     if certificate not in ("quick", "full"):
         raise ValueError(f'certificate is "quick" or "full", not {certificate!r}')
+    if max_bytes < 0:
+        raise ValueError(f"max_bytes is {max_bytes}; it must not be negative")
     reporter = Reporter(progress, source)
     marks = np.ascontiguousarray(list(breaks), np.float64)
     options = _library.vndf_build_options(
@@ -237,6 +249,8 @@ def build(
 
 def certify(distribution: Distribution, source: Source) -> Certificate:
     """Measures the full certificate of a table against a source."""
+    want(distribution, Distribution)
+    want(source, Source)
     struct = _library.vndf_certificate()
     try:
         checked("certify", distribution._pointer, source._pointer, byref(struct))

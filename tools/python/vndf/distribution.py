@@ -8,7 +8,7 @@ from typing import Any, Union
 import numpy as np
 
 from ._arrays import Floats
-from ._library import checked, library, members, path_bytes
+from ._library import Owner, checked, library, members, path_bytes
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -53,7 +53,7 @@ def certificate_of(struct: Any) -> Certificate:
     return Certificate(**values)
 
 
-class Distribution:
+class Distribution(Owner):
     """A distribution of normals, immutable: threads may share it. From :func:`vndf.load`, :func:`vndf.build`,
     :func:`vndf.ggx` or :func:`vndf.beckmann`; pickles as the bytes of its table."""
 

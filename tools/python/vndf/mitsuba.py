@@ -9,11 +9,13 @@
 Parameters of both:
 
 distribution    a table file, or "ggx"
-alpha           roughness, a number or a texture; or alpha_u and alpha_v, along the two tangents
+alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
+                1e-4 counts as that
 rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
-weight          of this lobe where there are several: a number or a texture
+weight          of this lobe where there are several: a number or a texture (1); below 0 it counts as 0
 distribution_2, alpha_2 (alpha_u_2, alpha_v_2), weight_2, and so on up to _8: more lobes of one surface
-masking         "height-correlated" (default) or "separable", as Mitsuba's own plugins have it
+masking         "height-correlated" (default), or "separable", which Mitsuba's own plugins use: set it to compare with
+                them. The default is brighter, by 2.6% at alpha 1
 
 vndf_conductor: material, or eta and k; specular_reflectance: those of Mitsuba's `conductor`, which evaluates Fresnel.
 vndf_dielectric: int_ior, ext_ior; specular_reflectance, specular_transmittance.
@@ -47,6 +49,8 @@ class _Lobe:
     def __init__(self, props: Any, suffix: str) -> None:
         name = str(props["distribution" + suffix])
         self.name = name
+        if name == "beckmann":
+            raise ValueError('distribution "beckmann": build a table of it (vndf build --family beckmann)')
         self.law: Law = Ggx() if name == "ggx" else Table(load(str(mi.file_resolver().resolve(name))))
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):

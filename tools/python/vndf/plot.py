@@ -1,13 +1,13 @@
 """Pictures with matplotlib, which is imported when the first one is asked for."""
 from __future__ import annotations
 
-from typing import Any, Optional, Sequence
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 
 from ._arrays import Numbers
 from .distribution import Distribution
-from .surface import Surface, _Rough
+from .surface import Affine, Mixture, Surface
 
 
 def _axes(axes: Any) -> Any:
@@ -18,12 +18,12 @@ def _axes(axes: Any) -> Any:
     return plt.subplots()[1]
 
 
-def ndf(distributions: Sequence[Distribution], alpha: float = 1.0, *, axes: Any = None) -> Any:
+def ndf(distributions: Union[Distribution, Sequence[Distribution]], alpha: float = 1.0, *, axes: Any = None) -> Any:
     """D over the angle of the normal, 0 to 89 degrees, logarithmic, a curve for each distribution. Returns the axes of
     matplotlib; `axes`: where to draw."""
     axes = _axes(axes)
     theta = np.linspace(0.0, np.radians(89.0), 800)
-    for distribution in distributions:
+    for distribution in [distributions] if isinstance(distributions, Distribution) else distributions:
         values = Surface(distribution, alpha).ndf((np.sin(theta), 0.0, np.cos(theta)))
         axes.semilogy(np.degrees(theta), np.maximum(values, 1e-30), label=distribution.info.source)
     low, high = axes.get_ylim()
@@ -35,7 +35,7 @@ def ndf(distributions: Sequence[Distribution], alpha: float = 1.0, *, axes: Any 
 
 
 def visible(
-    surface: _Rough, theta: float, *, samples: int = 400, rng: Optional[np.random.Generator] = None, axes: Any = None
+    surface: Union[Surface, Affine, Mixture], theta: float, *, samples: int = 400, rng: Optional[np.random.Generator] = None, axes: Any = None
 ) -> Any:
     """The density of visible normals from `theta` (degrees, 0 to 180) over the disc of normals, and some that were
     drawn. Each point of the disc is the normal seen from above, at sin(angle/2): areas are solid angles."""

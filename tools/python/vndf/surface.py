@@ -17,7 +17,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
-from ._library import checked, library, members, path_bytes
+from ._library import Owner, checked, library, members, path_bytes, text_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
 
@@ -45,6 +45,18 @@ class MixtureSample(NamedTuple):
     lobe: np.ndarray[Any, np.dtype[np.int32]]  #: its index, -1 of what is invalid, shape (...)
 
 
+_NO_DIRECTION = object()  # of calls that have no wi
+
+
+def roughness(alpha: Any, alpha_y: Any) -> list[Floats]:
+    """alpha along x and y. A single number that is no roughness is refused; in arrays it scatters nothing."""
+    both = [as_float(alpha), as_float(alpha if alpha_y is None else alpha_y)]
+    for array in both:
+        if array.size == 1 and not 0 < array.item() < np.inf:
+            raise ValueError(f"alpha is {array.item()}; it must be above 0")
+    return both
+
+
 class _Rough(abc.ABC):
     """What all surfaces answer."""
 
@@ -60,10 +72,10 @@ class _Rough(abc.ABC):
 
     def _open(self, wi: Any, **inputs: list[Floats]) -> tuple[Arguments, Any]:
         groups = self._shape_groups()
-        if wi is not None:
+        if wi is not _NO_DIRECTION:
             groups["wi"] = components(wi, 3, "wi")
         arguments = Arguments(**groups, **inputs)
-        return arguments, self._batch(arguments, arguments.addresses("wi") if wi is not None else [None] * 3)
+        return arguments, self._batch(arguments, arguments.addresses("wi") if "wi" in groups else [None] * 3)
 
     def _shared(self, arguments: Arguments) -> int:
         names = {"shape": _library.SHARED_ALPHA, "wi": _library.SHARED_WI, "weight": _library.SHARED_WEIGHT}
@@ -95,14 +107,8 @@ class _Rough(abc.ABC):
         )  # fmt: skip
         return wm, [result[()] for result in results]
 
-    def sample(self, wi: Any, u: Any) -> Any:
-        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]: a :class:`Sample`. An invalid
-        direction or roughness gives the normal (0, 0, 1) and density 0."""
-        wm, (pdf,) = self._draw("sample", wi, u, extra=[np.float32])
-        return Sample(wm, pdf)
-
     def pdf(self, wi: Any, wm: Any) -> Floats:
-        """Density per steradian with which :meth:`sample` draws wm (3, ...), a unit normal."""
+        """Density per steradian with which ``sample`` draws wm (3, ...), a unit normal."""
         return self._of_normal("pdf", wi, wm)
 
     def visible(self, wi: Any, wm: Any) -> Floats:
@@ -110,7 +116,7 @@ class _Rough(abc.ABC):
         return self._of_normal("visible", wi, wm)
 
     def invert(self, wi: Any, wm: Any) -> Floats:
-        """The numbers u, shape (2, ...), that :meth:`sample` turns into wm."""
+        """The numbers u, shape (2, ...), that ``sample`` turns into wm."""
         arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
         u = arguments.result(2)
         normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
@@ -119,7 +125,7 @@ class _Rough(abc.ABC):
 
     def ndf(self, wm: Any) -> Floats:
         """D(wm), per steradian; integral of D cos(theta) is 1."""
-        return self._of_normal("ndf", None, wm)
+        return self._of_normal("ndf", _NO_DIRECTION, wm)
 
     def projected_area(self, w: Any) -> Floats:
         """A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere."""
@@ -145,15 +151,26 @@ class _Rough(abc.ABC):
         return as_float(np.divide(product, one + other - product, out=np.zeros_like(product), where=product > 0))[()]
 
 
-class Surface(_Rough):
+class _OneLobe(_Rough):
+    """Surfaces of one distribution."""
+
+    def sample(self, wi: Any, u: Any) -> Sample:
+        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]. An invalid direction or roughness
+        gives the normal (0, 0, 1) and density 0."""
+        wm, (pdf,) = self._draw("sample", wi, u, extra=[np.float32])
+        return Sample(wm, pdf)
+
+
+class Surface(_OneLobe):
     """A distribution stretched by roughness: ``alpha`` along x, ``alpha_y`` along y (None: the same), > 0, numbers or
     arrays. alpha = 1 is the distribution as it was built."""
 
     _prefix = ""
 
     def __init__(self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> None:
+        want(distribution, Distribution)
         self.distribution = distribution
-        self._alpha = [as_float(alpha), as_float(alpha if alpha_y is None else alpha_y)]
+        self._alpha = roughness(alpha, alpha_y)
 
     def _shape_groups(self) -> dict[str, list[Floats]]:
         return {"shape": self._alpha}
@@ -169,13 +186,14 @@ class Surface(_Rough):
         return WeightedSample(wm, pdf, weight)
 
 
-class Affine(_Rough):
+class Affine(_OneLobe):
     """A distribution whose slopes are stretched, turned and sheared by ``matrix``, shape (2, 2, ...), and moved by
     ``mean``, shape (2, ...): slopes s = M u + mean, as filtered normal maps have them (vndf.h)."""
 
     _prefix = "affine_"
 
     def __init__(self, distribution: Distribution, matrix: Any, mean: Any = (0.0, 0.0)) -> None:
+        want(distribution, Distribution)
         self.distribution = distribution
         self._shape = matrix_components(matrix, "matrix") + components(mean, 2, "mean")
 
@@ -196,6 +214,7 @@ class Affine(_Rough):
 
 
 def _as_affine(surface: Union[Surface, Affine]) -> Affine:
+    want(surface, (Surface, Affine))
     if isinstance(surface, Affine):
         return surface
     x, y = surface._alpha
@@ -211,6 +230,8 @@ class Mixture(_Rough):
     def __init__(self, *lobes: tuple[Union[Surface, Affine], Numbers]) -> None:
         if not 1 <= len(lobes) <= _library.MIXTURE_LOBES:
             raise ValueError(f"a mixture has 1 to {_library.MIXTURE_LOBES} lobes, not {len(lobes)}")
+        if not all(isinstance(lobe, tuple) and len(lobe) == 2 for lobe in lobes):
+            raise TypeError("the lobes of a mixture are pairs (surface, weight), one argument each")
         self.lobes = [_as_affine(surface) for surface, _ in lobes]
         self.weights = [as_float(weight) for _, weight in lobes]
 
@@ -239,7 +260,7 @@ class Mixture(_Rough):
         return u  # type: ignore[no-any-return]
 
 
-class Family:
+class Family(Owner):
     """Distributions along one parameter, a mixture of two neighbours between them. From ``Family.build``,
     ``Family.load`` or ``Family.of``."""
 
@@ -262,7 +283,7 @@ class Family:
         `max_distance` (total variation of slopes; 0: 1e-3), or `knots` of them."""
         reporter = Reporter(progress)
         options = _library.vndf_family_options(max_distance, knots, max_bytes, sphere, reporter.pointer, None)
-        name = specification.encode()
+        name = text_bytes(specification)
         return reporter.run(lambda: Family(checked("build_family", name, low, high, byref(options))))
 
     @staticmethod
