@@ -74,10 +74,10 @@ VNDF_API vndf_source *vndf_source_slope_callback(vndf_density_function *p22, voi
  * families; for other sources it returns NULL and VNDF_ERROR_ARGUMENT with the reason. */
 VNDF_API vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error);
 
-/* P22(r) of the source as it was given, before normalisation; r >= 0. */
+/* P22(r) of the source as it was given, before normalisation; r >= 0. 0 for NULL. */
 VNDF_API double vndf_source_p22(const vndf_source *source, double r);
 
-/* How the source was given, as arguments of `vndf build`. The text belongs to the source. */
+/* How the source was given, as arguments of `vndf build`. The text belongs to the source; it is empty for NULL. */
 VNDF_API const char *vndf_source_description(const vndf_source *source);
 
 /* Puts other words in the place of that text, which tables keep as provenance: for programs that make rows or a
@@ -173,7 +173,7 @@ VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const v
 
 /* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the unit
  * problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
- * features that a build with zeroed options finds. A slow oracle. */
+ * features that a build with zeroed options finds. A slow oracle, valid while the source lives; 0 for NULL. */
 typedef struct vndf_reference vndf_reference;
 VNDF_API vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error);
 VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);

@@ -115,8 +115,25 @@ static void test_where(void)
     }
 }
 
+/* No source at all is an error, or nothing, in every call that takes one. */
+static void test_no_source(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_certificate certificate;
+    vndf_source *source = vndf_source_slope_expression("exp(-r)", NULL, 0, NULL);
+    vndf_distribution *table = vndf_build(source, NULL, NULL, NULL);
+    TEST(!vndf_build(NULL, NULL, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST(!vndf_reference_from(NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+    TEST(vndf_certify(table, NULL, &certificate, &error) == VNDF_ERROR_ARGUMENT);
+    TEST(vndf_source_p22(NULL, 1) == 0 && vndf_source_description(NULL)[0] == '\0');
+    TEST(vndf_reference_p22(NULL, 1) == 0 && vndf_reference_area(NULL, 1) == 0);
+    vndf_free(table);
+    vndf_source_free(source);
+}
+
 int main(void)
 {
+    test_no_source();
     test_refusals();
     for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++)
         test_accepted(accepted[i]);

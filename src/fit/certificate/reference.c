@@ -12,6 +12,10 @@ struct vndf_reference {
 vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error)
 {
     vndf_guard guard = vndf_guard_from(NULL, NULL);
+    if (!source) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a source is needed");
+        return NULL;
+    }
     vndf_profile *profile = vndf_profile_from(source, NULL, &guard, error);
     vndf_reference *reference = profile ? malloc(sizeof *reference) : NULL;
     if (profile)
@@ -27,11 +31,13 @@ vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error
 
 double vndf_reference_p22(const vndf_reference *reference, double r)
 {
-    return reference->profile->normalization * vndf_source_p22(reference->profile->source, r);
+    return reference ? reference->profile->normalization * vndf_source_p22(reference->profile->source, r) : 0.0;
 }
 
 double vndf_reference_area(const vndf_reference *reference, double theta)
 {
+    if (!reference)
+        return 0.0;
     return vndf_profile_area(reference->profile, sin(theta) * reference->profile->scale, cos(theta));
 }
 
