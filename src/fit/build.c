@@ -240,7 +240,8 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
                          vndf_certificate *certificate, vndf_error *error)
 {
     if (!distribution || !vndf_is_table(distribution) || !source || !certificate)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a table, a source and a place for the certificate are needed");
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "a table, a source and a place for the certificate are needed");
     vndf_guard guard = vndf_guard_from(NULL, NULL);
     vndf_error inner = {VNDF_OK, ""};
     vndf_resolution as_built;
