@@ -170,10 +170,29 @@ def register() -> None:
     if mi.is_polarized:
         raise ValueError(f"vndf knows no polarisation, which {mi.variant()} has")
 
-    class Conductor(mi.BSDF):
+    class Rough(mi.BSDF):
+        """What both have in common; `_look` gives value and density."""
+
         def __init__(self, props: Any) -> None:
             super().__init__(props)
             self._surface = _Microsurface(props)
+
+        def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[0]
+
+        def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+            return self._look(ctx, si, wo, active)[1]
+
+        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
+            return self._look(ctx, si, wo, active)
+
+        def traverse(self, callback: Any) -> None:
+            for name, texture in self._surface.textures().items():
+                callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
+
+    class Conductor(Rough):
+        def __init__(self, props: Any) -> None:
+            super().__init__(props)
             optics: dict[str, Any] = {"type": "conductor"}
             for name in ("eta", "k"):
                 if name in props:
@@ -229,27 +248,16 @@ def register() -> None:
             pdf = hit.pdf(views, area, wm) / (4.0 * facing)
             return value & active, dr.select(active, pdf, 0.0)
 
-        def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[0]
-
-        def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[1]
-
-        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
-            return self._look(ctx, si, wo, active)
-
         def traverse(self, callback: Any) -> None:
-            for name, texture in self._surface.textures().items():
-                callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
+            super().traverse(callback)
             callback.put("optics", self._optics, +mi.ParamFlags.Differentiable)
 
         def to_string(self) -> str:
             return f"vndf_conductor[{', '.join(lobe.name for lobe in self._surface.lobes)}]"
 
-    class Dielectric(mi.BSDF):
+    class Dielectric(Rough):
         def __init__(self, props: Any) -> None:
             super().__init__(props)
-            self._surface = _Microsurface(props)
             self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
             if not self._eta > 0.0 or self._eta == 1.0:
                 raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
@@ -332,18 +340,8 @@ def register() -> None:
             pdf = hit.pdf(views, area, _up(wm)) * chance * per_wm
             return (self._colour(si, reflects, active) * value) & active, dr.select(active, pdf, 0.0)
 
-        def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[0]
-
-        def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[1]
-
-        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
-            return self._look(ctx, si, wo, active)
-
         def traverse(self, callback: Any) -> None:
-            for name, texture in self._surface.textures().items():
-                callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
+            super().traverse(callback)
             for name, texture in self._colours.items():
                 if texture is not None:
                     callback.put(name, texture, +mi.ParamFlags.Differentiable)
