@@ -1,6 +1,7 @@
 /* The slopes of a Gaussian height field give Beckmann's distribution with alpha = sqrt 2 times the rms of the slope,
  * a stretched one the same under its matrix, and both say how sure that is; a cut-off halves waves of its length;
- * what has no law of slopes is refused. */
+ * what has no law of slopes is refused. The curve ends where slopes end
+ * abruptly. */
 #include "measured/surface_case.h"
 
 static double law_of(const height_field *field, int margin, slope_law *law, notes *said)
@@ -105,6 +106,80 @@ static void test_heavy_tail(void)
     profile_free(&law.rows);
 }
 
+typedef double slope_of_part(double u);
+
+static double cut_beckmann(double u)
+{
+    return 0.3 * sqrt(-log1p(-0.95 * u));
+}
+
+static double disc(double u)
+{
+    return 0.5 * sqrt(u);
+}
+
+static double clamped_ggx(double u)
+{
+    return fmin(0.3 * sqrt(u / (1 - u)), 3);
+}
+
+static double whole_ggx(double u)
+{
+    return 0.3 * sqrt(u / (1 - u));
+}
+
+static double whole_beckmann(double u)
+{
+    return 0.3 * sqrt(-log1p(-u));
+}
+
+/* Slopes that end abruptly give a curve that ends there; a tail has the mass of few slopes beyond the longest. */
+static void ends_at(slope_of_part *slope_of, int has_end, double most, const char *name)
+{
+    enum { COUNT = 1 << 16 };
+    unsigned long long state = 6;
+    double longest = 0;
+    slope_set slopes;
+    slope_law law;
+    notes said = {"", 0};
+    refusal why = {""};
+    TEST(slopes_make(&slopes, COUNT));
+    for (int i = 0; i < COUNT; i++) {
+        double r = slope_of(test_uniform_double(&state)), phi = 2 * PI * test_uniform_double(&state);
+        slopes_add(&slopes, r * cos(phi), r * sin(phi), i % SLOPE_PARTS);
+    }
+    if (!TEST(slopes_law(&slopes, name, &law, &said, &why))) {
+        fprintf(stderr, "  %s\n", why.message);
+        exit(1);
+    }
+    for (int i = 0; i < COUNT; i++)
+        longest = fmax(longest, hypot((double)slopes.x[i], (double)slopes.y[i]));
+    vndf_source *source = profile_source(&law.rows, name, &why);
+    vndf_distribution *table = profile_table(&law.rows, name, &why);
+    double end = law.rows.x[law.rows.count - 1], last = law.rows.value[law.rows.count - 1];
+    double beyond = profile_mass(source, longest, has_end ? end : INFINITY);
+    const char *note_of = strstr(said.text, "\nmass_beyond ");
+    printf("%s: longest slope %.4f, last row at %.4f: %.3g, %.2g of the mass is beyond\n", name, longest, end,
+           last, beyond);
+    TEST(beyond * COUNT < most && table);
+    TEST(has_end ? last == 0 && end > longest && end < 1.002 * longest : last > 0);
+    if (TEST(note_of != NULL))
+        TEST_NEAR(strtod(note_of + 13, NULL), beyond, 0.1 * beyond);
+    vndf_free(table);
+    vndf_source_free(source);
+    slopes_free(&slopes);
+    profile_free(&law.rows);
+}
+
+static void test_ends(void)
+{
+    ends_at(cut_beckmann, 1, 1, "Beckmann, cut off");
+    ends_at(disc, 1, 1, "an even disc");
+    ends_at(clamped_ggx, 1, 1, "GGX, clamped");
+    ends_at(whole_ggx, 0, 4, "GGX");
+    ends_at(whole_beckmann, 0, 4, "Beckmann");
+}
+
 /* A wave along x: its amplitude is halved at the cut-off, kept where it is long, gone where it is short. */
 static void test_cutoff(void)
 {
@@ -178,6 +253,7 @@ int main(void)
     test_gaussian();
     test_stretched();
     test_heavy_tail();
+    test_ends();
     test_cutoff();
     test_gaps();
     test_refusals();

@@ -186,7 +186,8 @@ static void refused(size_t size, const char *message)
 
 static void test_refusals(void)
 {
-    refused(0, "it begins with 0 0 0 in the place of 90 90 180");
+    refused(0, "the file is empty");
+    refused(11, "it ends within the head, three numbers of 4 bytes");
     refused(12, "a MERL file of 90 x 90 x 180 has 34992012 bytes, and there are 12");
     refused(SIZE - 1, "and there are 34992011");
     for (size_t i = 0; i < PLANE; i++)

@@ -191,6 +191,9 @@ static void test_refusals(void)
                          negative = {"ndf", TENSOR_F32, 2, {2, 8}, bad},
                          narrow = {"ndf", TENSOR_F32, 2, {2, 2}, few};
     refused((const unsigned char *)"", 0, "this is no tensor file");
+    refused((const unsigned char *)"tensor_fool", 11, "this is no tensor file");
+    refused((const unsigned char *)"tensor_file\0\1\0\1", 16,
+            "ends too early: it has 16 bytes, and its head takes 18");
     refused((const unsigned char *)"tensor_file\0\2\0\0\0\0\0", 18, "a tensor file of version 2.0; 1.0 is read");
     refused((const unsigned char *)"tensor_file\0\1\0\0\0\0\0", 18, "it has no field 'ndf'");
     refused((const unsigned char *)"tensor_file\0\1\0\0\1\0\0", 18, "256 fields; 32 are the most");

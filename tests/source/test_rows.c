@@ -71,6 +71,34 @@ static void test_grazing(void)
     vndf_source_free(source);
 }
 
+/* D that falls to 0 at 90 degrees, as cos^k: it joins, it keeps its digits, and a table is made of it. */
+static void test_falling(void)
+{
+    static const int counts[2] = {10, 91};
+    const vndf_build_options options = {.quick = 1};
+    for (int k = 1; k <= 4; k *= 2)
+        for (int n = 0; n < 2; n++) {
+            double x[91], value[91];
+            int last = counts[n] - 1;
+            for (int i = 0; i <= last; i++) {
+                x[i] = PI / 2 * i / last;
+                value[i] = i < last ? pow(cos(x[i]), k) : 0;
+            }
+            vndf_error error = {VNDF_OK, ""};
+            vndf_source *source = rows_of(VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, x, value, (size_t)counts[n]);
+            double join = tan(x[last - 1]);
+            TEST_RELATIVE(vndf_source_p22(source, join * (1 + 1e-12)), vndf_source_p22(source, join), 1e-10);
+            double far = vndf_source_p22(source, 1e12), near = vndf_source_p22(source, 1e11);
+            double power = log10(near / far);
+            TEST(fabs(power - 5) < 1e-6 || fabs(power - 6) < 1e-6);
+            vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+            if (!TEST(table != NULL))
+                fprintf(stderr, "  cos^%d, %d rows: %s\n", k, counts[n], error.message);
+            vndf_free(table);
+            vndf_source_free(source);
+        }
+}
+
 static void refused(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value, size_t count,
                     vndf_status status, const char *message)
 {
@@ -170,6 +198,7 @@ int main(void)
 {
     test_columns();
     test_grazing();
+    test_falling();
     test_refusals();
     test_name();
     test_description();

@@ -2,8 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { POINTS = 4, PANELS = 6, STEPS = 12, TABLE_ROWS = 100 };
+enum { POINTS = 4, PANELS = 6, STEPS = 40, TABLE_ROWS = 100 };
 
 static const double two_pi = 6.283185307179586477;
 
@@ -96,41 +97,71 @@ static double panel_mass(const vndf_source *source, double from, double to)
 double profile_mass(const vndf_source *source, double from, double to)
 {
     double sum = 0, most = isfinite(to) ? to : from * 1e6;
-    /* Beyond a finite stretch the panels double: P22 falls at least as r^-4 there. */
+    /* Beyond a finite stretch the panels grow: P22 falls at least as r^-4 there. */
     for (double left = from; !isfinite(to) && left < most; left *= 1.5)
-        sum += panel_mass(source, left, 1.5 * left);
+        sum += profile_mass(source, left, 1.5 * left);
     for (int i = 0; isfinite(to) && i < PANELS; i++)
         sum += panel_mass(source, from + (to - from) * i / PANELS, from + (to - from) * (i + 1) / PANELS);
     return sum;
 }
 
-/* One step; the largest part by which a bin was wrong, or -1. */
-static double match_once(profile *changed, const double *edge, const double *mass, const char *name, refusal *why)
+/* ---- matching ------------------------------------------------------------------------------------ */
+
+/* What each bin needs to be multiplied by goes to factor[]; the largest part by which a bin is wrong, or -1. */
+static double compare(const profile *with, const profile_bins *bins, double *factor, const char *name,
+                      refusal *why)
 {
     double worst = 0, whole = 0;
-    vndf_source *source = profile_source(changed, name, why);
+    vndf_source *source = profile_source(with, name, why);
     if (!source)
         return -1;
-    for (size_t i = 0; i < changed->count; i++)
-        whole += mass[i];
-    for (size_t i = 0; i < changed->count; i++) {
-        double found = profile_mass(source, edge[i], edge[i + 1]);
-        worst = fmax(worst, fabs(found - mass[i]) / whole);
-        if (found > 0)
-            changed->value[i] *= mass[i] / found;
+    for (size_t i = 0; i < bins->count; i++)
+        whole += bins->mass[i];
+    for (size_t i = 0; i < bins->count; i++) {
+        double found = profile_mass(source, bins->edge[i], bins->edge[i + 1]);
+        worst = fmax(worst, fabs(found - bins->mass[i]) / whole);
+        factor[i] = found > 0 ? bins->mass[i] / found : 1;
     }
     vndf_source_free(source);
     return worst;
 }
 
-int profile_match(profile *changed, const double *edge, const double *mass, const char *name, double *left,
-                  refusal *why)
+/* Rows beyond the last bin go with it. */
+static void multiply(profile *changed, const profile_bins *bins, const double *factor, double power)
 {
-    *left = 1;
+    for (size_t i = 0; i < changed->count; i++)
+        changed->value[i] *= pow(factor[i < bins->count ? i : bins->count - 1], power);
+}
+
+/* In full steps; in smaller ones after a step that made the worst bin no better. The best rows are kept: where no rows
+ * have the masses, the last ones may be far worse. */
+static int match(profile *changed, const profile_bins *bins, double *factor, double *best, const char *name,
+                 double *left, refusal *why)
+{
+    double before = INFINITY, power = 1;
+    *left = INFINITY;
     for (int step = 0; step<STEPS && * left> 1e-6; step++) {
-        *left = match_once(changed, edge, mass, name, why);
-        if (*left < 0)
+        double worst = compare(changed, bins, factor, name, why);
+        if (worst < 0)
             return 0;
+        if (worst < *left) {
+            *left = worst;
+            memcpy(best, changed->value, changed->count * sizeof *best);
+        }
+        power = worst < before ? power : fmax(power / 2, 0.125);
+        before = worst;
+        multiply(changed, bins, factor, power);
     }
+    memcpy(changed->value, best, changed->count * sizeof *best);
     return 1;
+}
+
+int profile_match(profile *changed, const profile_bins *bins, const char *name, double *left, refusal *why)
+{
+    double *factor = malloc(bins->count * sizeof *factor), *best = malloc(changed->count * sizeof *best);
+    int good = factor && best ? match(changed, bins, factor, best, name, left, why)
+                              : refuse_data(why, name, "there is no memory for %zu rows", changed->count);
+    free(factor);
+    free(best);
+    return good;
 }

@@ -31,10 +31,16 @@ vndf_distribution *profile_table(const profile *from, const char *name, refusal 
 /* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given. */
 double profile_mass(const vndf_source *source, double from, double to);
 
-/* Multiplies the values until the source through the rows has mass[i] between edge[i] and edge[i + 1], in a few steps:
- * row i lies in that bin, edge[0] is 0, and edge[count] may be infinite. Values over the slope of P22 alone. The
- * largest part of the whole by which a bin is still wrong goes to *left. 0 and the reason if the rows are no curve. */
-int profile_match(profile *changed, const double *edge, const double *mass, const char *name, double *left,
-                  refusal *why);
+/* Bins of slopes: mass[i] between edge[i] and edge[i + 1]; edge[0] is 0, and edge[count] may be infinite. */
+typedef struct profile_bins {
+    const double *edge, *mass;
+    size_t count;
+} profile_bins;
+
+/* Multiplies the values until the source through the rows has the mass of every bin, in a few steps: row i lies in bin
+ * i, and rows beyond the last bin are multiplied as the last bin's. Values over the slope of P22 alone. Keeps the best
+ * rows that were found; the largest part of the whole by which a bin of these is wrong goes to *left. 0 and the reason
+ * if the rows are no curve. */
+int profile_match(profile *changed, const profile_bins *bins, const char *name, double *left, refusal *why);
 
 #endif

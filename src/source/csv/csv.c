@@ -28,9 +28,11 @@ typedef struct csv_source {
     int logarithmic;   /* the curve is the logarithm of the second column */
     double last_slope; /* where the tail begins; infinite if the rows reach 90 degrees */
     double last_p22;
-    double tail;    /* beyond it P22 falls as r^-tail */
-    double *breaks; /* owned */
-    vndf_rows rows; /* P22 r^2 over log r, where there are more than BREAKS; else empty */
+    double tail;         /* beyond it P22 falls as r^-tail */
+    int falls_to_0;      /* the last row is 0 at 90 degrees, the row before is not 0 ... */
+    double last_but_one; /* ... and stands at this slope */
+    double *breaks;      /* owned */
+    vndf_rows rows;      /* P22 r^2 over log r, where there are more than BREAKS; else empty */
 } csv_source;
 
 /* cos(theta)^4 at the slope r: P22 = D c^4. */
@@ -40,13 +42,23 @@ static double cosine4(double r)
     return c2 * c2;
 }
 
+/* Between the abscissas of the angle of the slope r and of 90 degrees: asinh a - asinh b for a^2 - b^2 that is known
+ * with all its digits. */
+static double distance_to_grazing(double scale, double r)
+{
+    double a = 1.5707963267948966 / scale, rest = atan(1 / r) / scale, b = a - rest;
+    return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
+}
+
 static double p22(const vndf_source *self, double r)
 {
     const csv_source *source = (const csv_source *)self;
     if (r > source->last_slope)
         return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
     double x = source->first == VNDF_CSV_SLOPE ? r : atan(r);
-    double y = vndf_curve_value(&source->curve, asinh(x / source->scale));
+    double y = source->falls_to_0 && r > source->last_but_one
+                   ? vndf_curve_before_end(&source->curve, distance_to_grazing(source->scale, r))
+                   : vndf_curve_value(&source->curve, asinh(x / source->scale));
     double value = source->logarithmic ? exp(y) : y;
     return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
 }
@@ -106,6 +118,8 @@ static void fit_tail(csv_source *source, const vndf_csv_rows *rows)
     source->last_slope = slope_of_row(rows, last);
     source->last_p22 = p22_of_row(rows, last);
     source->tail = 4;
+    source->last_but_one = before;
+    source->falls_to_0 = isinf(source->last_slope) && rows->value[last] == 0 && rows->value[last - 1] > 0;
     if (before > 0 && p22_before > 0 && source->last_p22 > 0 && isfinite(source->last_slope))
         source->tail = fmax(4, log(p22_before / source->last_p22) / log(source->last_slope / before));
 }

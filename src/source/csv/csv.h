@@ -14,7 +14,8 @@
  *
  * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
  * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
- * one is at slope 0.) If the last value is 0, P22 is 0 beyond it. */
+ * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. Rows may fall to
+ * 0 at 90 degrees, too; D keeps all its digits there, which differences of angles would lose. */
 #ifndef VNDF_SOURCE_CSV_CSV_H
 #define VNDF_SOURCE_CSV_CSV_H
 

@@ -91,3 +91,12 @@ double vndf_curve_value(const vndf_curve *curve, double x)
     /* Rounding alone could leave the range, and a density must not be negative. */
     return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
 }
+
+double vndf_curve_before_end(const vndf_curve *curve, double d)
+{
+    size_t last = curve->count - 1;
+    double h = curve->x[last] - curve->x[last - 1], u = d / h, t = 1 - u;
+    double y0 = curve->y[last - 1];
+    double bend = t * u * (u * (curve->slope[last - 1] * h) - t * (curve->slope[last] * h));
+    return fmin(fmax(y0 * u * u * (3 - 2 * u) + bend, 0), y0);
+}

@@ -20,6 +20,10 @@ void vndf_curve_fit(vndf_curve *curve);
 /* The value at x; outside the points, the value of the nearest end. */
 double vndf_curve_value(const vndf_curve *curve, double x);
 
+/* The value at the distance d before the last point, in the last piece, whose last value is 0. The values near it keep
+ * all their digits, which those of vndf_curve_value lose with x. */
+double vndf_curve_before_end(const vndf_curve *curve, double d);
+
 void vndf_curve_free(vndf_curve *curve);
 
 #endif

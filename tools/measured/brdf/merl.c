@@ -233,7 +233,11 @@ static double find_diffuse(search *s)
 static int open_file(merl_file *file, const char *name, const unsigned char *bytes, size_t size, refusal *why)
 {
     int sides[3] = {0, 0, 0};
-    for (int i = 0; i < 3 && size >= HEAD; i++)
+    if (size < HEAD)
+        return refuse_data(why, name,
+                           size == 0 ? "the file is empty"
+                                     : "this is no MERL file: it ends within the head, three numbers of 4 bytes");
+    for (int i = 0; i < 3; i++)
         sides[i] = int_at(bytes + 4 * i);
     if (sides[0] != HALVES || sides[1] != DIFFERENCES || (sides[2] != HALF_TURN && sides[2] != 2 * HALF_TURN))
         return refuse_data(why, name, "this is no MERL file: it begins with %d %d %d in the place of 90 90 180",

@@ -67,8 +67,11 @@ int tensor_read(tensor_file *made, const char *name, const unsigned char *bytes,
 {
     cursor c = {bytes, size, sizeof head, 0};
     memset(made, 0, sizeof *made);
-    if (size < sizeof head + 4 || memcmp(bytes, head, 12) != 0)
+    if (size == 0 || memcmp(bytes, head, size < 12 ? size : 12) != 0)
         return refuse_data(why, name, "this is no tensor file; it would begin with tensor_file");
+    if (size < sizeof head + 4)
+        return refuse_data(why, name, "this tensor file ends too early: it has %zu bytes, and its head takes %zu",
+                           size, sizeof head + 4);
     if (memcmp(bytes, head, sizeof head) != 0)
         return refuse_data(why, name, "a tensor file of version %d.%d; 1.0 is read", bytes[12], bytes[13]);
     uint64_t count = number(&c, 4);

@@ -13,6 +13,9 @@ enum { BINS_MOST = 96, RINGS = 8, SECTORS = 12, DRAWS = 200, TAIL_LEAST = 100 };
 static const double LEFT_MOST = 0.01;
 static const double WIDER = 1.01; /* one edge over the edge before, at least */
 
+static const double BEYOND_MOST = 0.25; /* what a tail may have beyond the data, of the last bin's mass */
+static const double SHORT_MOST = 0.2;   /* what may lack of that mass */
+
 int slopes_make(slope_set *made, size_t room)
 {
     *made = (slope_set){malloc(room * sizeof(float)), malloc(room * sizeof(float)), malloc(room), 0, room, 0};
@@ -66,6 +69,8 @@ typedef struct bins {
     double middle[BINS_MOST];               /* a row's place */
     double error[BINS_MOST];                /* relative, of the mass: one standard deviation */
     double of_part[SLOPE_PARTS][BINS_MOST]; /* how many slopes of each part */
+    double longest;                         /* of all slopes */
+    size_t samples;
 } bins;
 
 /* Edges at equal parts of the sorted lengths r[], then halving what is left of the tail. */
@@ -83,6 +88,8 @@ static void place_edges(bins *b, const double *r, size_t count, double narrowest
             b->edge[++b->count] = edge;
     }
     b->edge[++b->count] = INFINITY;
+    b->longest = r[count - 1];
+    b->samples = count;
 }
 
 static size_t bin_of(const bins *b, double r)
@@ -228,23 +235,98 @@ static double *lengths(const slope_set *slopes, const double unstretch[3])
     return r;
 }
 
-static int make_rows(const bins *b, const char *name, profile *rows, double *left, refusal *why)
+/* ---- rows ---------------------------------------------------------------------------------------- */
+
+static int make_rows(const bins *b, const char *name, profile *rows, refusal *why)
 {
-    if (profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count))
-        rows->error = malloc(b->count * sizeof *rows->error);
+    int has_end = isfinite(b->edge[b->count]);
+    if (profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count + (has_end ? 2 : 0)))
+        rows->error = calloc(rows->count, sizeof *rows->error);
     if (!rows->error)
-        return refuse_data(why, name, "there is no memory for %zu rows", b->count);
+        return refuse_data(why, name, "there is no memory for %zu rows", rows->count);
     for (size_t i = 0; i < b->count; i++) {
         double next = isfinite(b->edge[i + 1]) ? b->edge[i + 1] : 2 * b->middle[i] - b->edge[i];
         rows->x[i] = b->middle[i];
         rows->error[i] = b->error[i];
         rows->value[i] = b->mass[i] / (next * next - b->edge[i] * b->edge[i]);
     }
-    if (!profile_match(rows, b->edge, b->mass, name, left, why))
+    return 1;
+}
+
+/* The last bin ends at the longest slope. */
+static void end_bins(bins *b)
+{
+    double from = b->edge[b->count - 1];
+    b->edge[b->count] = b->longest;
+    b->middle[b->count - 1] = sqrt((from * from + b->longest * b->longest) / 2);
+}
+
+/* The curve is even to the longest slope, and 0 after a step that has the mass of half a slope. */
+static void end_rows(const bins *b, profile *rows)
+{
+    size_t last = b->count - 1;
+    double step = (b->longest - b->edge[last]) / (b->mass[last] * (double)b->samples);
+    rows->x[last + 1] = b->longest;
+    rows->x[last + 2] = b->longest + fmax(step, 1e-9 * b->longest);
+    rows->value[last + 1] = rows->value[last];
+    rows->error[last + 1] = rows->error[last];
+}
+
+/* What the curve has in the last bin and beyond the longest slope, of all its mass. */
+typedef struct tail {
+    double last, beyond;
+} tail;
+
+static int find_tail(const bins *b, const profile *rows, const char *name, tail *found, refusal *why)
+{
+    vndf_source *source = profile_source(rows, name, why);
+    if (!source)
         return 0;
-    return *left < LEFT_MOST ||
-           refuse_data(why, name, "no smooth curve has the masses of %zu bins; %.2g of all is wrong", b->count,
-                       *left);
+    int has_end = isfinite(b->edge[b->count]);
+    double from = b->edge[b->count - 1], below = profile_mass(source, 0, from);
+    double last = profile_mass(source, from, b->edge[b->count]);
+    double beyond = profile_mass(source, b->longest, has_end ? rows->x[rows->count - 1] : INFINITY);
+    double whole = below + last + (has_end ? beyond : 0);
+    found->last = last / whole;
+    found->beyond = beyond / whole;
+    vndf_source_free(source);
+    return 1;
+}
+
+static int fit_rows(const bins *b, const char *name, profile *rows, double *left, tail *found, refusal *why)
+{
+    const profile_bins wanted = {b->edge, b->mass, b->count};
+    if (!make_rows(b, name, rows, why))
+        return 0;
+    if (isfinite(b->edge[b->count]))
+        end_rows(b, rows);
+    return profile_match(rows, &wanted, name, left, why) && find_tail(b, rows, name, found, why);
+}
+
+/* Whether a tail has the mass of the last bin, and little of it beyond the data. Of n independent slopes in the bin, a
+ * right tail has the mass of one beyond the longest, and seldom that of four; the error says how large n is. */
+static int is_tail(const bins *b, const tail *found)
+{
+    size_t last = b->count - 1;
+    double most = fmin(4 * b->error[last] * b->error[last], BEYOND_MOST);
+    return found->beyond <= most * b->mass[last] && found->last >= (1 - SHORT_MOST) * b->mass[last];
+}
+
+/* Slopes that end abruptly have no tail: there the curve has an end. */
+static int find_rows(bins *b, const char *name, profile *rows, double *left, double *beyond, refusal *why)
+{
+    tail found = {0, 0};
+    int good = fit_rows(b, name, rows, left, &found, why);
+    if (good && (*left >= LEFT_MOST || !is_tail(b, &found))) {
+        profile_free(rows);
+        end_bins(b);
+        good = fit_rows(b, name, rows, left, &found, why);
+    }
+    *beyond = found.beyond;
+    return good && (*left < LEFT_MOST || refuse_data(why, name,
+                                                     "no smooth curve has the masses of %zu bins; %.2g of all is "
+                                                     "wrong",
+                                                     b->count, *left));
 }
 
 static void count_parts(bins *b, const slope_set *slopes, const double *r)
@@ -258,7 +340,7 @@ static void count_parts(bins *b, const slope_set *slopes, const double *r)
 static int radial_law(const slope_set *slopes, const double unstretch[3], const char *name, slope_law *law,
                       notes *to, refusal *why)
 {
-    double left = 0;
+    double left = 0, beyond = 0;
     bins *b = calloc(1, sizeof *b);
     double *r = lengths(slopes, unstretch);
     double *sorted = malloc(slopes->count * sizeof *sorted);
@@ -271,7 +353,7 @@ static int radial_law(const slope_set *slopes, const double unstretch[3], const 
         count_parts(b, slopes, r);
         draw_again(b);
         good = b->count >= 4
-                   ? make_rows(b, name, &law->rows, &left, why)
+                   ? find_rows(b, name, &law->rows, &left, &beyond, why)
                    : refuse_data(why, name,
                                  "%zu lengths of slopes can be told apart, and 4 are needed: the steps of the "
                                  "data are too coarse, or it is flat",
@@ -283,6 +365,7 @@ static int radial_law(const slope_set *slopes, const double unstretch[3], const 
         note(to, "rows %zu", b->count);
         note_errors(b, to);
         note(to, "residual_bins %.2g", left);
+        note(to, "mass_beyond %.2g", beyond);
     }
     free(sorted);
     free(r);
