@@ -7,9 +7,9 @@
  * isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this matrix.
  *
  * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
- * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
- * longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from 64 parts of the surface, drawn again 200 times (bootstrap):
- * neighbouring slopes are not independent, parts nearly are. */
+ * through them has the mass of every bin. After the last row a tail follows, unless it would have too much mass beyond
+ * the longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from 64 parts of the
+ * surface, drawn again 200 times (bootstrap): neighbouring slopes are not independent, parts nearly are. */
 #ifndef TOOLS_MEASURED_SURFACE_SLOPES_H
 #define TOOLS_MEASURED_SURFACE_SLOPES_H
 
