@@ -272,7 +272,7 @@ static void end_rows(const bins *b, profile *rows)
     rows->error[last + 1] = rows->error[last];
 }
 
-/* What the curve has in the last bin and beyond the longest slope, of all its mass. */
+/* The mass of the curve in the last bin, and beyond the longest slope. All bins together have 1. */
 typedef struct tail {
     double last, beyond;
 } tail;
@@ -282,13 +282,10 @@ static int find_tail(const bins *b, const profile *rows, const char *name, tail 
     vndf_source *source = profile_source(rows, name, why);
     if (!source)
         return 0;
+    size_t last = b->count - 1;
     int has_end = isfinite(b->edge[b->count]);
-    double from = b->edge[b->count - 1], below = profile_mass(source, 0, from);
-    double last = profile_mass(source, from, b->edge[b->count]);
-    double beyond = profile_mass(source, b->longest, has_end ? rows->x[rows->count - 1] : INFINITY);
-    double whole = below + last + (has_end ? beyond : 0);
-    found->last = last / whole;
-    found->beyond = beyond / whole;
+    found->last = profile_mass(source, b->edge[last], b->edge[b->count]);
+    found->beyond = profile_mass(source, b->longest, has_end ? rows->x[rows->count - 1] : INFINITY);
     vndf_source_free(source);
     return 1;
 }
