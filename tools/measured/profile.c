@@ -140,7 +140,7 @@ static int match(profile *changed, const profile_bins *bins, double *factor, dou
 {
     double before = INFINITY, power = 1;
     *left = INFINITY;
-    for (int step = 0; step<STEPS && * left> 1e-6; step++) {
+    for (int step = 0; step < STEPS && !(*left <= 1e-6); step++) {
         double worst = compare(changed, bins, factor, name, why);
         if (worst < 0)
             return 0;

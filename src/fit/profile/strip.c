@@ -81,7 +81,7 @@ static polynomial powers_of(const double *term, int count)
     return p;
 }
 
-/* Half of `width` times t + 1 leads from the inner end of a piece to t. */
+/* The place of t, from -1 to 1, in a piece. */
 static double place(double from, double width, double t)
 {
     return from + width * (0.5 + 0.5 * t);

@@ -51,7 +51,7 @@ VNDF_INLINE doubles_m is_between(doubles least, doubles x, doubles most)
     return doubles_both(doubles_less(least, x), doubles_less(x, most));
 }
 
-/* Roughness and direction of a group, or in lanes where they are extreme others, which can be drawn from. */
+/* Roughness and direction of a group. Where they are extreme the lane is not trusted, and draws from others. */
 VNDF_INLINE vndf_direction direction_at(const gathered *from, uint32_t i, double scale, doubles_m *trusted)
 {
     const doubles least = doubles_set(1e-6), most = doubles_set(1e6), one = doubles_set(1.0);

@@ -292,19 +292,33 @@ def want(value: Any, kind: Any) -> None:
         raise TypeError(f"a {names} is wanted, not {value!r}")
 
 
-class Owner:
-    """What frees its pointer: it is not copied, and pickles only where a class says how."""
+class Immutable:
+    """What stands for memory of C: a copy is the object itself, and only some classes can be pickled."""
 
-    _pointer = 0
+    def __copy__(self) -> Immutable:
+        return self
 
-    def __copy__(self) -> Owner:
-        return self  # immutable
-
-    def __deepcopy__(self, memo: Any) -> Owner:
+    def __deepcopy__(self, memo: Any) -> Immutable:
         return self
 
     def __reduce__(self) -> Any:
         raise TypeError(f"a vndf.{type(self).__name__} cannot be pickled: save it to a file, or make it again")
+
+
+class Owner(Immutable):
+    """Owns a pointer, and frees it by the C call named `_free`."""
+
+    _free = ""
+    _pointer = 0
+
+    def __init__(self, pointer: int) -> None:
+        """For the package itself."""
+        self._pointer = pointer
+
+    def __del__(self) -> None:
+        if self._pointer:
+            getattr(library, self._free)(self._pointer)
+            self._pointer = 0
 
 
 def members(struct: Any) -> dict[str, Any]:

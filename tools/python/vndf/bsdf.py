@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
-from ._library import Owner, checked, library, members, path_bytes, want
+from ._library import Immutable, Owner, checked, library, members, path_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
 from .surface import Mixture, roughness
@@ -45,14 +45,7 @@ class Scattered(NamedTuple):
 class Albedo(Owner):
     """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
 
-    def __init__(self, pointer: int) -> None:
-        """For the package itself."""
-        self._pointer = pointer
-
-    def __del__(self) -> None:
-        if getattr(self, "_pointer", None):
-            library.albedo_free(self._pointer)
-            self._pointer = 0
+    _free = "albedo_free"
 
     @staticmethod
     def build(
@@ -89,7 +82,7 @@ class Albedo(Owner):
         return as_float(look(alpha))[()]
 
 
-class Material(Owner):
+class Material(Immutable):
     """A rough material: a distribution, its shape, its optics and its effects. Numbers may be arrays where a texture
     brings one for each hit: alpha, alpha_y, rotation, matrix, mean, and all of a mixture.
 

@@ -30,15 +30,12 @@ class Source(Owner):
     ``Source.of(table)``: what a table was built from.
     """
 
+    _free = "source_free"
+
     def __init__(self, pointer: int, function: Optional[_Function] = None) -> None:
         """For the package itself."""
-        self._pointer = pointer
+        super().__init__(pointer)
         self._function = function
-
-    def __del__(self) -> None:
-        if getattr(self, "_pointer", None):
-            library.source_free(self._pointer)
-            self._pointer = 0
 
     @staticmethod
     def slope(formula: str, **parameters: float) -> Source:

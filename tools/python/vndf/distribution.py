@@ -57,15 +57,16 @@ class Distribution(Owner):
     """A distribution of normals, immutable: threads may share it. From :func:`vndf.load`, :func:`vndf.build`,
     :func:`vndf.ggx` or :func:`vndf.beckmann`; pickles as the bytes of its table."""
 
+    _free = "free"
+
     def __init__(self, pointer: int, owner: Any = None) -> None:
         """For the package itself. `owner`: what frees the pointer; None: this object."""
-        self._pointer = pointer
+        super().__init__(pointer)
         self._owner = owner
 
     def __del__(self) -> None:
-        if getattr(self, "_pointer", None) and self._owner is None:
-            library.free(self._pointer)
-            self._pointer = 0
+        if getattr(self, "_owner", None) is None:
+            super().__del__()
 
     @property
     def info(self) -> Info:

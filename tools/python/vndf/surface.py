@@ -264,15 +264,12 @@ class Family(Owner):
     """Distributions along one parameter, a mixture of two neighbours between them. From ``Family.build``,
     ``Family.load`` or ``Family.of``."""
 
-    def __init__(self, pointer: int, keep: Sequence[Distribution] = ()) -> None:
-        """For the package itself."""
-        self._pointer = pointer
-        self._keep = keep
+    _free = "family_free"
 
-    def __del__(self) -> None:
-        if getattr(self, "_pointer", None):
-            library.family_free(self._pointer)
-            self._pointer = 0
+    def __init__(self, pointer: int, keep: Sequence[Distribution] = ()) -> None:
+        """For the package itself. `keep`: what has to live as long."""
+        super().__init__(pointer)
+        self._keep = keep
 
     @staticmethod
     def build(
