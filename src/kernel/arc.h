@@ -79,7 +79,8 @@ typedef struct bearing {
 /* sin(h)/h from h^2, |h| <= pi/2; relative error 6e-9. */
 HERE real arc_sine(real h2)
 {
-    return 0.999999995f + h2 * (-0.166666567f + h2 * (0.00833302514f + h2 * (-0.000198074187f + h2 * 2.60190307e-6f)));
+    real h4 = h2 * h2;
+    return (0.999999995f - 0.166666567f * h2) + h4 * ((0.00833302514f - 0.000198074187f * h2) + h4 * 2.60190307e-6f);
 }
 
 /* One step from d. With P = q sin d - r cos d and Q = q cos d + r sin d the derivatives of F are cc + P, Q, -P; all are

@@ -6,11 +6,11 @@
 
 #include "kernel/law.h"
 
-HERE seen table_see(table t, real s, real c, const int below)
+HERE seen table_see(table t, real s, real c, real rho, const int below)
 {
     if (below)
-        return law_see_below(t, s, c);
-    return law_see_above(t, s, c);
+        return law_see_below(t, s, c, rho);
+    return law_see_above(t, s, c, rho);
 }
 
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
@@ -40,7 +40,7 @@ HERE whole table_find(table t, seen v, aim a, const int below)
     if (below)
         return law_find_below(t, v, a.left);
     mask near = less(a.at, v.near);
-    whole i = law_find(t, a.w, a.left);
+    whole i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
     return pick_whole(near, least_whole(i, v.first - 1), most_whole(i, v.first));
 }
 

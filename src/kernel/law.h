@@ -37,6 +37,8 @@ typedef struct seen {
     real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
 } seen;
 
+#ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
+
 /* The last knot at or below a slope. */
 HERE whole find_knot(table t, real slope)
 {
@@ -49,6 +51,23 @@ HERE whole find_knot(table t, real slope)
     }
     return i;
 }
+
+/* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
+ * terms do. */
+HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
+{
+    whole i = set_whole(0);
+    int step = t.highest;
+    for (int n = 0; n < t.steps; n++) {
+        whole next = least_whole(i + step, set_whole(t.cells));
+        quad tail = look(t, VNDF_TAIL, next);
+        i = pick_whole(at_most(left, (w1 * tail.a + w0 * tail.b) + (wq * tail.c + w4 * tail.d)), next, i);
+        step = step / 2;
+    }
+    return i;
+}
+
+#endif
 
 /* ---- above the horizon ---- */
 
@@ -64,19 +83,19 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-HERE seen law_see_above(table t, real s, real c)
+HERE seen law_see_above(table t, real s, real c, real rho)
 {
     seen v;
     v.s = s;
     v.c = c;
-    v.rho = c / s;
+    v.rho = rho;
     v.cell = find_knot(t, v.rho);
     quad k = look(t, VNDF_KNOT, v.cell);
     v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
     quad tail = look(t, VNDF_TAIL, v.first);
-    real rho = least(v.rho, set(1e9f)), square = rho * rho;
+    real reach = least(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
-    weights w = {s * law_terms[n], c * law_terms[n + 1], c * rho * law_terms[n + 2],
+    weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  c * (square * square) * law_terms[n + 3]};
     v.w = law_weights_at(w, c, same(v.first, t.cells));
     v.near = c * most(1.0f - tail.b, set(0.0f));
@@ -92,26 +111,12 @@ HERE seen law_see_above(table t, real s, real c)
     return v;
 }
 
-/* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
- * terms do. */
-HERE whole law_find(table t, weights w, real left)
-{
-    whole i = set_whole(0);
-    int step = t.highest;
-    for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        i = pick_whole(at_most(left, law_sum(w, look(t, VNDF_TAIL, next))), next, i);
-        step = step / 2;
-    }
-    return i;
-}
-
 /* ---- a cell ---- */
 
 /* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
  * at the beginning. */
 typedef struct piece {
-    real mass, e0, e1;
+    real mass, per, e0, e1; /* per: 1/mass */
     real from, x0, z0, x1, z1;  /* the slope where it begins */
     real edge0, edge1, width;   /* edge: s x - |c| z */
     mask last;
@@ -136,9 +141,9 @@ HERE piece law_cell_at(table t, real s, real c, whole i, quad k)
 HERE piece law_cell_of(piece at, real mass, real d0, real d1)
 {
     at.mass = most(mass, set(1e-36f));
-    real per = 1.0f / at.mass;
-    at.e0 = d0 * per;
-    at.e1 = d1 * per;
+    at.per = 1.0f / at.mass;
+    at.e0 = d0 * at.per;
+    at.e1 = d1 * at.per;
     return at;
 }
 
@@ -222,12 +227,12 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c)
+HERE seen law_see_below(table t, real s, real c, real rho)
 {
     seen v;
     v.s = s;
     v.c = c;
-    v.rho = -c / s;
+    v.rho = rho;
     v.cell = find_knot(t, v.rho);
     v.first = v.cell;
     mask last = same(v.cell, t.cells);
@@ -289,7 +294,7 @@ typedef struct place {
 /* The place with the mass m before it: no root is a difference. */
 HERE place law_invert(piece at, real m)
 {
-    real q = least(most(m / at.mass, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
+    real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
     real middle = at.e0 - q * (at.e0 + at.e1), square = root(middle * middle + 4.0f * (q * p));
     mask rising = at_most(set(0.0f), middle + 2.0f * q);
     place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square, set(0.0f)};

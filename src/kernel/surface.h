@@ -26,7 +26,10 @@ typedef struct frame {
 
 HERE frame frame_of(surface m, real x, real y, real z)
 {
-    real k = inverse_scale(most(most(size(x), size(y)), size(z)));
+    real largest = most(most(size(x), size(y)), size(z)), k = set(1.0f);
+    mask odd = either(less(largest, set(1e-9f)), less(set(1e9f), largest));
+    if (any(odd))
+        k = pick(odd, inverse_scale(largest), k);
     frame f;
     f.m = m;
     f.wx = x * k;
@@ -103,7 +106,7 @@ HERE table_view table_view_of(table t, frame f, const int below)
     real both = 1.0f / (across * (across + level)), per = across * both, over = (across + level) * both;
     view.ex = pick(straight, set(1.0f), f.ux * over);
     view.ey = pick(straight, set(0.0f), f.uy * over);
-    view.v = table_see(t, across * per, f.uz * per, below);
+    view.v = table_see(t, across * per, f.uz * per, level * over, below);
     return view;
 }
 

@@ -90,7 +90,9 @@ static int allocate(reading *r)
     for (int i = 0; i < ARRAYS; i++)
         *array[i] = array[i] != &r->draft.m4 || r->draft.moments == 4 ? r->block + (size_t)i * n : NULL;
     r->table->number_count = count;
-    return (r->table->numbers = malloc(count * sizeof *r->table->numbers)) != NULL;
+    r->table->numbers = malloc(count * sizeof(float));
+    r->table->columns = malloc(vndf_table_columns(r->draft.cells) * sizeof(float));
+    return r->table->numbers && r->table->columns;
 }
 
 /* Everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
@@ -162,6 +164,7 @@ void vndf_free(vndf_distribution *distribution)
     if (!distribution || !vndf_is_table(distribution))
         return;
     free(distribution->numbers);
+    free(distribution->columns);
     free((char *)distribution->source);
     free((char *)distribution->tool);
     free(distribution);

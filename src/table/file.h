@@ -20,6 +20,9 @@ enum { VNDF_CERTIFICATE_FLOATS = 12 };
 /* Fills the numbers of a table from its draft; NULL, or what is wrong with the draft. */
 const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *draft);
 
+/* Floats of table->columns. */
+size_t vndf_table_columns(unsigned cells);
+
 /* Bytes of memory that it takes, all allocations together. */
 size_t vndf_table_memory(const vndf_distribution *table);
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "table/columns.h"
 #include "table/file.h"
 
 /* The law of k~ begins at knot i for the rho of its cell if that is less than NEAR times R_i, or nearer to R_i than to
@@ -104,6 +105,28 @@ static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, doubl
     *mass = t0;
 }
 
+/* Columns of slopes and of sums beyond them, and their pivots. */
+static void fill_columns(vndf_distribution *table)
+{
+    int n = table->cells, size = vndf_column_size(n), pivots = vndf_pivot_count(n);
+    float *pivot = table->columns + VNDF_COLUMNS * size;
+    for (int c = 0; c < VNDF_COLUMNS; c++) {
+        float *column = table->columns + c * size;
+        for (int i = 0; i < size; i++)
+            column[i] = i > n ? (c ? -1.0f : 3e38f)
+                              : row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
+        for (int i = 0; i < pivots; i++) {
+            int knot = (i + 1) * VNDF_COLUMN_STEP;
+            pivot[c * pivots + i] = knot < size ? column[knot] : c ? -1.0f : 3e38f;
+        }
+    }
+}
+
+size_t vndf_table_columns(unsigned cells)
+{
+    return (size_t)VNDF_COLUMNS * (size_t)(vndf_column_size((int)cells) + vndf_pivot_count((int)cells));
+}
+
 const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
 {
     const char *why = draft_invalid(d);
@@ -132,6 +155,7 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
     for (size_t i = 0; i <= d->cells; i++)
         if (!(row(table, VNDF_KNOT, i)[2] > 1e-30f))
             return "two knots coincide";
+    fill_columns(table);
     return NULL;
 }
 
@@ -161,7 +185,8 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 
 size_t vndf_table_memory(const vndf_distribution *table)
 {
-    return sizeof *table + table->number_count * sizeof *table->numbers + strlen(table->source) + strlen(table->tool) + 2;
+    size_t floats = table->number_count + vndf_table_columns((unsigned)table->cells);
+    return sizeof *table + floats * sizeof(float) + strlen(table->source) + strlen(table->tool) + 2;
 }
 
 size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity)

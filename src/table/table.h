@@ -43,6 +43,7 @@ struct vndf_distribution {
     float unit;                        /* scale, rounded: 1 for closed forms */
     float *numbers;
     size_t number_count;
+    float *columns; /* slopes and sums beyond them once more, each in a column (table/columns.h) */
     double normalization; /* the source was multiplied by it */
     double scale;         /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
