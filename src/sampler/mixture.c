@@ -34,17 +34,17 @@ static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_L
 /* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone count. */
 static void set_shares(vndf_mixture_view *view, vndf_vec3 wi)
 {
-    float sum = 0.0f, weights = 0.0f;
+    float sum = 0.0f, total = 0.0f;
     view->cosine = 0.0f;
     for (int i = 0; i < view->count; i++) {
         view->share[i] = view->weight[i] * vndf_view_area(&view->lobe[i], wi);
         view->cosine += view->weight[i] * vndf_view_cosine(&view->lobe[i], wi);
         sum += view->share[i];
-        weights += view->weight[i];
+        total += view->weight[i];
     }
     view->area = sum;
     for (int i = 0; i < view->count; i++)
-        view->share[i] = sum > FLT_MIN ? view->share[i] / sum : view->weight[i] / weights;
+        view->share[i] = sum > FLT_MIN ? view->share[i] / sum : view->weight[i] / total;
 }
 
 vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
