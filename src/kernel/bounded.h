@@ -12,7 +12,8 @@
 
 #include "kernel/beckmann.h"
 
-/* A drawn normal, its density that of bounded normals, and `inside`. */
+/* A drawn normal, its density that of bounded normals, and what that of visible normals is divided by: `inside` times the
+ * constant, which for GGX of unequal roughness exceeds 1 in places. */
 typedef struct bounded {
     drawn n;
     real inside;
@@ -65,13 +66,14 @@ HERE ggx_chord ggx_chord_of(ggx_bounds b, real cosine, real sine)
     h.root = root(most(h.lean * h.lean - h.a * b.c0, set(0.0f)));
     mask out = less(set(0.0f), b.c0), away = less(set(0.0f), h.lean);
     real far = pick(away, -b.c0, h.root - h.lean) / pick(away, h.lean + h.root, h.a), t1 = least(far, set(1e15f));
-    real t0 = pick(out, most(b.c0, set(0.0f)) / most(h.root - h.lean, set(1e-15f)), set(0.0f)), wedge = least(sx, set(0.0f)) / b.c;
+    real t0 = least(most(b.c0, set(0.0f)) / most(h.root - h.lean, set(1e-15f)), set(1e15f)), wedge = least(sx, set(0.0f)) / b.c;
     h.cosine1 = 1.0f / (1.0f + t1 * t1);
     h.sine1 = t1 * t1 * h.cosine1;
     h.cosine0 = 1.0f / (1.0f + t0 * t0);
     h.sine0 = t0 * t0 * h.cosine0;
     real both_roots = -4.0f * (h.lean / h.a) * (h.root / h.a) * h.cosine0 * h.cosine1;
-    h.inside = pick(out, pick(less(h.lean, set(0.0f)), both_roots, set(0.0f)), h.sine1) * (1.0f + wedge * wedge);
+    real part = pick(out, pick(less(h.lean, set(0.0f)), both_roots, set(0.0f)), h.sine1);
+    h.inside = least(part * (1.0f + wedge * wedge), set(1.0f));
     return h;
 }
 
@@ -215,7 +217,7 @@ HERE real beckmann_inside(beckmann_bounds b, real x, real y, real z)
 {
     real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f);
     beckmann_chord h = beckmann_chord_of(b, -((b.view.law.cosine * x + b.view.law.sine * y) * per));
-    return most(b.span * h.part, set(1e-37f));
+    return most(b.span * h.part, set(1e-28f));
 }
 
 HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
@@ -224,7 +226,7 @@ HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
     real x = most(least(beckmann_along(b.view, b.begin + b.span * u1).x, b.x1), b.x0);
     beckmann_chord h = beckmann_chord_of(b, x);
     real u = 0.5f + h.side * (u2 - 0.5f), y = h.side * most(least(erf_quantile(h.before + u * h.part), h.high), h.low);
-    real inside = most(b.span * h.part, set(1e-37f));
+    real inside = most(b.span * h.part, set(1e-28f));
     const drawn n = {v.sine * y - v.cosine * x, -(v.sine * x + v.cosine * y), set(1.0f),
                      beckmann_slopes(v, x, y, v.bound - x) / inside};
     const bounded drawn_inside = {n, inside};
