@@ -36,9 +36,9 @@ typedef struct heap {
 static void end_heap(vndf_points *points, const vndf_span *span, heap *h)
 {
     double r = h->mass > 0 ? h->first / h->mass : h->from;
+    double xi0 = vndf_span_place(span, h->from), xi1 = vndf_span_place(span, h->to);
     if (h->to > h->from)
-        push(points, (vndf_point){r, h->mass, vndf_span_place(span, r),
-                                  vndf_span_place(span, h->to) - vndf_span_place(span, h->from)});
+        push(points, (vndf_point){r, h->mass, (xi0 + xi1) / 2, xi1 - xi0});
     *h = (heap){0, 0, 0, 0};
 }
 
@@ -96,7 +96,7 @@ static void add_rest(vndf_points *points, const vndf_profile *profile, const vnd
     double end = profile->panel[profile->count].r, m0 = profile->tail_m0, m1 = profile->tail_m1 + end * m0;
     double before = vndf_span_place(span, end);
     if (m0 > 0)
-        push(points, (vndf_point){m1 / m0, 2 * PI * m0, vndf_span_place(span, m1 / m0), 1 - before});
+        push(points, (vndf_point){m1 / m0, 2 * PI * m0, (1 + before) / 2, 1 - before});
 }
 
 void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vndf_span *span, double end)
@@ -118,10 +118,10 @@ void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vnd
 
 /* ---- numbers ---- */
 
-static const double INSIDE = 4e-7;      /* of the slope: four floats into the cell, since knots are rounded */
+static const double INSIDE = 1.5e-7;    /* of the slope: a float into the cell, where P22 may jump beside the knot */
 static const double END_LEAST = 0.02, END_MOST = 50; /* of the mean: for poles, zeros and light tails */
 static const double MASS_LEAST = 1e-30, LEAST = 1e-37, MOST = 1e30;
-static const double NEAR_END = 1e-2;    /* 1 - xi where the limit of a tail is read */
+static const double NEAR_END = 4e-2;    /* 1 - xi where the limit of a tail is read */
 
 static vndf_cell moments_of(const vndf_span *span, const vndf_point *point, size_t count)
 {
@@ -151,7 +151,7 @@ static double clipped(double value, double mean)
 /* Where D is known beside a knot: inside the cell, since P22 may jump there. */
 static double beside(const vndf_span *span, double end, int outer)
 {
-    double width = end - span->r, step = fmin(INSIDE * (outer ? end : span->r), width / 4);
+    double width = end - span->r, step = fmin(INSIDE * (outer ? end : span->r), width / 32);
     if (outer)
         return end - step;
     return span->r > 0 ? span->r + step : 1e-6 * width;

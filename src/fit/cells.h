@@ -7,7 +7,7 @@
 
 /* Slopes nearer than this part of themselves are one: less than a float of a normal can tell. A knot has no other within
  * four floats of it. */
-#define VNDF_GRAIN 0x1p-22
+#define VNDF_GRAIN 0x1.001p-21
 
 /* f dR = mass; the part of its cell that the point stands for, by xi. */
 typedef struct vndf_point {

@@ -110,8 +110,9 @@ static void add_cell(survey *s, sums *sum, const vndf_law *law, unsigned i, doub
     double xi = partial ? law->xi : 0, per = 1 / (1 - xi), add = law->below ? 0 : PI;
     for (size_t n = sight->first[i]; n < sight->first[i + 1]; n++) {
         const vndf_point *p = &sight->points.at[n];
-        double density = p->xi > xi ? vndf_drawn_density(&cell, (p->xi - xi) * per) * per : 0;
-        note(s, sum, p->mass * (s->kernel[n] + add) * seen, density * p->width * drawn);
+        double place = (p->xi - xi) * per, width = p->width * per;
+        double part = place + width / 2 > 0 ? vndf_drawn_part(&cell, place, width) : 0;
+        note(s, sum, p->mass * (s->kernel[n] + add) * seen, part * drawn);
     }
 }
 
@@ -255,7 +256,7 @@ static double ndf_error(const survey *s)
             double width = p->width / (vndf_span_density(span, p->r) * p->r); /* of log R */
             before += p->mass;
             if (before > LEFT_OUT / 2 && before < 1 - LEFT_OUT / 2 && p->mass > LEFT_OUT * width)
-                worst = fmax(worst, fabs(vndf_drawn_density(&cell, p->xi) * p->width / p->mass - 1));
+                worst = fmax(worst, fabs(vndf_drawn_part(&cell, p->xi, p->width) / p->mass - 1));
         }
     }
     return worst;

@@ -7,15 +7,39 @@ static const double PI = 3.14159265358979323846;
 
 /* ---- points ---- */
 
+static const double POINTS_MANY = 8000;
+
+/* Puts `group` points together to one, from index `first` on: rough distributions have more than sums need. */
+static void thin(vndf_points *points, size_t first, size_t group)
+{
+    size_t n = first;
+    for (size_t i = first; group > 1 && i < points->count; i += group) {
+        vndf_point sum = {0, 0, 0, 0};
+        for (size_t k = i; k < i + group && k < points->count; k++) {
+            const vndf_point *p = &points->at[k];
+            sum.r += p->mass * p->r;
+            sum.mass += p->mass;
+            sum.xi += p->width * p->xi;
+            sum.width += p->width;
+        }
+        points->at[n++] = (vndf_point){sum.r / sum.mass, sum.mass, sum.xi / sum.width, sum.width};
+    }
+    points->count = group > 1 ? n : points->count;
+}
+
 int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const float *knot, unsigned cells,
                     unsigned squarings)
 {
+    enum { GROUP_MOST = 5, FEW = 4 * VNDF_GAUSS };
+    size_t group = 1 + (size_t)((double)(profile->count * VNDF_GAUSS) / POINTS_MANY);
     *sight = (vndf_sight){{NULL, 0, 0, 0}, malloc((cells + 2) * sizeof *sight->first)};
     for (unsigned i = 0; sight->first && i <= cells; i++) {
         int tail = i == cells;
         vndf_span span = tail ? vndf_span_of_tail(knot[i], squarings) : vndf_span_between(knot[i], knot[i + 1]);
-        sight->first[i] = sight->points.count;
+        size_t first = sight->first[i] = sight->points.count;
         vndf_points_add(&sight->points, profile, &span, tail ? HUGE_VAL : knot[i + 1]);
+        if (sight->points.count > first + FEW)
+            thin(&sight->points, first, group < GROUP_MOST ? group : GROUP_MOST);
         sight->first[i + 1] = sight->points.count;
     }
     return sight->first && !sight->points.starved;
@@ -56,16 +80,6 @@ static void put_cell(vndf_draft *draft, const vndf_profile *profile, unsigned i)
     t->m1[i] = (float)cell.m1;
     t->m2[i] = (float)cell.m2;
     t->m4[i] = (float)cell.m4;
-}
-
-/* The spline's value and slope; returns the area below the horizon, for s = 1. */
-static double put_area(vndf_table_draft *t, const vndf_profile *profile, unsigned i)
-{
-    double rho = t->knot[i], s = 1 / (1 + rho), c = rho * s;
-    vndf_area at = vndf_profile_below(profile, s, c);
-    t->area[i] = (float)(at.below + c);
-    t->slope[i] = (float)(1 - at.turned - at.along);
-    return at.below / s;
 }
 
 /* ---- shares below the horizon ---- */
@@ -155,38 +169,45 @@ static void sum_grazing(const vndf_sight *sight, unsigned cells, double *grazing
     }
 }
 
-static void put_all_shares(vndf_draft *draft, const double *area, const double *grazing, ray *room)
+static void put_all_shares(vndf_draft *draft, const vndf_knot *knot, const double *grazing, ray *room)
 {
     vndf_table_draft *t = &draft->table;
     shares b = {0.43, 0.57};
     for (unsigned i = 0; i <= t->cells; i++) {
         double rho = i ? t->knot[i] : 0.1 * (t->cells ? t->knot[1] : 1);
         b = best_shares(room, look(&draft->sight, t->cells, i, rho, grazing, room), b);
-        put_shares(t, i, b, area[i], &draft->laws);
+        put_shares(t, i, b, knot[i].area.below * (1 + rho), &draft->laws);
     }
 }
 
 /* ---- the whole ---- */
 
-static int fill(vndf_draft *draft, const vndf_profile *profile)
+static void put_knot(vndf_table_draft *t, const vndf_knot *knot, unsigned i)
+{
+    double rho = knot[i].r;
+    t->area[i] = (float)(knot[i].area.below + rho / (1 + rho));
+    t->slope[i] = (float)(1 - knot[i].area.turned - knot[i].area.along);
+}
+
+static int fill(vndf_draft *draft, const vndf_profile *profile, const vndf_knot *knot)
 {
     vndf_table_draft *t = &draft->table;
     unsigned n = t->cells + 1;
-    double *area = malloc(2 * n * sizeof *area);
+    double *grazing = malloc(n * sizeof *grazing);
     ray *room = malloc((draft->sight.points.count + 1) * sizeof *room);
-    int good = area && room;
+    int good = grazing && room;
     for (unsigned i = 0; good && i < n; i++) {
         put_cell(draft, profile, i);
-        area[i] = put_area(t, profile, i);
+        put_knot(t, knot, i);
     }
     good = good && vndf_laws_from(&draft->laws, t);
     if (good) {
-        sum_grazing(&draft->sight, t->cells, area + n);
-        put_all_shares(draft, area, area + n, room);
+        sum_grazing(&draft->sight, t->cells, grazing);
+        put_all_shares(draft, knot, grazing, room);
         vndf_laws_free(&draft->laws);
         good = vndf_laws_from(&draft->laws, t); /* with the shares */
     }
-    free(area);
+    free(grazing);
     free(room);
     return good;
 }
@@ -194,6 +215,7 @@ static int fill(vndf_draft *draft, const vndf_profile *profile)
 int vndf_draft_from(vndf_draft *draft, const vndf_radial *radial, unsigned count, unsigned moments)
 {
     const vndf_profile *profile = radial->profile;
+    vndf_knot knot[VNDF_CELLS_MAX + 1];
     *draft = (vndf_draft){.table = {.cells = count - 1,
                                     .moments = moments,
                                     .squarings = radial->squarings,
@@ -202,9 +224,11 @@ int vndf_draft_from(vndf_draft *draft, const vndf_radial *radial, unsigned count
                                     .source = profile->description}};
     if (!allocate(&draft->table))
         return 0;
-    vndf_radial_knots(radial, count, draft->table.knot);
+    vndf_radial_knots(radial, count, knot);
+    for (unsigned i = 0; i < count; i++)
+        draft->table.knot[i] = knot[i].r;
     return vndf_sight_from(&draft->sight, profile, draft->table.knot, count - 1, radial->squarings) &&
-           fill(draft, profile);
+           fill(draft, profile, knot);
 }
 
 void vndf_draft_free(vndf_draft *draft)

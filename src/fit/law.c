@@ -82,6 +82,21 @@ vndf_drawn vndf_drawn_below(const vndf_span *span, const vndf_cell *cell, double
     return drawn;
 }
 
+/* The mass before xi. */
+static double before(const vndf_drawn *d, double xi)
+{
+    double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
+    return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
+}
+
+double vndf_drawn_part(const vndf_drawn *d, double xi, double width)
+{
+    const double wide = 0.2; /* no point of a rule over a whole cell stands for more */
+    if (width < wide)
+        return vndf_drawn_density(d, fmax(xi, 0)) * width;
+    return before(d, fmin(xi + width / 2, 1)) - before(d, fmax(xi - width / 2, 0));
+}
+
 /* ---- tables ---- */
 
 vndf_kernel vndf_kernel_of(unsigned moments)

@@ -52,6 +52,9 @@ VNDF_INLINE double vndf_drawn_density(const vndf_drawn *d, double xi)
     return (d->d1 * xi * xi + 2 * d->mass * w + d->d0 * eta * eta) * part * part;
 }
 
+/* The mass that is drawn over `width` about xi, for a point of a rule: by the density; of a wide part exactly. */
+double vndf_drawn_part(const vndf_drawn *drawn, double xi, double width);
+
 /* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments. */
 typedef struct vndf_kernel {
     double a1, a0, aq, a4;

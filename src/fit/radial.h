@@ -5,9 +5,15 @@
 
 #include "fit/cells.h"
 
+/* A knot, and the areas for rho there, s + c = 1 (profile.h). */
+typedef struct vndf_knot {
+    float r;
+    vndf_area area;
+} vndf_knot;
+
 /* Between two knots; the error of what is drawn there, and where it would be cut. */
 typedef struct vndf_interval {
-    float from, to; /* to: infinite in the tail cell */
+    vndf_knot from, to; /* to: infinite in the tail cell */
     double error;
     float cut; /* 0: it cannot be cut */
 } vndf_interval;
@@ -15,7 +21,8 @@ typedef struct vndf_interval {
 typedef struct vndf_radial {
     const vndf_profile *profile;
     unsigned squarings;
-    float knot[VNDF_CELLS_MAX + 1]; /* `start` ascending, from 0; then as they were added */
+    double last; /* the largest rho from which what is seen below the horizon counts */
+    vndf_knot knot[VNDF_CELLS_MAX + 1]; /* `start` ascending, from 0; then as they were added */
     unsigned start, count;
     vndf_interval interval[VNDF_CELLS_MAX + 1];
     vndf_points points; /* of the cell at hand */
@@ -29,6 +36,6 @@ void vndf_radial_free(vndf_radial *radial);
 unsigned vndf_radial_refine(vndf_radial *radial, unsigned count);
 
 /* The first `count` knots, ascending. */
-void vndf_radial_knots(const vndf_radial *radial, unsigned count, float *knot);
+void vndf_radial_knots(const vndf_radial *radial, unsigned count, vndf_knot *knot);
 
 #endif
