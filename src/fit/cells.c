@@ -119,7 +119,7 @@ void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vnd
 /* ---- numbers ---- */
 
 static const double INSIDE = 1.5e-7;    /* of the slope: a float into the cell, where P22 may jump beside the knot */
-static const double END_LEAST = 0.02, END_MOST = 50; /* of the mean: for poles, zeros and light tails */
+static const double END_LEAST = 0.02, END_MOST = 300; /* of the mean: for poles, zeros and light tails */
 static const double MASS_LEAST = 1e-30, LEAST = 1e-37, MOST = 1e30;
 static const double NEAR_END = 4e-2;    /* 1 - xi where the limit of a tail is read */
 

@@ -17,6 +17,13 @@ enum { FLOATS_APART = 4 };
 
 /* ---- the error of a cell ---- */
 
+/* |drawn - true| of a point below the horizon; what is drawn far too rarely counts more often, since it decides the largest weight. */
+static double miss_of(double seen, double drawn)
+{
+    const double rarely = 2, more = 20;
+    return seen > rarely * drawn ? more * seen : fabs(seen - drawn);
+}
+
 /* A cell and its points. */
 typedef struct view {
     vndf_knot from, to;
@@ -56,7 +63,7 @@ static double miss_below(const vndf_radial *radial, const view *v, double rho)
         const vndf_point *p = &v->point[i];
         double way = fmax(p->r - rho, 0), true_part = p->mass * way * (SHARE0 + SHARE1 * way / p->r) / mass;
         if (p->xi + p->width / 2 > xi0)
-            sum += fabs(true_part - vndf_drawn_part(&drawn, (p->xi - xi0) * per, p->width * per));
+            sum += miss_of(true_part, vndf_drawn_part(&drawn, (p->xi - xi0) * per, p->width * per));
     }
     return sum / 2 * fmin(mass / seen, 1);
 }

@@ -105,7 +105,23 @@ static int is_near(const vndf_panel *p, double rho)
     return p->r - rho < 0.3 * (p[1].r - p->r);
 }
 
-/* Panels near rho are integrated anew. */
+/* Adds a panel: anew near rho; one that is slim beside its distance by its mean slope, which errs by 1e-6 of it. */
+static void add_panel(vndf_area *sum, const vndf_profile *profile, size_t i, double rho)
+{
+    const double slim = 0.01;
+    const vndf_panel *p = &profile->panel[i];
+    const vndf_profile_point *point = profile->point + i * VNDF_GAUSS;
+    if (is_near(p, rho))
+        add_near(sum, profile, rho, fmax(p->r, rho), p[1].r);
+    else if (p[1].r - p->r < slim * (p->r - rho)) {
+        if (p->m0 > 0)
+            add_point(sum, p->r + p->m1 / p->m0, rho, p->m0);
+    } else
+        for (int k = 0; k < VNDF_GAUSS; k++)
+            add_point(sum, point[k].r, rho, point[k].weight);
+}
+
+
 vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
 {
     vndf_area sum = {0.0, 0.0, 0.0};
@@ -115,11 +131,7 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
     if (!(s > 0.0) || rho >= p[count].r)
         return sum;
     for (; i < count && p[i].r < FAR * rho && !(2 * (p[i].s + p[i].r * p[i].t0) < LOST * sum.below); i++)
-        if (is_near(&p[i], rho)) {
-            add_near(&sum, profile, rho, fmax(p[i].r, rho), p[i + 1].r);
-        } else
-            for (size_t n = i * VNDF_GAUSS; n < (i + 1) * VNDF_GAUSS; n++)
-                add_point(&sum, profile->point[n].r, rho, profile->point[n].weight);
+        add_panel(&sum, profile, i, rho);
     add_far(&sum, &p[i], rho);
     vndf_guard_spend(profile->guard, KERNEL_OPERATIONS * VNDF_GAUSS * (double)(i - first + 1));
     sum.below *= 2 * s;
