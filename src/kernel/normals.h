@@ -111,8 +111,8 @@ HERE turn v_cavity_azimuth(real p, real q, real u1)
  * and its twin see of wi, not below 0. */
 HERE real v_cavity_share(real level, real up)
 {
-    real seen = most(up + level, set(0.0f));
-    return pick(less(level, up), seen / most(up, set(1e-37f)), set(2.0f));
+    real facing = most(up + level, set(0.0f));
+    return pick(less(level, up), facing / most(up, set(1e-37f)), set(2.0f));
 }
 
 /* A normal that w sees in V-cavities, vz >= 0. */
