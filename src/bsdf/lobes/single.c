@@ -15,7 +15,13 @@
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/masking.h"
 
-/* ---- reflection in float ---- */
+/* Where a dot product of floats is small it keeps its digits in double. */
+VNDF_INLINE double exact_dot(vndf_vec3 a, vndf_vec3 b)
+{
+    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+}
+
+/* ---- reflection ---- */
 
 VNDF_INLINE vndf_vec3 mirror_at(const vndf_bsdf *b, vndf_vec3 wm, float facing)
 {
@@ -35,22 +41,23 @@ VNDF_INLINE int goes_up(const vndf_bsdf *b, vndf_vec3 *wo, float *rise)
     return 1;
 }
 
-/* The normal between wi and wo, and wi.wm; 0 if there is none. The length of the sum does not cancel, as wi.wm may. */
-VNDF_INLINE float half_of(const vndf_bsdf *b, vndf_vec3 wo, vndf_vec3 *wm)
+/* The normal between wi and wo, and wi.wm; 0 if there is none. Densities of normals hold wi.wm of wm as it is rounded:
+ * the same here keeps their quotient. */
+VNDF_INLINE double half_of(const vndf_bsdf *b, vndf_vec3 wo, vndf_vec3 *wm)
 {
     vndf_vec3 sum = {b->wi.x + wo.x, b->wi.y + wo.y, b->wi.z + wo.z};
-    float square = vndf_dot(sum, sum), length = sqrtf(square);
+    float square = vndf_dot(sum, sum);
     if (!(square > 1e-30f) || !(sum.z >= 0.0f))
-        return 0.0f;
-    *wm = vndf_scale(sum, 1.0f / length);
-    return 0.5f * length;
+        return 0.0;
+    *wm = vndf_scale(sum, 1.0f / sqrtf(square));
+    return exact_dot(b->wi, *wm);
 }
 
 /* ---- bare ---- */
 
 static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    float facing = vndf_dot(b->wi, n->wm), rise;
+    float facing = (float)exact_dot(b->wi, n->wm), rise;
     vndf_vec3 wo = mirror_at(b, n->wm, facing);
     (void)u3;
     if (!(facing > 0.0f) || !goes_up(b, &wo, &rise)) {
@@ -70,7 +77,7 @@ static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u
 static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     vndf_vec3 wm;
-    float rise = vndf_hit_cosine(&b->view, wo), facing = vndf_is_near_unit(wo) ? half_of(b, wo, &wm) : 0.0f;
+    float rise = vndf_hit_cosine(&b->view, wo), facing = vndf_is_near_unit(wo) ? (float)half_of(b, wo, &wm) : 0.0f;
     (void)seed;
     vndf_see_nothing(b, value, pdf);
     if (!(rise > 0.0f) || !(facing > 0.0f))
@@ -91,7 +98,7 @@ static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *va
 /* wi.wm. Where it is near 1 it is formed of 1 - wi.wm, which Schlick's term is a power of. */
 VNDF_INLINE double facing_of(vndf_vec3 wi, vndf_vec3 wm)
 {
-    double dot = (double)wi.x * wm.x + (double)wi.y * wm.y + (double)wi.z * wm.z;
+    double dot = exact_dot(wi, wm);
     if (dot < 0.9)
         return dot;
     double x = (double)wi.x - wm.x, y = (double)wi.y - wm.y, z = (double)wi.z - wm.z;
@@ -186,7 +193,7 @@ static void scatter_both(const vndf_bsdf *b, const vndf_drawn_normal *n, float u
 /* 0 if no microfacet does it. */
 VNDF_INLINE int reflecting(const vndf_bsdf *b, vndf_vec3 wo, float rise, vndf_event *e)
 {
-    double facing = (double)half_of(b, wo, &e->wm);
+    double facing = half_of(b, wo, &e->wm);
     if (facing > 0.9) {
         double x = (double)b->wi.x - wo.x, y = (double)b->wi.y - wo.y, z = (double)b->wi.z - wo.z;
         double square = 0.25 * (x * x + y * y + z * z); /* of the sine; 1 - wi.wm keeps its digits */
