@@ -41,15 +41,17 @@ VNDF_INLINE int goes_up(const vndf_bsdf *b, vndf_vec3 *wo, float *rise)
     return 1;
 }
 
-/* The normal between wi and wo, and wi.wm; 0 if there is none. Densities of normals hold wi.wm of wm as it is rounded:
- * the same here keeps their quotient. */
+/* The normal between wi and wo, and wi.wm; 0 if there is none. Where both graze the sum is short, and lengths matter:
+ * wo is given that of wi. Densities of normals hold wi.wm of wm as it is rounded: the same here keeps quotients. */
 VNDF_INLINE double half_of(const vndf_bsdf *b, vndf_vec3 wo, vndf_vec3 *wm)
 {
-    vndf_vec3 sum = {b->wi.x + wo.x, b->wi.y + wo.y, b->wi.z + wo.z};
-    float square = vndf_dot(sum, sum);
-    if (!(square > 1e-30f) || !(sum.z >= 0.0f))
+    double longer = 0.5 * (exact_dot(b->wi, b->wi) - exact_dot(wo, wo));
+    double x = ((double)b->wi.x + wo.x) + longer * wo.x, y = ((double)b->wi.y + wo.y) + longer * wo.y,
+           z = ((double)b->wi.z + wo.z) + longer * wo.z;
+    double square = x * x + y * y + z * z, per = 1.0 / sqrt(square);
+    if (!(square > 0.0) || !(z >= 0.0))
         return 0.0;
-    *wm = vndf_scale(sum, 1.0f / sqrtf(square));
+    *wm = vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
     return exact_dot(b->wi, *wm);
 }
 
