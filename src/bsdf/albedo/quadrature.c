@@ -11,9 +11,10 @@
 
 enum {
     EVEN_PANELS = 30,      /* up to R/(1 + R) = 15/16, */
-    TAIL_PANELS = 12,      /* then by halves of the rest */
-    QUANTILE_PANELS = 64,  /* between quantiles of a table */
-    RADIAL_NODES = 5,      /* in a panel; */
+    TAIL_PANELS = 12,       /* then by halves of the rest; */
+    TABLE_TAIL_PANELS = 32, /* of a table, whose tail may be heavier */
+    QUANTILE_PANELS = 64,   /* between quantiles of a table */
+    RADIAL_NODES = 5,       /* in a panel; */
     RADIAL_TABLE_NODES = 4, /* of a table */
     AZIMUTH_NODES = 12
 };
@@ -24,7 +25,7 @@ static void add_border(vndf_quadrature *q, double x)
     int i = q->panels;
     while (i > 0 && q->border[i - 1] > x)
         --i;
-    if (!(x >= 0.0 && x <= 1.0) || (i > 0 && !(x - q->border[i - 1] > 1e-9)))
+    if (!(x >= 0.0 && x <= 1.0) || (i > 0 && !(x - q->border[i - 1] > 1e-7 * (1.0 - q->border[i - 1]))))
         return;
     for (int j = q->panels++; j > i; j--)
         q->border[j] = q->border[j - 1];
@@ -36,7 +37,7 @@ static void add_borders(vndf_quadrature *q, int is_table)
     double rest = 1.0 / 16.0;
     for (int j = 0; j <= EVEN_PANELS; j++)
         add_border(q, (1.0 - rest) * j / EVEN_PANELS);
-    for (int j = 1; j < TAIL_PANELS; j++)
+    for (int j = 1, count = is_table ? TABLE_TAIL_PANELS : TAIL_PANELS; j < count; j++)
         add_border(q, 1.0 - (rest *= 0.5));
     const vndf_surface surface = {q->distribution, 1.0f, 1.0f};
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
@@ -57,7 +58,7 @@ int vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution
     q->distribution = distribution;
     q->scale = info.scale;
     q->panels = 0;
-    q->border = malloc((EVEN_PANELS + TAIL_PANELS + QUANTILE_PANELS + 1) * sizeof *q->border);
+    q->border = malloc((EVEN_PANELS + TABLE_TAIL_PANELS + QUANTILE_PANELS + 1) * sizeof *q->border);
     if (!q->border)
         return 0;
     add_borders(q, is_table);
