@@ -40,7 +40,7 @@ static const char help[] =
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default: what a total variation of 1e-3 above and\n"
     "                  3e-2 below the horizon takes, up to 8192)\n"
     "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
-    "  --moments N     2, 3 or 4 (default 4): above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
+    "  --moments 2|3|4    default 4: above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
     "                  visible ones, whatever D is, but for the error of cells; fewer are smaller and faster\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
@@ -54,7 +54,7 @@ static const char help[] =
     "                  that are visible at grazing incidence weigh the tail: where it is heavy they may be 0.06 off\n"
     "                  (student-t from 1.6; the line `grazing` of vndf info)\n"
     "  --knots N       2 to 256 knots, where that distance is least\n"
-    "  --max-bytes N, --moments N    of each table\n"
+    "  --max-bytes N, --moments 2|3|4    of each table\n"
     "\n";
 
 static const char examples[] =

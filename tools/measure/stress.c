@@ -55,18 +55,13 @@ static int is_density(float pdf)
     return pdf > 0 && pdf <= FLT_MAX;
 }
 
-/* Straight from below wi' every normal is turned away: the one view whose samples have density 0. */
-static int sees_no_normal(const stress_point *at)
-{
-    const vndf_affine *m = &at->surface;
-    return at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0 && m->mean_x == 0 && m->mean_y == 0;
-}
-
 static void measure_sample(const vndf_affine_view *view, const stress_point *at, stress_result *result)
 {
     float pdf = -1, u1 = -1, u2 = -1;
     vndf_vec3 wm = vndf_affine_sample(view, at->u1, at->u2, &pdf);
-    int dense = sees_no_normal(at) ? pdf == 0 : is_density(pdf) && is_density(vndf_affine_pdf(view, wm));
+    int straight_down =
+        at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0; /* every normal is turned away: density 0 */
+    int dense = straight_down ? pdf == 0 : is_density(pdf) && is_density(vndf_affine_pdf(view, wm));
     result->samples++;
     vndf_affine_invert(view, wm, &u1, &u2);
     stress_note(result, STRESS_UNIT, fabs(stress_length(wm) - 1) * 0x1p23, at);
