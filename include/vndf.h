@@ -99,7 +99,7 @@ VNDF_API const char *vndf_version(void);
 /* A distribution of normals: a loaded or built table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* A larger file is not a table. Tables that vndf_build makes are far smaller: 2 to 50 KiB. */
+/* A larger file is not a table. Tables that vndf_build makes have at most 180 KiB. */
 enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
 
 /* Reads a table file. Returns NULL and an error if the file cannot be read or is not a whole, consistent table.
@@ -161,8 +161,8 @@ typedef struct vndf_info {
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are; 0 for a closed
- * form or NULL. tools/export/README.md tells how kernels are used. */
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
+ * knot (cells + 1), some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
