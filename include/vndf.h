@@ -150,7 +150,7 @@ typedef struct vndf_info {
     const char *tool;     /* version that made it, "vndf 0.1.0" */
     size_t bytes;         /* size of the table file; 0 for closed forms */
     size_t memory;        /* bytes that the loaded table takes, all its allocations together; 0 for closed forms */
-    size_t cells;         /* intervals of the slope length, the tail included; 0 for closed forms */
+    size_t cells;         /* intervals of the slope length before the tail; 0 for closed forms */
     int moments;          /* 2, 3 or 4: see vndf_build_options; 0 for closed forms */
     double normalization; /* the given D or P22 was multiplied by this */
     double scale;         /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
@@ -161,8 +161,9 @@ typedef struct vndf_info {
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
- * knot (cells + 1), some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how kernels are used. */
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each of
+ * the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how
+ * kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */

@@ -158,7 +158,7 @@ static vndf_distribution *build(const bench_clock *at, size_t i, vndf_error *err
 static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i)
 {
     const char *instructions = "scalar portable avx2 avx512";
-    char name[112];
+    char name[160];
     snprintf(name, sizeof name, "%s, batch, exported C%s", tables[i].name,
              i == DEFAULT_TABLE ? ": sample, weight: pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
     return wanted(plan, name, list->name[BENCH_USER], instructions);

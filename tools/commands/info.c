@@ -17,7 +17,7 @@ static const char help[] =
     "  tool           the version that made it\n"
     "  bytes          size of the table's file; 0 for the closed forms\n"
     "  memory         bytes that it takes when loaded\n"
-    "  cells          intervals of the slope length; 0 for the closed forms\n"
+    "  cells          intervals of the slope length before the tail; 0 for closed forms\n"
     "  moments        2, 3 or 4, as in vndf build --moments\n"
     "  normalization  the factor by which the given D or P22 was multiplied\n"
     "  scale          median slope length at alpha = 1\n"

@@ -39,7 +39,7 @@ class Info:
     tool: str  #: the version that made it
     bytes: int  #: size of the file; 0 for closed forms
     memory: int  #: bytes in memory; 0 for closed forms
-    cells: int  #: intervals of the slope length; 0 for closed forms
+    cells: int  #: intervals of the slope length before the tail; 0 for closed forms
     moments: int  #: 2, 3 or 4 (:func:`vndf.build`); 0 for closed forms
     normalization: float  #: the given D was multiplied by this
     scale: float  #: median slope under D cos(theta) at alpha = 1
