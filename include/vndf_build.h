@@ -128,8 +128,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * and roughness. Fewer moments take fewer bytes and less time. Below the horizon moments change little: the total
  * variation is some percent there (tv of vndf_certificate), and weights or densities keep estimators unbiased.
  *
- * If max_bytes and max_tv are both 0, the table is the smallest one whose total variation is at most 1e-3 above the
- * horizon and 3e-2 below it, up to 8192 bytes.
+ * If max_bytes and max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of
+ * 8192 bytes.
  *
  * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and reads every
  * row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence, can escape it:
@@ -143,7 +143,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * that cannot be bounded is refused; if finest is given it is sampled. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
-    double max_tv;    /* build the smallest table that reaches this total variation; 0: the best that fits */
+    double max_tv;    /* build the smallest table that reaches this total variation above the horizon, and 30 times it
+                       * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
     const double *breaks; /* slopes in the unit of the source, for any source; kept in the provenance */

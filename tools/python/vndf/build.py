@@ -217,7 +217,7 @@ def build(
     """Builds a table.
 
     max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, up to 8192.
-    max_tv: build the smallest table that reaches this total variation; 0: the best that fits.
+    max_tv: build the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     breaks: slopes where a feature begins, ends or has its peak.
     finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.
