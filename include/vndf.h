@@ -123,6 +123,7 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
 /* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
  * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
  * incidence. All members are zero for the closed forms.
+ *
  * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
  * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
  * grazing incidence, can have escaped. A callback can only be sampled: then hidden is 1, and a feature narrower than
@@ -199,6 +200,7 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
  * the density per steradian with which the normal was drawn. vndf_pdf of the normal is the same within the promise at
  * the head of this file. The density is within [FLT_MIN, FLT_MAX]: where it would underflow, on the rim of a lobe, it
  * is FLT_MIN.
+ *
  * The map from (u1, u2) to the normal is continuous, so stratified and quasi-random points keep their worth, and
  * monotone in each number but for rounding. Tables, in the frame where slopes are divided by alpha: u2 moves the
  * normal away from z; at that distance u1 turns it about z over the visible arc, from its end behind wi (0) through
@@ -221,6 +223,7 @@ VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
  * distance between unit normals whose slopes are divided by alpha, or within the distance that four steps of 2^-24 of
  * u1 and u2 move it: in far tails and gaps of D such a step leads farther. The numbers themselves may differ by as
  * many steps, or by as much as the rounding of wm moves them.
+ *
  * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0 every
  * u1 gives one normal); for directions below the horizon that see less than 1e-10 of the area at grazing incidence;
  * and straight from below. */
@@ -321,10 +324,11 @@ VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, 
  *
  *     wi' = (wi.x, wi.y, wi.z - wi.x mean.x - wi.y mean.y),    A(wi) = |wi'| A0(wi'/|wi'|),
  *
- * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, stands where formulas have cos(theta) (Dupuy et al.,
+ * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, takes the place of cos(theta) (Dupuy et al.,
  * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z -
  * 1, G1(wi) = wi'.z/A(wi), for a unit wi. A direction above the horizon may be below the mean plane, wi'.z < 0: then
  * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere.
+ *
  * Brushed metal under a normal map: the brush runs at the angle phi from x, roughness is `along` it and `across` it
  * in the plane z = 0, and n is the normal of the map, n.z > 0. M turns x to the brush after it has stretched, and the
  * mean slope is that of n:
@@ -341,7 +345,7 @@ typedef struct vndf_affine {
     float mean_x, mean_y;
 } vndf_affine;
 
-/* A view of an affine surface is a view as any other. */
+/* An affine surface has views like any other. */
 typedef vndf_view vndf_affine_view;
 
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
@@ -417,7 +421,7 @@ VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_v
 
 /* ---- many affine surfaces and mixtures at once ---------------------------------------------------- */
 
-/* `count` affine surfaces and incident directions as a structure of arrays, as vndf_batch. xy, yx, mean_x and mean_y
+/* `count` affine surfaces and incident directions as a structure of arrays, like vndf_batch. xy, yx, mean_x and mean_y
  * may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the mean slope. */
 typedef struct vndf_affine_batch {
     const vndf_distribution *distribution;
