@@ -143,7 +143,7 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * that cannot be bounded is refused; if finest is given it is sampled. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
-    double max_tv;    /* build the smallest table that reaches this total variation above the horizon, and 30 times it
+    double max_tv; /* build the smallest table that reaches this total variation above the horizon, and 30 times it
                        * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
