@@ -130,12 +130,11 @@ vndf_description = _struct(
     ("order_limit", c_uint),
 )  # fmt: skip
 vndf_roughness = _struct("vndf_roughness", *_floats("alpha_x", "alpha_y", "cos_rotation", "sin_rotation"))
-_axes = _struct("vndf_axes", ("cosine", c_double), ("sine", c_double), *_floats("near_cosine", "near_sine"))
 vndf_material = _struct(
     "vndf_material",
-    ("is", vndf_description), *_arrays("routines", "unturned", "single", "specular", "fresnel", "masking"),
-    ("roughness", vndf_roughness), ("axes", _axes), ("per_wavelength", c_double), ("reflectance0", c_float * WAVELENGTHS),
-    ("reflectance", c_float * WAVELENGTHS), ("two_sided", c_int), ("steep", c_int), ("turn", c_float),
+    ("is", vndf_description), *_arrays("routines", "specular", "single", "normals", "fresnel", "masking"),
+    ("surface", vndf_affine), *_floats("cos_rotation", "sin_rotation"), ("per_wavelength", c_double),
+    ("reflectance0", c_float * WAVELENGTHS), ("reflectance", c_float * WAVELENGTHS), ("two_sided", c_int),
 )  # fmt: skip
 vndf_bsdf_batch = _struct(
     "vndf_bsdf_batch",
