@@ -30,6 +30,7 @@ static const renamed common_calls[] = {{"set", "$1"},
 static const language languages[] = {
     {.name = "c",
      .title = "C99",
+     .zero = "{0}",
      .structs = STRUCT_TYPEDEF,
      .buffer = BUFFER_PARAMETER,
      .keeps_const = 1,
@@ -46,6 +47,7 @@ static const language languages[] = {
      .calls = {CALLS_OF_C, CASTS_OF_C, BITS_OF_C, {"vec3", "vndf_vec3_of($1, $2, $3)"}}},
     {.name = "cpp",
      .title = "C++11",
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
      .keeps_const = 1,
      .vec3_is_ours = 1,
@@ -65,6 +67,7 @@ static const language languages[] = {
                {"vec3", "vndf_vec3_of($1, $2, $3)"}}},
     {.name = "cuda",
      .title = "CUDA",
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
      .keeps_const = 1,
      .guarded = 1,
@@ -82,6 +85,7 @@ static const language languages[] = {
                {"vec3", "make_float3($1, $2, $3)"}}},
     {.name = "opencl",
      .title = "OpenCL C 1.2",
+     .zero = "{0}",
      .structs = STRUCT_TYPEDEF,
      .buffer = BUFFER_PARAMETER,
      .keeps_const = 1,
@@ -121,6 +125,7 @@ static const language languages[] = {
      .calls = {{"bits", "floatBitsToInt($1)"}, {"of_bits", "intBitsToFloat($1)"}, {"vec3", "vec3($1, $2, $3)"}}},
     {.name = "hlsl",
      .title = "HLSL, shader model 5 and later",
+     .zero = "($)0",
      .buffer = BUFFER_BOUND,
      .function = "",
      .begin = "",
@@ -164,6 +169,7 @@ static const language languages[] = {
                {"vec3", "vec3<f32>($1, $2, $3)"}}},
     {.name = "msl",
      .title = "the Metal shading language",
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
      .keeps_const = 1,
      .function = "inline ",
@@ -182,6 +188,7 @@ static const language languages[] = {
                {"vec3", "float3($1, $2, $3)"}}},
     {.name = "python",
      .title = "Python, for Dr.Jit",
+     .zero = "$()",
      .structs = STRUCT_CLASS,
      .made_by_call = 1,
      .indents = 1,
@@ -246,7 +253,7 @@ static const char reserved[] =
     " abstract active alignas and as asm assert async attribute auto await become binding buffer cast centroid class coherent "
     "common compile constant crate debugger def del delete demote device discard elif enable except export "
     "extern filter final finally fixed flat fn fragment friend from function fxgroup generic get global goto groupshared half "
-    "handle hook impl implements import in inline inout input interface invariant is kernel lambda layout let line linear "
+    "handle hook impl implements import in inline inout input interface invariant is kernel lambda layout length let line linear "
     "local lowp macro match matrix mediump meta mod module move mut namespace new nil noexcept noinline "
     "nointerpolation None nonlocal not null of operator or out output override package packed partition pass patch pipe pixelfragment point "
     "precise precision priv private protected ptr pub public raise readonly ref regardless register require resource row_major "

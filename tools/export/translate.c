@@ -70,13 +70,26 @@ void translate_pattern(const translation *t, FILE *to, const char *pattern, cons
     }
 }
 
-/* The name of a declaration: functions and structs begin with the prefix, constants with it in capitals. */
+/* Whether the name with vndf_ before it is another declaration's. */
+static int is_public(const writer *w, const word *name)
+{
+    for (size_t i = 0; i < w->parts->count; i++) {
+        const word *other = &w->parts->at[i].name;
+        if (has_prefix(other, "vndf_") && other->length == name->length + 5 &&
+            memcmp(other->text + 5, name->text, name->length) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The name of a declaration: functions and structs begin with the prefix, constants with it in capitals; those of the
+ * kernel that a public one has are told apart. */
 static void put_part_name(const writer *w, const part *p)
 {
     int has = has_prefix(&p->name, "vndf_") || has_prefix(&p->name, "VNDF_");
     int capital = p->kind == PART_CONSTANT || p->kind == PART_ARRAY;
     if (!has)
-        fputs(capital ? w->t->upper : w->t->lower, w->to);
+        fprintf(w->to, "%s%s", capital ? w->t->upper : w->t->lower, is_public(w, &p->name) ? "kernel_" : "");
     for (size_t i = has ? 5 : 0; i < p->name.length; i++) {
         char c = p->name.text[i];
         if (has && i == 5)
@@ -300,9 +313,12 @@ static void put_condition(writer *w, range r, int alone)
     }
     word first = word_solid(r.from);
     if (word_is(&first, "!")) {
-        fputs(w->t->to->indents ? "not (" : "!(", w->to);
-        put_condition(w, (range){r.from + 1, r.to}, 1);
-        fputs(")", w->to);
+        word inner = after(&first);
+        int closed = word_is(&inner, "(");
+        fputs(w->t->to->indents ? "not " : "!", w->to);
+        fputs(closed ? "" : "(", w->to);
+        put_condition(w, (range){inner.text, r.to}, !closed);
+        fputs(closed ? "" : ")", w->to);
     } else if (word_is(&first, "(") && words_end(r.from + 1, "") + 1 == r.to) {
         fputs("(", w->to);
         put_condition(w, (range){r.from + 1, r.to - 1}, 0);
@@ -501,7 +517,8 @@ static void put_declared(writer *w, const word *type, range r, int is_constant, 
     int has_value = sign.text < r.to && word_is(&sign, "=");
     range value = {has_value ? word_solid(sign.text + 1).text : r.to, r.to};
     if (to->typed_after) {
-        fputs(!has_value || (!is_constant && is_assigned(w, r.to, &name)) ? "var " : "let ", w->to);
+        int fixed = has_value && (is_constant || !is_assigned(w, r.to, &name)) && !part_of(w, type, PART_STRUCT);
+        fputs(fixed ? "let " : "var ", w->to); /* structs are variables, since only those have elements at an index */
         put_typed(w, type, &name);
     } else if (to->indents || !first) {
         put_name(w, &name);
@@ -512,11 +529,15 @@ static void put_declared(writer *w, const word *type, range r, int is_constant, 
     if (has_value) {
         fputs(" = ", w->to);
         put_value(w, type, value);
-    } else if (to->indents) {
+    } else if (part_of(w, type, PART_STRUCT) && to->zero) {
         fputs(" = ", w->to);
-        if (part_of(w, type, PART_STRUCT))
-            put_type(w, type);
-        fputs(part_of(w, type, PART_STRUCT) ? "()" : "0", w->to);
+        for (const char *at = to->zero; *at; at++)
+            if (*at == '$')
+                put_type(w, type);
+            else
+                fputc(*at, w->to);
+    } else if (to->indents) {
+        fputs(" = 0", w->to);
     }
 }
 
