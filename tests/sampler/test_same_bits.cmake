@@ -1,0 +1,143 @@
+# The run time gives the same bits whatever compiled it and wherever it runs: the library of this build, and gcc and
+# clang at -O0, -O2 and -O3 -march=native, 32-bit x86 with SSE2, and the machines below through qemu, where they are
+# here; all are compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Without LONG
+# (more_same_bits) it is the library, -O0 and -O3 of a compiler that did not build it, and one machine through qemu.
+#
+# After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
+# runs this with -DRENEW=ON and writes the file anew, if all builds agree.
+cmake_minimum_required(VERSION 3.16)
+
+set(expected_file ${SOURCE}/tests/corpus/same_bits.txt)
+set(machines s390x-linux-gnu aarch64-linux-gnu arm-linux-gnueabihf riscv64-linux-gnu) # the first is big-endian
+set(few 20000)
+set(many ${few})
+if(RENEW OR (LONG AND "$ENV{VNDF_TEST_QUICK}" STREQUAL ""))
+    set(LONG ON)
+    set(many 1000000)
+endif()
+
+file(GLOB tables ${SOURCE}/tables/*.vndf)
+set(program ${SOURCE}/tests/sampler/same_bits.c)
+set(sources ${program})
+foreach(room core math table sampler bsdf)
+    file(GLOB_RECURSE room_sources ${SOURCE}/src/${room}/*.c)
+    list(APPEND sources ${room_sources})
+endforeach()
+separate_arguments(arithmetic UNIX_COMMAND "${ARITHMETIC}")
+set(flags -std=c11 ${arithmetic} -I${SOURCE}/src -I${SOURCE}/include -I${SOURCE}/tests)
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+
+# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's or, to renew it, the first
+# build's.
+set(learning ON)
+function(compare who text)
+    string(REGEX MATCHALL "[0-9a-f]+ [0-9]+ [^\n]+" lines "${text}")
+    list(LENGTH lines found)
+    list(LENGTH tables least)
+    if(found LESS_EQUAL least)
+        message(SEND_ERROR "${who} has too few hashes:\n${text}")
+    endif()
+    foreach(line IN LISTS lines)
+        string(REGEX MATCH "^([^ ]+) (.+)$" line "${line}")
+        get_property(known GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}")
+        if(NOT known AND learning)
+            set_property(GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
+            set_property(GLOBAL APPEND PROPERTY hashes "${line}")
+        elseif(NOT known STREQUAL CMAKE_MATCH_1)
+            message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2}, expected '${known}'. If arithmetic "
+                "or tables were changed on purpose: cmake --build build --target same_bits")
+        endif()
+    endforeach()
+endfunction()
+
+if(NOT RENEW)
+    file(READ ${expected_file} expected)
+    compare(${expected_file} "${expected}")
+    set(learning OFF)
+endif()
+
+# run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty.
+function(run who count emulator parts)
+    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm RESULT_VARIABLE status ERROR_VARIABLE errors)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "${who} cannot build the run time:\n${errors}")
+    endif()
+    execute_process(COMMAND ${emulator} ${OUT}/same_bits ${count} ${tables}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "built by ${who}, the program failed:\n${output}${errors}")
+    endif()
+    compare("${who}" "${output}")
+    message("same bits: ${who}, ${count} samples of each distribution")
+endfunction()
+
+# Whether a compiler's programs run here.
+function(can_run result emulator)
+    file(WRITE ${OUT}/probe.c "#include <math.h>\n#include <stdio.h>\nint main(int n, char **a) { return a[0] && "
+        "sqrt((double)n) == 1.0 ? 0 : 1; }\n")
+    execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+    if(status EQUAL 0)
+        execute_process(COMMAND ${emulator} ${OUT}/probe RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+    endif()
+    string(COMPARE EQUAL "${status}" "0" good)
+    set(${result} ${good} PARENT_SCOPE)
+    if(NOT good)
+        message("not here: ${ARGN}")
+    endif()
+endfunction()
+
+# ---- this machine -------------------------------------------------------------------------------
+
+if(SANITIZE STREQUAL "")
+    run("the library of this build" ${few} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
+endif()
+get_filename_component(compilers ${C_COMPILER} REALPATH) # cc and gcc may be one
+foreach(name gcc clang)
+    find_program(found_${name} ${name})
+    if(found_${name})
+        get_filename_component(compiler ${found_${name}} REALPATH)
+        list(APPEND compilers ${compiler})
+    endif()
+endforeach()
+list(REMOVE_DUPLICATES compilers)
+if(NOT LONG)
+    list(POP_BACK compilers compilers) # another than the one of this build, if there is one
+endif()
+foreach(compiler IN LISTS compilers)
+    run("${compiler} -O0" ${few} "" "${sources}" ${compiler} -O0)
+    can_run(native "" ${compiler} -march=native)
+    if(native)
+        run("${compiler} -O3 -march=native" ${many} "" "${sources}" ${compiler} -O3 -march=native)
+    endif()
+endforeach()
+
+# ---- others -------------------------------------------------------------------------------------
+
+# Distributions that have compilers for other machines too keep the kernel's headers apart.
+set(small gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/x86_64-linux-gnu)
+if(LONG)
+    can_run(found "" ${small})
+    if(found)
+        run("gcc -m32 -msse2 -mfpmath=sse -O2" ${few} "" "${sources}" ${small} -O2)
+    endif()
+endif()
+foreach(machine IN LISTS machines)
+    string(REGEX MATCH "^[^-]+" processor ${machine})
+    find_program(emulator_${processor} NAMES qemu-${processor} qemu-${processor}-static)
+    can_run(found "${emulator_${processor}}" ${machine}-gcc -static)
+    if(found AND emulator_${processor})
+        # In ISO mode gcc for s390x keeps floats as doubles, which the sources refuse, unless it is told not to.
+        run("${machine}-gcc -O2" ${few} ${emulator_${processor}} "${sources}" ${machine}-gcc -static -O2
+            -fexcess-precision=fast)
+        if(NOT LONG)
+            break()
+        endif()
+    endif()
+endforeach()
+
+if(RENEW)
+    get_property(lines GLOBAL PROPERTY hashes)
+    list(JOIN lines "\n" text)
+    file(WRITE ${expected_file} "${text}\n")
+endif()
