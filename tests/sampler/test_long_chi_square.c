@@ -1,7 +1,8 @@
-/* What test_chi_square.c asks, with 64 Mi samples of every view. */
+/* What test_chi_square.c asks, with many samples of every view of one subject: test_long_chi_square SUBJECT SAMPLES. */
 #include "sampler/chi_square_case.h"
 
 int main(int arguments, char **argument)
 {
-    return chi_square_main(arguments, argument, (size_t)1 << (test_quick() ? 20 : 26));
+    size_t samples = arguments > 2 ? strtoul(argument[2], NULL, 10) : (size_t)1 << 20;
+    return chi_square_main(arguments, argument, samples);
 }
