@@ -11,7 +11,7 @@ static const float edges[] = {0,    FLT_TRUE_MIN,     0x1p-24f,    0.25f, 0.5f -
                               0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
 enum { EDGES = sizeof edges / sizeof *edges };
 
-static size_t samples;
+static size_t samples, views, told, messages; /* told: the view whose failure was printed last, one for each */
 
 /* ---- one sample ---- */
 
@@ -35,7 +35,8 @@ static void check_sample(const seen *s, float u1, float u2, const char *name)
     float pdf = -1;
     vndf_vec3 wm = seen_draw(s, u1, u2, &pdf);
     samples++;
-    if (!TEST(is_good(s, wm, pdf)) && test_failures <= 20) {
+    if (!TEST(is_good(s, wm, pdf)) && told != views && messages++ < 20) {
+        told = views;
         seen_print(s, name);
         fprintf(stderr, "    u %.9g %.9g: wm %.9g %.9g %.9g, length - 1 %.3g, wi.wm %.3g, pdf %.9g\n", (double)u1,
                 (double)u2, (double)wm.x, (double)wm.y, (double)wm.z, length_of(wm) - 1, dot_of(s->wi, wm), (double)pdf);
@@ -44,6 +45,7 @@ static void check_sample(const seen *s, float u1, float u2, const char *name)
 
 static void check_view(const seen *s, const char *name, unsigned long long *state)
 {
+    views++;
     for (int i = 0; i < EDGES * EDGES; i++)
         check_sample(s, edges[i / EDGES], edges[i % EDGES], name);
     for (int i = 0; i < 11; i++) {
