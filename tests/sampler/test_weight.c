@@ -13,7 +13,8 @@ static void random_formula(char text[1024], unsigned long long *state)
     int lobes = 1 + (int)(test_random_bits(state) % 5);
     text[0] = '\0';
     for (int i = 0; i < lobes; i++) {
-        double w = random_decade(state, -1.5, 1.5), power = random_between(state, 1.6, 4), width = random_decade(state, -2, -0.3);
+        double w = random_decade(state, -1.5, 1.5), power = random_between(state, 1.6, 4),
+               width = random_decade(state, -2, -0.3);
         double height = random_decade(state, -1, 1) / (w * w);
         char *end = text + strlen(text);
         size_t room = 1024 - strlen(text);
@@ -64,8 +65,8 @@ static void test_table(const vndf_distribution *d, const char *text, double limi
         mean = fmax(mean, fabs(s.mean - 1)), variance = fmax(variance, s.variance);
     }
     if (!(TEST(low >= 1 - limit && high <= 1 + limit) & TEST(mean < fine) & TEST(variance < fine)))
-        fprintf(stderr, "  weights %.5f to %.5f (at %.3g), mean within %.2g, variance %.2g: %s\n", low, high, at, mean,
-                variance, text);
+        fprintf(stderr, "  weights %.5f to %.5f (at %.3g), mean within %.2g, variance %.2g: %s\n", low, high, at,
+                mean, variance, text);
 }
 
 static void test_formula(const char *text, int moments, size_t samples)
