@@ -39,9 +39,11 @@ HERE beckmann_law beckmann_law_of(real vx, real vy, real vz)
     real bound = most(vz / w.across, set(-1e4f)), z = least(size(bound), set(1e4f)), gauss = exp_of(-(z * z));
     erfc_quotient n = erfc_rest(z);
     mask far = at_most(set(1.25f), bound);
-    real under = n.above + z * n.below, fall = pick(far, set(1.0f), most(gauss, set(0.2f))), per = 1.0f / (under * fall);
+    real under = n.above + z * n.below, fall = pick(far, set(1.0f), most(gauss, set(0.2f))),
+         per = 1.0f / (under * fall);
     real line = 3.54490770f * most(bound, set(0.0f)) * (under * per), around = pick(far, set(0.0f), set(1.0f));
-    const beckmann_law law = {w.cosine, w.sine, w.across, bound, line, line + n.above * per * pick(far, gauss, fall), around};
+    const beckmann_law law = {
+        w.cosine, w.sine, w.across, bound, line, line + n.above * per * pick(far, gauss, fall), around};
     return law;
 }
 
@@ -61,11 +63,16 @@ HERE beckmann_view beckmann_see(real vx, real vy, real vz)
     beckmann_view v;
     v.law = law;
     v.near = near;
-    v.p0 = (-0.00170040639f + 0.903457906f * near) + k * ((0.135259418f + 0.153947952f * near) + k * (-0.00489802073f + 0.0110058123f * near));
-    v.p1 = (0.00880105618f - 0.374491386f * near) + k * ((0.0091959214f - 0.0388641993f * near) + k * (0.00669192853f + 0.0220522592f * near));
-    v.p2 = (0.0013695223f - 0.0102647104f * near) + k * ((-0.00863748644f - 0.0428237496f * near) + k * (0.00479493748f + 0.0153825733f * near));
-    v.p3 = (-0.00132920409f + 0.0093151226f * near) + k * ((-0.00405786226f + 0.0013423552f * near) + k * (0.00460161987f - 0.00648317075f * near));
-    v.p4 = (7.23658072e-05f + 0.00169871453f * near) + k * ((-0.000398632971f + 0.0042367207f * near) + k * (0.00128372159f - 0.003633866f * near));
+    v.p0 = (-0.00170040639f + 0.903457906f * near) +
+           k * ((0.135259418f + 0.153947952f * near) + k * (-0.00489802073f + 0.0110058123f * near));
+    v.p1 = (0.00880105618f - 0.374491386f * near) +
+           k * ((0.0091959214f - 0.0388641993f * near) + k * (0.00669192853f + 0.0220522592f * near));
+    v.p2 = (0.0013695223f - 0.0102647104f * near) +
+           k * ((-0.00863748644f - 0.0428237496f * near) + k * (0.00479493748f + 0.0153825733f * near));
+    v.p3 = (-0.00132920409f + 0.0093151226f * near) +
+           k * ((-0.00405786226f + 0.0013423552f * near) + k * (0.00460161987f - 0.00648317075f * near));
+    v.p4 = (7.23658072e-05f + 0.00169871453f * near) +
+           k * ((-0.000398632971f + 0.0042367207f * near) + k * (0.00128372159f - 0.003633866f * near));
     return v;
 }
 
@@ -89,6 +96,7 @@ HERE real beckmann_slopes(beckmann_law v, real x, real y, real d)
     return 1.12837917f * exp_near(most(-(beckmann_exponent(v, x, d) + y * y), set(-80.0f))) * d / v.whole;
 }
 
+/* The factor K of a normal that faces w, facing = w.(x, y, z) > 0: never 0. */
 HERE real beckmann_density(beckmann_view view, real x, real y, real z, real facing)
 {
     beckmann_law v = view.law;
@@ -104,13 +112,15 @@ HERE real beckmann_density(beckmann_view view, real x, real y, real z, real faci
 HERE beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
 {
     real k = v.bound, rho2 = -log_of(u), rho = root(rho2), m = root(v.whole), mrho = m * rho;
-    real more = rho2 - 2.0f * least(k, set(0.0f)) * mrho / (1.0f + root(0.055f + 0.865f * least(v.whole, set(1.0f))) * rho);
+    real more = rho2 - 2.0f * least(k, set(0.0f)) * mrho /
+                           (1.0f + root(0.055f + 0.865f * least(v.whole, set(1.0f))) * rho);
     real low = more / (root(k * k + more) + size(k)), middle = mrho * (1.0f + 0.8f * rho) / (1.0f + 0.8f * mrho);
     real d = pick(less(set(0.0f), k), middle, low);
     beckmann_place p = {k - d, d};
     mask far = at_most(set(1.25f), k);
     if (any(far)) {
-        real h = 0.5f / most(k, set(1.0f)), q = erf_quantile(least(u * v.whole / most(v.line, set(1.0f)), set(1.0f))) - h;
+        real h = 0.5f / most(k, set(1.0f)),
+             q = erf_quantile(least(u * v.whole / most(v.line, set(1.0f)), set(1.0f))) - h;
         real e = 1.0f + 0.7f * h * size(q), x = q * e / (e + h * h), small = least(k, set(6.0f));
         real l = log_of(1.0f + small * mrho * exp_of(0.5f * small * small) * 0.666666667f);
         real end = 3.0f * h * l * (1.0f - log_of(1.0f + l) / (2.0f + l));
@@ -141,7 +151,8 @@ HERE beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
     real x = at.x, d = at.d, z = size(x), side = with_sign(set(1.0f), x);
     erfc_quotient n = erfc_rest(z);
     real under = n.above + z * n.below, per = 1.0f / (under * d), nearness = under * per;
-    real rest = u * v.whole - (0.5f + 0.5f * side) * v.line, up = exp_near(least(beckmann_exponent(v, x, d), set(80.0f)));
+    real rest = u * v.whole - (0.5f + 0.5f * side) * v.line,
+         up = exp_near(least(beckmann_exponent(v, x, d), set(80.0f)));
     real h = 0.5f * ((n.above - side * d * n.below) * per - rest * nearness * up);
     real second = nearness + 2.0f * x, third = x * (nearness + x) * 0.666666667f - 0.333333333f;
     real step = h * (1.0f + 0.5f * h * second) / most(1.0f + h * (h * third + second), set(0.1f));
@@ -150,21 +161,23 @@ HERE beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
     return p;
 }
 
-/* The slope along w: u1 is met within 1e-6. */
+/* The slope along w: u1 is met within 7e-7 (3e-7 above the horizon), measured, and within 2e-5 of itself where it is
+ * small. */
 HERE beckmann_place beckmann_along(beckmann_view v, real u1)
 {
     real u = least(most(u1, set(5.42101086e-20f)), set(0.99999994f));
     beckmann_place p = beckmann_first(v, u);
     mask rare = either(less(v.law.bound, set(0.0f)), less(erf_middle(u), set(3.4e-4f)));
     if (any(rare)) {
-        beckmann_place q = beckmann_step(v.law, beckmann_step(v.law, beckmann_first_anywhere(v.law, u), u), u);
+        beckmann_place q = beckmann_step(v.law, beckmann_first_anywhere(v.law, u), u);
         p.x = pick(rare, q.x, p.x);
         p.d = pick(rare, q.d, p.d);
     }
     return beckmann_step(v.law, p, u);
 }
 
-/* u1 draws the slope along w, from far behind, u2 that across. */
+/* u1 draws the slope along w, from far behind, u2 that across. The density is that of beckmann_density within 3e-6 for
+ * 99.9 % of the samples at 0 to 110 degrees, 3e-5 at 160, measured. */
 HERE drawn beckmann_draw(beckmann_view v, real u1, real u2)
 {
     beckmann_place p = beckmann_along(v, u1);
@@ -183,6 +196,7 @@ HERE real beckmann_part(beckmann_law v, real x, real d)
     return least(most((part + pick(less(set(0.0f), x), v.line, set(0.0f))) / v.whole, set(0.0f)), set(1.0f));
 }
 
+/* The numbers that draw a normal; measured: within 7e-7 of them at 0 to 135 degrees. */
 HERE pair beckmann_invert(beckmann_view view, real x, real y, real z)
 {
     beckmann_law v = view.law;

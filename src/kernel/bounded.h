@@ -47,9 +47,10 @@ HERE ellipse ellipse_turned(real cosine, real sine, real exx, real exy, real eyy
 typedef struct ggx_bounds {
     real cosine, sine, s, c;
     ellipse e;
-    real c0; /* c (|M0|^2 - 2) */
+    real c0;   /* c (|M0|^2 - 2) */
     real area; /* of w */
-    real front, in_front, in_wedge, begin, span; /* the part of psi in front; `inside` over that of the chord; of u1 */
+    real front, in_front, in_wedge, begin,
+        span; /* the part of psi in front; `inside` over that of the chord; of u1 */
 } ggx_bounds;
 
 /* Of an azimuth, cos(psi) and sin(psi): the middle and half the width of the chord times a = c |M1|^2, and a; sin(g)^2 and
@@ -67,7 +68,8 @@ HERE ggx_chord ggx_chord_of(ggx_bounds b, real cosine, real sine)
     h.root = root(most(h.lean * h.lean - h.a * b.c0, set(0.0f)));
     mask out = less(set(0.0f), b.c0), away = less(set(0.0f), h.lean);
     real far = pick(away, -b.c0, h.root - h.lean) / pick(away, h.lean + h.root, h.a), t1 = least(far, set(1e15f));
-    real t0 = least(most(b.c0, set(0.0f)) / most(h.root - h.lean, set(1e-15f)), set(1e15f)), wedge = least(sx, set(0.0f)) / b.c;
+    real t0 = least(most(b.c0, set(0.0f)) / most(h.root - h.lean, set(1e-15f)), set(1e15f)),
+         wedge = least(sx, set(0.0f)) / b.c;
     h.cosine1 = 1.0f / (1.0f + t1 * t1);
     h.sine1 = t1 * t1 * h.cosine1;
     h.cosine0 = 1.0f / (1.0f + t0 * t0);
@@ -91,7 +93,8 @@ HERE real ggx_azimuth_part(ggx_bounds b, real cosine, real sine)
 HERE ggx_bounds ggx_tangents(ggx_bounds b)
 {
     real c = b.c, s = b.s, b1 = -(s * (c * c * b.e.e11 + s * s)), b2 = c * s * b.e.e12, ac = b.c0 * c;
-    real d11 = b1 * b1 - ac * (c * c * b.e.e11 + s * s), d12 = b1 * b2 + ac * (c * b.e.e12), d22 = b2 * b2 - ac * b.e.e22;
+    real d11 = b1 * b1 - ac * (c * c * b.e.e11 + s * s), d12 = b1 * b2 + ac * (c * b.e.e12),
+         d22 = b2 * b2 - ac * b.e.e22;
     real q = -(d12 + with_sign(root(most(difference_of_products(d12, d12, d11, d22), set(0.0f))), d12));
     real side0 = -with_sign(set(1.0f), b1 * q + b2 * d11), side1 = -with_sign(set(1.0f), b1 * d22 + b2 * q);
     real x0 = side0 * q, y0 = side0 * d11, x1 = side1 * d22, y1 = side1 * q;
@@ -118,7 +121,8 @@ HERE ggx_bounds ggx_bounds_of(real vx, real vy, real vz, real exx, real exy, rea
     b.c0 = b.c * (b.s * b.s * b.e.e11 + (b.c * b.c - 2.0f));
     b.area = ggx_area(vx, vy, vz);
     mask out = less(set(0.0f), b.c0);
-    ggx_chord away = ggx_chord_of(b, set(-1.0f), set(0.0f)), beside = ggx_chord_of(b, set(0.0f), with_sign(set(1.0f), -b.e.e12));
+    ggx_chord away = ggx_chord_of(b, set(-1.0f), set(0.0f)),
+              beside = ggx_chord_of(b, set(0.0f), with_sign(set(1.0f), -b.e.e12));
     real wedge = pick(out, set(1.0f), most(away.inside, beside.inside)), all = 1.0f + b.c * wedge;
     b.front = 1.0f / all;
     b.in_front = all / (1.0f + b.c);
@@ -212,7 +216,9 @@ HERE beckmann_chord beckmann_chord_of(beckmann_bounds b, real x)
 {
     real per = 1.0f / b.e.e22, middle = -(b.e.e12 * x * per), away = size(middle);
     real half = root(most(b.det * (b.x1 - x) * (x - b.x0), set(0.0f))) * per, fall = 4.0f * half * away;
-    beckmann_chord h = {-away - half, half - away, -with_sign(set(1.0f), middle), half_erfc(away + half)};
+    beckmann_chord h = {
+        -away - half, half - away, -with_sign(set(1.0f), middle), half_erfc(away + half), set(0.0f),
+        set(0.0f),    set(0.0f)};
     h.part = half_erfc(away - half) - h.before;
     h.near = pick(less(set(5.0f), away - half), away - half, set(0.0f));
     h.rise = pick(less(fall, set(0.01f)), fall - 0.5f * fall * fall, 1.0f - exp_of(-fall)) + 1e-30f;
@@ -231,7 +237,8 @@ HERE real beckmann_bounded_slopes(beckmann_bounds b, beckmann_chord h, real x, r
 {
     real away = size(y), fall = (away - h.near) * (away + h.near) + beckmann_exponent(b.view.law, x, d);
     real across = pick(less(set(0.0f), h.near), 2.0f * away / h.rise, 0.564189584f / h.part);
-    real k = 2.0f * exp_near(-least(most(fall, set(-80.0f)), set(80.0f))) * d * across / (b.view.law.whole * b.span);
+    real k =
+        2.0f * exp_near(-least(most(fall, set(-80.0f)), set(80.0f))) * d * across / (b.view.law.whole * b.span);
     return least(most(k, set(1e-30f)), set(1e30f));
 }
 
@@ -240,7 +247,8 @@ HERE real beckmann_bounded_density(beckmann_bounds b, real x, real y, real z, re
     beckmann_law v = b.view.law;
     real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f);
     real along = -((v.cosine * x + v.sine * y) * per), across = (v.cosine * y - v.sine * x) * per;
-    return beckmann_bounded_slopes(b, beckmann_chord_of(b, along), along, across, facing * per / v.across) * per * per * per;
+    return beckmann_bounded_slopes(b, beckmann_chord_of(b, along), along, across, facing * per / v.across) * per *
+           per * per;
 }
 
 HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
@@ -251,7 +259,9 @@ HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
     real u = 0.5f + h.side * (u2 - 0.5f), y = erf_quantile(h.before + u * h.part);
     mask far = less(set(0.0f), h.near);
     if (any(far))
-        y = pick(far, -root(h.near * h.near - log_of(least(most((1.0f - h.rise) + u * h.rise, set(1e-30f)), set(1.0f)))), y);
+        y = pick(
+            far,
+            -root(h.near * h.near - log_of(least(most((1.0f - h.rise) + u * h.rise, set(1e-30f)), set(1.0f)))), y);
     y = h.side * most(least(y, h.high), h.low);
     const drawn n = {v.sine * y - v.cosine * x, -(v.sine * x + v.cosine * y), set(1.0f),
                      beckmann_bounded_slopes(b, h, x, y, v.bound - x)};

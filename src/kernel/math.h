@@ -92,7 +92,8 @@ HERE real exp_near(real x)
 {
     real shifted = x * 1.44269504f + 12582912.0f, k = shifted - 12582912.0f;
     real r = (x - k * 0.693145752f) - k * 1.42860677e-6f, r2 = r * r;
-    real more = (0.499999934f + 0.166665201f * r) + r2 * ((0.0416683938f + 0.00836877631f * r) + r2 * 0.00138144754f);
+    real more =
+        (0.499999934f + 0.166665201f * r) + r2 * ((0.0416683938f + 0.00836877631f * r) + r2 * 0.00138144754f);
     real power = of_bits((bits(shifted) - 1262485377) * 8388608);
     return power + power * (r + r2 * more);
 }
@@ -161,7 +162,8 @@ HERE real erf_quantile(real u)
     real w = -log_of(erf_middle(u)), q = least(w, set(8.0f)) - 4.0f, q2 = q * q, q4 = q2 * q2;
     real low = (1.85877906f + 0.22835425f * q) + q2 * (-0.00722088791f - 0.000203399073f * q);
     real middle = (0.000118794057f - 1.57276808e-5f * q) + q2 * (5.0177458e-7f + 2.10143173e-7f * q);
-    real high = (-3.48735493e-8f - 5.01036624e-10f * q) + q2 * 3.88030775e-10f, ratio = low + q4 * (middle + q4 * high);
+    real high = (-3.48735493e-8f - 5.01036624e-10f * q) + q2 * 3.88030775e-10f,
+         ratio = low + q4 * (middle + q4 * high);
     mask far = less(set(8.0f), w);
     if (any(far)) {
         real root_w = root(w), r = 1.0f / root_w, r2 = r * r;

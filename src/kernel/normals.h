@@ -49,7 +49,7 @@ HERE drawn all_normals_draw(any_slope r, real u1)
     return n;
 }
 
-/* (1) and the derivatives of F. */
+/* t and h; then F, F' and F''. */
 typedef struct v_cavity {
     real t, h;
 } v_cavity;
@@ -82,10 +82,13 @@ HERE real v_cavity_start(v_cavity k, real rest)
     real target = rest / k.h, rise = least(k.t, set(1.0f));
     mask beyond = less(middle, target);
     real m = pick(beyond, 2.0f - middle, middle), left = most(target - pick(beyond, middle, set(0.0f)), set(0.0f));
-    real e0 = pick(beyond, set(1.0f), 1.0f - rise), sum = 1.0f + pick(beyond, 1.0f + rise, 1.0f - rise), v = least(left, m);
-    real twice = 2.0f * v * m, turned = e0 * m - v * sum, discriminant = root(turned * turned + 2.0f * twice * m * (m - v));
+    real e0 = pick(beyond, set(1.0f), 1.0f - rise), sum = 1.0f + pick(beyond, 1.0f + rise, 1.0f - rise),
+         v = least(left, m);
+    real twice = 2.0f * v * m, turned = e0 * m - v * sum,
+         discriminant = root(turned * turned + 2.0f * twice * m * (m - v));
     mask rising = at_most(set(0.0f), turned + twice);
-    real over = pick(rising, twice, discriminant - turned), under = pick(rising, discriminant + turned, 2.0f * m * (m - v));
+    real over = pick(rising, twice, discriminant - turned),
+         under = pick(rising, discriminant + turned, 2.0f * m * (m - v));
     return k.h * (pick(beyond, set(1.0f), set(0.0f)) + over / (over + under + 1e-30f));
 }
 
@@ -129,7 +132,8 @@ HERE drawn v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
     real cosine = pick(leans, vx * per, set(1.0f)), sine = pick(leans, vy * per, set(0.0f));
     turn a = v_cavity_azimuth(vz * r.z, s * r.x, u1);
     real x = r.x * (cosine * a.cosine - sine * a.sine), y = r.x * (sine * a.cosine + cosine * a.sine);
-    real level = s * r.x * a.cosine, up = vz * r.z, side = pick(less(set(0.0f), up + level), set(1.0f), set(-1.0f));
+    real level = s * r.x * a.cosine, up = vz * r.z,
+         side = pick(less(set(0.0f), up + level), set(1.0f), set(-1.0f));
     const drawn n = {side * x, side * y, r.z, r.density * v_cavity_share(side * level, up)};
     return n;
 }
