@@ -143,25 +143,28 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
     return d;
 }
 
-/* The part of what is drawn unbounded that is kept where wm is; 0 where wm reflects wi to below the horizon. */
-static float inside_of(const vndf_view *view, vndf_vec3 wm)
+/* K of bounded normals (kernel/math.h) where wm reflects wi to above the horizon. */
+static float bounded_density(const vndf_view *view, unit_normal n)
 {
     const vndf_state *s = vndf_state_of(view);
     quadric e = quadric_of(&s->f);
-    unit_normal n = frame_normal(s->f, wm.x, wm.y, wm.z);
     if (view->distribution->kind == VNDF_KIND_GGX)
-        return ggx_inside(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z);
+        return ggx_bounded_density(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z, n.facing);
     if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        return beckmann_inside(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z);
+        return beckmann_bounded_density(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z,
+                                        n.facing);
+    table t = table_of(view->distribution);
     table_bounds b = table_bounds_of(view);
-    return b.isotropic ? table_bounded_inside(table_of(view->distribution), s->of.table, b.alpha, b.slant, b.part, n)
-                       : 1.0f;
+    float whole_density = table_pdf(t, s->of.table, n, frame_reach(s->f), 0);
+    return b.isotropic ? whole_density / table_bounded_inside(t, s->of.table, b.alpha, b.slant, b.part, n) : whole_density;
 }
 
 float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)
 {
-    if (!can_bound(view))
+    if (!can_bound(view) || !(wm.z >= 0.0f))
         return 0.0f;
+    const frame *f = &vndf_state_of(view)->f;
+    unit_normal n = frame_normal(*f, wm.x, wm.y, wm.z);
     float facing = view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z;
-    return 2.0f * facing * wm.z > view->wi.z ? least(vndf_pdf(view, wm) / inside_of(view, wm), FLT_MAX) : 0.0f;
+    return 2.0f * facing * wm.z > view->wi.z ? frame_density(*f, bounded_density(view, n) / f->determinant) : 0.0f;
 }
