@@ -17,10 +17,10 @@ enum { FLOATS_APART = 4 };
 
 /* ---- the error of a cell ---- */
 
-/* |drawn - true| of a point below the horizon; what is drawn far too rarely counts more often, since it decides the largest weight. */
+/* |drawn - true| of a point; what is drawn far too rarely counts more often, since it decides the largest weight. */
 static double miss_of(double seen, double drawn)
 {
-    const double rarely = 2, more = 20;
+    const double rarely = 2, more = 6;
     return seen > rarely * drawn ? more * seen : fabs(seen - drawn);
 }
 
@@ -41,7 +41,7 @@ static double miss_by(const view *v, const vndf_weight *w)
     for (size_t i = 0; i < v->count; i++) {
         const vndf_point *p = &v->point[i];
         double weight = w->w1 * p->r + w->w0;
-        sum += fabs(p->mass * weight - vndf_drawn_part(&drawn, p->xi, p->width));
+        sum += miss_of(p->mass * weight, vndf_drawn_part(&drawn, p->xi, p->width));
     }
     return sum / 2;
 }
