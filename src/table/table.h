@@ -1,25 +1,79 @@
-/* Stand-in until the run time's own: the draft of a table, which the builder fills and vndf_table_encode writes. */
+/* A distribution of normals: in memory, and as a builder hands it over.
+ *
+ * Slopes are in units of the median, R; f(R) = 2 pi R P22(R) has the mass 1. Knots R_0 = 0 < R_1 < ... < R_N cut the
+ * slopes into cells; the last, cell N, goes on to infinity. Inside a cell the place xi in [0, 1] is linear in
+ * x = R/(1 + R): x = x_i + h xi, and z = 1 - x = z_i - h xi. In the last cell z = z_N (1 - xi)^(2^squarings), so that
+ * heavy tails are smooth in xi, and h is the derivative there at xi = 0.
+ *
+ * A cell knows the moments of f/R, integral t^k f/R dR with t = R - R_i, and the density of f/R per xi at its ends. All
+ * that is drawn follows from these numbers (kernel/law.h).
+ *
+ * In memory they stand in one array of floats, the same that GPUs read (vndf_numbers): a head, then VNDF_GROUPS groups
+ * of a row of four numbers for each knot. */
 #ifndef VNDF_TABLE_TABLE_H
 #define VNDF_TABLE_TABLE_H
 
+#include <stdint.h>
+
+#include "core/inline.h"
 #include "vndf.h"
 
-enum { VNDF_CELLS_MAX = 1023, VNDF_SQUARINGS_MAX = 5 };
+enum {
+    VNDF_CELLS_MAX = 4095,   /* N */
+    VNDF_SQUARINGS_MAX = 5,  /* tails of P22 down to r^-3.04 */
+    VNDF_HEAD = 8            /* numbers before the groups: N, moments, squarings, scale, 0, 0, 0, 0 */
+};
 
+/* Groups of rows, one row for each knot 0 to N. */
+enum {
+    VNDF_KNOT, /* R, z, h, and the rho from which on the law of k~ begins at the next knot */
+    VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end; moments 0 and 1 */
+    VNDF_MORE, /* moment 2; integral f/R^4; shares of the two terms below the horizon at this knot */
+    VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4 */
+    VNDF_LOW,  /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
+    VNDF_GROUPS
+};
+
+typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
+
+struct vndf_distribution {
+    vndf_kind kind;
+    int32_t cells, moments, squarings; /* N; terms of k~: 2, 3, 4; see above. 0 for closed forms, as all below */
+    int32_t highest, steps;            /* the highest power of two <= cells, 2^(steps - 1) */
+    float unit;                        /* scale, rounded: 1 for closed forms */
+    float *numbers;
+    size_t number_count;
+    float *columns; /* slopes and sums beyond them once more, each in a column (table/columns.h) */
+    double normalization; /* the source was multiplied by it */
+    double scale;         /* canonical slope 1 is this slope of the source */
+    vndf_certificate certificate;
+    const char *source, *tool; /* owned by tables */
+    size_t bytes;              /* of the file */
+};
+
+VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
+{
+    return d->kind == VNDF_KIND_TABLE;
+}
+
+/* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has m4 if `moments` is 4. */
 typedef struct vndf_table_draft {
-    unsigned cells, moments, squarings; /* cells = N; arrays hold N + 1 numbers */
-    float *knot, *g0, *g1, *m0, *m1, *m2, *m4, *b0, *b1, *area, *slope; /* slope = da */
+    unsigned cells, moments, squarings;
+    float *knot;        /* R_i */
+    float *g0, *g1;     /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
+    float *m0, *m1, *m2, *m4;
+    float *b0, *b1;     /* shares below the horizon at rho = R_i */
+    float *area, *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
     double normalization, scale;
     vndf_certificate certificate;
     const char *source, *tool;
 } vndf_table_draft;
 
-/* Writes the table into bytes[0..capacity); returns the size that the whole takes, whether it fitted. */
+/* Writes the file (table/file.h) into bytes[0..capacity) if it fits; returns the size of the whole. */
 size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity);
 
-/* The numbers of a table as they were built; nothing to free. */
-vndf_table_draft vndf_table_draft_of(const vndf_distribution *table);
-
-int vndf_is_table(const vndf_distribution *distribution);
+/* The draft that an encoded table was made of; its arrays are one block, draft->knot, to be freed. The texts belong to
+ * the table. 0 if there is no memory. */
+int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft);
 
 #endif

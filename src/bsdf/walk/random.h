@@ -5,6 +5,7 @@
 #define VNDF_BSDF_WALK_RANDOM_H
 
 #include <stdint.h>
+#include <string.h>
 
 #include "math/elementary.h"
 
