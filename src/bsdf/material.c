@@ -7,7 +7,7 @@
 #include "bsdf/lobes/single.h"
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/masking.h"
-#include "bsdf/turn.h"
+#include "math/turn.h"
 #include "bsdf/walk/walk.h"
 #include "core/error.h"
 

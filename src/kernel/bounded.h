@@ -48,6 +48,7 @@ typedef struct ggx_bounds {
     real cosine, sine, s, c;
     ellipse e;
     real c0; /* c (|M0|^2 - 2) */
+    real area; /* of w */
     real front, in_front, in_wedge, begin, span; /* the part of psi in front; `inside` over that of the chord; of u1 */
 } ggx_bounds;
 
@@ -115,6 +116,7 @@ HERE ggx_bounds ggx_bounds_of(real vx, real vy, real vz, real exx, real exy, rea
     b.c = most(vz * per, set(1e-7f));
     b.e = ellipse_turned(w.cosine, w.sine, exx, exy, eyy);
     b.c0 = b.c * (b.s * b.s * b.e.e11 + (b.c * b.c - 2.0f));
+    b.area = ggx_area(vx, vy, vz);
     mask out = less(set(0.0f), b.c0);
     ggx_chord away = ggx_chord_of(b, set(-1.0f), set(0.0f)), beside = ggx_chord_of(b, set(0.0f), with_sign(set(1.0f), -b.e.e12));
     real wedge = pick(out, set(1.0f), most(away.inside, beside.inside)), all = 1.0f + b.c * wedge;
@@ -133,14 +135,20 @@ HERE ggx_bounds ggx_bounds_of(real vx, real vy, real vz, real exx, real exy, rea
     return b;
 }
 
-/* What the density of a normal is divided by. */
+/* What the density of visible normals is divided by. */
 HERE real ggx_inside(ggx_bounds b, real x, real y, real z)
 {
     real along = b.cosine * x + b.sine * y, sine = b.cosine * y - b.sine * x, cosine = b.s * z - b.c * along;
     real length = root(cosine * cosine + sine * sine), per = 1.0f / most(length, set(1e-30f));
     cosine = pick(less(set(1e-30f), length), cosine * per, set(1.0f));
     ggx_chord h = ggx_chord_of(b, cosine, sine * per);
-    return most(h.inside * pick(less(cosine, set(0.0f)), b.in_wedge, b.in_front), set(1e-37f));
+    return most(h.inside * pick(less(cosine, set(0.0f)), b.in_wedge, b.in_front), set(1e-28f));
+}
+
+/* The factor K of a normal in the disc, facing = w.(x, y, z). */
+HERE real ggx_bounded_density(ggx_bounds b, real x, real y, real z, real facing)
+{
+    return ggx_p22(x, y, z) * facing / (b.area * ggx_inside(b, x, y, z));
 }
 
 /* u1 turns the normal about w, from below it through the side (1/4) and the top (1/2) round, and u2 moves it away. */
@@ -158,7 +166,7 @@ HERE bounded ggx_draw_bounded(ggx_bounds b, real u1, real u2)
     ggx_chord h = ggx_chord_of(b, cosine, sine);
     real sg = root((1.0f - u2) * h.sine0 + u2 * h.sine1), cg = root((1.0f - u2) * h.cosine0 + u2 * h.cosine1);
     real along = cg * b.s - sg * b.c * cosine, aside = sg * sine;
-    real inside = most(h.inside * pick(behind, b.in_wedge, b.in_front), set(1e-37f));
+    real inside = most(h.inside * pick(behind, b.in_wedge, b.in_front), set(1e-28f));
     const drawn n = {b.cosine * along - b.sine * aside, b.sine * along + b.cosine * aside,
                      most(cg * b.c + sg * b.s * cosine, set(0.0f)), 0.636619772f * cg / ((1.0f + b.c) * inside)};
     const bounded drawn_inside = {n, inside};
@@ -170,7 +178,8 @@ HERE bounded ggx_draw_bounded(ggx_bounds b, real u1, real u2)
  * Slopes (x, y), x along w: with h = s/c the disc is the ellipse E11 x^2 + 2 E12 x y + E22 y^2 + 2 h x < 1, of extent x0
  * < x < x1 and chords y = (-E12 x +- sqrt(det (x1 - x) (x - x0)))/E22. u1 moves x through the part of the law of x
  * between x0 and x1, u2 moves y through the part of the normal law on the chord; `inside` is the product of both parts.
- * y is counted from the tail where the middle of the chord is, so that a chord far out keeps its digits. */
+ * y is counted from the tail where the middle of the chord is, so that a chord far out keeps its digits. From 5 on, where
+ * the normal law is nearly that, y^2 is drawn exponentially instead, and densities are relative to the near end. */
 typedef struct beckmann_bounds {
     beckmann_view view;
     ellipse e;
@@ -188,36 +197,50 @@ HERE beckmann_bounds beckmann_bounds_of(real vx, real vy, real vz, real exx, rea
     b.x0 = -least(sum / b.det, set(1e15f));
     b.x1 = b.e.e22 / sum;
     b.begin = beckmann_part(b.view.law, b.x0, k - b.x0);
-    b.span = most(beckmann_part(b.view.law, b.x1, k - b.x1) - b.begin, set(1e-37f));
+    b.span = most(beckmann_part(b.view.law, b.x1, k - b.x1) - b.begin, set(1e-28f));
     return b;
 }
 
-/* y from low to high, its middle not above 0 after `side` has turned it; the part of the normal law below it and on it. */
+/* y from low to high, its middle not above 0 after `side` has turned it; the part of the normal law below it and on it.
+ * Far out: the near end, and 1 - exp(near^2 - low^2); else near is 0. */
 typedef struct beckmann_chord {
-    real low, high, side, before, part;
+    real low, high, side, before, part, near, rise;
 } beckmann_chord;
 
-/* Short chords have their part from three points of Gauss; the others are half a unit of exp or longer. */
+/* Short chords have their part from three points of Gauss. */
 HERE beckmann_chord beckmann_chord_of(beckmann_bounds b, real x)
 {
     real per = 1.0f / b.e.e22, middle = -(b.e.e12 * x * per), away = size(middle);
-    real half = root(most(b.det * (b.x1 - x) * (x - b.x0), set(0.0f))) * per;
-    beckmann_chord h = {-away - half, half - away, -with_sign(set(1.0f), middle), half_erfc(away + half), set(0.0f)};
+    real half = root(most(b.det * (b.x1 - x) * (x - b.x0), set(0.0f))) * per, fall = 4.0f * half * away;
+    beckmann_chord h = {-away - half, half - away, -with_sign(set(1.0f), middle), half_erfc(away + half)};
     h.part = half_erfc(away - half) - h.before;
+    h.near = pick(less(set(5.0f), away - half), away - half, set(0.0f));
+    h.rise = pick(less(fall, set(0.01f)), fall - 0.5f * fall * fall, 1.0f - exp_of(-fall)) + 1e-30f;
     mask narrow = less(half * (1.0f + away), set(0.125f));
     if (any(narrow)) {
         real step = 0.774596669f * half, a = away - step, c = away + step;
         real sum = 8.0f * exp_of(-(away * away)) + 5.0f * (exp_of(-(a * a)) + exp_of(-(c * c)));
-        h.part = pick(narrow, half * sum * 0.0626877315f, h.part);
+        h.part = pick(narrow, half * sum * 0.062687728f, h.part);
     }
+    h.part = most(h.part, set(1e-28f));
     return h;
 }
 
-HERE real beckmann_inside(beckmann_bounds b, real x, real y, real z)
+/* The factor K of slopes. */
+HERE real beckmann_bounded_slopes(beckmann_bounds b, beckmann_chord h, real x, real y, real d)
 {
+    real away = size(y), fall = (away - h.near) * (away + h.near) + beckmann_exponent(b.view.law, x, d);
+    real across = pick(less(set(0.0f), h.near), 2.0f * away / h.rise, 0.564189584f / h.part);
+    real k = 2.0f * exp_near(-least(most(fall, set(-80.0f)), set(80.0f))) * d * across / (b.view.law.whole * b.span);
+    return least(most(k, set(1e-30f)), set(1e30f));
+}
+
+HERE real beckmann_bounded_density(beckmann_bounds b, real x, real y, real z, real facing)
+{
+    beckmann_law v = b.view.law;
     real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f);
-    beckmann_chord h = beckmann_chord_of(b, -((b.view.law.cosine * x + b.view.law.sine * y) * per));
-    return most(b.span * h.part, set(1e-28f));
+    real along = -((v.cosine * x + v.sine * y) * per), across = (v.cosine * y - v.sine * x) * per;
+    return beckmann_bounded_slopes(b, beckmann_chord_of(b, along), along, across, facing * per / v.across) * per * per * per;
 }
 
 HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
@@ -225,11 +248,14 @@ HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
     beckmann_law v = b.view.law;
     real x = most(least(beckmann_along(b.view, b.begin + b.span * u1).x, b.x1), b.x0);
     beckmann_chord h = beckmann_chord_of(b, x);
-    real u = 0.5f + h.side * (u2 - 0.5f), y = h.side * most(least(erf_quantile(h.before + u * h.part), h.high), h.low);
-    real inside = most(b.span * h.part, set(1e-28f));
+    real u = 0.5f + h.side * (u2 - 0.5f), y = erf_quantile(h.before + u * h.part);
+    mask far = less(set(0.0f), h.near);
+    if (any(far))
+        y = pick(far, -root(h.near * h.near - log_of(least(most((1.0f - h.rise) + u * h.rise, set(1e-30f)), set(1.0f)))), y);
+    y = h.side * most(least(y, h.high), h.low);
     const drawn n = {v.sine * y - v.cosine * x, -(v.sine * x + v.cosine * y), set(1.0f),
-                     beckmann_slopes(v, x, y, v.bound - x) / inside};
-    const bounded drawn_inside = {n, inside};
+                     beckmann_bounded_slopes(b, h, x, y, v.bound - x)};
+    const bounded drawn_inside = {n, most(b.span * h.part, set(1e-28f))};
     return drawn_inside;
 }
 #endif

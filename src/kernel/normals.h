@@ -12,7 +12,7 @@
  *     F(g) = g - (2 t/pi) sin(pi g/2) sin(pi (h - g/2)),      F' = 1 - t sin(pi (h - g)),                    (1)
  *
  * Kepler's equation at h = 1/2. The product of sines stands for a difference of cosines, without which t > 1e3 would lose
- * F. It is solved from two rational cells (Gregory & Delbourgo 1982) by four steps of Halley's method; F is convex. */
+ * F. It is solved from two rational cells (Gregory & Delbourgo 1982) by two steps of Halley's method, or four; F is convex. */
 #ifndef VNDF_KERNEL_NORMALS_H
 #define VNDF_KERNEL_NORMALS_H
 
@@ -89,21 +89,27 @@ HERE real v_cavity_start(v_cavity k, real rest)
     return k.h * (pick(beyond, set(1.0f), set(0.0f)) + over / (over + under + 1e-30f));
 }
 
+HERE real v_cavity_step(v_cavity k, real g, real rest)
+{
+    v_cavity_mass f = v_cavity_beyond(k, g);
+    real miss = f.mass - rest, below = f.density * f.density - 0.5f * miss * f.bend;
+    real step = pick(less(set(0.0f), below), miss * f.density / most(below, set(1e-30f)), set(0.0f));
+    return least(most(g - step, set(0.0f)), 2.0f * k.h);
+}
+
 /* Sine and cosine of the azimuth from that of wi; p and q not both 0. u1 turns from behind wi (0) through its azimuth
- * (1/2) and round. u1 is met within 3e-7, measured. */
+ * (1/2) and round; it is met within 8e-8, measured. */
 HERE turn v_cavity_azimuth(real p, real q, real u1)
 {
     v_cavity k = v_cavity_of(p, q);
-    real half = 2.0f * u1 - 1.0f, rest = 2.0f * least(u1, 1.0f - u1), end = 2.0f * k.h, g = v_cavity_start(k, least(rest, end));
-    for (int i = 0; i < 4; i++) {
-        v_cavity_mass f = v_cavity_beyond(k, g);
-        real miss = f.mass - rest, below = f.density * f.density - 0.5f * miss * f.bend;
-        real step = pick(less(set(0.0f), below), miss * f.density / most(below, set(1e-30f)), set(0.0f));
-        g = least(most(g - step, set(0.0f)), end);
-    }
+    real rest = 2.0f * least(u1, 1.0f - u1), end = 2.0f * k.h, g = v_cavity_start(k, least(rest, end));
+    g = v_cavity_step(k, v_cavity_step(k, g, rest), rest);
+    mask rare = both(less(size(k.t - 1.0f), set(0.15f)), less(rest, set(0.06f))); /* F begins as a cube */
+    if (any(rare))
+        g = pick(rare, v_cavity_step(k, v_cavity_step(k, g, rest), rest), g);
     real part = pick(at_most(end, rest), 0.5f - 0.5f * rest, (0.5f - g) + k.h);
     turn a = half_turn(least(most(part, set(0.0f)), set(1.0f)));
-    a.sine = with_sign(a.sine, half);
+    a.sine = with_sign(a.sine, u1 - 0.5f);
     return a;
 }
 

@@ -46,7 +46,8 @@ int main(void)
         subject s = subject_open(i);
         stratified found = stratified_measure(s.d, 0.3f, test_amount(100, 300, 4000), 5);
         if (!TEST(found.all <= 1.6) || test_long())
-            fprintf(stderr, "  %s: broad %.2f, small %.2f, all %.2f of caps\n", s.name, found.mean[0], found.mean[1], found.all);
+            fprintf(stderr, "  %s: broad %.2f, small %.2f, all %.2f of caps\n", s.name, found.mean[0],
+                    found.mean[1], found.all);
         vndf_free(s.owned);
     }
     return test_done();

@@ -86,7 +86,8 @@ double oracle_surface_area(const oracle_surface *o, const double w[3])
 
 double oracle_surface_visible(const oracle_surface *o, const double wi[3], const double wm[3])
 {
-    double wi2 = wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2], wm2 = wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2];
+    double wi2 = wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2],
+           wm2 = wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2];
     double facing = (wi[0] * wm[0] + wi[1] * wm[1] + wi[2] * wm[2]) / sqrt(wi2 * wm2);
     return facing > 0 ? facing * oracle_surface_ndf(o, wm) / oracle_surface_area(o, wi) : 0;
 }

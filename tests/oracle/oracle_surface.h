@@ -6,7 +6,12 @@
 #include "oracle/oracle.h"
 #include "oracle/oracle_table.h"
 
-typedef enum oracle_kind { ORACLE_KIND_GGX, ORACLE_KIND_BECKMANN, ORACLE_KIND_TABLE, ORACLE_KIND_FORMULA } oracle_kind;
+typedef enum oracle_kind {
+    ORACLE_KIND_GGX,
+    ORACLE_KIND_BECKMANN,
+    ORACLE_KIND_TABLE,
+    ORACLE_KIND_FORMULA
+} oracle_kind;
 
 /* What u is. */
 typedef struct oracle_slopes {

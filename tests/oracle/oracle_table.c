@@ -69,7 +69,7 @@ static uint32_t checksum(const unsigned char *bytes, size_t size)
 
 static int take_arrays(oracle_table *t, reader *r)
 {
-    double **array[] = {&t->knot, &t->g0, &t->g1, &t->m0, &t->m1,   &t->m2,
+    double **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
                         &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
     size_t count = t->cells + 1;
     t->numbers = calloc(11 * count, sizeof *t->numbers);
@@ -107,7 +107,8 @@ int oracle_table_read(oracle_table *t, const unsigned char *bytes, size_t size)
                t->moments <= 4 && t->squarings <= 5 && take_arrays(t, &r) && r.left == 4 &&
                take(&r, 4) == checksum(bytes, size - 4);
     if (!good) {
-        fprintf(stderr, "oracle: format %lu, %lu cells, %lu moments, %lu squarings, %lu bytes left: not as it should be\n",
+        fprintf(stderr,
+                "oracle: format %lu, %lu cells, %lu moments, %lu squarings, %lu bytes left: not as it should be\n",
                 (unsigned long)version, (unsigned long)t->cells, (unsigned long)t->moments,
                 (unsigned long)t->squarings, (unsigned long)r.left);
         oracle_table_free(t);
@@ -119,7 +120,8 @@ int oracle_table_of(oracle_table *t, const vndf_distribution *distribution)
 {
     size_t size = vndf_distribution_info(distribution).bytes;
     unsigned char *bytes = malloc(size + 1);
-    int good = bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && oracle_table_read(t, bytes, size);
+    int good =
+        bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && oracle_table_read(t, bytes, size);
     free(bytes);
     return good;
 }
@@ -347,8 +349,8 @@ double oracle_law_radius(const oracle_law *l, double r)
         return 0;
     place p = place_in(l->t, i, r);
     if (i > l->first)
-        return l->s / PI * rational(mass_below(l, i), end_below(l, i, 0), end_below(l, i, 1), p.xi, p.eta) / p.width /
-               l->drawn;
+        return l->s / PI * rational(mass_below(l, i), end_below(l, i, 0), end_below(l, i, 1), p.xi, p.eta) /
+               p.width / l->drawn;
     double part = 1 - l->part, eta = p.eta / part, xi = (p.xi - l->part) / part;
     return l->s / PI * rational(l->part_mass, 0, part * end_below(l, i, 1), xi, eta) / (p.width * part) / l->drawn;
 }

@@ -12,11 +12,11 @@ typedef struct chi_square_view {
 } chi_square_view;
 
 static const chi_square_view chi_square_views[] = {
-    {SEEN_SURFACE, 0.3, 0, 0, 0, 0, 0},       {SEEN_SURFACE, 0.1, 0.4, 0, 0, 30, 25},
-    {SEEN_SURFACE, 1, 0.5, 0, 0, 80, 70},     {SEEN_SURFACE, 1e-3, 0, 0, 0, 60, 200},
-    {SEEN_SURFACE, 0.5, 0, 0, 0, 89.99, 10},  {SEEN_SURFACE, 1, 0.7, 0, 0, 100, 45},
-    {SEEN_SURFACE, 0.7, 0, 0, 0, 130, 0},     {SEEN_AFFINE, 0.3, 0.1, 0.2, 0.4, 50, 130},
-    {SEEN_AFFINE, 0.6, 0.5, 0.5, -0.3, 85, 0}, {SEEN_MIXTURE, 0.4, 0.3, 0.1, 0, 40, 60},
+    {SEEN_SURFACE, 0.3, 0, 0, 0, 0, 0},         {SEEN_SURFACE, 0.1, 0.4, 0, 0, 30, 25},
+    {SEEN_SURFACE, 1, 0.5, 0, 0, 80, 70},       {SEEN_SURFACE, 1e-3, 0, 0, 0, 60, 200},
+    {SEEN_SURFACE, 0.5, 0, 0, 0, 89.99, 10},    {SEEN_SURFACE, 1, 0.7, 0, 0, 100, 45},
+    {SEEN_SURFACE, 0.7, 0, 0, 0, 130, 0},       {SEEN_AFFINE, 0.3, 0.1, 0.2, 0.4, 50, 130},
+    {SEEN_AFFINE, 0.6, 0.5, 0.5, -0.3, 85, 0},  {SEEN_MIXTURE, 0.4, 0.3, 0.1, 0, 40, 60},
     {SEEN_MIXTURE, 0.5, 0.5, 0.2, 0.3, 80, 10}, {SEEN_MIXTURE, 0.6, 0.6, 0, 0, 95, 30},
 };
 enum { CHI_SQUARE_VIEWS = sizeof chi_square_views / sizeof *chi_square_views };
@@ -45,11 +45,13 @@ static inline void chi_square_one(const subject *of, size_t view, size_t samples
     if (!chi_square_sees(&s))
         return;
     slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);
-    int good = TEST(found.p > level) & TEST(found.unseen == 0) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 1e-4));
+    int good = TEST(found.p > level) & TEST(found.unseen == 0) &
+               TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 1e-4));
     if (!good) {
         seen_print(&s, of->name);
         fprintf(stderr, "    view %lu: p %.3g of %lu classes, integral %.7f, %lu without a density\n",
-                (unsigned long)view, found.p, (unsigned long)found.classes, found.mass, (unsigned long)found.unseen);
+                (unsigned long)view, found.p, (unsigned long)found.classes, found.mass,
+                (unsigned long)found.unseen);
     }
 }
 

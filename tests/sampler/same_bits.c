@@ -21,7 +21,8 @@ static unsigned long long hash_material(unsigned long long hash, const vndf_surf
     vndf_description is = {.distribution = surface->distribution,
                            .effects = {(vndf_lobes)(i % 3), (vndf_fresnel)(i / 3 % 4), (vndf_masking)(i / 12 % 4),
                                        (vndf_normals_drawn)(i / 48 % 4), (vndf_scattering)(i / 192 % 2),
-                                       (vndf_transport)(i / 384 % 2), (vndf_shape)(i / 768 % 2), VNDF_REFLECTION_SPECULAR},
+                                       (vndf_transport)(i / 384 % 2), (vndf_shape)(i / 768 % 2),
+                                       VNDF_REFLECTION_SPECULAR},
                            .eta = 1.5f,
                            .alpha_x = surface->alpha_x,
                            .alpha_y = surface->alpha_y,
@@ -39,7 +40,8 @@ static unsigned long long hash_material(unsigned long long hash, const vndf_surf
     vndf_bsdf_at(&bsdf, &material, unit);
     vndf_bsdf_sample(&bsdf, u, &s);
     vndf_bsdf_eval(&bsdf, s.wo, i, f);
-    const float all[] = {s.wo.x, s.wo.y, s.wo.z, s.weight[0], s.weight[1], s.weight[2], f[0], f[1], f[2], s.density};
+    const float all[] = {s.wo.x,      s.wo.y, s.wo.z, s.weight[0], s.weight[1],
+                         s.weight[2], f[0],   f[1],   f[2],        s.density};
     for (size_t j = 0; j < sizeof all / sizeof *all; j++)
         hash = hash_float(hash, all[j]);
     return hash_float(hash, vndf_bsdf_pdf(&bsdf, s.wo));

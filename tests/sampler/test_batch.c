@@ -27,7 +27,10 @@ typedef struct batch_case {
 
 static size_t place_in(const batch_case *b, int input, size_t i)
 {
-    unsigned bit = input <= MEAN_Y ? VNDF_SHARED_ALPHA : input <= WI_Z ? VNDF_SHARED_WI : input >= W0 ? VNDF_SHARED_WEIGHT : 0;
+    unsigned bit = input <= MEAN_Y ? VNDF_SHARED_ALPHA
+                   : input <= WI_Z ? VNDF_SHARED_WI
+                   : input >= W0   ? VNDF_SHARED_WEIGHT
+                                   : 0;
     return b->shared & bit ? 0 : i;
 }
 
@@ -71,7 +74,7 @@ static void expect_drawn(const batch_case *b, const seen *s, call which, size_t 
             vndf_affine_invert(&s->affine, wm, &out[0], &out[1]);
         return;
     }
-    wm = which == WEIGHT             ? vndf_sample_weight(&s->view, u1, u2, &out[3], &out[4])
+    wm = which == WEIGHT           ? vndf_sample_weight(&s->view, u1, u2, &out[3], &out[4])
          : b->kind == SEEN_MIXTURE ? vndf_mixture_sample(&s->mixture, u1, u2, &out[3], &lobe)
                                    : seen_draw(s, u1, u2, &out[3]);
     out[0] = wm.x, out[1] = wm.y, out[2] = wm.z;
@@ -90,8 +93,11 @@ static float expect_value(const seen *s, call which, vndf_vec3 wm)
     case AREA: return seen_area(s, s->wi);
     case NDF: return one ? vndf_ndf(&plain, wm) : affine ? vndf_affine_ndf(a, wm) : vndf_mixture_ndf(&s->of, wm);
     case LAMBDA:
-        return one ? vndf_lambda(&plain, s->wi) : affine ? vndf_affine_lambda(a, s->wi) : vndf_mixture_lambda(&s->of, s->wi);
-    default: return one ? vndf_g1(&plain, s->wi) : affine ? vndf_affine_g1(a, s->wi) : vndf_mixture_g1(&s->of, s->wi);
+        return one      ? vndf_lambda(&plain, s->wi)
+               : affine ? vndf_affine_lambda(a, s->wi)
+                        : vndf_mixture_lambda(&s->of, s->wi);
+    default:
+        return one ? vndf_g1(&plain, s->wi) : affine ? vndf_affine_g1(a, s->wi) : vndf_mixture_g1(&s->of, s->wi);
     }
 }
 
@@ -109,7 +115,8 @@ static void expect(const batch_case *b, call which, size_t i, float out[OUTPUTS]
 
 static void run_surface(const batch_case *b, call which, float *const out[OUTPUTS])
 {
-    const vndf_batch of = {b->d, b->count, b->shared & 3, b->limit, b->in[XX], b->in[YY], b->in[WI_X], b->in[WI_Y], b->in[WI_Z]};
+    const vndf_batch of = {b->d,      b->count,    b->shared & 3, b->limit,   b->in[XX],
+                           b->in[YY], b->in[WI_X], b->in[WI_Y],   b->in[WI_Z]};
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
     switch (which) {
     case SAMPLE: vndf_sample_n(&of, b->in[U1], b->in[U2], to, out[3]); break;
@@ -131,8 +138,19 @@ static const float *matrix_of(const batch_case *b, int input)
 
 static void run_affine(const batch_case *b, call which, float *const out[OUTPUTS])
 {
-    const vndf_affine_batch of = {b->d, b->count, b->shared & 3, b->limit, b->in[XX], matrix_of(b, XY), matrix_of(b, YX),
-                                  b->in[YY], matrix_of(b, MEAN_X), matrix_of(b, MEAN_Y), b->in[WI_X], b->in[WI_Y], b->in[WI_Z]};
+    const vndf_affine_batch of = {b->d,
+                                  b->count,
+                                  b->shared & 3,
+                                  b->limit,
+                                  b->in[XX],
+                                  matrix_of(b, XY),
+                                  matrix_of(b, YX),
+                                  b->in[YY],
+                                  matrix_of(b, MEAN_X),
+                                  matrix_of(b, MEAN_Y),
+                                  b->in[WI_X],
+                                  b->in[WI_Y],
+                                  b->in[WI_Z]};
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
     switch (which) {
     case SAMPLE: vndf_affine_sample_n(&of, b->in[U1], b->in[U2], to, out[3]); break;
@@ -150,9 +168,16 @@ static void run_mixture(const batch_case *b, call which, float *const out[OUTPUT
 {
     static int lobe[MOST];
     const float *x = matrix_of(b, MEAN_X), *y = matrix_of(b, MEAN_Y);
-    const vndf_mixture_batch of = {b->count, b->shared, b->limit, b->in[WI_X], b->in[WI_Y], b->in[WI_Z], 2,
-                                   {{b->d, b->in[XX], matrix_of(b, XY), matrix_of(b, YX), b->in[YY], x, y, b->in[W0]},
-                                    {vndf_ggx(), b->in[XX], matrix_of(b, YX), matrix_of(b, XY), b->in[YY], x, y, b->in[W1]}}};
+    const vndf_mixture_batch of = {
+        b->count,
+        b->shared,
+        b->limit,
+        b->in[WI_X],
+        b->in[WI_Y],
+        b->in[WI_Z],
+        2,
+        {{b->d, b->in[XX], matrix_of(b, XY), matrix_of(b, YX), b->in[YY], x, y, b->in[W0]},
+         {vndf_ggx(), b->in[XX], matrix_of(b, YX), matrix_of(b, XY), b->in[YY], x, y, b->in[W1]}}};
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
     switch (which) {
     case SAMPLE: vndf_mixture_sample_n(&of, b->in[U1], b->in[U2], to, out[3], lobe); break;
@@ -172,7 +197,10 @@ static void run_mixture(const batch_case *b, call which, float *const out[OUTPUT
 
 static size_t outputs_of(const batch_case *b, call which)
 {
-    return which == SAMPLE ? 4 + (b->kind == SEEN_MIXTURE) : which == WEIGHT ? 5 : which == INVERT ? 2 + (b->kind == SEEN_MIXTURE) : 1;
+    return which == SAMPLE   ? 4 + (b->kind == SEEN_MIXTURE)
+           : which == WEIGHT ? 5
+           : which == INVERT ? 2 + (b->kind == SEEN_MIXTURE)
+                             : 1;
 }
 
 /* With `in_place`, results go where the normals, or the numbers and the density's input, stood. */
@@ -225,11 +253,22 @@ static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, unsigne
     for (size_t i = 0; i < MOST + 2; i++) {
         vndf_vec3 wi = random_direction(state, i % 3 ? 0 : -1);
         float z = i % 7 == 0 ? (float)random_decade(state, -12, -2) : wi.z;
-        float numbers[INPUTS] = {(float)random_decade(state, -4, 1), (float)random_between(state, -1, 1),
-                                 (float)random_between(state, -1, 1), (float)random_decade(state, -4, 1),
-                                 (float)random_between(state, -1, 1), (float)random_between(state, -1, 1),
-                                 wi.x, wi.y, i % 14 == 0 ? -z : z, test_uniform(state), test_uniform(state), 0, 0, 0,
-                                 test_uniform(state), test_uniform(state)};
+        float numbers[INPUTS] = {(float)random_decade(state, -4, 1),
+                                 (float)random_between(state, -1, 1),
+                                 (float)random_between(state, -1, 1),
+                                 (float)random_decade(state, -4, 1),
+                                 (float)random_between(state, -1, 1),
+                                 (float)random_between(state, -1, 1),
+                                 wi.x,
+                                 wi.y,
+                                 i % 14 == 0 ? -z : z,
+                                 test_uniform(state),
+                                 test_uniform(state),
+                                 0,
+                                 0,
+                                 0,
+                                 test_uniform(state),
+                                 test_uniform(state)};
         seen s = seen_surface(d, numbers[XX], numbers[YY], wi);
         vndf_vec3 wm = i % 3 ? seen_draw(&s, numbers[U1], numbers[U2], NULL) : random_direction(state, -0.2);
         numbers[NX] = wm.x, numbers[NY] = wm.y, numbers[NZ] = wm.z;
@@ -248,7 +287,8 @@ static void test_subject(const subject *of, vndf_instructions limit)
     static float in[INPUTS][MOST + 2];
     unsigned long long state = 21;
     for (size_t round = 0; round < test_amount(8, 32, 400); round++) {
-        batch_case b = {SEEN_SURFACE, of->d, counts[round % 8], (unsigned)(round / 2 % 8), round % 3 == 1, limit, {NULL}};
+        batch_case b = {SEEN_SURFACE, of->d, counts[round % 8], (unsigned)(round / 2 % 8), round % 3 == 1,
+                        limit,        {NULL}};
         fill(in, of->d, &state);
         for (int i = 0; i < INPUTS; i++)
             b.in[i] = in[i] + 1;
@@ -270,7 +310,9 @@ static void test_sets(const subject *of, int only)
 
 int main(int arguments, char **argument)
 {
-    int only = arguments < 2 ? 0 : strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512 : VNDF_INSTRUCTIONS_AVX2;
+    int only = arguments < 2                        ? 0
+               : strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512
+                                                    : VNDF_INSTRUCTIONS_AVX2;
     const subject none = {"none", NULL, NULL, {0}};
     test_sets(&none, only);
     for (size_t i = 0; i < SUBJECT_COUNT; i++) {

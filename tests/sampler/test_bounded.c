@@ -50,7 +50,8 @@ static double density_at(const double wm[3], const void *of)
 /* What the weight is to be: visible normals over the density; of V-cavities D (wi.wm)/A(wi). Both are vndf_visible. */
 static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vndf_drawn_normal n, int round)
 {
-    double facing = dot_of(wi, n.wm), up = 2 * facing * n.wm.z - wi.z, visible = (double)vndf_visible(&d->view, n.wm);
+    double facing = dot_of(wi, n.wm), up = 2 * facing * n.wm.z - wi.z,
+           visible = (double)vndf_visible(&d->view, n.wm);
     double shape = (double)vndf_ndf(surface, n.wm) * n.wm.z, g1 = fmin(1, 2 * n.wm.z * wi.z / facing);
     int good = TEST(fabs(length_of(n.wm) - 1) <= 4 * 0x1p-23 && n.wm.z >= 0);
     good &= TEST(n.density >= FLT_MIN && n.density <= FLT_MAX && n.weight >= 0 && n.weight <= FLT_MAX);
@@ -66,7 +67,8 @@ static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vn
     return good & TEST(facing < 1e-3 || fabs((double)n.density - want) <= 0.1 * want); /* tables' cells differ */
 }
 
-static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, const char *name, size_t samples)
+static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, const char *name,
+                         size_t samples)
 {
     static const float edges[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f, 1, NAN};
     unsigned long long state = 17;
@@ -78,10 +80,11 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
         double error = fabs((double)density(d, n.wm) / (double)n.density - 1);
         apart[0] += !(error <= 1e-5), apart[1] += !(error <= 1e-3);
         if (!is_good(d, surface, wi, n, surface->alpha_x == surface->alpha_y) && test_failures < 20)
-            fprintf(stderr, "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n", name,
-                    law_names[d->which], (double)wi.x, (double)wi.y, (double)wi.z, (double)surface->alpha_x,
-                    (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y, (double)n.wm.z,
-                    (double)n.density, (double)n.weight);
+            fprintf(stderr,
+                    "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
+                    name, law_names[d->which], (double)wi.x, (double)wi.y, (double)wi.z, (double)surface->alpha_x,
+                    (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y,
+                    (double)n.wm.z, (double)n.density, (double)n.weight);
     }
     if (!(TEST(apart[0] <= 64 + samples / 500) & TEST(apart[1] <= 8)))
         fprintf(stderr, "  %s, %s: %lu densities are apart by 1e-5, %lu by 1e-3\n", name, law_names[d->which],
@@ -97,10 +100,12 @@ static void test_setting(const subject *of, law which, float alpha_x, float alph
     const drawn d = {which, vndf_view_from(&surface, wi)};
     const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
     test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
-    slope_test found = slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
+    slope_test found =
+        slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
     if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 2e-4))))
-        fprintf(stderr, "  %s, %s, alpha %g %g, wi.z %.9g: p %.3g of %lu, integral %.7f\n", of->name, law_names[which],
-                (double)alpha_x, (double)alpha_y, (double)wi.z, found.p, (unsigned long)found.classes, found.mass);
+        fprintf(stderr, "  %s, %s, alpha %g %g, wi.z %.9g: p %.3g of %lu, integral %.7f\n", of->name,
+                law_names[which], (double)alpha_x, (double)alpha_y, (double)wi.z, found.p,
+                (unsigned long)found.classes, found.mass);
 }
 
 int main(int arguments, char **argument)

@@ -60,7 +60,8 @@ static double largest_jump(const seen *s, int which, double u, double v, double 
 static double falls(const seen *s, int which, double sign, double u, double v, double other)
 {
     double a = coordinate(s, which, at(s, which, u, other)), b = coordinate(s, which, at(s, which, v, other));
-    double slack = fabs(coordinate(s, which, at(s, which, u + 0x1p-22, other)) - coordinate(s, which, at(s, which, u - 0x1p-22, other)));
+    double slack = fabs(coordinate(s, which, at(s, which, u + 0x1p-22, other)) -
+                        coordinate(s, which, at(s, which, u - 0x1p-22, other)));
     double about = s->of.lobe[0].surface.distribution == vndf_beckmann() ? fabs(a) + 1 : fabs(a);
     return sign * (a - b) - slack - 2e-6 * about;
 }
@@ -71,12 +72,15 @@ static void test_view(const seen *s, const char *name, int pairs, unsigned long 
         int which = i % 2;
         double other = random_between(state, 1e-3, 1 - 1e-3), step = random_decade(state, -6, -1);
         double u = random_between(state, 1e-3, 1 - 1e-3 - step), v = u + step;
-        double low = coordinate(s, which, at(s, which, 0.25, other)), high = coordinate(s, which, at(s, which, 0.75, other));
-        double fall = falls(s, which, high > low ? 1 : -1, u, v, other), jump = largest_jump(s, which, u, v, other);
+        double low = coordinate(s, which, at(s, which, 0.25, other)),
+               high = coordinate(s, which, at(s, which, 0.75, other));
+        double fall = falls(s, which, high > low ? 1 : -1, u, v, other),
+               jump = largest_jump(s, which, u, v, other);
         if (TEST(fall <= 0) & TEST(jump < 1e-3))
             continue;
         seen_print(s, name);
-        fprintf(stderr, "    u%d %.9g to %.9g, other %.9g: falls by %.3g, jumps by %.3g\n", which + 1, u, v, other, fall, jump);
+        fprintf(stderr, "    u%d %.9g to %.9g, other %.9g: falls by %.3g, jumps by %.3g\n", which + 1, u, v, other,
+                fall, jump);
     }
 }
 
@@ -87,7 +91,8 @@ int main(int arguments, char **argument)
         unsigned long long state = 4;
         subject of = subject_open(i);
         for (size_t j = 0; of.d && j < 20; j++) {
-            seen s = seen_surface(of.d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1, oracle_direction(thetas[j / 2], 17.0 * (double)j));
+            seen s = seen_surface(of.d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1,
+                                  oracle_direction(thetas[j / 2], 17.0 * (double)j));
             if (oracle_wanted(arguments, argument, i, of.name) && seen_area(&s, s.wi) > 1e-4f)
                 test_view(&s, of.name, (int)test_amount(100, 400, 20000), &state);
         }

@@ -7,11 +7,11 @@
 
 #include "sampler/seen.h"
 
-static const float edges[] = {0,    FLT_TRUE_MIN,     0x1p-24f,    0.25f, 0.5f - 0x1p-25f,
+static const float edges[] = {0,    FLT_TRUE_MIN,    0x1p-24f,     0.25f, 0.5f - 0x1p-25f,
                               0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
 enum { EDGES = sizeof edges / sizeof *edges };
 
-static size_t samples;
+static size_t samples, views, told, messages; /* told: the view whose failure was printed last, one for each */
 
 /* ---- one sample ---- */
 
@@ -19,7 +19,8 @@ static size_t samples;
 static int faces(vndf_vec3 wi, vndf_vec3 wm)
 {
     return (long double)wi.x * (long double)wm.x + (long double)wi.y * (long double)wm.y +
-               (long double)wi.z * (long double)wm.z > 0;
+               (long double)wi.z * (long double)wm.z >
+           0;
 }
 
 static int is_good(const seen *s, vndf_vec3 wm, float pdf)
@@ -35,15 +36,18 @@ static void check_sample(const seen *s, float u1, float u2, const char *name)
     float pdf = -1;
     vndf_vec3 wm = seen_draw(s, u1, u2, &pdf);
     samples++;
-    if (!TEST(is_good(s, wm, pdf)) && test_failures <= 20) {
+    if (!TEST(is_good(s, wm, pdf)) && told != views && messages++ < 20) {
+        told = views;
         seen_print(s, name);
         fprintf(stderr, "    u %.9g %.9g: wm %.9g %.9g %.9g, length - 1 %.3g, wi.wm %.3g, pdf %.9g\n", (double)u1,
-                (double)u2, (double)wm.x, (double)wm.y, (double)wm.z, length_of(wm) - 1, dot_of(s->wi, wm), (double)pdf);
+                (double)u2, (double)wm.x, (double)wm.y, (double)wm.z, length_of(wm) - 1, dot_of(s->wi, wm),
+                (double)pdf);
     }
 }
 
 static void check_view(const seen *s, const char *name, unsigned long long *state)
 {
+    views++;
     for (int i = 0; i < EDGES * EDGES; i++)
         check_sample(s, edges[i / EDGES], edges[i % EDGES], name);
     for (int i = 0; i < 11; i++) {
@@ -59,9 +63,9 @@ enum { DIRECTIONS = 30 };
 /* Below the horizon the depth, in what is seen, falls from one direction to the next. */
 static vndf_vec3 direction_at(int i, unsigned long long *state)
 {
-    static const double cosines[DIRECTIONS] = {1,     1,      1,     0.99,   0.9,   0.5,   0.1,   1e-2,  1e-4, 1e-7,
-                                               1e-20, 1e-42,  0,     -0.0,   -1e-42, -1e-20, -1e-7, -1e-4, -1e-2, -0.03,
-                                               -0.1,  -0.2,   -0.3,  -0.45,  -0.6,  -0.75, -0.9,  -0.97, -1,   -1};
+    static const double cosines[DIRECTIONS] = {
+        1,      1,     1,     0.99,  0.9,   0.5,  0.1,  1e-2, 1e-4,  1e-7, 1e-20, 1e-42, 0,     -0.0, -1e-42,
+        -1e-20, -1e-7, -1e-4, -1e-2, -0.03, -0.1, -0.2, -0.3, -0.45, -0.6, -0.75, -0.9,  -0.97, -1,   -1};
     double phi = i % 3 ? random_between(state, -PI, PI) : 0, length = i % 4 ? 1 : 1 + 1e-6, z = cosines[i];
     double across = i == 1 ? 1e-7 : i == 2 ? 1e-4 : i == DIRECTIONS - 2 ? 1e-4 : sqrt((1 - z) * (1 + z));
     vndf_vec3 w = {(float)(length * across * cos(phi)), (float)(length * across * sin(phi)), (float)(length * z)};
@@ -100,7 +104,8 @@ static void check_directions(seen_kind kind, const vndf_mixture *of, const char 
 /* A matrix of singular values a and b, and a mean slope. */
 static vndf_affine turned(const vndf_distribution *d, double a, double b, double mean, unsigned long long *state)
 {
-    double p = random_between(state, -PI, PI), q = random_between(state, -PI, PI), t = random_between(state, -PI, PI);
+    double p = random_between(state, -PI, PI), q = random_between(state, -PI, PI),
+           t = random_between(state, -PI, PI);
     vndf_affine m = {d,
                      (float)(a * cos(p) * cos(q) - b * sin(p) * sin(q)),
                      (float)(-a * cos(p) * sin(q) - b * sin(p) * cos(q)),
@@ -126,7 +131,8 @@ static void check_surfaces(const vndf_distribution *d, const char *name, unsigne
     }
     for (int i = 0; i < (int)test_amount(3, 15, 150); i++) {
         const vndf_distribution *other = i % 2 ? vndf_ggx() : vndf_beckmann();
-        double a = random_decade(state, -4, 0), b = random_decade(state, -4, 0), mean = i % 3 ? random_between(state, 0, 1) : 0;
+        double a = random_decade(state, -4, 0), b = random_decade(state, -4, 0),
+               mean = i % 3 ? random_between(state, 0, 1) : 0;
         const vndf_mixture of = {2,
                                  {{turned(d, a, b, mean, state), (float)random_decade(state, -30, 30)},
                                   {turned(other, b, a, mean, state), (float)random_decade(state, -30, 30)}}};
@@ -158,7 +164,8 @@ static void check_invalid(const vndf_distribution *d)
         TEST(gives_nothing(&rough) & gives_nothing(&turned_to));
         TEST(vndf_projected_area(&(vndf_surface){d, bad[i], 1}, wi) == 0);
         const vndf_mixture lobes = {2, {{seen_straight(d, 1, 1), 1}, {seen_straight(d, bad[i], 1), 1}}};
-        const vndf_mixture weights = {2, {{seen_straight(d, 1, 1), 1}, {seen_straight(d, 1, 1), i == 3 ? NAN : bad[i]}}};
+        const vndf_mixture weights = {
+            2, {{seen_straight(d, 1, 1), 1}, {seen_straight(d, 1, 1), i == 3 ? NAN : bad[i]}}};
         seen a = seen_from(SEEN_AFFINE, &(vndf_mixture){1, {{{d, 1, 0, bad[i], i < 3 ? 1.0f : 0, 0, 0}, 1}}}, wi);
         seen b = seen_from(SEEN_MIXTURE, &lobes, wi), c = seen_from(SEEN_MIXTURE, &weights, wi);
         TEST(gives_nothing(&a));
@@ -181,7 +188,8 @@ static void check_numbers(const vndf_distribution *d)
             TEST(memcmp(&v, &w, sizeof v) == 0 && a == b);
             v = seen_draw(&s, 0.3f, odd[i][0], &a), w = seen_draw(&s, 0.3f, odd[i][1], &b);
             TEST(memcmp(&v, &w, sizeof v) == 0 && a == b);
-            TEST(seen_pdf(&s, (vndf_vec3){odd[0][0], 0, 1}) == 0 && seen_pdf(&s, (vndf_vec3){0.6f, 0, -0.8f}) == 0);
+            TEST(seen_pdf(&s, (vndf_vec3){odd[0][0], 0, 1}) == 0 &&
+                 seen_pdf(&s, (vndf_vec3){0.6f, 0, -0.8f}) == 0);
         }
 }
 

@@ -32,11 +32,13 @@ static void fill(inputs *in, double scale, unsigned long long *state)
 {
     for (int i = 0; i < COUNT; i++) {
         int apart = i % 5 == 0; /* from one end of the range to the other */
-        double length = i % 2 ? 1 : random_decade(state, -37, 38.4), z = i % 4 ? random_between(state, -1, 1) : random_decade(state, -40, 0);
+        double length = i % 2 ? 1 : random_decade(state, -37, 38.4),
+               z = i % 4 ? random_between(state, -1, 1) : random_decade(state, -40, 0);
         double phi = i % 3 ? random_between(state, -PI, PI) : PI / 2 * (i % 4), across = sqrt(1 - z * z);
         in->ax[i] = (float)(random_decade(state, apart ? -17.9 : -4, apart ? 17.9 : 1) / scale);
         in->ay[i] = (float)(random_decade(state, apart ? -17.9 : -4, apart ? 17.9 : 1) / scale);
-        in->x[i] = (float)(length * across * cos(phi)), in->y[i] = (float)(length * across * sin(phi)), in->z[i] = (float)(length * z);
+        in->x[i] = (float)(length * across * cos(phi)), in->y[i] = (float)(length * across * sin(phi)),
+        in->z[i] = (float)(length * z);
         in->u1[i] = hard_uniform(state), in->u2[i] = hard_uniform(state);
     }
 }

@@ -10,7 +10,8 @@ static double distance_over(const slope_frame *f, vndf_vec3 a, vndf_vec3 b)
     double n[2][3], sum = 0;
     for (int i = 0; i < 2; i++) {
         double x = w[i].x + f->mean_x * w[i].z, y = w[i].y + f->mean_y * w[i].z, d = f->xx * f->yy - f->xy * f->yx;
-        double u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d, length = sqrt(u * u + v * v + (double)w[i].z * w[i].z);
+        double u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d,
+               length = sqrt(u * u + v * v + (double)w[i].z * w[i].z);
         n[i][0] = u / length, n[i][1] = v / length, n[i][2] = w[i].z / length;
     }
     for (int i = 0; i < 3; i++)
@@ -38,7 +39,9 @@ static double led_by_steps(const seen *s, const slope_frame *f, float u1, float 
 {
     double most = 0;
     for (int i = 0; i < 9; i++)
-        most = fmax(most, distance_over(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
+        most =
+            fmax(most,
+                 distance_over(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
     return most;
 }
 
@@ -52,7 +55,8 @@ static double rounding(const slope_frame *f)
 static int comes_back(const seen *s, float u1, float u2, double *lost)
 {
     int drawn = 0;
-    vndf_vec3 wm = s->kind == SEEN_MIXTURE ? vndf_mixture_sample(&s->mixture, u1, u2, NULL, &drawn) : seen_draw(s, u1, u2, NULL);
+    vndf_vec3 wm = s->kind == SEEN_MIXTURE ? vndf_mixture_sample(&s->mixture, u1, u2, NULL, &drawn)
+                                           : seen_draw(s, u1, u2, NULL);
     slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi, 0);
     float v1 = -1, v2 = -1;
     int lobe = invert(s, wm, drawn, &v1, &v2);
@@ -64,10 +68,13 @@ static int comes_back(const seen *s, float u1, float u2, double *lost)
 
 static seen random_view(const vndf_distribution *d, seen_kind kind, unsigned long long *state)
 {
-    float a = (float)random_decade(state, kind == SEEN_SURFACE ? -4 : -2, 0.3), b = (float)random_decade(state, -2, 0.3);
-    float mean = kind == SEEN_SURFACE ? 0 : (float)random_between(state, -0.5, 0.5), shear = kind == SEEN_SURFACE ? 0 : a / 2;
-    const vndf_mixture of = {kind == SEEN_MIXTURE ? 2 : 1,
-                             {{{d, a, shear, -shear, b, mean, mean}, 0.6f}, {{vndf_ggx(), b, 0, 0, b, mean, 0}, 0.4f}}};
+    float a = (float)random_decade(state, kind == SEEN_SURFACE ? -4 : -2, 0.3),
+          b = (float)random_decade(state, -2, 0.3);
+    float mean = kind == SEEN_SURFACE ? 0 : (float)random_between(state, -0.5, 0.5),
+          shear = kind == SEEN_SURFACE ? 0 : a / 2;
+    const vndf_mixture of = {
+        kind == SEEN_MIXTURE ? 2 : 1,
+        {{{d, a, shear, -shear, b, mean, mean}, 0.6f}, {{vndf_ggx(), b, 0, 0, b, mean, 0}, 0.4f}}};
     vndf_vec3 wi = random_direction(state, -0.3), level = {wi.x, wi.y, 0};
     seen s = seen_from(kind, &of, wi);
     if (seen_area(&s, wi) < 1e-6f * seen_area(&s, level)) {
@@ -85,7 +92,8 @@ int main(int arguments, char **argument)
         subject of = subject_open(i);
         for (size_t n = 0; of.d && n < count && oracle_wanted(arguments, argument, i, of.name); n++) {
             seen s = random_view(of.d, (seen_kind)(n % 3), &state);
-            float u1 = (float)random_between(&state, 0x1p-20, 1 - 0x1p-20), u2 = (float)random_between(&state, 0x1p-20, 1 - 0x1p-20);
+            float u1 = (float)random_between(&state, 0x1p-20, 1 - 0x1p-20),
+                  u2 = (float)random_between(&state, 0x1p-20, 1 - 0x1p-20);
             double lost = 0;
             if (comes_back(&s, u1, u2, &lost) || missed++ > 3)
                 continue;

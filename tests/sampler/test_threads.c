@@ -63,7 +63,8 @@ static void compare(const vndf_distribution *d, const char *name, const char *pa
         task alone = tasks[i];
         run_task(&alone);
         if (!TEST(alone.hash == tasks[i].hash))
-            fprintf(stderr, "  %s: thread %d has %016llx, alone it is %016llx\n", name, i, tasks[i].hash, alone.hash);
+            fprintf(stderr, "  %s: thread %d has %016llx, alone it is %016llx\n", name, i, tasks[i].hash,
+                    alone.hash);
         TEST(i == 0 || tasks[i].hash != tasks[0].hash); /* different numbers, different bits */
     }
 }

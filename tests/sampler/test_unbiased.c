@@ -13,10 +13,10 @@ typedef struct setting {
     double alpha_x, alpha_y, theta, phi;
 } setting;
 
-static const setting settings[SETTINGS] = {{0.3, 0.3, 0, 0},     {1, 1, 45, 0},      {0.05, 0.8, 60, 30},
-                                           {0.02, 0.02, 75, 10}, {2, 0.1, 85, 140},  {0.6, 0.6, 89.9, 0},
-                                           {0.5, 0.25, 90, 45},  {1, 1, 90.5, 0},    {0.7, 1.4, 96, 77},
-                                           {1.5, 1.5, 110, 0},   {1, 1, 135, 20},    {5, 5, 150, 0}};
+static const setting settings[SETTINGS] = {{0.3, 0.3, 0, 0},     {1, 1, 45, 0},     {0.05, 0.8, 60, 30},
+                                           {0.02, 0.02, 75, 10}, {2, 0.1, 85, 140}, {0.6, 0.6, 89.9, 0},
+                                           {0.5, 0.25, 90, 45},  {1, 1, 90.5, 0},   {0.7, 1.4, 96, 77},
+                                           {1.5, 1.5, 110, 0},   {1, 1, 135, 20},   {5, 5, 150, 0}};
 
 /* The true visible normals, times one of the functions. */
 typedef struct truth {
@@ -62,7 +62,8 @@ static double beyond(const average *a, double n)
     return fabs(mean) - 5 * sqrt(fmax(0, a->squares / n - mean * mean) / n) - 10 / n;
 }
 
-static void test_means(const seen *s, truth *t, const double expected[FUNCTIONS], const subject *of, size_t samples)
+static void test_means(const seen *s, truth *t, const double expected[FUNCTIONS], const subject *of,
+                       size_t samples)
 {
     average plain[FUNCTIONS] = {{0, 0}}, weighted[FUNCTIONS] = {{0, 0}};
     unsigned long long state = 77;

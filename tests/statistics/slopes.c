@@ -63,7 +63,8 @@ static const double LAST = 81; /* slopes of 1e34 */
 /* Of (slopes over -1, as they stand in unit normals) and back. */
 static double normal_at(const slope_frame *f, double r, double a, double wm[3])
 {
-    double along = r * cos(a), across = r * sin(a), u = f->x * along - f->y * across, v = f->y * along + f->x * across;
+    double along = r * cos(a), across = r * sin(a), u = f->x * along - f->y * across,
+           v = f->y * along + f->x * across;
     double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
     double z = 1 / sqrt(1 + x * x + y * y);
     wm[0] = x * z, wm[1] = y * z, wm[2] = z;
@@ -103,12 +104,14 @@ typedef struct panel {
 
 static double gauss(const integrand *g, panel p)
 {
-    static const double node[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683, 0.906179845938664};
+    static const double node[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
+                                   0.906179845938664};
     static const double weight[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366,
                                      0.236926885056189};
     double sum = 0, h = (p.q1 - p.q0) / 2, k = (p.b1 - p.b0) / 2;
     for (int i = 0; i < 25; i++)
-        sum += weight[i / 5] * weight[i % 5] * value_at(g, p.q0 + h * (1 + node[i / 5]), p.b0 + k * (1 + node[i % 5]));
+        sum += weight[i / 5] * weight[i % 5] *
+               value_at(g, p.q0 + h * (1 + node[i / 5]), p.b0 + k * (1 + node[i % 5]));
     return sum * h * k;
 }
 

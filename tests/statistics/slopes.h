@@ -27,9 +27,9 @@ double slope_integral(const slope_frame *frame, slope_function *f, const void *o
 typedef vndf_vec3 slope_draw(const void *of, float u1, float u2, float *pdf);
 
 typedef struct slope_test {
-    double p;        /* of the chi-square; 0 if it has few classes */
-    double mass;     /* integral of the density */
-    size_t unseen;   /* samples that do not face the direction, or whose density is not a positive float */
+    double p;      /* of the chi-square; 0 if it has few classes */
+    double mass;   /* integral of the density */
+    size_t unseen; /* samples that do not face the direction, or whose density is not a positive float */
     size_t classes;
 } slope_test;
 slope_test slope_chi_square(const slope_frame *frame, slope_draw *draw, slope_function *pdf, const void *of,

@@ -18,13 +18,15 @@ static void test_table(const char *path)
         return;
     n[count] = part[count / 2] = 7;
     TEST(vndf_numbers(d, n, count) == count && n[count] == 7);
-    TEST(vndf_numbers(d, part, count / 2) == count && part[count / 2] == 7 && memcmp(n, part, count / 2 * sizeof *n) == 0);
+    TEST(vndf_numbers(d, part, count / 2) == count && part[count / 2] == 7 &&
+         memcmp(n, part, count / 2 * sizeof *n) == 0);
     TEST((size_t)n[0] + 1 == rows && n[1] >= 2 && n[1] <= 4 && n[2] >= 0 && n[2] <= 5 && n[3] > 0);
     const float *knot = n + HEAD, *tail = n + HEAD + 3 * 4 * rows;
     TEST(knot[0] == 0 && fabsf(tail[1] - 1) < 1e-5f);
     for (size_t i = 0; i + 1 < rows; i++)
         for (int j = 0; j < 4; j++)
-            if (!TEST(knot[4 * i + 4] > knot[4 * i]) || !TEST(tail[4 * i + 4 + (size_t)j] <= tail[4 * i + (size_t)j]))
+            if (!TEST(knot[4 * i + 4] > knot[4 * i]) ||
+                !TEST(tail[4 * i + 4 + (size_t)j] <= tail[4 * i + (size_t)j]))
                 i = rows;
     free(n);
     free(part);

@@ -72,15 +72,24 @@ static const struct {
     size_t index; /* one beyond the last stands for the last */
     float value;
     const char *message;
-} NUMBERS[] = {{KNOT, 0, 1e-3f, "knots do not run"},     {KNOT, 1, 1e-13f, "knots do not run"},
-               {KNOT, 9999, 2e9f, "knots do not run"},   {KNOT, 5, 0, "ascend"},
-               {KNOT, 5, NAN, "ascend"},                 {DENSITY_LEFT, 2, -1e-6f, "density is out of range"},
-               {DENSITY_RIGHT, 9999, NAN, "density is out of range"}, {DENSITY_LEFT, 0, 1e37f, "density is out of range"},
-               {M0, 3, 0, "moment is out of range"},     {M1, 3, -1, "moment is out of range"},
-               {M2, 9999, INFINITY, "moment is out of range"}, {M4, 2, -1e-9f, "moment is out of range"},
-               {B0, 1, -0.1f, "share is out of range"},  {B1, 9999, NAN, "share is out of range"},
-               {B0, 4, 1e7f, "share is out of range"},   {AREA, 0, 0, "area is out of range"},
-               {SLOPE, 3, NAN, "area is out of range"},  {M1, 6, 0.5f, "add up to 1"}};
+} NUMBERS[] = {{KNOT, 0, 1e-3f, "knots do not run"},
+               {KNOT, 1, 1e-13f, "knots do not run"},
+               {KNOT, 9999, 2e9f, "knots do not run"},
+               {KNOT, 5, 0, "ascend"},
+               {KNOT, 5, NAN, "ascend"},
+               {DENSITY_LEFT, 2, -1e-6f, "density is out of range"},
+               {DENSITY_RIGHT, 9999, NAN, "density is out of range"},
+               {DENSITY_LEFT, 0, 1e37f, "density is out of range"},
+               {M0, 3, 0, "moment is out of range"},
+               {M1, 3, -1, "moment is out of range"},
+               {M2, 9999, INFINITY, "moment is out of range"},
+               {M4, 2, -1e-9f, "moment is out of range"},
+               {B0, 1, -0.1f, "share is out of range"},
+               {B1, 9999, NAN, "share is out of range"},
+               {B0, 4, 1e7f, "share is out of range"},
+               {AREA, 0, 0, "area is out of range"},
+               {SLOPE, 3, NAN, "area is out of range"},
+               {M1, 6, 0.5f, "add up to 1"}};
 
 static void test_numbers(const table_bytes *sound)
 {

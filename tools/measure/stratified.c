@@ -63,7 +63,8 @@ static double light_from(stratified_light light, vndf_vec3 wi, double width, vnd
     return 1 / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
 }
 
-static double reflected(const vndf_view *view, vndf_vec3 wi, stratified_light light, double width, float u1, float u2)
+static double reflected(const vndf_view *view, vndf_vec3 wi, stratified_light light, double width, float u1,
+                        float u2)
 {
     float weight;
     vndf_vec3 wm = vndf_sample_weight(view, u1, u2, NULL, &weight);
@@ -106,7 +107,8 @@ stratified stratified_measure(const vndf_distribution *distribution, float alpha
     stratified found = {{0}, {{0}}, {0}, 0};
     const vndf_surface ours = {distribution, alpha, alpha};
     double scale = vndf_distribution_info(distribution).scale;
-    const vndf_surface caps = {vndf_ggx(), alpha * (float)(scale > 0 ? scale : 1), alpha * (float)(scale > 0 ? scale : 1)};
+    const vndf_surface caps = {vndf_ggx(), alpha * (float)(scale > 0 ? scale : 1),
+                               alpha * (float)(scale > 0 ? scale : 1)};
     for (int i = 0; i < STRATIFIED_VIEWS; i++) {
         double theta = found.theta[i] = thetas[i], t = theta * 3.14159265358979323846 / 180;
         const vndf_vec3 wi = {(float)(sin(t) * 0.8), (float)(sin(t) * 0.6), (float)cos(t)};

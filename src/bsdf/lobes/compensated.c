@@ -6,8 +6,8 @@
  * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
 #include "bsdf/lobes/compensated.h"
 
-#include "bsdf/turn.h"
-#include "math/elementary.h"
+#include "math/turn.h"
+#include "math/exp_log.h"
 
 static const float INVERSE_PI = 0.318309886f;
 

@@ -11,7 +11,7 @@
  * division and no logarithm; error 3.4e-9. */
 #include "bsdf/terms/beta.h"
 
-#include "math/elementary.h"
+#include "math/exp_log.h"
 
 /* ---- a and b at most 3 ---- */
 

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "math/elementary.h"
+#include "math/exp_log.h"
 
 typedef struct vndf_walk_random {
     uint64_t state;

@@ -1,6 +1,6 @@
 /* Cosine and sine of an angle in turns, of any size: by their series to an eighth of a turn, doubled twice. */
-#ifndef VNDF_BSDF_TURN_H
-#define VNDF_BSDF_TURN_H
+#ifndef VNDF_MATH_TURN_H
+#define VNDF_MATH_TURN_H
 
 #include <math.h>
 
