@@ -120,7 +120,7 @@ void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vnd
 
 static const double INSIDE = 1.5e-7;    /* of the slope: a float into the cell, where P22 may jump beside the knot */
 static const double END_LEAST = 0.02, END_MOST = 300; /* of the mean: for poles, zeros and light tails */
-static const double MASS_LEAST = 1e-30, LEAST = 1e-37, MOST = 1e30;
+static const double MASS_LEAST = 1e-30, LEAST = 1e-36, MOST = 1e30;
 static const double NEAR_END = 4e-2;    /* 1 - xi where the limit of a tail is read */
 
 static vndf_cell moments_of(const vndf_span *span, const vndf_point *point, size_t count)
@@ -176,6 +176,8 @@ static void keep_positive(const vndf_span *span, double end, vndf_cell *cell)
         double m = MASS_LEAST;
         *cell = (vndf_cell){0, 0, m, m * width / 2, m * width * width / 3, m / third};
     }
+    cell->m1 = fmax(cell->m1, LEAST);
+    cell->m2 = fmax(cell->m2, LEAST);
     cell->m4 = cell->m4 > LEAST ? fmin(cell->m4, MOST) : 0;
 }
 

@@ -242,21 +242,23 @@ static void take(vndf_certificate *c, const direction *at, int side, double scal
 
 /* ---- D, and its ends ---- */
 
-/* Largest relative error of D, which is drawn as if all normals were, over the points that hold all but LEFT_OUT of the
- * mass on either side. */
+/* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence were,
+ * over the points that hold all but LEFT_OUT of the mass on either side. */
 static double ndf_error(const survey *s)
 {
-    const vndf_weight all = {0, 1, 0, 0};
     double before = 0, worst = 0;
     for (unsigned i = 0; i <= s->laws->cells; i++) {
         const vndf_span *span = &s->laws->span[i];
+        int tail = i == s->laws->cells;
+        const vndf_weight all = {tail, !tail, 0, 0};
         vndf_drawn cell = vndf_drawn_by(span, &s->laws->cell[i], &all);
         for (size_t n = s->sight->first[i]; n < s->sight->first[i + 1]; n++) {
             const vndf_point *p = &s->sight->points.at[n];
             double width = p->width / (vndf_span_density(span, p->r) * p->r); /* of log R */
+            double drawn = vndf_drawn_part(&cell, p->xi, p->width) / (tail ? p->r : 1);
             before += p->mass;
             if (before > LEFT_OUT / 2 && before < 1 - LEFT_OUT / 2 && p->mass > LEFT_OUT * width)
-                worst = fmax(worst, fabs(vndf_drawn_part(&cell, p->xi, p->width) / p->mass - 1));
+                worst = fmax(worst, fabs(drawn / p->mass - 1));
         }
     }
     return worst;

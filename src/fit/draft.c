@@ -215,20 +215,22 @@ static int fill(vndf_draft *draft, const vndf_profile *profile, const vndf_knot 
 int vndf_draft_from(vndf_draft *draft, const vndf_radial *radial, unsigned count, unsigned moments)
 {
     const vndf_profile *profile = radial->profile;
-    vndf_knot knot[VNDF_CELLS_MAX + 1];
+    vndf_knot *knot = malloc(count * sizeof *knot);
     *draft = (vndf_draft){.table = {.cells = count - 1,
                                     .moments = moments,
                                     .squarings = radial->squarings,
                                     .normalization = profile->normalization,
                                     .scale = profile->scale,
                                     .source = profile->description}};
-    if (!allocate(&draft->table))
-        return 0;
-    vndf_radial_knots(radial, count, knot);
-    for (unsigned i = 0; i < count; i++)
+    int good = allocate(&draft->table) && knot;
+    if (good)
+        vndf_radial_knots(radial, count, knot);
+    for (unsigned i = 0; good && i < count; i++)
         draft->table.knot[i] = knot[i].r;
-    return vndf_sight_from(&draft->sight, profile, draft->table.knot, count - 1, radial->squarings) &&
+    good = good && vndf_sight_from(&draft->sight, profile, draft->table.knot, count - 1, radial->squarings) &&
            fill(draft, profile, knot);
+    free(knot);
+    return good;
 }
 
 void vndf_draft_free(vndf_draft *draft)

@@ -136,8 +136,9 @@ static void fill(vndf_laws *laws, unsigned i)
     laws->span[i] =
         i < laws->cells ? vndf_span_between(r, d->knot[i + 1]) : vndf_span_of_tail(r, d->squarings);
     laws->turn[i] = turn_of(d, i);
-    laws->part[i] = vndf_drawn_below(&laws->span[i], &laws->cell[i], r, b0, b1).mass /
-                    estimate(&laws->span[i], &laws->cell[i], r, 0, b0, b1);
+    laws->part[i] = fmin(vndf_drawn_below(&laws->span[i], &laws->cell[i], r, b0, b1).mass /
+                             estimate(&laws->span[i], &laws->cell[i], r, 0, b0, b1),
+                         1e3);
 }
 
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft)

@@ -10,17 +10,17 @@ static const double BELOW = 2.5e-3;         /* weight of an error below the hori
 static const double AREA = 0.3;   /* of an error of the area */
 static const double ENOUGH = 1e-9; /* no cell with a smaller error is cut */
 static const double SHARE0 = 0.45, SHARE1 = 0.55; /* of the law below, about */
-static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p40;
+static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p29;
 static const double RHO_MOST = 0x1p20; /* claims end there */
 static const double UNRESOLVED = 0.02; /* part of a cell's mass that strays from what is drawn: it holds features */
 enum { FLOATS_APART = 4 };
 
 /* ---- the error of a cell ---- */
 
-/* |drawn - true| of a point below the horizon; what is drawn far too rarely counts more often, since it decides the largest weight. */
+/* |drawn - true| of a point; what is drawn far too rarely counts more often, since it decides the largest weight. */
 static double miss_of(double seen, double drawn)
 {
-    const double rarely = 2, more = 20;
+    const double rarely = 2, more = 6;
     return seen > rarely * drawn ? more * seen : fabs(seen - drawn);
 }
 
@@ -41,7 +41,7 @@ static double miss_by(const view *v, const vndf_weight *w)
     for (size_t i = 0; i < v->count; i++) {
         const vndf_point *p = &v->point[i];
         double weight = w->w1 * p->r + w->w0;
-        sum += fabs(p->mass * weight - vndf_drawn_part(&drawn, p->xi, p->width));
+        sum += miss_of(p->mass * weight, vndf_drawn_part(&drawn, p->xi, p->width));
     }
     return sum / 2;
 }
@@ -161,7 +161,7 @@ static vndf_interval interval_of(vndf_radial *radial, vndf_knot from, vndf_knot 
 
 /* ---- the first knots ---- */
 
-enum { OCTAVES = 4, JUMPS_MAX = 64 };
+enum { OCTAVES = 4, JUMPS_MAX = 16 };
 static const double BESIDE = 1e-9, WIDELY = 1e-4; /* of a slope: just beyond a jump or a pole, and away from it */
 static const double NARROW = 1e-10;     /* of a slope: a panel that a jump or a pole made */
 static const double SAME = 1e-12;       /* of a slope: a panel begins at a break */
