@@ -61,9 +61,10 @@ typedef struct vndf_kernel {
 } vndf_kernel;
 vndf_kernel vndf_kernel_of(unsigned moments);
 
-/* A table as laws read it; the draft must stay. */
+/* A table as laws read it; the draft must stay. Its arrays have a stride. */
 typedef struct vndf_laws {
     const vndf_table_draft *draft;
+    size_t stride;
     unsigned cells; /* and a tail cell */
     vndf_span *span;
     vndf_cell *cell;
@@ -71,8 +72,9 @@ typedef struct vndf_laws {
     double *part;  /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
 } vndf_laws;
 
-/* 0 if there is no memory; free it either way. */
-int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
+/* Reads the numbers of the draft; again, after they were changed. 0 if there is no memory; free it either way. */
+void vndf_laws_read(vndf_laws *laws);
+int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft, size_t stride);
 void vndf_laws_free(vndf_laws *laws);
 
 /* The cell of a slope. */

@@ -166,21 +166,16 @@ typedef struct place {
 static const place PLACES[] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0}, {VNDF_LAW, 1}, {VNDF_LAW, 2}, {VNDF_LAW, 3}, {VNDF_MORE, 0},
                                {VNDF_MORE, 1}, {VNDF_MORE, 2}, {VNDF_MORE, 3}, {VNDF_LOW, 2}, {VNDF_LOW, 3}};
 
-int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
+vndf_table_draft vndf_table_inside(const vndf_distribution *table)
 {
-    size_t n = (size_t)table->cells + 1, arrays = sizeof PLACES / sizeof *PLACES;
-    float *block = malloc(arrays * n * sizeof *block);
-    if (!block)
-        return 0;
-    for (size_t a = 0; a < arrays; a++)
-        for (size_t i = 0; i < n; i++)
-            block[a * n + i] = table->numbers[VNDF_HEAD + 4 * ((size_t)PLACES[a].group * n + i) + (size_t)PLACES[a].column];
+    size_t n = (size_t)table->cells + 1;
+    float *at[sizeof PLACES / sizeof *PLACES];
+    for (size_t a = 0; a < sizeof PLACES / sizeof *PLACES; a++)
+        at[a] = table->numbers + VNDF_HEAD + 4 * ((size_t)PLACES[a].group * n) + (size_t)PLACES[a].column;
     const vndf_table_draft all = {(unsigned)table->cells, (unsigned)table->moments, (unsigned)table->squarings,
-        block, block + n, block + 2 * n, block + 3 * n, block + 4 * n, block + 5 * n,
-        table->moments == 4 ? block + 6 * n : NULL, block + 7 * n, block + 8 * n, block + 9 * n, block + 10 * n,
+        at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8], at[9], at[10],
         table->normalization, table->scale, table->certificate, table->source, table->tool};
-    *draft = all;
-    return 1;
+    return all;
 }
 
 size_t vndf_table_memory(const vndf_distribution *table)

@@ -72,8 +72,12 @@ typedef struct vndf_table_draft {
 /* Writes the file (table/file.h) into bytes[0..capacity) if it fits; returns the size of the whole. */
 size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity);
 
-/* The draft that an encoded table was made of; its arrays are one block, draft->knot, to be freed. The texts belong to
- * the table. 0 if there is no memory. */
-int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft);
+/* The numbers that a table was made of, in their places inside it: each array has a stride. Without the fourth moment
+ * m4 is 0. */
+enum { VNDF_INSIDE_STRIDE = 4 };
+vndf_table_draft vndf_table_inside(const vndf_distribution *table);
+
+/* Writes the same file from a table. */
+size_t vndf_table_encode_again(const vndf_distribution *table, unsigned char *bytes, size_t capacity);
 
 #endif
