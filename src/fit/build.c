@@ -247,16 +247,12 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
 /* 1 if the table was measured; 0 if there is no memory. */
 static int certify(const vndf_distribution *distribution, const vndf_profile *profile, vndf_certificate *certificate)
 {
-    vndf_table_draft table = vndf_table_inside(distribution);
-    vndf_laws laws;
-    vndf_sight sight;
-    int good = vndf_laws_from(&laws, &table, VNDF_INSIDE_STRIDE);
-    if (good) {
-        good = vndf_sight_from(&sight, profile, &laws) &&
-               vndf_certificate_measure(certificate, &laws, &sight, profile, VNDF_CLOSELY);
-        vndf_sight_free(&sight);
-    }
-    vndf_laws_free(&laws);
+    vndf_draft draft;
+    memset(&draft, 0, sizeof draft);
+    int good = vndf_table_draft_of(distribution, &draft.table) && vndf_laws_from(&draft.laws, &draft.table) &&
+               vndf_sight_from(&draft.sight, profile, &draft.laws) &&
+               vndf_certificate_measure(certificate, &draft.laws, &draft.sight, profile, VNDF_CLOSELY);
+    vndf_draft_free(&draft);
     return good;
 }
 

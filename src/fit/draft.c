@@ -194,7 +194,7 @@ static void put_knots(vndf_table_draft *t, const vndf_knot *knot)
 static int fill(vndf_draft *draft, const vndf_profile *profile, const vndf_knot *knot)
 {
     vndf_table_draft *t = &draft->table;
-    if (!vndf_laws_from(&draft->laws, t, 1) || !vndf_sight_from(&draft->sight, profile, &draft->laws))
+    if (!vndf_laws_from(&draft->laws, t) || !vndf_sight_from(&draft->sight, profile, &draft->laws))
         return 0;
     for (unsigned i = 0; i <= t->cells; i++)
         put_cell(draft, profile, i);

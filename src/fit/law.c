@@ -107,25 +107,17 @@ vndf_kernel vndf_kernel_of(unsigned moments)
     return kernel[moments - 2];
 }
 
-static double number(const vndf_laws *laws, const float *array, unsigned i)
+static vndf_cell cell_of(const vndf_table_draft *d, unsigned i)
 {
-    return array[i * laws->stride];
-}
-
-static vndf_cell cell_of(const vndf_laws *laws, unsigned i)
-{
-    const vndf_table_draft *d = laws->draft;
-    vndf_cell cell = {number(laws, d->g0, i), number(laws, d->g1, i), number(laws, d->m0, i), number(laws, d->m1, i),
-                      number(laws, d->m2, i), d->moments > 3 ? number(laws, d->m4, i) : 0};
+    vndf_cell cell = {d->g0[i], d->g1[i], d->m0[i], d->m1[i], d->m2[i], d->moments > 3 ? d->m4[i] : 0};
     return cell;
 }
 
-static double turn_of(const vndf_laws *laws, unsigned i)
+static double turn_of(const vndf_table_draft *d, unsigned i)
 {
-    const float *knot = laws->draft->knot;
     if (i < 2)
-        return i == 0 ? 0 : 0.75 * number(laws, knot, 1);
-    double before = number(laws, knot, i - 1), here = number(laws, knot, i);
+        return i == 0 ? 0 : 0.75 * d->knot[1];
+    double before = d->knot[i - 1], here = d->knot[i];
     return fmin(here, fmax(before / 0.8, sqrt(before * here)));
 }
 
@@ -139,11 +131,11 @@ static double estimate(const vndf_span *span, const vndf_cell *cell, double rho,
 static void fill(vndf_laws *laws, unsigned i)
 {
     const vndf_table_draft *d = laws->draft;
-    double r = number(laws, d->knot, i), b0 = number(laws, d->b0, i), b1 = number(laws, d->b1, i);
-    laws->cell[i] = cell_of(laws, i);
-    laws->span[i] = i < laws->cells ? vndf_span_between(r, number(laws, d->knot, i + 1))
-                                    : vndf_span_of_tail(r, d->squarings);
-    laws->turn[i] = turn_of(laws, i);
+    double r = d->knot[i], b0 = d->b0[i], b1 = d->b1[i];
+    laws->cell[i] = cell_of(d, i);
+    laws->span[i] =
+        i < laws->cells ? vndf_span_between(r, d->knot[i + 1]) : vndf_span_of_tail(r, d->squarings);
+    laws->turn[i] = turn_of(d, i);
     laws->part[i] = fmin(vndf_drawn_below(&laws->span[i], &laws->cell[i], r, b0, b1).mass /
                              estimate(&laws->span[i], &laws->cell[i], r, 0, b0, b1),
                          1e3);
@@ -155,10 +147,10 @@ void vndf_laws_read(vndf_laws *laws)
         fill(laws, i);
 }
 
-int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft, size_t stride)
+int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft)
 {
     size_t n = draft->cells + 1;
-    vndf_laws made = {draft, stride, draft->cells, malloc(n * sizeof *made.span), malloc(n * sizeof *made.cell),
+    vndf_laws made = {draft, draft->cells, malloc(n * sizeof *made.span), malloc(n * sizeof *made.cell),
                       malloc(n * sizeof *made.turn), malloc(n * sizeof *made.part)};
     *laws = made;
     int good = made.span && made.cell && made.turn && made.part;
@@ -220,9 +212,8 @@ static void weigh_below(vndf_law *law)
     const vndf_table_draft *d = laws->draft;
     unsigned i = law->first = vndf_laws_cell(laws, law->rho), next = i < laws->cells ? i + 1 : i;
     law->xi = vndf_span_place(&laws->span[i], law->rho);
-    double b0 = number(laws, d->b0, i), b1 = number(laws, d->b1, i);
-    law->b0 = b0 + law->xi * (number(laws, d->b0, next) - b0);
-    law->b1 = b1 + law->xi * (number(laws, d->b1, next) - b1);
+    law->b0 = d->b0[i] + law->xi * ((double)d->b0[next] - d->b0[i]);
+    law->b1 = d->b1[i] + law->xi * ((double)d->b1[next] - d->b1[i]);
 }
 
 vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
@@ -281,8 +272,8 @@ static double spline(const vndf_laws *laws, double rho)
     const vndf_span *span = &laws->span[i];
     int last = i == laws->cells;
     double width = last ? span->z : span->h, t = last ? 1 - 1 / (1 + rho) / span->z : vndf_span_place(span, rho);
-    double a0 = number(laws, d->area, i), a1 = last ? 1 : number(laws, d->area, i + 1), u = 1 - t;
-    double d0 = number(laws, d->slope, i) * width, d1 = (last ? 1 : number(laws, d->slope, i + 1)) * width;
+    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1], u = 1 - t;
+    double d0 = d->slope[i] * width, d1 = (last ? 1 : d->slope[i + 1]) * width;
     return u * u * ((1 + 2 * t) * a0 + t * d0) + t * t * ((1 + 2 * u) * a1 - u * d1);
 }
 

@@ -61,10 +61,9 @@ typedef struct vndf_kernel {
 } vndf_kernel;
 vndf_kernel vndf_kernel_of(unsigned moments);
 
-/* A table as laws read it; the draft must stay. Its arrays have a stride. */
+/* A table as laws read it; the draft must stay. */
 typedef struct vndf_laws {
     const vndf_table_draft *draft;
-    size_t stride;
     unsigned cells; /* and a tail cell */
     vndf_span *span;
     vndf_cell *cell;
@@ -74,7 +73,7 @@ typedef struct vndf_laws {
 
 /* Reads the numbers of the draft; again, after they were changed. 0 if there is no memory; free it either way. */
 void vndf_laws_read(vndf_laws *laws);
-int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft, size_t stride);
+int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
 void vndf_laws_free(vndf_laws *laws);
 
 /* The cell of a slope. */

@@ -22,13 +22,13 @@ static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
 
 /* ---- writing ---- */
 
-static void write_floats(vndf_writer *w, const float *values, size_t stride, size_t count)
+static void write_floats(vndf_writer *w, const float *values, size_t count, size_t stride)
 {
     for (size_t i = 0; i < count; i++)
         vndf_write_f32(w, values[i * stride]);
 }
 
-static size_t write_all(const vndf_table_draft *draft, size_t stride, unsigned char *bytes, size_t capacity, size_t size)
+static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity, size_t size)
 {
     vndf_writer w = {bytes, capacity, 0};
     vndf_table_draft d = *draft;
@@ -40,31 +40,20 @@ static size_t write_all(const vndf_table_draft *draft, size_t stride, unsigned c
     vndf_write_u32(&w, d.cells);
     vndf_write_u32(&w, d.moments);
     vndf_write_u32(&w, d.squarings);
-    write_floats(&w, &d.certificate.tv, 1, VNDF_CERTIFICATE_FLOATS);
+    write_floats(&w, &d.certificate.tv, VNDF_CERTIFICATE_FLOATS, 1);
     vndf_write_text(&w, d.source);
     vndf_write_text(&w, d.tool);
     for (int i = 0; i < ARRAYS; i++)
         if (array[i] != &d.m4 || d.moments == 4)
-            write_floats(&w, *array[i], stride, (size_t)d.cells + 1);
+            write_floats(&w, *array[i], (size_t)d.cells + 1, d.stride ? d.stride : 1);
     vndf_frame_end(&w);
     return w.at;
 }
 
-static size_t encode(const vndf_table_draft *draft, size_t stride, unsigned char *bytes, size_t capacity)
-{
-    size_t size = write_all(draft, stride, NULL, 0, 0);
-    return size > capacity ? size : write_all(draft, stride, bytes, capacity, size);
-}
-
 size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity)
 {
-    return encode(draft, 1, bytes, capacity);
-}
-
-size_t vndf_table_encode_again(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
-{
-    vndf_table_draft inside = vndf_table_inside(table);
-    return encode(&inside, VNDF_INSIDE_STRIDE, bytes, capacity);
+    size_t size = write_all(draft, NULL, 0, 0);
+    return size > capacity ? size : write_all(draft, bytes, capacity, size);
 }
 
 /* ---- reading ---- */

@@ -159,23 +159,46 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
     return NULL;
 }
 
-/* What of a draft stands where in memory. */
-typedef struct place {
-    int group, column;
-} place;
-static const place PLACES[] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0}, {VNDF_LAW, 1}, {VNDF_LAW, 2}, {VNDF_LAW, 3}, {VNDF_MORE, 0},
-                               {VNDF_MORE, 1}, {VNDF_MORE, 2}, {VNDF_MORE, 3}, {VNDF_LOW, 2}, {VNDF_LOW, 3}};
+/* The first number of a column of a group. */
+static float *column(const vndf_distribution *table, int group, int index)
+{
+    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1)) + index;
+}
 
-vndf_table_draft vndf_table_inside(const vndf_distribution *table)
+/* The draft of a table, in its own numbers. */
+static vndf_table_draft draft_within(const vndf_distribution *t)
+{
+    const vndf_table_draft draft = {(unsigned)t->cells, (unsigned)t->moments, (unsigned)t->squarings, 4,
+        column(t, VNDF_KNOT, 0), column(t, VNDF_LAW, 0), column(t, VNDF_LAW, 1), column(t, VNDF_LAW, 2),
+        column(t, VNDF_LAW, 3), column(t, VNDF_MORE, 0), t->moments == 4 ? column(t, VNDF_MORE, 1) : NULL,
+        column(t, VNDF_MORE, 2), column(t, VNDF_MORE, 3), column(t, VNDF_LOW, 2), column(t, VNDF_LOW, 3),
+        t->normalization, t->scale, t->certificate, t->source, t->tool};
+    return draft;
+}
+
+size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
+{
+    vndf_table_draft draft = draft_within(table);
+    return vndf_table_encode(&draft, bytes, capacity);
+}
+
+int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 {
     size_t n = (size_t)table->cells + 1;
-    float *at[sizeof PLACES / sizeof *PLACES];
-    for (size_t a = 0; a < sizeof PLACES / sizeof *PLACES; a++)
-        at[a] = table->numbers + VNDF_HEAD + 4 * ((size_t)PLACES[a].group * n) + (size_t)PLACES[a].column;
-    const vndf_table_draft all = {(unsigned)table->cells, (unsigned)table->moments, (unsigned)table->squarings,
-        at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8], at[9], at[10],
-        table->normalization, table->scale, table->certificate, table->source, table->tool};
-    return all;
+    *draft = draft_within(table);
+    float **const array[] = {&draft->knot, &draft->g0, &draft->g1, &draft->m0, &draft->m1, &draft->m2,
+                             &draft->m4,   &draft->b0, &draft->b1, &draft->area, &draft->slope};
+    size_t arrays = sizeof array / sizeof *array;
+    float *block = malloc(arrays * n * sizeof *block);
+    if (!block)
+        return 0;
+    for (size_t a = 0; a < arrays; a++) {
+        for (size_t i = 0; *array[a] && i < n; i++)
+            block[a * n + i] = (*array[a])[4 * i];
+        *array[a] = *array[a] ? block + a * n : NULL;
+    }
+    draft->stride = 1;
+    return 1;
 }
 
 size_t vndf_table_memory(const vndf_distribution *table)
