@@ -42,12 +42,16 @@ HERE whole set_whole(int i)
 
 #if defined(VNDF_KERNEL_SSE2)
 
-/* Lane 0 is x, without an instruction that clears the others. */
+/* Lane 0 is x; with gcc without an instruction that clears the others. */
 HERE __m128 lane(float x)
 {
+#  if defined(__clang__)
+    return _mm_set_ss(x);
+#  else
     __m128 all;
     __asm__("" : "=x"(all) : "0"(x));
     return all;
+#  endif
 }
 
 HERE mask less(real a, real b)

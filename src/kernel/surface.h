@@ -10,21 +10,22 @@
 #include "kernel/math.h"
 
 /* M, in units of the table's slopes, and the mean slope. */
-typedef struct surface {
+typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
-} surface;
+} affine_map;
 
 /* A direction wi on a surface. */
 typedef struct frame {
-    surface m;
+    affine_map m;
     real wx, wy, wz;   /* wi, times a power of two */
     real ux, uy, uz;   /* w, times another one: the largest component is within [1, 2) */
     real grow;         /* w = grow (ux, uy, uz) for wi as it was scaled, */
     real size;         /* and `size` for wi as it was given */
     real determinant;  /* |det M| */
+    real rarest;       /* the least density of a sample: 0 straight from below, where nothing is seen */
 } frame;
 
-HERE frame frame_of(surface m, real x, real y, real z)
+HERE frame frame_of(affine_map m, real x, real y, real z)
 {
     real largest = most(most(size(x), size(y)), size(z)), k = set(1.0f);
     mask odd = either(less(largest, set(1e-9f)), less(set(1e9f), largest));
@@ -43,6 +44,8 @@ HERE frame frame_of(surface m, real x, real y, real z)
     f.grow = 1.0f / l;
     f.size = 1.0f / k / l;
     f.determinant = size(difference_of_products(m.xx, m.yy, m.xy, m.yx));
+    mask unseen = both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f)));
+    f.rarest = pick(unseen, set(0.0f), set(1.17549435e-38f));
     return f;
 }
 
@@ -51,10 +54,11 @@ typedef struct sampled {
     real x, y, z, pdf;
 } sampled;
 
-/* A density that a float can hold, and that is not 0. */
-HERE real positive(real x)
+/* A density that a float can hold, not 0 where something is seen. */
+HERE real frame_density(frame f, real density)
 {
-    return least(most(x, set(1.17549435e-38f)), set(3.40282347e38f));
+    real held = least(most(density, f.rarest), set(3.40282347e38f));
+    return pick(less(set(0.0f), f.rarest), held, set(0.0f));
 }
 
 /* The real normal of one of the unit problem. Where rounding turns it away from wi it is turned back, by wi, and the
@@ -72,7 +76,7 @@ HERE sampled frame_sampled(frame f, drawn n)
         z = z + turn_by * up;
     }
     real square = (x * x + y * y) + z * z, reach = root(square), per = 1.0f / reach;
-    sampled s = {x * per, y * per, z * per, positive(n.density * (reach / f.determinant) * square)};
+    sampled s = {x * per, y * per, z * per, frame_density(f, n.density * (reach / f.determinant) * square)};
     return s;
 }
 

@@ -22,10 +22,10 @@ static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
 
 /* ---- writing ---- */
 
-static void write_floats(vndf_writer *w, const float *values, size_t count)
+static void write_floats(vndf_writer *w, const float *values, size_t count, size_t stride)
 {
     for (size_t i = 0; i < count; i++)
-        vndf_write_f32(w, values[i]);
+        vndf_write_f32(w, values[i * stride]);
 }
 
 static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity, size_t size)
@@ -40,12 +40,12 @@ static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, siz
     vndf_write_u32(&w, d.cells);
     vndf_write_u32(&w, d.moments);
     vndf_write_u32(&w, d.squarings);
-    write_floats(&w, &d.certificate.tv, VNDF_CERTIFICATE_FLOATS);
+    write_floats(&w, &d.certificate.tv, VNDF_CERTIFICATE_FLOATS, 1);
     vndf_write_text(&w, d.source);
     vndf_write_text(&w, d.tool);
     for (int i = 0; i < ARRAYS; i++)
         if (array[i] != &d.m4 || d.moments == 4)
-            write_floats(&w, *array[i], (size_t)d.cells + 1);
+            write_floats(&w, *array[i], (size_t)d.cells + 1, d.stride ? d.stride : 1);
     vndf_frame_end(&w);
     return w.at;
 }

@@ -159,27 +159,45 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
     return NULL;
 }
 
-/* What of a draft stands where in memory. */
-typedef struct place {
-    int group, column;
-} place;
-static const place PLACES[] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0}, {VNDF_LAW, 1}, {VNDF_LAW, 2}, {VNDF_LAW, 3}, {VNDF_MORE, 0},
-                               {VNDF_MORE, 1}, {VNDF_MORE, 2}, {VNDF_MORE, 3}, {VNDF_LOW, 2}, {VNDF_LOW, 3}};
+/* The first number of a column of a group. */
+static float *column(const vndf_distribution *table, int group, int index)
+{
+    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1)) + index;
+}
+
+/* The draft of a table, in its own numbers. */
+static vndf_table_draft draft_within(const vndf_distribution *t)
+{
+    const vndf_table_draft draft = {(unsigned)t->cells, (unsigned)t->moments, (unsigned)t->squarings, 4,
+        column(t, VNDF_KNOT, 0), column(t, VNDF_LAW, 0), column(t, VNDF_LAW, 1), column(t, VNDF_LAW, 2),
+        column(t, VNDF_LAW, 3), column(t, VNDF_MORE, 0), t->moments == 4 ? column(t, VNDF_MORE, 1) : NULL,
+        column(t, VNDF_MORE, 2), column(t, VNDF_MORE, 3), column(t, VNDF_LOW, 2), column(t, VNDF_LOW, 3),
+        t->normalization, t->scale, t->certificate, t->source, t->tool};
+    return draft;
+}
+
+size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
+{
+    vndf_table_draft draft = draft_within(table);
+    return vndf_table_encode(&draft, bytes, capacity);
+}
 
 int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 {
-    size_t n = (size_t)table->cells + 1, arrays = sizeof PLACES / sizeof *PLACES;
+    size_t n = (size_t)table->cells + 1;
+    *draft = draft_within(table);
+    float **const array[] = {&draft->knot, &draft->g0, &draft->g1, &draft->m0, &draft->m1, &draft->m2,
+                             &draft->m4,   &draft->b0, &draft->b1, &draft->area, &draft->slope};
+    size_t arrays = sizeof array / sizeof *array;
     float *block = malloc(arrays * n * sizeof *block);
     if (!block)
         return 0;
-    for (size_t a = 0; a < arrays; a++)
-        for (size_t i = 0; i < n; i++)
-            block[a * n + i] = table->numbers[VNDF_HEAD + 4 * ((size_t)PLACES[a].group * n + i) + (size_t)PLACES[a].column];
-    const vndf_table_draft all = {(unsigned)table->cells, (unsigned)table->moments, (unsigned)table->squarings,
-        block, block + n, block + 2 * n, block + 3 * n, block + 4 * n, block + 5 * n,
-        table->moments == 4 ? block + 6 * n : NULL, block + 7 * n, block + 8 * n, block + 9 * n, block + 10 * n,
-        table->normalization, table->scale, table->certificate, table->source, table->tool};
-    *draft = all;
+    for (size_t a = 0; a < arrays; a++) {
+        for (size_t i = 0; *array[a] && i < n; i++)
+            block[a * n + i] = (*array[a])[4 * i];
+        *array[a] = *array[a] ? block + a * n : NULL;
+    }
+    draft->stride = 1;
     return 1;
 }
 

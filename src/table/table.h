@@ -59,6 +59,7 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
 /* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has m4 if `moments` is 4. */
 typedef struct vndf_table_draft {
     unsigned cells, moments, squarings;
+    unsigned stride;    /* from number to number of an array; 0 for 1 */
     float *knot;        /* R_i */
     float *g0, *g1;     /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
     float *m0, *m1, *m2, *m4;
@@ -71,6 +72,9 @@ typedef struct vndf_table_draft {
 
 /* Writes the file (table/file.h) into bytes[0..capacity) if it fits; returns the size of the whole. */
 size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity);
+
+/* The same of a table as it was loaded. */
+size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity);
 
 /* The draft that an encoded table was made of; its arrays are one block, draft->knot, to be freed. The texts belong to
  * the table. 0 if there is no memory. */
