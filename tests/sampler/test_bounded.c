@@ -78,7 +78,7 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
         float u1 = i < 64 ? edges[i / 8] : r1, u2 = i < 64 ? edges[i % 8] : r2;
         vndf_drawn_normal n = draw(d, u1, u2);
         double error = fabs((double)density(d, n.wm) / (double)n.density - 1);
-        apart[0] += !(error <= 1e-5), apart[1] += !(error <= 1e-3);
+        apart[0] += i >= 64 && !(error <= 1e-5), apart[1] += i >= 64 && !(error <= 1e-3); /* not at the border */
         if (!is_good(d, surface, wi, n, surface->alpha_x == surface->alpha_y) && test_failures < 20)
             fprintf(stderr,
                     "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
@@ -86,7 +86,7 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
                     (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y,
                     (double)n.wm.z, (double)n.density, (double)n.weight);
     }
-    if (!(TEST(apart[0] <= 64 + samples / 500) & TEST(apart[1] <= 8)))
+    if (!(TEST(apart[0] <= samples / 500) & TEST(apart[1] <= samples / 5000)))
         fprintf(stderr, "  %s, %s: %lu densities are apart by 1e-5, %lu by 1e-3\n", name, law_names[d->which],
                 (unsigned long)apart[0], (unsigned long)apart[1]);
 }
@@ -100,6 +100,8 @@ static void test_setting(const subject *of, law which, float alpha_x, float alph
     const drawn d = {which, vndf_view_from(&surface, wi)};
     const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
     test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
+    if (which == BOUNDED && of->owned && alpha_x != alpha_y) /* drawn as all visible ones: what is lost has no density */
+        return;
     slope_test found =
         slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
     if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 2e-4))))
