@@ -1,18 +1,18 @@
-/* What vndf_stratified_error says is right: GGX by its own map is as good as spherical caps, which draw the same normals
- * in other words; and a table of GGX loses little against it. */
-#include "harness/test.h"
+/* Under 64 Owen-scrambled Sobol points the error of what is mirrored is, in the mean over views and lights, at most 1.6
+ * times that of GGX by spherical caps, for closed forms and tables of all shapes; GGX by its own map, which draws the
+ * same normals in other words, is as good as caps. It notices a map that folds or jumps, which random numbers hide. */
 #include "measure/stratified_error.h"
-#include "oracle/oracle.h"
+#include "sampler/seen.h"
 
 int main(void)
 {
-    vndf_source *source = vndf_source_family("ggx", NULL);
-    vndf_distribution *table = source ? vndf_build(source, NULL, NULL, NULL) : NULL;
-    double closed = vndf_stratified_error(vndf_ggx(), 64), drawn = table ? vndf_stratified_error(table, 64) : NAN;
-    fprintf(stderr, "RMSE over that of spherical caps: closed form %.3f, table %.3f\n", closed, drawn);
-    TEST(closed > 0.8 && closed < 1.25);
-    TEST(drawn > 0.5 && drawn < 2);
-    vndf_free(table);
-    vndf_source_free(source);
+    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
+        subject s = subject_open(i);
+        double quotient = s.d ? vndf_stratified_error(s.d, 64) : NAN;
+        fprintf(stderr, "%s: %.2f of caps\n", s.name, quotient);
+        TEST(quotient <= 1.6 && (i > 0 || quotient > 0.8));
+        TEST(i > 0 || quotient < 1.25);
+        vndf_free(s.owned);
+    }
     return test_done();
 }
