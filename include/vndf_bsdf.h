@@ -194,29 +194,21 @@ typedef struct vndf_roughness {
     float cos_rotation, sin_rotation;
 } vndf_roughness;
 
-/* The angle of the principal axes, and the same rounded; private. */
-struct vndf_axes {
-    double cosine, sine;
-    float near_cosine, near_sine;
-};
-
 /* A resolved material: a plain value, valid while its distribution lives. Its members are private. */
 typedef struct vndf_material {
     vndf_description is;
     const struct vndf_routines *routines; /* made for its effects */
-    const struct vndf_routines *unturned; /* the same in the frame of the principal axes */
-    const struct vndf_routines *single;   /* the same without compensation */
-    const struct vndf_routines *specular; /* the same without retroreflection */
+    const struct vndf_routines *specular; /* the same without retroreflection, */
+    const struct vndf_routines *single;   /* and without compensation */
+    const struct vndf_normals_routine *normals;
     const struct vndf_fresnel_routine *fresnel;
     const struct vndf_masking_routine *masking;
-    vndf_roughness roughness;
-    struct vndf_axes axes;                /* of this roughness */
+    vndf_affine surface;                  /* of hits that bring none */
+    float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
     double per_wavelength;                /* one over their number */
     float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
     float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
     int two_sided;
-    int steep;  /* F changes faster than directions are rounded */
-    float turn; /* what the roughness must exceed for the rounding of directions not to show */
 } vndf_material;
 
 /* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material is
@@ -238,20 +230,28 @@ struct vndf_compensation {
     float colour[VNDF_WAVELENGTHS]; /* F_ms */
 };
 
+/* The view of one surface or of a mixture, which makes it large; private. */
+struct vndf_hit_view {
+    int kind;
+    union {
+        vndf_view one;
+        vndf_mixture_view mixture; /* never touched by other shapes */
+    } of;
+};
+
 /* Everything that depends on the material and wi alone: a plain value, valid while the material lives. It points
- * to the material, which must not move. Its members are private. The last makes it large; shapes that do not need it
- * never touch it. */
+ * to the material, which must not move. Its members are private. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    vndf_view view; /* of wi in the frame of the roughness, turned up; of a mixture wi alone */
-    double eta;     /* index on the other side over that on the side of wi */
-    double carried; /* what transmission has more than for importance: 1/eta^2 for radiance */
-    float side;     /* -1 where wi is on the side of -z, 1 else */
-    float area;     /* projected area along wi */
-    struct vndf_axes axes;
-    vndf_bounds bounds; /* of bounded normals */
+    double eta;          /* index on the other side over that on the side of wi */
+    double carried;      /* what transmission has more than for importance: 1/eta^2 for radiance */
+    float side;          /* -1 where wi is below the mean plane, 1 else; the frame of the hit is turned by it, */
+    vndf_vec3 wi;        /* so that this is above */
+    float rise, area;    /* of wi: its projection on the mean plane, and the projected area */
+    float tilt;          /* length of (mean slope, 1) */
+    vndf_affine surface; /* not of a mixture */
     struct vndf_compensation compensation;
-    vndf_mixture_view lobes;
+    struct vndf_hit_view view; /* of wi */
 } vndf_bsdf;
 
 /* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does

@@ -5,6 +5,7 @@
 
 #include "bsdf/material.h"
 #include "core/error.h"
+#include "sampler/sampler.h"
 
 /* ---- effects ---- */
 
@@ -147,11 +148,18 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
     return status;
 }
 
+/* Whether a view is valid: straight from above it then has the area 1. */
+static int is_visible(const vndf_affine *surface)
+{
+    const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    vndf_view view = vndf_view_of(surface, up);
+    return vndf_view_area(&view, up) > 0.0f;
+}
+
 static vndf_status check_roughness(const vndf_description *is, vndf_error *error)
 {
-    vndf_surface surface = {is->distribution, is->alpha_x, is->alpha_y};
-    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    if (!vndf_view_from(&surface, up).distribution)
+    const vndf_affine surface = {is->distribution, is->alpha_x, 0.0f, 0.0f, is->alpha_y, 0.0f, 0.0f};
+    if (!(is->alpha_x > 0.0f && is->alpha_y > 0.0f && is_visible(&surface)))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
                          "distribution within [1e-18, 1e18]",
@@ -164,10 +172,9 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
 /* Of the material or a lobe of its mixture; hits bring others, whose errors have a result. */
 static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error *error)
 {
-    vndf_vec3 up = {0.0f, 0.0f, 1.0f};
     if (!a->distribution)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s has the distribution NULL", name);
-    if (vndf_affine_view_from(a, up).principal.distribution)
+    if (is_visible(a))
         return VNDF_OK;
     return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                      "%s is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "

@@ -1,73 +1,97 @@
 /* A material is resolved to functions made for its set of effects, called through pointers. At a hit no code asks
  * whether an effect is wanted.
  *
- * All of it works in the frame of the hit: turned to the principal axes, and mirrored at the surface if wi came from
- * below, so that wi.z > 0 and the microfacet normal, on the side of wi, has wm.z >= 0. wo.z > 0 is reflection, wo.z < 0
- * transmission. Mixtures have a frame of their own (lobes/mixture.c). */
+ * The frame of a hit is turned about the origin, w to -w, where wi is below the mean plane: facets are then seen from
+ * their other side, and their slopes stay what they are. So wi is above that plane, and the normal of a microfacet, on
+ * the side of wi, has wm.z >= 0. Light that goes to above the plane is reflected, to below it transmitted. With primes
+ * for projections on the plane, w' = w.z - w.mean, A for projected areas and G = G2/(wi' wo'),
+ *
+ *     reflection      f n.z = F G D/4
+ *     transmission    f n.z = (1 - F) G D (wi.wm) dwm/dwo, over r^2 for radiance.
+ *
+ * Below the plane the size of wo' counts, and the area is that of the surface from its other side, A(-wo). */
 #ifndef VNDF_BSDF_ROUTINES_H
 #define VNDF_BSDF_ROUTINES_H
 
-#include "core/inline.h"
-#include "sampler/analytic_density.h"
+#include "math/vector.h"
+#include "sampler/sampler.h"
 #include "vndf_bsdf.h"
 
-/* How lanes scatter a block of a batch (batch/lanes_scatter.h). */
-typedef enum vndf_block_kind {
-    VNDF_BLOCK_NONE, /* they do not */
-    VNDF_BLOCK_BARE,
-    VNDF_BLOCK_REFLECTION,
-    VNDF_BLOCK_BOTH
-} vndf_block_kind;
-
-/* `prepare` finds material, eta, side and carried set, and sets the members that the other routines read; 0 if nothing
- * can be seen from there. */
 typedef struct vndf_routines {
-    int (*prepare)(vndf_bsdf *bsdf, const vndf_roughness *roughness, vndf_vec3 wi);
+    /* completes a hit; NULL: nothing is missing */
+    void (*prepare)(vndf_bsdf *bsdf);
     void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
-    /* the value of each wavelength, and, unless `pdf` is NULL, the density */
+    /* the value of each wavelength and the density; either may be NULL */
     void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
-    float (*pdf)(const vndf_bsdf *bsdf, vndf_vec3 wo);
-    /* `sample` after vndf_sample_weight drew wm; NULL if it draws otherwise */
-    void (*scatter)(const vndf_bsdf *bsdf, vndf_vec3 wm, float density, float weight, const float u[3],
-                    vndf_scattered *scattered);
-    vndf_block_kind kind;
+    /* `sample` after a normal was drawn with u[0] and u[1]; NULL if it draws more than that */
+    void (*scatter)(const vndf_bsdf *bsdf, const vndf_drawn_normal *normal, float u3, vndf_scattered *scattered);
 } vndf_routines;
 
-/* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
-VNDF_INLINE lanes_m vndf_is_near_unit_square(lanes_f square)
-{
-    return lanes_both(lanes_less(lanes_set(0.25f), square), lanes_less(square, lanes_set(4.0f)));
-}
-
-#if VNDF_LANES == 1
-
-VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
-{
-    return vndf_is_near_unit_square(w.x * w.x + w.y * w.y + w.z * w.z);
-}
-
-#endif
-
-/* Of shapes with a roughness; 0 if nothing is scattered from there. */
-int vndf_bsdf_hit(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi);
+/* How normals are drawn. */
+typedef struct vndf_normals_routine {
+    vndf_drawn_normal (*draw)(const struct vndf_hit_view *view, float u1, float u2);
+    float (*pdf)(const struct vndf_hit_view *view, vndf_vec3 wm);
+} vndf_normals_routine;
 
 /* Reflectances at a microfacet, `cosine` = wi.wm; in double, so that 1 - f keeps its digits. */
 typedef struct vndf_fresnel_routine {
     void (*reflectance)(const vndf_description *is, double cosine, double eta, double f[VNDF_WAVELENGTHS]);
 } vndf_fresnel_routine;
 
-/* A microfacet between two directions; sizes of cosines. */
+/* A microfacet between two directions. */
 typedef struct vndf_event {
-    vndf_vec3 wo;              /* turned up */
-    double cos_i, cos_o;       /* to the surface's normal */
-    double facing_i, facing_o; /* to the microfacet's */
-    double cos_m;              /* wm.z */
+    vndf_vec3 wm;
+    vndf_vec3 up;              /* wo, of transmission -wo */
+    double cos_i, cos_o;       /* sizes of wi' and wo' */
+    double facing_i, facing_o; /* sizes of cosines to wm */
+    double jacobian;           /* dwm/dwo */
 } vndf_event;
 
-/* G2/(cos_i cos_o), which stays finite where the cosines vanish; of reflection and of transmission. */
+/* G, which stays finite where the cosines vanish. */
 typedef struct vndf_masking_routine {
     double (*reflection)(const vndf_bsdf *bsdf, const vndf_event *event);
     double (*transmission)(const vndf_bsdf *bsdf, const vndf_event *event);
 } vndf_masking_routine;
+
+/* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
+VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
+{
+    float square = vndf_dot(w, w);
+    return 0.25f < square && square < 4.0f;
+}
+
+/* To the frame of the hit, and back. */
+VNDF_INLINE vndf_vec3 vndf_turned(vndf_vec3 w, float side)
+{
+    return vndf_vec3_of(side * w.x, side * w.y, side * w.z);
+}
+
+VNDF_INLINE void vndf_reflectance(const vndf_bsdf *b, double cosine, double f[VNDF_WAVELENGTHS])
+{
+    b->material->fresnel->reflectance(&b->material->is, cosine, b->eta, f);
+}
+
+/* The part of the samples that is reflected: the mean over the wavelengths. */
+VNDF_INLINE double vndf_mean_of(const vndf_material *m, const double f[VNDF_WAVELENGTHS])
+{
+    double sum = f[0];
+    for (int i = 1; i < m->is.wavelengths; i++)
+        sum += f[i];
+    return sum * m->per_wavelength;
+}
+
+VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
+{
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
+    *s = none;
+}
+
+VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
+{
+    for (int i = 0; value && i < b->material->is.wavelengths; i++)
+        value[i] = 0.0f;
+    if (pdf)
+        *pdf = 0.0f;
+}
 
 #endif

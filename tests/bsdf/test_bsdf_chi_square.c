@@ -88,10 +88,10 @@ static void sphere_place(grid *g, const sphere_map *map, unsigned long long *sta
 static sphere_result sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t samples, unsigned long long *state)
 {
     static grid g;
-    const vndf_mixture_view *lobes = &bsdf->lobes;
-    int leans = bsdf->material->is.effects.shape >= VNDF_SHAPE_AFFINE;
+    const vndf_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z_axis = {0, 0, 1};
+    double up = (double)vndf_bsdf_cosine(bsdf, z_axis);
     sphere_map map = {.bsdf = bsdf};
-    sphere_turn(&map, leans ? lobes->mean_x : 0, leans ? lobes->mean_y : 0);
+    sphere_turn(&map, -(double)vndf_bsdf_cosine(bsdf, x) / up, -(double)vndf_bsdf_cosine(bsdf, y) / up);
     map.centre = atan2(-along(map.y, wi), -along(map.x, wi));
     sphere_place(&g, &map, state);
     double mass = grid_expect(&g, sphere_pdf, &map, (double)samples, 0.02 / (double)samples), z, phi;

@@ -2,8 +2,9 @@
  * 1e-5: slopes s = M u + mean give D = P22(M^-1 (s - mean))/(|det M| cos^4), and A(w) is the length of w' times that of
  * the unit problem towards it, w' = (M^T w.xy, w.z - w.xy.mean); sums over lobes are those of D and A; with the mean
  * plane in the place of z = 0. For GGX, Beckmann and a table, matrices of condition up to 300 and either
- * determinant, mean slopes up to 2, 1 to 3 lobes, from both sides. Samples have the density and the weight of where
- * they go, within 1e-5 each, and f is reciprocal within 1e-5. */
+ * determinant, mean slopes up to 2, 1 to 3 lobes, from both sides. Samples have the density of where they go and the
+ * weight f cos over it, within 1e-5 each, and f is reciprocal within 1e-5. All of this is of directions within some
+ * roundings of those that are given, which is as good as floats can be: a lobe is narrow, or a half vector short. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"
@@ -251,7 +252,7 @@ static double spread_of(const subject *s, const double wi[3], const double wo[3]
         double moved[2][3];
         memcpy(moved[0], wi, sizeof moved[0]);
         memcpy(moved[1], wo, sizeof moved[1]);
-        moved[i / 3][i % 3] += 0x1p-24;
+        moved[i / 3][i % 3] += 0x1p-22;
         formula other = formula_at(s, moved[0], moved[1]);
         f += fabs(other.f - at.f);
         *pdf += fabs(other.pdf - at.pdf);
@@ -292,14 +293,15 @@ static int check_sample(const subject *s, const vndf_bsdf *bsdf, vndf_vec3 wi, c
                         finding *found)
 {
     float f, pdf, cosine = vndf_bsdf_cosine(bsdf, drawn->wo);
-    double wm[3], i[3], o[3];
+    double wm[3], i[3], o[3], spread;
     oracle_from_vec3(wi, i);
     oracle_from_vec3(drawn->wo, o);
     oracle_from_vec3(drawn->wm, wm);
     vndf_bsdf_eval_pdf(bsdf, drawn->wo, 0, &f, &pdf);
-    double want = (double)f * fabs((double)cosine) / (double)drawn->density;
-    double weight = fabs((double)drawn->weight[0] - want) / fmax(want, 1e-3);
-    double density = fabs((double)pdf / (double)drawn->density - 1);
+    spread_of(s, i, o, formula_at(s, i, o), &spread);
+    double want = (double)f * fabs((double)cosine) / (double)pdf;
+    double weight = fmax(fabs((double)drawn->weight[0] - want) - want * spread / (double)pdf, 0) / fmax(want, 1e-3);
+    double density = excess((double)pdf, (double)drawn->density, spread);
     int reflected = rise_of(s, i) * rise_of(s, o) > 0;
     if (!(drawn->density < 1e35f) || !(drawn->density > 1e-25f) || !(f < 1e35f))
         return 1;

@@ -137,7 +137,7 @@ static void test_stated_size(void)
 {
     unsigned char bytes[64] = "VNDFtab\n";
     vndf_error error = {VNDF_OK, ""};
-    bytes[8] = 3; /* the version */
+    bytes[8] = 4; /* the version */
     state_size(bytes, VNDF_LIMIT_TABLE_BYTES);
     TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && !strstr(error.message, "are possible"));
     state_size(bytes, VNDF_LIMIT_TABLE_BYTES + 1u);

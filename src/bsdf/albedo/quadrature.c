@@ -5,59 +5,64 @@
 
 #include "bsdf/terms/beta.h"
 #include "bsdf/terms/fresnel.h"
-#include "sampler/law.h"
+#include "sampler/sampler.h"
 
 /* ---- rules --------------------------------------------------------------------------------------- */
 
 enum {
-    LEAST_PANELS = 64,  /* of a table with fewer cells each is cut */
-    EVEN_PANELS = 30,   /* of closed forms up to R/(1 + R) = 15/16, */
-    TAIL_PANELS = 12,   /* then by halves of the rest */
-    RADIAL_NODES = 450, /* all together, some */
-    RADIAL_LEAST = 2,   /* in a panel */
-    RADIAL_MOST = 5,
+    EVEN_PANELS = 30,      /* up to R/(1 + R) = 15/16, */
+    TAIL_PANELS = 12,       /* then by halves of the rest; */
+    TABLE_TAIL_PANELS = 32, /* of a table, whose tail may be heavier */
+    QUANTILE_PANELS = 64,   /* between quantiles of a table */
+    RADIAL_NODES = 5,       /* in a panel; */
+    RADIAL_TABLE_NODES = 4, /* of a table */
     AZIMUTH_NODES = 12
 };
 
-/* Knots are rounded: x + z is not quite 1. */
-static double knot_of(const vndf_distribution *d, int j)
+/* The panel borders in ascending order. */
+static void add_border(vndf_quadrature *q, double x)
 {
-    double x = d->knots.at[j].x, z = d->knots.at[j].z;
-    return x / (x + z);
+    int i = q->panels;
+    while (i > 0 && q->border[i - 1] > x)
+        --i;
+    if (!(x >= 0.0 && x <= 1.0) || (i > 0 && !(x - q->border[i - 1] > 1e-7 * (1.0 - q->border[i - 1]))))
+        return;
+    for (int j = q->panels++; j > i; j--)
+        q->border[j] = q->border[j - 1];
+    q->border[i] = x;
 }
 
-static int table_borders(const vndf_distribution *d, double *border)
-{
-    int cells = (int)d->radial_count, parts = (LEAST_PANELS + cells - 1) / cells, count = 0;
-    for (int j = 0; j < cells; j++)
-        for (int i = 0; i < parts; i++)
-            border[count++] = knot_of(d, j) + (knot_of(d, j + 1) - knot_of(d, j)) * i / parts;
-    border[count] = 1.0;
-    return count;
-}
-
-static int closed_borders(double *border)
+static void add_borders(vndf_quadrature *q, int is_table)
 {
     double rest = 1.0 / 16.0;
     for (int j = 0; j <= EVEN_PANELS; j++)
-        border[j] = (1.0 - rest) * j / EVEN_PANELS;
-    for (int j = 1; j < TAIL_PANELS; j++)
-        border[EVEN_PANELS + j] = 1.0 - (rest *= 0.5);
-    border[EVEN_PANELS + TAIL_PANELS] = 1.0;
-    return EVEN_PANELS + TAIL_PANELS;
+        add_border(q, (1.0 - rest) * j / EVEN_PANELS);
+    for (int j = 1, count = is_table ? TABLE_TAIL_PANELS : TAIL_PANELS; j < count; j++)
+        add_border(q, 1.0 - (rest *= 0.5));
+    const vndf_surface surface = {q->distribution, 1.0f, 1.0f};
+    const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
+    vndf_view view = vndf_view_from(&surface, up);
+    for (int j = 1; is_table && j < QUANTILE_PANELS; j++) {
+        vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)j / QUANTILE_PANELS, NULL);
+        double slope = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y);
+        add_border(q, slope / (slope + q->scale * wm.z));
+    }
+    add_border(q, 1.0);
+    --q->panels; /* one less than borders */
 }
 
 int vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution, int finer)
 {
-    size_t most = LEAST_PANELS + EVEN_PANELS + TAIL_PANELS + 2 * (size_t)distribution->radial_count;
+    vndf_info info = vndf_distribution_info(distribution);
+    int is_table = info.bytes > 0;
     q->distribution = distribution;
-    q->border = malloc(most * sizeof *q->border);
+    q->scale = info.scale;
+    q->panels = 0;
+    q->border = malloc((EVEN_PANELS + TABLE_TAIL_PANELS + QUANTILE_PANELS + 1) * sizeof *q->border);
     if (!q->border)
         return 0;
-    q->panels = vndf_is_table(distribution) ? table_borders(distribution, q->border) : closed_borders(q->border);
-    int nodes = RADIAL_NODES / q->panels;
-    nodes = nodes < RADIAL_LEAST ? RADIAL_LEAST : nodes > RADIAL_MOST ? RADIAL_MOST : nodes;
-    vndf_gauss_rule_of(&q->radial, finer * nodes);
+    add_borders(q, is_table);
+    vndf_gauss_rule_of(&q->radial, finer * (is_table ? RADIAL_TABLE_NODES : RADIAL_NODES));
     vndf_gauss_rule_of(&q->azimuth, finer * AZIMUTH_NODES);
     return 1;
 }
@@ -73,6 +78,7 @@ void vndf_quadrature_free(vndf_quadrature *q)
 /* wi, and all normals of one slope length r. */
 typedef struct ring {
     const vndf_quadrature *q;
+    vndf_view view;
     int reflects;                              /* and what is transmitted is not asked for */
     double cosine, sine, roughness, eta, area; /* area: A(wi) */
     double along, square, length;              /* sin_i r, 1 + r^2 and its root: 1/wm.z */
@@ -82,7 +88,7 @@ typedef struct ring {
 static double area_below(const ring *g, double cos_o)
 {
     double square = 1.0 - cos_o * cos_o;
-    return vndf_unit_area(g->q->distribution, square > 0.0 ? g->roughness * sqrt(square) : 0.0, -cos_o);
+    return vndf_view_area(&g->view, vndf_vec3_of(square > 0.0 ? (float)sqrt(square) : 0.0f, 0.0f, (float)-cos_o));
 }
 
 /* The integrands; w = wi.wm/wm.z. */
@@ -176,9 +182,11 @@ static void add_ring(const ring *g, double weight, vndf_parts *sum)
 static void add_panel(ring *g, double x0, double x1, vndf_parts *sum)
 {
     const vndf_gauss_rule *rule = &g->q->radial;
+    const vndf_surface unit = {g->q->distribution, 1.0f, 1.0f};
+    double scale = g->q->scale;
     for (int i = 0; i < rule->count; i++) {
         double x = x0 + (x1 - x0) * rule->node[i], z = 1.0 - x, radius = x / z, slope = g->roughness * radius;
-        double p22 = vndf_law_p22(g->q->distribution, radius * radius);
+        double p22 = scale * scale * (double)vndf_p22(&unit, (float)(radius * scale), 0.0f);
         g->along = g->sine * slope;
         g->square = 1.0 + slope * slope;
         g->length = sqrt(g->square);
@@ -228,8 +236,11 @@ static vndf_parts integrate(const vndf_quadrature *q, double cosine, double alph
     vndf_parts sum = {0.0, 0.0};
     double breaks[BREAKS], sine = sqrt((1.0 - cosine) * (1.0 + cosine));
     ring g = {.q = q, .reflects = reflects, .cosine = cosine, .sine = sine, .eta = eta};
-    g.roughness = alpha * vndf_unit_scale(q->distribution);
-    g.area = vndf_unit_area(q->distribution, g.roughness * sine, cosine);
+    const vndf_affine surface = {q->distribution, (float)alpha, 0.0f, 0.0f, (float)alpha, 0.0f, 0.0f};
+    const vndf_vec3 wi = {(float)sine, 0.0f, (float)cosine};
+    g.view = vndf_view_of(&surface, wi);
+    g.roughness = (double)(float)alpha * q->scale;
+    g.area = vndf_view_area(&g.view, wi);
     int count = find_breaks(&g, breaks), next = 0;
     for (int j = 0; j < q->panels; j++) {
         double from = q->border[j], end = q->border[j + 1];

@@ -8,8 +8,8 @@
  * over the normals whose wo leaves the surface. At cos_i = 0 the first is the integral of visible normals times F,
  * and the second 0.
  *
- * The radius runs over the cells of a table, or even panels of R/(1 + R), cut where the range of azimuths begins to
- * be limited or stops. The azimuth runs between the places where wo comes to the horizon and reflection becomes
+ * The radius runs over panels of x = R/(1 + R), even ones and the quantiles of R, so that no lobe of D is missed, cut
+ * where the range of azimuths begins to be limited or stops. The azimuth runs between the places where wo comes to the horizon and reflection becomes
  * total; all of these are arccosines of numbers that the formulas give. So the integrand is smooth in each panel,
  * and Gauss's rule serves. Nodes crowd by a square towards the end of a panel, where a root may vanish or a layer
  * as thin as the roughness may lie. An azimuth is given by the tangent of half of it, or of half its complement to
@@ -18,7 +18,7 @@
 #define VNDF_BSDF_ALBEDO_QUADRATURE_H
 
 #include "math/gauss_rule.h"
-#include "table/table.h"
+#include "vndf.h"
 
 typedef struct vndf_parts {
     double reflected, transmitted;
@@ -27,6 +27,7 @@ typedef struct vndf_parts {
 /* Rules for one distribution. */
 typedef struct vndf_quadrature {
     const vndf_distribution *distribution;
+    double scale;   /* of the distribution: R = 1 is its median slope */
     double *border; /* of the panels of R/(1 + R), from 0 to 1; owned */
     int panels;
     vndf_gauss_rule radial, azimuth;

@@ -6,9 +6,10 @@
  * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
 #include "bsdf/lobes/compensated.h"
 
-#include "bsdf/lobes/scatter.h"
-#include "math/elementary.h"
-#include "math/half_turn.h"
+#include "math/turn.h"
+#include "math/exp_log.h"
+
+static const float INVERSE_PI = 0.318309886f;
 
 /* A smaller 1 - E_avg is within the error of the table: Turquin's factor stands for the lobe. */
 static const float LEAST_LOSS = 1e-5f;
@@ -40,13 +41,11 @@ void vndf_compensation_resolve(vndf_material *m)
 
 /* ---- a hit ---- */
 
-/* Prepares single scattering, and finds the roughness to look up. */
-static int prepare_single(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+/* The roughness to look up: the root of a determinant, which for two is sqrt(alpha_x alpha_y). */
+static void set_alpha(vndf_bsdf *b)
 {
-    if (!b->material->single->prepare(b, r, wi))
-        return 0;
-    b->compensation.alpha = sqrtf(r->alpha_x) * sqrtf(r->alpha_y);
-    return 1;
+    const vndf_affine *s = &b->surface;
+    b->compensation.alpha = (float)sqrt(fabs((double)s->xx * s->yy - (double)s->xy * s->yx));
 }
 
 /* 1 - E of a direction, its z that of the frame of the hit. */
@@ -63,12 +62,10 @@ static void set_gain(vndf_bsdf *b, float lost)
     b->compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
 }
 
-static int prepare_turquin(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+static void prepare_turquin(vndf_bsdf *b)
 {
-    if (!prepare_single(b, r, wi))
-        return 0;
-    set_gain(b, lost_from(b, wi.z));
-    return 1;
+    set_alpha(b);
+    set_gain(b, lost_from(b, b->rise));
 }
 
 static void scale(const vndf_bsdf *b, float *value)
@@ -88,16 +85,11 @@ static void sample_turquin(const vndf_bsdf *b, const float u[3], vndf_scattered 
 static void eval_turquin(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     b->material->single->eval(b, wo, seed, value, pdf);
-    scale(b, value);
+    if (value)
+        scale(b, value);
 }
 
-static float pdf_single(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return b->material->single->pdf(b, wo);
-}
-
-const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin,
-                                             pdf_single,      NULL,           VNDF_BLOCK_NONE};
+const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin, NULL};
 
 /* ---- Kulla & Conty ---- */
 
@@ -108,7 +100,7 @@ static float average_lost(const vndf_bsdf *b, float side)
 
 static float per_of(float lost)
 {
-    return lost > LEAST_LOSS ? (float)vndf_inverse_pi / lost : 0.0f;
+    return lost > LEAST_LOSS ? INVERSE_PI / lost : 0.0f;
 }
 
 /* Sets F_ms, and the share of the samples: the light that the lobe sends over all light that is sent. */
@@ -145,12 +137,11 @@ static void part_lobes(vndf_bsdf *b, float lost_average)
     c->share = c->lost;
 }
 
-static int prepare_kulla_conty(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
+static void prepare_kulla_conty(vndf_bsdf *b)
 {
-    if (!prepare_single(b, r, wi))
-        return 0;
     struct vndf_compensation *c = &b->compensation;
-    float lost_average = average_lost(b, b->side), lost = lost_from(b, wi.z);
+    set_alpha(b);
+    float lost_average = average_lost(b, b->side), lost = lost_from(b, b->rise);
     c->lost = lost > 0.0f ? lost : 0.0f;
     c->per = per_of(lost_average);
     if (has_both(b))
@@ -162,7 +153,6 @@ static int prepare_kulla_conty(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 
     set_gain(b, lost);
     c->near = 0.01f * c->alpha + 1e-4f;
     c->per_log = (float)(1.0 / vndf_log(1.0 + 1.0 / c->near));
-    return 1;
 }
 
 /* Whether there is a lobe; else single scattering is scaled. */
@@ -189,7 +179,7 @@ static added added_towards(const vndf_bsdf *b, float z)
     float lost = lost_from(b, z), per = stays ? c->per : c->beyond * (float)b->carried;
     float cosine = fabsf(z), density = cosine + 0.5f * c->per_log / (cosine + c->near);
     added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per,
-               part * density * (0.5f * (float)vndf_inverse_pi)};
+               part * density * (0.5f * INVERSE_PI)};
     return a;
 }
 
@@ -212,10 +202,10 @@ static vndf_vec3 draw_added(const vndf_bsdf *b, const float u[3])
 {
     const struct vndf_compensation *c = &b->compensation;
     float up = draw_cosine(c, vndf_clamp_unit(u[0])), across = sqrtf((1.0f - up) * (1.0f + up));
-    vndf_turn half = vndf_half_turn(vndf_clamp_unit(u[1]));
-    float cosine = half.cosine * half.cosine - half.sine * half.sine, sine = 2.0f * half.cosine * half.sine;
     float side = u[2] < c->share * c->reflected ? b->side : -b->side;
-    return vndf_vec3_of(across * cosine, across * sine, side * up);
+    double cosine, sine;
+    vndf_turn_of(vndf_clamp_unit(u[1]), &cosine, &sine);
+    return vndf_vec3_of(across * (float)cosine, across * (float)sine, side * up);
 }
 
 static void sample_added(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -261,19 +251,12 @@ static void eval_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, fl
 {
     added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
     b->material->single->eval(b, wo, seed, value, pdf);
-    if (!has_lobe(b))
+    if (value && !has_lobe(b))
         scale(b, value);
-    for (int i = 0; i < b->material->is.wavelengths; i++)
+    for (int i = 0; value && i < b->material->is.wavelengths; i++)
         value[i] = vndf_finite(value[i] + b->compensation.colour[i] * a.value);
     if (pdf)
         *pdf = vndf_finite(density_of(b, *pdf, &a));
 }
 
-static float pdf_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
-    return vndf_finite(density_of(b, b->material->single->pdf(b, wo), &a));
-}
-
-const vndf_routines vndf_routines_kulla_conty = {
-    prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty, pdf_kulla_conty, NULL, VNDF_BLOCK_NONE};
+const vndf_routines vndf_routines_kulla_conty = {prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty, NULL};

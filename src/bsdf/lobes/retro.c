@@ -2,17 +2,10 @@
  * where it is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
 #include "bsdf/lobes/retro.h"
 
-#include "math/vector.h"
-
 static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
 {
     float turn = wo.z * b->side > 0.0f ? -1.0f : 1.0f;
     return vndf_vec3_of(turn * wo.x, turn * wo.y, wo.z);
-}
-
-static int prepare(vndf_bsdf *b, const vndf_roughness *r, vndf_vec3 wi)
-{
-    return b->material->specular->prepare(b, r, wi);
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -27,9 +20,4 @@ static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, 
     b->material->specular->eval(b, turned_about(b, wo), seed, value, pdf);
 }
 
-static float pdf_of(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    return b->material->specular->pdf(b, turned_about(b, wo));
-}
-
-const vndf_routines vndf_routines_retro = {prepare, sample, eval, pdf_of, NULL, VNDF_BLOCK_NONE};
+const vndf_routines vndf_routines_retro = {NULL, sample, eval, NULL};

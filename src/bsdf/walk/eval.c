@@ -12,53 +12,51 @@
  * turns the two contributions of a path into half their harmonic mean: a narrow lobe at one end makes no spike, unless
  * both walks meet it. */
 #include "bsdf/terms/beta.h"
-#include "bsdf/walk/walk.h"
 #include "bsdf/walk/connect.h"
 
 /* One end of the paths, turned up. */
 typedef struct end {
     vndf_walk walk; /* as it is from there */
     vndf_view view;
-    vndf_walk_target target;
-    double cosine;
+    vndf_vec3 up;
+    double lambda;
+    int beyond; /* not on the side where walks from here begin to the other end */
 } end;
 
-static end end_at(const vndf_walk *walk, const vndf_view *view, int beyond)
+/* wo on the other side sees the inverse of the index ratio. */
+static end end_at(const vndf_walk *walk, const vndf_view *view, vndf_vec3 up, int beyond)
 {
-    vndf_vec3 up = view->wi, down = vndf_vec3_of(-up.x, -up.y, -up.z);
-    vndf_walk_target target = {up, vndf_law_slant(view, down), beyond};
-    end e = {*walk, *view, target, up.z};
+    end e = {*walk, *view, up, (double)vndf_view_area(view, vndf_turned(up, -1.0f)) / (double)up.z, beyond};
     return e;
 }
 
-/* wo on the other side sees the inverse of the index ratio. */
-static end far_end(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
+static end far_end(const vndf_walk *walk, vndf_vec3 wo)
 {
-    float side = wo.z > 0.0f ? 1.0f : -1.0f;
-    vndf_vec3 up = vndf_vec3_of(side * wo.x, side * wo.y, side * wo.z);
-    vndf_view seen = vndf_walk_look(view, up);
-    end e = end_at(walk, &seen, wo.z < 0.0f);
-    e.walk.eta = wo.z < 0.0f ? 1.0f / walk->eta : walk->eta;
+    vndf_vec3 up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
+    vndf_view seen = vndf_view_of(walk->surface, up);
+    end e = end_at(walk, &seen, up, wo.z < 0.0f);
+    e.walk.eta = wo.z < 0.0f ? 1.0 / walk->eta : walk->eta;
     return e;
+}
+
+/* The chance to leave towards an end, C1^Lambda, on either side. */
+static double leaving_from(double depth, int across, const end *to)
+{
+    return vndf_exp(-(across ? vndf_walk_other_depth(depth) : depth) * to->lambda);
 }
 
 /* ---- the first order ---- */
 
 /* The chance to leave has a mean in closed form, since C1 = U^(1/a) at the first event, a = 1 + Lambda(wi):
  * a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
-static double leaving_once(const end *from, const end *to)
-{
-    double a = vndf_law_slant(&from->view, from->view.wi);
-    return to->target.beyond ? a * vndf_beta(a, 1.0 + to->target.lambda) : a / (a + to->target.lambda);
-}
-
 static void add_single(const end *from, const end *to, double *value)
 {
     vndf_walk_scattered s;
-    if (!vndf_walk_scatter(&from->walk, &from->view, from->walk.eta, to->target.wo, to->target.beyond, &s))
+    if (!vndf_walk_scatter(&from->walk, &from->view, from->up, from->walk.eta, to->up, to->beyond, &s))
         return;
-    double leaving = leaving_once(from, to);
-    for (int i = 0; i < from->walk.wavelengths; i++)
+    double a = 1.0 + from->lambda;
+    double leaving = to->beyond ? a * vndf_beta(a, 1.0 + to->lambda) : a / (a + to->lambda);
+    for (int i = 0; i < from->walk.material->is.wavelengths; i++)
         value[i] += s.value[i] * leaving;
 }
 
@@ -69,19 +67,19 @@ static int step(const vndf_walk *walk, vndf_walk_path *path, vndf_vec3 *along)
 {
     float u[2];
     double lobe = vndf_walk_numbers(walk, path, u);
-    vndf_vec3 back = vndf_walk_bounce(walk, path, vndf_walk_meet(path, u[0], u[1]), lobe);
-    *along = vndf_vec3_of(-back.x, -back.y, -back.z);
-    return !vndf_walk_is_dark(walk, path) && vndf_walk_travel(path, back);
+    vndf_vec3 back = vndf_walk_bounce(walk, path, u[0], u[1], lobe);
+    *along = vndf_turned(back, -1.0f);
+    return !vndf_walk_is_dark(walk, path) && vndf_walk_travel(walk, path, back);
 }
 
 /* E at the beginning, from the first event's depth and the way that was taken from there. */
 static double begin_factor(const end *from, const vndf_walk_path *path, vndf_vec3 along, double depth)
 {
     vndf_walk_scattered s;
-    vndf_view view = vndf_walk_look(&path->view, along);
-    if (!vndf_walk_scatter(&from->walk, &view, path->eta, from->target.wo, path->turned, &s))
+    vndf_view view = vndf_view_of(from->walk.surface, along);
+    if (!vndf_walk_scatter(&from->walk, &view, along, path->eta, from->up, path->turned, &s))
         return 0.0;
-    return s.drawn * vndf_walk_leaving(depth, 0, &from->target) / from->cosine;
+    return s.drawn * leaving_from(depth, 0, from) / (double)from->up.z;
 }
 
 /* Connects an event to the other end; `begin` holds the square of the index ratio, which reciprocity needs. */
@@ -89,43 +87,44 @@ static void connect(const end *from, const end *to, const vndf_walk_path *path, 
                     double *value)
 {
     vndf_walk_scattered s;
-    int across = path->turned != to->target.beyond;
-    if (!vndf_walk_scatter(&from->walk, &path->view, path->eta, to->target.wo, across, &s))
+    int across = path->turned != to->beyond;
+    if (!vndf_walk_scatter(&from->walk, &path->view, path->from, path->eta, to->up, across, &s))
         return;
-    double leaving = vndf_walk_leaving(path->depth, across, &to->target), factor = s.drawn * leaving / to->cosine;
+    double leaving = leaving_from(path->depth, across, to), factor = s.drawn * leaving / (double)to->up.z;
     double weight = begin > 0.0 ? leaving * scale * (begin / (begin + factor)) : 0.0;
-    for (int i = 0; i < from->walk.wavelengths; i++)
+    for (int i = 0; i < from->walk.material->is.wavelengths; i++)
         value[i] += path->weight[i] * s.value[i] * weight;
 }
 
 /* A walk from one end, its part of f |cosine at the other end| times `scale`. */
 static void add_walk(const end *from, const end *to, uint64_t seed, double scale, double *value)
 {
-    vndf_walk_path path = vndf_walk_enter(&from->walk, &from->view, seed);
+    unsigned limit = from->walk.material->is.order_limit;
+    vndf_walk_path path;
     vndf_vec3 along;
+    vndf_walk_enter(&from->walk, &from->view, from->up, seed, &path);
     double depth = path.depth, eta = from->walk.eta;
-    if (from->walk.order_limit < 2 || !step(&from->walk, &path, &along))
+    if (limit < 2 || !step(&from->walk, &path, &along))
         return;
-    double begin = begin_factor(from, &path, along, depth) * (to->target.beyond ? eta * eta : 1.0);
+    double begin = begin_factor(from, &path, along, depth) * (to->beyond ? eta * eta : 1.0);
     for (unsigned order = 2;; order++) {
         connect(from, to, &path, begin, scale, value);
-        if (order >= from->walk.order_limit || !step(&from->walk, &path, &along))
+        if (order >= limit || !step(&from->walk, &path, &along))
             return;
     }
 }
 
-void vndf_walk_eval(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo, uint64_t seed, double *value)
+void vndf_walk_eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, double *value)
 {
-    for (int i = 0; i < walk->wavelengths; i++)
+    vndf_walk walk = vndf_walk_of(b);
+    int count = b->material->is.wavelengths;
+    end far = far_end(&walk, wo), near = end_at(&walk, &b->view.of.one, b->wi, far.beyond);
+    double index = far.beyond ? walk.eta * walk.eta : 1.0, factor = vndf_walk_transport(&walk, far.beyond);
+    for (int i = 0; i < count; i++)
         value[i] = 0.0;
-    if (wo.z == 0.0f || (wo.z < 0.0f && !walk->transmits))
-        return;
-    end far = far_end(walk, view, wo), near = end_at(walk, view, far.target.beyond);
-    double eta = walk->eta, index = far.target.beyond ? eta * eta : 1.0;
-    double factor = vndf_walk_transport(walk, far.target.beyond);
     add_single(&near, &far, value);
     add_walk(&near, &far, seed, 1.0, value);
-    add_walk(&far, &near, ~seed, index * far.cosine / near.cosine, value);
-    for (int i = 0; i < walk->wavelengths; i++)
+    add_walk(&far, &near, ~seed, index * (double)far.up.z / (double)near.up.z, value);
+    for (int i = 0; i < count; i++)
         value[i] = value[i] * factor < DBL_MAX ? value[i] * factor : DBL_MAX;
 }

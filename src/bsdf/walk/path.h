@@ -1,26 +1,30 @@
-/* A ray on its way through the microsurface (walk.h): where it is, and its two steps, travel and scatter. */
+/* A ray on its way through the microsurface (walk.h): where it is, and its two steps, travel and bounce. */
 #ifndef VNDF_BSDF_WALK_PATH_H
 #define VNDF_BSDF_WALK_PATH_H
 
-#include "bsdf/walk/walk.h"
 #include "bsdf/walk/random.h"
-#include "math/vector.h"
-#include "sampler/law.h"
+#include "bsdf/walk/walk.h"
 
 typedef struct vndf_walk_path {
-    vndf_view view; /* at an event: of where the ray came from */
+    vndf_vec3 from; /* at an event: where the ray came from, */
+    vndf_view view; /* and what it sees */
     double depth;   /* -log C1, in the frame of the side it is on */
     double weight[VNDF_WAVELENGTHS];
-    double eta, eta_back; /* index beyond over this one, and the inverse */
-    int turned;           /* on the other side than wi */
+    double eta; /* index beyond over this one */
+    int turned; /* on the other side than wi */
     vndf_walk_random random;
 } vndf_walk_path;
 
-/* Rounded once, so that lengths do not drift over many events. */
-VNDF_INLINE vndf_vec3 vndf_walk_unit(vndf_normal w)
+VNDF_INLINE double vndf_walk_dot(vndf_vec3 a, vndf_vec3 b)
 {
-    double per = 1.0 / sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
-    return vndf_vec3_of((float)(w.x * per), (float)(w.y * per), (float)(w.z * per));
+    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+}
+
+/* Rounded once, so that lengths do not drift over many events. */
+VNDF_INLINE vndf_vec3 vndf_walk_unit(double x, double y, double z)
+{
+    double per = 1.0 / sqrt(x * x + y * y + z * z);
+    return vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
 }
 
 /* -log(1 - exp(-depth)): the same height, seen from the other side. At the top it would be infinite; 1e-300
@@ -31,38 +35,26 @@ VNDF_INLINE double vndf_walk_other_depth(double depth)
     return below < 1.0 ? -vndf_log(below > 1e-300 ? below : 1e-300) : 0.0;
 }
 
-/* The view of another direction. */
-VNDF_INLINE vndf_view vndf_walk_look(const vndf_view *view, vndf_vec3 w)
+/* From one event to the next, away from `back`: 0 if the ray leaves. Depth changes by E |w.z|/A(back), down or up; if
+ * the area underflows a ray that goes up leaves. */
+VNDF_INLINE int vndf_walk_travel(const vndf_walk *walk, vndf_walk_path *path, vndf_vec3 back)
 {
-    return vndf_view_scaled(view->distribution, view->alpha_x, view->alpha_y, vndf_packed(w));
-}
-
-/* Whether a ray that goes up, away from `back`, leaves; else its depth shrinks. If its area underflows it leaves. */
-VNDF_INLINE int vndf_walk_leaves(vndf_walk_path *path, vndf_vec3 back, double distance)
-{
-    path->depth -= distance / vndf_law_slant(&path->view, back);
-    return !(path->depth > 0.0);
-}
-
-/* From one event to the next: 0 if it leaves. */
-VNDF_INLINE int vndf_walk_travel(vndf_walk_path *path, vndf_vec3 back)
-{
-    double distance = vndf_walk_exponential(&path->random);
-    if (back.z < 0.0f && vndf_walk_leaves(path, back, distance))
+    double distance = vndf_walk_exponential(&path->random), area = (double)vndf_view_area(&path->view, back);
+    path->depth += distance * (double)back.z / area;
+    if (back.z < 0.0f && !(path->depth > 0.0))
         return 0;
-    vndf_view_turn(&path->view, vndf_packed(back));
-    if (back.z > 0.0f)
-        path->depth += distance / vndf_law_view_slant(&path->view);
+    path->from = back;
+    path->view = vndf_view_of(walk->surface, back);
     return 1;
 }
 
 /* A ray that enters from far above. */
-VNDF_INLINE vndf_walk_path vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, uint64_t seed)
+VNDF_INLINE void vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, vndf_vec3 from, uint64_t seed,
+                                 vndf_walk_path *path)
 {
-    vndf_walk_path path = {*view,           0.0, {1.0, 1.0, 1.0, 1.0},       walk->eta,
-                           1.0 / walk->eta, 0,   vndf_walk_random_from(seed)};
-    path.depth = vndf_walk_exponential(&path.random) / vndf_law_view_slant(view);
-    return path;
+    *path = (vndf_walk_path){from,      *view, 0.0, {1.0, 1.0, 1.0, 1.0},
+                             walk->eta, 0,     vndf_walk_random_from(seed)};
+    path->depth = vndf_walk_exponential(&path->random) * (double)from.z / (double)vndf_view_area(view, from);
 }
 
 /* Squared cosine beyond, times eta^2; total reflection where it is not positive. */
@@ -71,83 +63,43 @@ VNDF_INLINE double vndf_walk_beyond(double cosine, double eta)
     return (eta - 1.0) * (eta + 1.0) + cosine * cosine;
 }
 
-/* Reflectances and their mean, with which reflection is chosen. */
+/* Reflectances and their mean, with which reflection is chosen. Total reflection is total whatever Fresnel's term
+ * says. */
 VNDF_INLINE double vndf_walk_reflectances(const vndf_walk *walk, double cosine, double eta,
                                           double f[VNDF_WAVELENGTHS])
 {
+    const vndf_material *m = walk->material;
     if (walk->transmits && !(vndf_walk_beyond(cosine, eta) > 0.0)) {
         for (int i = 0; i < VNDF_WAVELENGTHS; i++)
             f[i] = 1.0;
         return 1.0;
     }
-    walk->reflectance(walk->is, cosine, eta, f);
-    double sum = f[0];
-    for (int i = 1; i < walk->wavelengths; i++)
-        sum += f[i];
-    return sum / walk->wavelengths;
+    m->fresnel->reflectance(&m->is, cosine, eta, f);
+    return vndf_mean_of(m, f);
 }
 
-/* A drawn normal and its cosine to where the ray came from. */
-typedef struct vndf_walk_facet {
-    vndf_vec3 wm;
-    double cosine;
-} vndf_walk_facet;
-
-/* Back along the mirrored ray. */
-VNDF_INLINE vndf_vec3 vndf_walk_reflected(vndf_vec3 v, vndf_walk_facet m)
-{
-    double twice = 2.0 * m.cosine / vndf_exact_dot(m.wm, m.wm);
-    vndf_normal back = {v.x - twice * m.wm.x, v.y - twice * m.wm.y, v.z - twice * m.wm.z};
-    return vndf_walk_unit(back);
-}
-
-/* Back along the refracted ray, in the frame of its side: -(v/eta + (t - c)/eta wm), t^2 = eta^2 - 1 + c^2. */
-VNDF_INLINE vndf_vec3 vndf_walk_refracted(vndf_vec3 v, vndf_walk_facet m, double eta)
-{
-    double beyond = sqrt(vndf_walk_beyond(m.cosine, eta));
-    double along = (eta - 1.0) * (eta + 1.0) / (beyond + m.cosine); /* t - c */
-    vndf_normal back = {-(v.x + along * m.wm.x), -(v.y + along * m.wm.y), -(v.z + along * m.wm.z)};
-    return vndf_walk_unit(back);
-}
-
-/* To the other side. */
-VNDF_INLINE void vndf_walk_turn(vndf_walk_path *path)
-{
-    double eta = path->eta;
-    path->eta = path->eta_back;
-    path->eta_back = eta;
-    path->turned = !path->turned;
-    path->depth = vndf_walk_other_depth(path->depth);
-}
-
-VNDF_INLINE void vndf_walk_weigh(const vndf_walk *walk, vndf_walk_path *path, const double f[VNDF_WAVELENGTHS],
-                                 double mean, int reflected)
-{
-    for (int i = 0; i < walk->wavelengths; i++)
-        path->weight[i] *= reflected ? f[i] / mean : (1.0 - f[i]) / (1.0 - mean);
-}
-
-/* The lobe of an event, by the uniform number u, and back along the new ray. */
-VNDF_INLINE vndf_vec3 vndf_walk_bounce(const vndf_walk *walk, vndf_walk_path *path, vndf_walk_facet m, double u)
-{
-    double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, m.cosine, path->eta, f), eta = path->eta;
-    int reflected = !walk->transmits || u < mean || !(mean < 1.0);
-    vndf_walk_weigh(walk, path, f, walk->transmits ? mean : 1.0, reflected);
-    if (reflected)
-        return vndf_walk_reflected(path->view.wi, m);
-    vndf_walk_turn(path);
-    return vndf_walk_refracted(path->view.wi, m, eta);
-}
-
-/* Draws a normal. The weight corrects a table's density to the true one. */
-VNDF_INLINE vndf_walk_facet vndf_walk_meet(vndf_walk_path *path, float u1, float u2)
+/* Scatters at the normal that u1 and u2 draw, into the lobe that u3 says; returns the way back along the new ray, in
+ * the frame of the side it is on. With c = v.wm and t the cosine beyond times eta a refracted ray goes back along
+ * -(v + (t - c) wm)/eta. */
+VNDF_INLINE vndf_vec3 vndf_walk_bounce(const vndf_walk *walk, vndf_walk_path *path, float u1, float u2, double u3)
 {
     float weight;
-    vndf_vec3 wm = vndf_sample_weight(&path->view, u1, u2, NULL, &weight);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        path->weight[i] *= (double)weight;
-    vndf_walk_facet facet = {wm, vndf_exact_dot(path->view.wi, wm)};
-    return facet;
+    vndf_vec3 v = path->from, wm = vndf_sample_weight(&path->view, u1, u2, NULL, &weight);
+    double f[VNDF_WAVELENGTHS], cosine = vndf_walk_dot(v, wm), eta = path->eta;
+    double mean = vndf_walk_reflectances(walk, cosine, eta, f);
+    int reflected = !walk->transmits || u3 < mean || !(mean < 1.0);
+    double chosen = !walk->transmits ? 1.0 : reflected ? mean : 1.0 - mean;
+    for (int i = 0; i < walk->material->is.wavelengths; i++)
+        path->weight[i] *= (double)weight * (reflected ? f[i] : 1.0 - f[i]) / chosen;
+    if (reflected) {
+        double twice = 2.0 * cosine / vndf_walk_dot(wm, wm);
+        return vndf_walk_unit(v.x - twice * wm.x, v.y - twice * wm.y, v.z - twice * wm.z);
+    }
+    path->eta = 1.0 / eta;
+    path->turned = !path->turned;
+    path->depth = vndf_walk_other_depth(path->depth);
+    double along = (eta - 1.0) * (eta + 1.0) / (sqrt(vndf_walk_beyond(cosine, eta)) + cosine); /* t - c */
+    return vndf_walk_unit(-(v.x + along * wm.x), -(v.y + along * wm.y), -(v.z + along * wm.z));
 }
 
 /* Draws two uniform numbers for the normal of an event, and returns a third for its lobe. */
@@ -161,15 +113,15 @@ VNDF_INLINE double vndf_walk_numbers(const vndf_walk *walk, vndf_walk_path *path
  * ratio. Over a walk only the change from the first side to the last remains. */
 VNDF_INLINE double vndf_walk_transport(const vndf_walk *walk, int turned)
 {
-    double eta = walk->eta;
-    return turned && walk->transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (eta * eta) : 1.0;
+    int radiance = walk->material->is.effects.transport == VNDF_TRANSPORT_RADIANCE;
+    return turned && radiance ? 1.0 / (walk->eta * walk->eta) : 1.0;
 }
 
 /* Nothing is carried on. */
 VNDF_INLINE int vndf_walk_is_dark(const vndf_walk *walk, const vndf_walk_path *path)
 {
     double sum = path->weight[0];
-    for (int i = 1; i < walk->wavelengths; i++)
+    for (int i = 1; i < walk->material->is.wavelengths; i++)
         sum += path->weight[i];
     return !(sum > 0.0);
 }

@@ -23,46 +23,45 @@ static double saturated(double x)
     return x / (1.0 + x);
 }
 
-/* Of the cosine lobes. */
-static double share_of(const vndf_walk *walk, const vndf_view *view)
+/* Of the cosine lobes. s^2 is the product of the areas along both axes of an aligned surface. */
+static double share_of(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wi)
 {
-    double unit = vndf_unit_area(view->distribution, 1.0, 0.0), cosine = view->wi.z, share;
-    double slope2 = unit * unit * view->alpha_x * view->alpha_y;
+    const vndf_affine *m = walk->surface;
+    double across = (double)vndf_view_area(view, vndf_vec3_of(1.0f, 0.0f, 0.0f)), cosine = (double)wi.z, share;
+    double determinant = fabs((double)m->xx * m->yy - (double)m->xy * m->yx);
+    double slope2 = across * across * determinant / ((double)m->xx * m->xx + (double)m->xy * m->xy);
     if (!walk->transmits)
         share = saturated(9.0 * slope2) * cosine / (cosine + 0.17);
-    else if (walk->eta > 1.0f)
-        share = saturated(30.0 * slope2) * (1.0 - 1.0 / vndf_law_view_slant(view));
+    else if (walk->eta > 1.0)
+        share = saturated(30.0 * slope2) * (1.0 - cosine / (double)vndf_view_area(view, wi));
     else
         share = saturated(9.0 * slope2);
     return 0.001 + 0.998 * (share > 0.0 ? share : 0.0);
 }
 
 /* Of these, the one on the side of wo. */
-static double side_of(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
+static double side_of(const vndf_walk *walk, vndf_vec3 wi, vndf_vec3 wo)
 {
-    double near = !walk->transmits ? 1.0 : walk->eta > 1.0f ? 0.05 : 1.0 - 0.6 * view->wi.z;
+    double near = !walk->transmits ? 1.0 : walk->eta > 1.0 ? 0.05 : 1.0 - 0.6 * (double)wi.z;
     return wo.z > 0.0f ? near : 1.0 - near;
 }
 
-static double scattered(const vndf_walk *walk, const vndf_view *view, vndf_vec3 o, int across)
+/* Above the horizon, or over the whole sphere. */
+static double first_event(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_walk_scattered s;
-    return vndf_walk_scatter(walk, view, walk->eta, o, across, &s) ? s.drawn : 0.0;
+    vndf_vec3 other = walk->transmits ? vndf_turned(wo, -1.0f) : vndf_vec3_of(wo.x, wo.y, -wo.z);
+    double density = vndf_walk_scatter(walk, view, wi, walk->eta, wo, 0, &s) ? s.drawn : 0.0;
+    return density + (vndf_walk_scatter(walk, view, wi, walk->eta, other, walk->transmits, &s) ? s.drawn : 0.0);
 }
 
-/* Above the horizon, or over the whole sphere. */
-static double first_event(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
+float vndf_walk_pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    double density = scattered(walk, view, wo, 0);
-    vndf_vec3 mirrored = vndf_vec3_of(wo.x, wo.y, -wo.z), turned = vndf_vec3_of(-wo.x, -wo.y, -wo.z);
-    return density + scattered(walk, view, walk->transmits ? turned : mirrored, walk->transmits);
-}
-
-float vndf_walk_pdf(const vndf_walk *walk, const vndf_view *view, vndf_vec3 wo)
-{
-    double share = share_of(walk, view);
-    if (!walk->transmits && !(wo.z > 0.0f))
+    vndf_walk walk = vndf_walk_of(b);
+    const vndf_view *view = &b->view.of.one;
+    double share = share_of(&walk, view, b->wi);
+    if (!walk.transmits && !(wo.z > 0.0f))
         return 0.0f;
-    double cosine = fabs((double)wo.z) * inverse_pi * side_of(walk, view, wo);
-    return vndf_density_from((1.0 - share) * first_event(walk, view, wo) + share * cosine);
+    double cosine = fabs((double)wo.z) * inverse_pi * side_of(&walk, b->wi, wo);
+    return vndf_density_from((1.0 - share) * first_event(&walk, view, b->wi, wo) + share * cosine);
 }

@@ -5,8 +5,9 @@
 #define VNDF_BSDF_WALK_RANDOM_H
 
 #include <stdint.h>
+#include <string.h>
 
-#include "math/elementary.h"
+#include "math/exp_log.h"
 
 typedef struct vndf_walk_random {
     uint64_t state;

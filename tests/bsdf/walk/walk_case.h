@@ -1,16 +1,16 @@
-/* What the tests of the random walk share: distributions, reflectances written out once more, directions, and the
- * comparison of two estimated histograms. */
+/* What the tests of the random walk share: distributions, materials and their hits, directions, and the comparison of two
+ * estimated histograms. */
 #ifndef TESTS_BSDF_WALK_WALK_CASE_H
 #define TESTS_BSDF_WALK_WALK_CASE_H
 
 #include <stdlib.h>
 
-#include "bsdf/walk/walk.h"
 #include "oracle/oracle.h"
 #include "measure/statistics.h"
 #include "statistics/grid.h"
 #include "harness/constants.h"
 #include "harness/test.h"
+#include "vndf_bsdf.h"
 
 /* ---- distributions ---- */
 
@@ -43,55 +43,6 @@ static inline void walk_subject_free(const vndf_distribution *d)
     vndf_free((vndf_distribution *)(size_t)d);
 }
 
-/* ---- optics ---- */
-
-static inline void walk_mirror(const vndf_description *is, double cosine, double eta, double f[3])
-{
-    (void)is, (void)cosine, (void)eta;
-    f[0] = f[1] = f[2] = 1.0;
-}
-
-static inline void walk_constant(const vndf_description *is, double cosine, double eta, double f[3])
-{
-    (void)cosine, (void)eta;
-    for (int i = 0; i < 3; i++)
-        f[i] = is->f0[i];
-}
-
-static inline void walk_schlick(const vndf_description *is, double cosine, double eta, double f[3])
-{
-    (void)eta;
-    for (int i = 0; i < 3; i++)
-        f[i] = is->f0[i] + (1.0 - is->f0[i]) * pow(1.0 - cosine, 5.0);
-}
-
-static inline double walk_dielectric_at(double c, double eta)
-{
-    double t2 = 1.0 - (1.0 - c * c) / (eta * eta), t = t2 > 0.0 ? sqrt(t2) : 0.0;
-    double s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + t);
-    return t2 > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
-}
-
-static inline void walk_dielectric(const vndf_description *is, double cosine, double eta, double f[3])
-{
-    (void)is;
-    f[0] = f[1] = f[2] = walk_dielectric_at(cosine, eta);
-}
-
-static const vndf_description walk_gold = {.f0 = {0.95f, 0.6f, 0.25f}};
-
-static inline vndf_walk walk_of_mirror(void)
-{
-    vndf_walk walk = {walk_mirror, &walk_gold, 3, 1.5f, 0, VNDF_TRANSPORT_RADIANCE, 64};
-    return walk;
-}
-
-static inline vndf_walk walk_of_glass(float eta)
-{
-    vndf_walk walk = {walk_dielectric, &walk_gold, 3, eta, 1, VNDF_TRANSPORT_IMPORTANCE, 64};
-    return walk;
-}
-
 /* ---- directions ---- */
 
 /* gcc 12 at -O3 leaves out a rounding to float and back when it joins x and y to a vector. */
@@ -108,10 +59,81 @@ static inline vndf_vec3 walk_direction(double cosine, double phi)
     return w;
 }
 
-static inline vndf_view walk_view(const vndf_distribution *d, float ax, float ay, double cosine, double phi)
+/* ---- optics ---- */
+
+static inline double walk_dielectric_at(double c, double eta)
+{
+    double t2 = 1.0 - (1.0 - c * c) / (eta * eta), t = t2 > 0.0 ? sqrt(t2) : 0.0;
+    double s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + t);
+    return t2 > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
+}
+
+/* Lossless, of one wavelength. */
+static inline vndf_description walk_of_mirror(void)
+{
+    vndf_description is = {.effects = {.scattering = VNDF_SCATTERING_MULTIPLE}, .wavelengths = 1, .eta = 1.5f};
+    return is;
+}
+
+static inline vndf_description walk_of_metal(void)
+{
+    vndf_description is = walk_of_mirror();
+    is.effects.fresnel = VNDF_FRESNEL_SCHLICK;
+    is.f0[0] = 0.6f;
+    return is;
+}
+
+static inline vndf_description walk_of_glass(float eta)
+{
+    vndf_description is = walk_of_mirror();
+    is.eta = eta;
+    is.effects.lobes = VNDF_LOBES_BOTH;
+    is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+    is.effects.transport = VNDF_TRANSPORT_IMPORTANCE;
+    return is;
+}
+
+static inline int walk_transmits(const vndf_description *is)
+{
+    return is->effects.lobes != VNDF_LOBES_REFLECTION;
+}
+
+/* ---- hits ---- */
+
+/* A hit, which must not move, and the view of single events there. */
+typedef struct walk_hit {
+    vndf_description is;
+    vndf_material material;
+    vndf_bsdf bsdf;
+    vndf_view view;
+    vndf_vec3 wi;
+} walk_hit;
+
+static inline void walk_hit_at(walk_hit *h, const vndf_description *is, const vndf_distribution *d, float ax,
+                               float ay, vndf_vec3 wi)
 {
     vndf_surface surface = {d, ax, ay};
-    return vndf_view_from(&surface, walk_direction(cosine, phi));
+    h->is = *is;
+    h->is.distribution = d;
+    h->is.alpha_x = ax;
+    h->is.alpha_y = ay;
+    h->wi = wi;
+    h->view = vndf_view_from(&surface, wi);
+    TEST(vndf_material_resolve(&h->is, &h->material, NULL) == VNDF_OK && vndf_bsdf_at(&h->bsdf, &h->material, wi));
+}
+
+/* f |cos_o|. */
+static inline double walk_eval(const walk_hit *h, vndf_vec3 wo, uint64_t seed)
+{
+    float f[VNDF_WAVELENGTHS];
+    vndf_bsdf_eval(&h->bsdf, wo, seed, f);
+    return (double)f[0] * fabs((double)wo.z);
+}
+
+static inline void walk_describe(const walk_hit *h, const char *name)
+{
+    fprintf(stderr, "  %s, alpha %g %g, cos %g, eta %g\n", name, (double)h->is.alpha_x, (double)h->is.alpha_y,
+            (double)h->wi.z, walk_transmits(&h->is) ? (double)h->is.eta : 0.0);
 }
 
 static inline void walk_numbers(unsigned long long *state, float u[3])

@@ -1,0 +1,50 @@
+/* What the layers above the sampler share with it, beside the public calls of vndf.h. All densities are per steradian,
+ * floats, and those of the normal as it is given; a normal is unit within rounding, wm.z >= 0. */
+#ifndef VNDF_SAMPLER_SAMPLER_H
+#define VNDF_SAMPLER_SAMPLER_H
+
+#include "vndf.h"
+
+/* The view of any surface. vndf_view_from and vndf_affine_view_from are this; vndf_affine_view is a vndf_view. */
+vndf_view vndf_view_of(const vndf_affine *surface, vndf_vec3 wi);
+
+/* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the view. */
+float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);
+float vndf_view_area(const vndf_view *view, vndf_vec3 w);
+
+/* The projection of w on the mean plane: w.z without a mean slope. G1(w) = that over vndf_view_area. */
+float vndf_view_cosine(const vndf_view *view, vndf_vec3 w);
+
+/* Whether samples have exactly the visible normals' density (closed forms): their weight is 1. */
+int vndf_is_exact(const vndf_distribution *distribution);
+
+/* A drawn normal with its density and the quotient (visible density)/density. */
+typedef struct vndf_drawn_normal {
+    vndf_vec3 wm;
+    float density, weight;
+} vndf_drawn_normal;
+
+/* Visible normals that reflect wi to above the horizon (wi.z > 0); no sample is lost. Surfaces without a mean slope. */
+vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2);
+float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm);
+
+/* All normals, density D cos(theta_m); `weight` is (visible density)/density. Surfaces without a mean slope. */
+vndf_drawn_normal vndf_sample_all(const vndf_view *view, float u1, float u2);
+float vndf_pdf_all(const vndf_view *view, vndf_vec3 wm);
+
+/* Visible normals of V-cavities: density D G1 max(0, wi.wm)/cos_i, G1 = min(1, 2 cos_m cos_i/(wi.wm)); wi.z >= 0.
+ * `weight` is D (wi.wm)/A(wi) over the density. Surfaces without a mean slope. */
+vndf_drawn_normal vndf_sample_v_cavity(const vndf_view *view, float u1, float u2);
+float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm);
+
+/* Lambda and G1 from an area and the projection on the mean plane; G2 from both G1. */
+float vndf_lambda_of(float area, float cosine);
+float vndf_g1_of(float area, float cosine);
+float vndf_g2_of(float gi, float go, vndf_g2_model model);
+
+/* A mixture's D, area and cosine from its view, likewise. */
+float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm);
+float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w);
+float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w);
+
+#endif
