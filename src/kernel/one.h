@@ -154,7 +154,7 @@ HERE real most(real a, real b)
 
 HERE whole pick_whole(mask m, whole yes, whole no)
 {
-    return any(m) ? yes : no;
+    return no + ((yes - no) & -any(m));
 }
 
 HERE real root(real x)
