@@ -16,25 +16,33 @@
  * (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible
  * Normals", EGSR 2014) have the density  Dv(wm) = max(0, wi.wm) D(wm) / A(wi)  per steradian, where
  * A(wi) = integral max(0, wi.wm) D(wm) dwm is the projected area of the microsurface.
+ * Incident directions from 0 to 180 degrees are all valid. From below the horizon the visible normals are those that
+ * a ray inside the microsurface meets.
  *
- * Incident directions from 0 to 180 degrees are all valid: below the horizon the visible normals are
- * the normals that a ray inside the microsurface meets.
+ * Densities. A sample returns the density with which it was drawn, by a formula in the numbers of the table. So an
+ * estimator that divides by this density is unbiased at every size of the table: a coarse table costs variance, never
+ * bias. The density is positive wherever the true one is, and the certificate holds the largest ratio of both.
+ * The run time computes in float alone. The density of a sample is, to 1e-5, that of a normal within one rounding
+ * (2^-23) of the normal returned. vndf_pdf of the normal returned differs from it
  *
- * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be
- * NULL. Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and vndf_view_from
- * states the one result of invalid input. The library keeps no state: distributions are immutable, and any
- * number of threads may call every function at once.
- *
- * Same bits everywhere. Every function of this header, for tables and closed forms alike, uses only + - * / sqrt,
- * comparisons, conversions and the bits of numbers, and has its own elementary functions; it is compiled without
- * contraction. So the bits are the same for every compiler, optimisation level, C library and machine, provided
- * that floats and doubles are IEEE 754, rounding has its default mode, and denormals are kept. The sources refuse
- * to compile where intermediate results have more digits (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with
- * -msse2 -mfpmath=sse). A caller may flush denormals to zero or read them as zero: it gets the same bits as long
- * as none occurs. Where one occurs it counts as zero, in a component of wi or wm as in D, and every other promise
- * of this header holds for the numbers that are left. tests/corpus/same_bits.txt holds hashes to compare machines
- * by. vndf_build.h does not promise the same bits: the last digits of its tables depend on exp, log and pow of the
- * C library. A table file, once built, gives the same bits everywhere. */
+ *     above the horizon by at most 1e-5 for 99.9% of the samples, 1e-4 for 99.99%,
+ *     below the horizon by at most 1e-4 for 99.9% of the samples, 1e-3 for 99.99%,
+ * relative, where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a tenth of
+ * its slope. Smoother surfaces and narrower lobes lose digits: there one rounding of wm moves the density itself, as
+ * a rotation to world space and back does. No density is zero, infinite or NaN, and no normal is turned away from wi.
+ * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be NULL. Calls
+ * on values (sample, pdf, ...) cannot fail: valid input gives finite results, and the comment of vndf_view_from
+ * states the one result of invalid input. The library keeps no state: distributions are immutable, and any number of
+ * threads may call every function at once.
+ * Same bits everywhere. One call and a batch, gcc and clang, -O0 and -O3, SSE2, AVX2, AVX-512 and NEON give the same
+ * bits: every function of this header uses only + - * / sqrt, comparisons, conversions and the bits of numbers, has
+ * its own elementary functions, and is compiled without contraction. That needs IEEE 754 floats, rounding to nearest,
+ * and denormals that are kept. The sources refuse to compile where intermediate results have more digits
+ * (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A caller may flush denormals to
+ * zero: it gets the same bits as long as none occurs, and where one occurs it counts as zero.
+ * tests/corpus/same_bits.txt holds hashes to compare machines by. Builds (vndf_build.h) use exp, log and pow of the C
+ * library, so the last digits of a new table depend on the machine; a table file, once written, gives the same bits
+ * everywhere. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -82,8 +90,8 @@ typedef struct vndf_vec3 {
     float x, y, z;
 } vndf_vec3;
 
-/* The version of the library that runs, VNDF_VERSION of its header: "0.1.0". Before 1.0 a minor version may change the
- * members of the structs below, so a program that loads the library itself compares. */
+/* The version of the library that runs, VNDF_VERSION of its header: "0.1.0". Before 1.0 a minor version may change
+ * the members of the structs below, so a program that loads the library itself compares. */
 VNDF_API const char *vndf_version(void);
 
 /* ---- distributions ---------------------------------------------------------------------------- */
@@ -91,7 +99,7 @@ VNDF_API const char *vndf_version(void);
 /* A distribution of normals: a loaded or built table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* A larger file is not a table. Tables that vndf_build makes have at most 1 MiB. */
+/* A larger file is not a table. Tables that vndf_build makes have at most 180 KiB. */
 enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
 
 /* Reads a table file. Returns NULL and an error if the file cannot be read or is not a whole, consistent table.
@@ -109,21 +117,17 @@ VNDF_API void vndf_free(vndf_distribution *distribution);
  * not be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the slope CDF. The inverse is
- * continuous but for rounding; its error in u is below 2e-7 before the normal is rounded to float. It need not be
- * freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the CDF of slopes. It need not be freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
-/* What the builder measured: the table, after rounding to float, against quadrature of the given D. It measures
- * over incident directions from 0 to 180 degrees where the projected area at alpha = 1 exceeds 1e-10 of its value
- * at grazing incidence (1e-14 / scale of that value if the median slope, vndf_info.scale, is below 1e-4). It looks
- * where errors peak: between azimuth rows, inside radial cells, and at the edge of the visible part. All members
- * are zero for the closed forms.
+/* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
+ * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
+ * incidence. All members are zero for the closed forms.
  *
- * hidden and finest say how well the builder knew D. It bounds a formula by a proof, and knows every scale of a
- * family and of a CSV: finest is 0, and at most `hidden` of the mass, or of the area at grazing incidence, can
- * have escaped. A callback can only be sampled: hidden is 1, and a feature narrower than `finest` times its slope
- * may have escaped. */
+ * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
+ * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
+ * grazing incidence, can have escaped. A callback can only be sampled: then hidden is 1, and a feature narrower than
+ * `finest` times its slope may have escaped. */
 typedef struct vndf_certificate {
     float tv;       /* largest total variation distance between sampled and true visible normals */
     float tv_theta; /* the incident angle where it was found, degrees */
@@ -139,7 +143,6 @@ typedef struct vndf_certificate {
     float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
     float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, where the angular grid of a
                            * host cannot resolve it; 0 if D is bounded there */
-    float quick;          /* 1 if only few directions were measured (vndf_build_options.quick), else 0 */
 } vndf_certificate;
 
 /* What a distribution is. The strings belong to the distribution. */
@@ -148,9 +151,8 @@ typedef struct vndf_info {
     const char *tool;     /* version that made it, "vndf 0.1.0" */
     size_t bytes;         /* size of the table file; 0 for closed forms */
     size_t memory;        /* bytes that the loaded table takes, all its allocations together; 0 for closed forms */
-    size_t radial_cells;  /* cells of the radial table */
-    size_t azimuth_rows;  /* rows of the azimuth tables, above and below the horizon together */
-    size_t azimuth_cells; /* cells of a row above the horizon */
+    size_t cells;         /* intervals of the slope length before the tail; 0 for closed forms */
+    int moments;          /* 2, 3 or 4: see vndf_build_options; 0 for closed forms */
     double normalization; /* the given D or P22 was multiplied by this */
     double scale;         /* median slope length |(x, y)| under D cos(theta_m) at alpha = 1 */
     vndf_certificate certificate;
@@ -159,9 +161,10 @@ typedef struct vndf_info {
 /* For NULL: empty texts and zeros. */
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
-/* The numbers that the kernels of `vndf export` read of a table, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are; 0 for a closed form
- * or NULL. Some 950 for a table of 2 KiB, 8000 for one of 16. tools/export/README.md tells how kernels are used. */
+/* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each of
+ * the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how
+ * kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
@@ -172,56 +175,15 @@ typedef struct vndf_surface {
     float alpha_x, alpha_y;
 } vndf_surface;
 
-/* What a view of each law of normals draws with; private, as all members of a view are. */
-struct vndf_table_view {
-    float s, c, cos_phi, sin_phi; /* stretched direction: across (>= 0), along z, s + |c| = 1; its azimuth */
-    float front, wedge;           /* masses of the two azimuth ranges of a half turn; below the horizon 0 and 1 */
-    float area, spread;           /* projected area of the unit problem; times ax ay */
-};
+/* Everything that depends on the surface and wi alone: a plain value, valid while the distribution lives.
+ * `distribution` is NULL in an invalid view. `numbers` is private and may change between versions. */
+enum { VNDF_VIEW_NUMBERS = 40 };
 
-struct vndf_ggx_view {        /* filled where the view is trusted, as the next one is */
-    float x, y, c, q, spread; /* sampler/analytic/ggx_draw.h */
-};
-
-struct vndf_beckmann_view {
-    float cos_phi, sin_phi, bound, line, tail, spread; /* sampler/analytic/beckmann_draw.h */
-    float near_side, p0, p1, p2, p3, p4;
-};
-
-/* Everything that depends on the surface and wi alone: a plain value, valid while the distribution
- * lives. Its members are private and may change between versions. */
 typedef struct vndf_view {
-    const vndf_distribution *distribution; /* NULL marks an invalid view */
-    vndf_vec3 wi;                          /* as given: a rounding to unit length would move the horizon */
-    double alpha_x, alpha_y;               /* roughness times the table's own slope scale */
-    float ax, ay;                          /* the same */
-    int trusted;                           /* densities may be formed in float */
-    union {
-        struct vndf_table_view table;
-        struct vndf_ggx_view ggx;
-        struct vndf_beckmann_view beckmann;
-    } of; /* the distribution says which */
+    const vndf_distribution *distribution;
+    vndf_vec3 wi; /* as it was given */
+    float numbers[VNDF_VIEW_NUMBERS];
 } vndf_view;
-
-/* What bounded normals (vndf_bsdf.h) take of a view; private too. Tables take nothing. */
-struct vndf_ggx_bounds {
-    float s2, q, e12, e2, c0; /* of a trusted view: sampler/bounded/ggx_draw.h */
-    float slow, fast, in_front, in_wedge;
-    struct {
-        double front, in_front, in_wedge, begin, span;
-    } exact; /* where that is not good enough: sampler/bounded/ggx.h */
-};
-
-struct vndf_beckmann_bounds {
-    double x0, x1, begin, span, cos_phi, sin_phi; /* sampler/bounded/beckmann.c */
-    double whole, line;                           /* where the view is not trusted */
-    float s, c, spread;
-};
-
-typedef union vndf_bounds {
-    struct vndf_ggx_bounds ggx;
-    struct vndf_beckmann_bounds beckmann;
-} vndf_bounds;
 
 /* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
  * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha
@@ -229,47 +191,42 @@ typedef union vndf_bounds {
  * vndf_sample returns (0, 0, 1) with density 0, and every other function returns 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
- * the density Dv = D(wm) cos(theta_m). There wi has no azimuth, so u1 counts from x. Beside that direction u1
- * counts from the azimuth of the stretched wi, whatever it is: the same numbers give a normal that is turned about
- * z, while densities hardly change. Straight from below, wi.x = wi.y = 0 > wi.z, every normal is turned away:
- * samples are horizontal normals with density 0. */
+ * the density Dv = D(wm) cos(theta_m), and u1 turns them from -x through +x. Straight from below, wi.x = wi.y = 0 >
+ * wi.z, every normal is turned away: samples are horizontal normals with density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). The normal has unit
- * length within 4 ulps of 2^-23, wm.z >= 0, and wi.wm > 0 for wi as it was given. *pdf, if pdf is not NULL,
- * receives the density per steradian with which the normal was really drawn. vndf_pdf returns the same for that
- * normal, to 1e-5. It is within [FLT_MIN, FLT_MAX]: a density that would underflow, on the rim of a lobe, is
- * FLT_MIN.
+ * length within 4 ulps of 2^-23, wm.z >= 0, and wi.wm > 0 for wi as it was given. *pdf, unless pdf is NULL, receives
+ * the density per steradian with which the normal was drawn. vndf_pdf of the normal is the same within the promise at
+ * the head of this file. The density is within [FLT_MIN, FLT_MAX]: where it would underflow, on the rim of a lobe, it
+ * is FLT_MIN.
  *
- * The map is continuous, and monotone in each number but for rounding: 1e-6 of the slope (Beckmann: of the slope
- * plus alpha); 2e-4 of it where at most 1e-6 of the mass lies beyond, or at u2 = 0 below the horizon. Tables: u1
- * turns the azimuth of the stretched normal (slopes over alpha) about z, from behind wi (0) through the side of wi
- * (1/2) and round again (1); u2 moves the normal away from z. GGX: u1 and u2 move the direction that
- * the normal mirrors wi to, in the same way. Beckmann: u1 moves the slope along wi, u2 the slope across it. */
+ * The map from (u1, u2) to the normal is continuous, so stratified and quasi-random points keep their worth, and
+ * monotone in each number but for rounding. Tables, in the frame where slopes are divided by alpha: u2 moves the
+ * normal away from z; at that distance u1 turns it about z over the visible arc, from its end behind wi (0) through
+ * the side of wi (1/2) to the other end (1). GGX: u1 and u2 move the direction that the normal mirrors wi to, in the
+ * same way. Beckmann: u1 moves the slope along wi, u2 the slope across it. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The same normal and density, with the weight vndf_visible/vndf_pdf that makes an estimator exact, for less than
- * another call costs: a sample knows where in the table it is. It is within 1e-5 of that quotient, but for the area of
- * the table, whose error the certificate holds. For closed forms it is 1. `pdf` may be NULL. From an invalid view the
- * weight is 0. */
+/* The same normal and density, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an
+ * estimator with Dv in it is multiplied. A sample knows its cell, so this costs less than the two calls. The weight
+ * has the accuracy of the densities at the head of this file, and the error of the projected area (area_error of the
+ * certificate). For closed forms it is 1; from an invalid view 0. `pdf` may be NULL. */
 VNDF_API vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
 
-/* The density per steradian with which vndf_sample draws wm, a unit vector. It is 0 where wm.z < 0, since no
- * normal points below the surface, and where wi.wm <= 0; elsewhere it is at least FLT_MIN. For a table it is
- * within 1e-5, relative, of the density that the numbers of the table define, wherever that is above 1e-30; the
- * same holds for area, lambda, g1 and ndf. It is close to vndf_visible, not equal to it: the ratio
- * vndf_visible/vndf_pdf is the weight that makes an estimator exact. The certificate holds the largest ratio. */
+/* The density per steradian with which vndf_sample draws wm, a unit vector. It is 0 where wm.z < 0, since no normal
+ * points below the surface, and where wi.wm <= 0; elsewhere it is at least FLT_MIN. It is close to vndf_visible, not
+ * equal to it: vndf_visible/vndf_pdf is the weight, and the certificate holds the largest one. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm, or nearly. A normal that vndf_sample drew comes back within
- * 1e-5, the distance between unit normals whose slopes are over alpha. In far tails and gaps of D a step of the
- * numbers leads farther than that: there the normal comes back within the change that four steps of 2^-24 of u1
- * and u2 make. The numbers themselves may differ by as many steps, or by as much as the rounding of wm moves them.
+/* The uniform numbers that vndf_sample turns into wm. A normal that vndf_sample drew comes back within 1e-5, the
+ * distance between unit normals whose slopes are divided by alpha, or within the distance that four steps of 2^-24 of
+ * u1 and u2 move it: in far tails and gaps of D such a step leads farther. The numbers themselves may differ by as
+ * many steps, or by as much as the rounding of wm moves them.
  *
- * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0
- * every u1 gives one normal; where u1 = 0 and 1 lie at a right angle to wi all of u2 changes with the last bit of
- * the normal), for directions below the horizon that see less than 1e-10 of the area at grazing incidence, and for
- * the view that sees nothing. */
+ * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0 every
+ * u1 gives one normal); for directions below the horizon that see less than 1e-10 of the area at grazing incidence;
+ * and straight from below. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
 /* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian; 0 where wm.z < 0. For the closed forms it equals vndf_pdf,
@@ -278,10 +235,10 @@ VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* ---- many at once ------------------------------------------------------------------------------ */
 
-/* The instruction sets that batches are compiled for. */
+/* The instruction sets that batches are compiled for. Results are the same to the bit. */
 typedef enum vndf_instructions {
     VNDF_INSTRUCTIONS_BEST,     /* the best set of this machine */
-    VNDF_INSTRUCTIONS_PORTABLE, /* the set that the compiler uses for all code */
+    VNDF_INSTRUCTIONS_PORTABLE, /* 4 lanes by gcc and clang (SSE2, NEON), else one by one */
     VNDF_INSTRUCTIONS_AVX2,     /* 8 lanes */
     VNDF_INSTRUCTIONS_AVX512    /* 16 lanes; needs AVX-512 F, DQ, BW and VL */
 } vndf_instructions;
@@ -309,8 +266,8 @@ typedef struct vndf_normals {
 } vndf_normals;
 
 /* Element i equals, to the bit, the result of the call for one element: vndf_sample, vndf_pdf and so on, with the
- * view or the surface of element i. An array of results may be an array of inputs that is not shared; apart from
- * that arrays must not overlap. `pdf` of vndf_sample_n and vndf_sample_weight_n may be NULL. If direction and roughness
+ * view or the surface of element i. An array of results may be an array of inputs that is not shared; apart from that
+ * arrays must not overlap. `pdf` of vndf_sample_n and vndf_sample_weight_n may be NULL. If direction and roughness
  * are shared, the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n
  * take wi as their direction. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
@@ -333,8 +290,8 @@ VNDF_API float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm);
 /* P22 at the slope (x, y), per unit of slope area. */
 VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
 
-/* A(w) = integral max(0, w.wm) D(wm) dwm for any w on the sphere; in [0, inf). Far below the horizon
- * it may underflow to 0, although the view is valid and vndf_sample and vndf_pdf are right there. */
+/* A(w) = integral max(0, w.wm) D(wm) dwm for any w on the sphere; in [0, inf). Far below the horizon it may underflow
+ * to 0; vndf_sample and vndf_pdf are right there all the same. */
 VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
 
 /* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). It is never
@@ -359,23 +316,22 @@ VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, 
 
 /* A rough surface whose slopes are s = M u + mean, where u are slopes of the distribution: M = (xx xy; yx yy)
  * stretches, turns and shears them, as anisotropy along a direction and filtered normal maps do. Slopes are
- * (-wm.x/wm.z, -wm.y/wm.z), so a mean slope (m, 0) with m > 0 leans the surface towards -x. A plain value. M counts
- * through M M^T alone, since the distribution is isotropic: the principal axes of the surface are the eigenvectors of
- * M M^T, and its roughness along them the singular values of M, which may be as far apart as their range allows. A
- * surface with M = (alpha_x 0; 0 alpha_y) and without a mean slope gives the bits of vndf_surface.
+ * (-wm.x/wm.z, -wm.y/wm.z), so a mean slope (m, 0) with m > 0 leans the surface towards -x. A plain value. This is
+ * the general surface, and vndf_surface is its diagonal case: M = (alpha_x 0; 0 alpha_y) without a mean slope gives
+ * the bits of vndf_surface.
  *
- * From wi it looks as the surface without mean slope does from wi', not of unit length:
+ * From wi it looks as the surface without mean slope does from wi', which is not of unit length:
  *
  *     wi' = (wi.x, wi.y, wi.z - wi.x mean.x - wi.y mean.y),    A(wi) = |wi'| A0(wi'/|wi'|),
  *
- * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, stands where formulas have cos(theta) (Dupuy et al.,
+ * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, takes the place of cos(theta) (Dupuy et al.,
  * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z -
  * 1, G1(wi) = wi'.z/A(wi), for a unit wi. A direction above the horizon may be below the mean plane, wi'.z < 0: then
  * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere.
  *
- * Brushed metal under a normal map: the brush runs at the angle phi from x, roughness is `along` it and `across` it in
- * the plane z = 0, and n is the normal of the map, n.z > 0. M turns x to the brush after it has stretched, and the mean
- * slope is that of n:
+ * Brushed metal under a normal map: the brush runs at the angle phi from x, roughness is `along` it and `across` it
+ * in the plane z = 0, and n is the normal of the map, n.z > 0. M turns x to the brush after it has stretched, and the
+ * mean slope is that of n:
  *
  *     const float c = cosf(phi), s = sinf(phi);
  *     const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
@@ -389,22 +345,13 @@ typedef struct vndf_affine {
     float mean_x, mean_y;
 } vndf_affine;
 
-/* vndf_view of such a surface; its members are private. */
-typedef struct vndf_affine_view {
-    vndf_view principal;   /* along the principal axes, without mean slope; of an invalid view invalid */
-    vndf_vec3 wi;          /* as given */
-    int straight;          /* `principal` is all there is */
-    double cosine, sine;   /* of the first principal axis */
-    double mean_x, mean_y; /* along the axes */
-    double factor;         /* of wi': a power of two, 1 for wi of ordinary length */
-} vndf_affine_view;
+/* An affine surface has views like any other. */
+typedef vndf_view vndf_affine_view;
 
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
- * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. That is, beside what is
- * invalid for vndf_view_from, a matrix with a singular value, times the scale of the distribution, outside [1e-18,
- * 1e18], or a mean slope above 1e6. The density that comes with a sample is that of vndf_affine_pdf, to 1e-5. The
- * roughness along the principal axes is rounded to float, which moves D of Beckmann by up to 2^-23 of the squared slope
- * over roughness. Numbers u1 and u2 mean what they mean along the principal axes, seen from wi'. */
+ * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. Also invalid are a matrix with
+ * a singular value, times the scale of the distribution, outside [1e-18, 1e18], and a mean slope above 1e6. The
+ * numbers u1 and u2 mean what they mean for vndf_sample, in the frame of the slopes u, seen from (M^T wi'_xy, wi'.z). */
 VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);
 VNDF_API float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm);
@@ -419,11 +366,11 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
 
 /* ---- several lobes on one surface --------------------------------------------------------------- */
 
-/* A surface with D = sum of w_i D_i over up to VNDF_MIXTURE_LOBES lobes, w_i the weights over their sum: a core and a
- * haze, or two tables of a family where its parameter lies between theirs. That is no blend of BSDFs: masking is that
- * of the whole, A = sum of w_i A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for
- * Non-Uniform Heightfields", SIGGRAPH 2023). Weights are >= 0 and finite; a lobe of weight 0 is not looked at. Plain
- * values, without memory of their own. */
+/* A surface with D = sum of w_i D_i over up to VNDF_MIXTURE_LOBES lobes, w_i the weights divided by their sum: a core
+ * and a haze, or two tables of a family where its parameter lies between theirs. A mixture is one microsurface, where
+ * a blend of BSDFs has several: its masking is that of the whole, A = sum of w_i A_i, and Dv = sum of (w_i A_i/A)
+ * Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH 2023). Weights are >= 0 and finite;
+ * a lobe of weight 0 is not read. A plain value without memory of its own. */
 enum { VNDF_MIXTURE_LOBES = 8 };
 
 typedef struct vndf_mixture_lobe {
@@ -436,33 +383,35 @@ typedef struct vndf_mixture {
     vndf_mixture_lobe lobe[VNDF_MIXTURE_LOBES];
 } vndf_mixture;
 
-/* Members are private. Of the lobes' views the first `count` are filled. */
+/* Members are private. The first `count` elements of each array are filled. */
 typedef struct vndf_mixture_view {
     int count;                                 /* 0 marks an invalid view */
     int index[VNDF_MIXTURE_LOBES];             /* which lobe of the mixture it is */
-    double weight[VNDF_MIXTURE_LOBES];         /* over the sum of all */
-    double area, mean_x, mean_y;               /* A(wi) times the length of wi, and the mean slope, of the whole */
-    double begin[VNDF_MIXTURE_LOBES + 1];      /* of u1, where lobe i is drawn: sums of w_i A_i/A */
+    float weight[VNDF_MIXTURE_LOBES];          /* over the sum of all */
+    float share[VNDF_MIXTURE_LOBES];           /* w_i A_i/A: how often lobe i is drawn */
+    float area, cosine;                        /* A(wi), and the projection of wi on the mean plane, of the whole */
     vndf_affine_view lobe[VNDF_MIXTURE_LOBES]; /* those of weight 0 are left out */
 } vndf_mixture_view;
 
-/* What is invalid has the results that it has for vndf_view: a lobe with a weight above 0 that is invalid, a weight
- * that is negative or not finite, weights that are all 0, a count out of range. */
+/* An invalid mixture gives an invalid view, with the results of an invalid vndf_view. Invalid are a count out of
+ * range, a weight that is negative or not finite, weights that are all 0, and an invalid surface of a lobe whose
+ * weight is above 0. */
 VNDF_API vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi);
 
-/* u1 says which lobe is drawn, the part of 1 between is stretched to [0, 1], and the lobe drawn with that and u2: one
- * draw, and one density for each lobe. *pdf, unless NULL, is the density of the whole; *lobe, unless NULL, the index
- * of the lobe, -1 of an invalid view. The map is continuous and monotone within each lobe. */
+/* u1 picks a lobe: each lobe has an interval of [0, 1], as long as w_i A_i/A. That interval is stretched to [0, 1]
+ * and, with u2, draws from the lobe. The cost is one draw, and one density for each lobe. *pdf, unless NULL, receives
+ * the density of the whole mixture; *lobe, unless NULL, the index of the lobe, or -1 for an invalid view. The map is
+ * continuous and monotone within each lobe. */
 VNDF_API vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe);
 VNDF_API float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm);
 VNDF_API float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm);
 
-/* The numbers that draw wm from this lobe; from the lobe that draws it most often if `lobe` is -1. Returns the lobe;
- * -1, with numbers of 0, for what is invalid or a lobe that is never drawn. */
+/* The numbers that draw wm from the lobe with this index; if `lobe` is -1, from the lobe that draws it most often.
+ * Returns the index of the lobe, or -1 with numbers of 0 for an invalid view and for a lobe that is never drawn. */
 VNDF_API int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2);
 
-/* Of the whole. Where lobes have mean slopes, the mean plane of the whole stands for cos(theta), as for vndf_affine:
- * wi'.z = wi.z - wi.(sum of w_i mean_i). */
+/* These describe the whole mixture. Its mean slope is the sum of w_i mean_i, and wi'.z = wi.z - wi.mean takes the
+ * place of cos(theta), as for vndf_affine. */
 VNDF_API float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm);
 VNDF_API float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y);
 VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w);
@@ -472,7 +421,7 @@ VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_v
 
 /* ---- many affine surfaces and mixtures at once ---------------------------------------------------- */
 
-/* `count` affine surfaces and incident directions as a structure of arrays, as vndf_batch. xy, yx, mean_x and mean_y
+/* `count` affine surfaces and incident directions as a structure of arrays, like vndf_batch. xy, yx, mean_x and mean_y
  * may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the mean slope. */
 typedef struct vndf_affine_batch {
     const vndf_distribution *distribution;
@@ -483,8 +432,8 @@ typedef struct vndf_affine_batch {
     const float *wi_x, *wi_y, *wi_z;
 } vndf_affine_batch;
 
-/* Element i equals, to the bit, the call for one element; what stands at vndf_sample_n holds here too. With xy, yx,
- * mean_x and mean_y of 0, or NULL, these are the bits of vndf_sample_n and the others. */
+/* Element i equals, to the bit, the call for one element, under the rules of vndf_sample_n. With xy, yx, mean_x and
+ * mean_y of 0, or NULL, results have the bits of vndf_sample_n and the others. */
 VNDF_API void vndf_affine_sample_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
                                    vndf_normals wm, float *pdf);
 VNDF_API void vndf_affine_pdf_n(const vndf_affine_batch *batch, vndf_normals wm, float *pdf);
@@ -513,12 +462,9 @@ typedef struct vndf_mixture_batch {
     vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
 } vndf_mixture_batch;
 
-/* As above. Results `pdf` and `lobe` may be NULL; `asked`, the argument `lobe` of vndf_mixture_invert, may be NULL for
- * -1 everywhere, and `lobe` receives what that call returns.
- *
- * With AVX2 and AVX-512 these calls take up to 300 KiB of the stack, whatever `lobes` is (measured, optimised: 250 KiB
- * for samples, 160 for densities, 130 for areas), those of vndf_batch and vndf_affine_batch up to 200 (measured: 110);
- * unoptimised code up to 520. Where that is too much, VNDF_INSTRUCTIONS_PORTABLE takes 10 KiB. */
+/* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert for each
+ * element, and may be NULL for -1 everywhere; `lobe` receives what that call returns. Batches take their scratch from
+ * the stack (TODO-FIGURE KiB at most). */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
@@ -578,8 +524,8 @@ typedef struct vndf_family_facts {
 /* For NULL: empty texts and zeros. */
 VNDF_API vndf_family_facts vndf_family_info(const vndf_family *family);
 
-/* Of a knot, an index below `count`: its parameter, its distribution, which belongs to the family, and the distance
- * found between it and the next. 0 and NULL for any other index; the last knot has the distance 0. */
+/* A knot has an index below `count`. These return its parameter, its distribution, which belongs to the family, and
+ * the distance that was found between it and the next knot (0 for the last). Any other index gives 0 and NULL. */
 VNDF_API float vndf_family_parameter(const vndf_family *family, size_t index);
 VNDF_API const vndf_distribution *vndf_family_distribution(const vndf_family *family, size_t index);
 VNDF_API float vndf_family_distance(const vndf_family *family, size_t index);
@@ -593,8 +539,8 @@ typedef enum vndf_family_place {
 
 /* The family at a parameter, with the matrix and the mean slope of `shape`, whose distribution is not read: a mixture
  * of one lobe at a knot, of two between knots, with weights whose sum is 1, valid while the family lives. Costs a
- * binary search and a division; other lobes of *mixture are not written, so that more may be added behind. Two families
- * on one surface, of which the second is 30%, are two to four of its VNDF_MIXTURE_LOBES:
+ * binary search and a division; other lobes of *mixture are not written, so that more may be added behind. Two
+ * families on one surface, of which the second is 30%, are two to four of its VNDF_MIXTURE_LOBES:
  *
  *     vndf_mixture whole, haze;
  *     vndf_family_at(metals, p, narrow, &whole);

@@ -403,7 +403,7 @@ class distribution_ref
         return detail::bytes_of(
             size, [&](void *to, vndf_error *error) { return vndf_save_memory(pointer_, to, size, error); });
     }
-    // The full certificate, measured against a source.
+    // The certificate, measured against a source.
     result<vndf_certificate> certify(const source &against) const noexcept;
 
   private:
@@ -531,7 +531,7 @@ class affine_view : public vndf_affine_view
         : vndf_affine_view(vndf_affine_view_from(&surface, from))
     {
     }
-    bool valid() const noexcept { return principal.distribution != nullptr; }
+    bool valid() const noexcept { return vndf_view::distribution != nullptr; }
     drawn sample(float u1, float u2) const noexcept
     {
         drawn d;
@@ -862,8 +862,7 @@ struct build_options {
     vndf::progress progress = {};
     std::vector<double> breaks = {};
     double finest = 0;
-    bool quick = false;
-    bool sphere = false;
+    int moments = 0;
 };
 
 inline result<distribution> build(const source &from, const build_options &options = {}) noexcept
@@ -876,8 +875,7 @@ inline result<distribution> build(const source &from, const build_options &optio
     c.breaks = options.breaks.data();
     c.break_count = options.breaks.size();
     c.finest = options.finest;
-    c.quick = options.quick;
-    c.sphere = options.sphere;
+    c.moments = options.moments;
     return detail::own<distribution>(
         [&](vndf_error *error) { return vndf_build(from.get(), &c, nullptr, error); });
 }
@@ -897,7 +895,7 @@ struct family_options {
     double max_distance = 0;
     std::size_t knots = 0;
     std::size_t max_bytes = 0;
-    bool sphere = false;
+    int moments = 0;
     vndf::progress progress = {};
 };
 
@@ -908,7 +906,7 @@ inline result<family> build_family(text specification, double low, double high,
     c.max_distance = options.max_distance;
     c.knots = options.knots;
     c.max_bytes = options.max_bytes;
-    c.sphere = options.sphere;
+    c.moments = options.moments;
     c.progress = detail::go_on;
     c.progress_user = detail::user_of(options.progress);
     return detail::own<family>(

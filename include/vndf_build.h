@@ -122,43 +122,35 @@ typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults.
  *
- * Size. If max_bytes and max_tv are both 0 a table may grow up to 32768 bytes where that brings the total
- * variation below 1e-3: for oscillations, say.
+ * Size and moments are what accuracy costs. Bytes buy cells: with more of them the slope length is drawn closer to D.
+ * Moments bound what cells cannot mend, the law of the slope length seen from one direction. Above the horizon the drawn
+ * density is within 6.5e-2 of the visible one with 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D, direction
+ * and roughness. Fewer moments take fewer bytes and less time. Below the horizon moments change little: the total
+ * variation is some percent there (tv of vndf_certificate), and weights or densities keep estimators unbiased.
  *
- * Directions. From 16384 bytes on, a table serves all directions alike. A smaller one spends its bytes above the
- * horizon first, where the views of single scattering are: at 2048 and 4096 bytes the total variation there (tv_above
- * of vndf_certificate) is about a fifth of what an even table has; deep below the horizon it is two or three times as
- * large, for rings and light tails up to twenty times. With `sphere`, and with max_tv, which bounds all directions, the
- * table is even.
+ * If max_bytes and max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of
+ * 8192 bytes.
  *
- * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and looks
- * at every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
- * can hide from it: all hidden features together, however narrow. Anything larger is resolved, or refused with the
- * slope where it may be (VNDF_ERROR_DISTRIBUTION). A feature narrower than the spacing of doubles does not count.
- * A callback can only be sampled: a feature narrower than `finest` of its slope may hide completely, unless a
- * break is given there. The certificate says which case it was (vndf_certificate: hidden, finest).
+ * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and reads every
+ * row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence, can escape it:
+ * all hidden features together, however narrow. It resolves anything larger, or refuses the source and names the slope
+ * where the feature may be (VNDF_ERROR_DISTRIBUTION). A feature narrower than the spacing of doubles does not count.
+ * A callback can only be sampled: a feature narrower than `finest` of its slope may escape completely, unless a break
+ * is given there. The certificate says which case it was (vndf_certificate: hidden, finest).
  *
- * Breaks are slopes where a feature begins, ends, or has its peak: beside them the builder looks at P22 to 1e-12
- * of the slope. finest is the width of the features that samples have to find, and costs 280/finest evaluations. A
- * formula that cannot be bounded is refused; if finest is given it is sampled.
- *
- * Quick. Most of a build's time is spent on its certificate, which looks at some two hundred directions. With
- * quick = 1 the builder looks at fewer, coarsely, and measures the worst of them. That is for programs that build where
- * they run, in tens of milliseconds. The table is the same, byte for byte but for the certificate, whose tv, tv_above,
- * max_weight - 1, area_error and ndf_error may stand below the full ones: in tests by a factor of 1.5 at most;
- * consistency, an error of 1e-7, by more. Where the size of the table depends on a total variation that the quick
- * certificate does not decide, the full one is measured, and stands in the table: with max_tv, as a rule. vndf_certify
- * measures a full certificate later. */
+ * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the slope
+ * there. `finest` is the width of the features that sampling has to find, and costs 280/finest evaluations. A formula
+ * that cannot be bounded is refused; if finest is given it is sampled. */
 typedef struct vndf_build_options {
-    size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 16384, see above */
-    double max_tv;    /* build the smallest table that reaches this total variation; 0: the best that fits */
+    size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
+    double max_tv; /* build the smallest table that reaches this total variation above the horizon, and 30 times it
+                       * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
     const double *breaks; /* slopes in the unit of the source, for any source; kept in the provenance */
     size_t break_count;
     double finest; /* relative width in slope, from 1e-9 to 1; 0: 1e-3 */
-    int quick;     /* 1: a quick certificate; 0: a full one */
-    int sphere;    /* 1: a small table serves all directions alike; 0: above the horizon first */
+    int moments;   /* 2, 3 or 4; 0: 4 */
 } vndf_build_options;
 
 /* Builds a table. options and certificate may be NULL. Returns NULL and an error if the source cannot be the
@@ -167,8 +159,8 @@ typedef struct vndf_build_options {
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 
-/* Measures a table against a source: the full certificate that vndf_build would write. It uses the breaks and finest
- * that the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
+/* Measures a table against a source: the certificate that vndf_build would write. It uses the breaks and finest that
+ * the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
@@ -205,7 +197,7 @@ typedef struct vndf_family_options {
     double max_distance; /* as few knots as reach this distance; 0: 1e-3 */
     size_t knots;        /* so many knots instead, 2 to VNDF_LIMIT_FAMILY_KNOTS, placed for the least distance */
     size_t max_bytes;    /* of each table, as in vndf_build_options */
-    int sphere;          /* the same */
+    int moments;         /* the same */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
 } vndf_family_options;
@@ -215,7 +207,7 @@ typedef struct vndf_family_options {
  * of a family with one number may stand alone, "student-t". Mixtures are linear in p, or in 1/p where low > 0 and that
  * makes the distance smaller by a quarter at least. Parameters of knots have seven digits, and the table of a knot is
  * the one that vndf_build makes there. NULL and an error as for vndf_build; VNDF_ERROR_TARGET if 256 knots do not reach
- * the distance. Takes a build for each knot, 0.15 to 0.6 s. Free the result with vndf_family_free. */
+ * the distance. Takes a build for each knot. Free the result with vndf_family_free. */
 VNDF_API vndf_family *vndf_build_family(const char *specification, double low, double high,
                                         const vndf_family_options *options, vndf_error *error);
 

@@ -1,239 +1,260 @@
-/* vndf_build: resolves the source, refines the fits as far as the size allows, cuts the table that meets the target,
- * and measures it. */
+/* vndf_build: resolves the source, places knots as far as the size allows, takes as few as reach the target, and measures
+ * the table. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/assemble.h"
-#include "fit/certificate/certificate.h"
 #include "core/error.h"
-#include "table/file.h"
+#include "fit/certificate.h"
+#include "table/table.h"
 
-enum { BYTES_DEFAULT = 16384, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20 };
-
-/* If the caller gives no size: the first of these whose table reaches this total variation; if none does, the
- * smallest that can be built. */
-static const size_t BYTES_TRIED[] = {BYTES_DEFAULT, 24576, 32768};
+enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
 static const double TV_DEFAULT = 1e-3;
-
-/* The error of the coarsest table. Fits that err by more leave a total variation near 1, its maximum. */
-static const double ERROR_MOST = 2.0, ERROR_STEP = 1.25;
-
+static const double BELOW = 30; /* times the total variation above the horizon may be reached below it */
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
 /* What a table is asked to be. */
 typedef struct request {
     size_t max_bytes;
-    double max_tv;
-    int quick, sphere;
+    double max_tv; /* 0: the best that fits */
+    unsigned moments;
 } request;
 
-static char *copy(const char *text)
+/* A build at work. */
+typedef struct builder {
+    const vndf_profile *profile;
+    request asked;
+    vndf_radial *radial;
+    size_t base, per_knot; /* bytes */
+} builder;
+
+static void note_memory(const builder *b)
 {
-    size_t n = strlen(text) + 1;
-    char *made = malloc(n);
-    return made ? memcpy(made, text, n) : NULL;
+    b->profile->guard->starved = 1;
 }
 
-/* Bytes of the file for counts and texts (table/file.h). */
-static size_t file_bytes(vndf_table_size s, const char *source)
+/* ---- sizes ---- */
+
+static size_t bytes_for(const builder *b, unsigned cells)
 {
-    size_t floats = 2 * ((size_t)s.radial + 1) + 4 * (size_t)s.radial;
-    floats += (size_t)s.above_rows * (2 * s.above_cells + 3) + vndf_row_knots(s.above_rows) + s.above_cells + 1;
-    floats += (size_t)s.below_rows * (2 * s.below_cells + 3) + vndf_row_knots(s.below_rows) + s.below_cells + 1;
-    floats += 4 * ((size_t)s.above_knots + s.below_knots);
-    return 16 + 16 + VNDF_CERTIFICATE_BYTES + 28 + 4 * floats + 8 + strlen(source) + strlen(TOOL) + 4;
+    float zero[CELLS_LEAST + 2] = {0};
+    vndf_table_draft empty = {.cells = cells, .moments = b->asked.moments, .source = b->profile->description, .tool = TOOL};
+    empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.m4 = zero;
+    empty.b0 = empty.b1 = empty.area = empty.slope = zero;
+    return vndf_table_encode(&empty, NULL, 0);
 }
 
-static int fits(vndf_plan *plan, double error, size_t max_bytes)
+static void measure_bytes(builder *b)
 {
-    return file_bytes(vndf_plan_size(plan, error), plan->profile->description) <= max_bytes;
+    size_t two = bytes_for(b, CELLS_LEAST);
+    b->per_knot = bytes_for(b, CELLS_LEAST + 1) - two;
+    b->base = two - (CELLS_LEAST + 1) * b->per_knot;
 }
 
-/* The least error for which the table is small enough, or 0. A smaller error costs more to look at: this begins with
- * large ones, and looks at none that is less than one whose table is too large. */
-static double error_for_bytes(vndf_plan *plan, size_t max_bytes)
+/* The largest number of knots that fits, or 0. */
+static unsigned most_knots(const builder *b)
 {
-    double low = log(plan->finest), high = log(ERROR_MOST), fit = ERROR_MOST, misfit = ERROR_MOST;
-    if (!fits(plan, ERROR_MOST, max_bytes))
-        return 0.0;
-    for (int good = 1; good && misfit > plan->finest; fit = good ? misfit : fit) {
-        misfit = fmax(misfit / ERROR_STEP, plan->finest);
-        good = fits(plan, misfit, max_bytes) && !vndf_guard_stopped(plan->profile->guard);
+    size_t room = b->asked.max_bytes > b->base ? b->asked.max_bytes - b->base : 0, knots = room / b->per_knot;
+    return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
+}
+
+/* ---- tables ---- */
+
+/* The table on so many knots, measured. 0, and a note to the guard, if there is no memory; free it either way. */
+static int draft_with(const builder *b, unsigned knots, vndf_closeness closeness, vndf_draft *draft)
+{
+    int good = vndf_draft_from(draft, b->radial, knots, b->asked.moments) &&
+               vndf_certificate_measure(&draft->table.certificate, &draft->laws, &draft->sight, b->profile, closeness);
+    if (!good)
+        note_memory(b);
+    return good;
+}
+
+static int reaches(const vndf_certificate *c, double tv)
+{
+    return c->tv_above <= tv && c->tv <= BELOW * tv;
+}
+
+/* Whether so many knots reach the target, by a coarse look. */
+static int seems_enough(const builder *b, unsigned knots)
+{
+    const double margin = 0.97; /* a close look finds a little more */
+    vndf_draft draft;
+    int good = draft_with(b, knots, VNDF_COARSELY, &draft) &&
+               reaches(&draft.table.certificate, margin * b->asked.max_tv);
+    vndf_draft_free(&draft);
+    return good;
+}
+
+static unsigned refine(const builder *b, unsigned knots)
+{
+    return vndf_radial_refine(b->radial, knots);
+}
+
+/* About as few knots as seem to reach the target, from `least` to `most`. */
+static unsigned fewest_knots(const builder *b, unsigned least, unsigned most)
+{
+    unsigned enough = least, few = least;
+    while (enough < most && !seems_enough(b, refine(b, enough)) && !vndf_guard_stopped(b->profile->guard)) {
+        few = enough;
+        enough = enough + enough / 2 < most ? enough + enough / 2 : most;
     }
-    if (fit == plan->finest)
-        return plan->finest;
-    for (int i = 0; i < 40; i++) {
-        double middle = (low + high) / 2, error = exp(middle);
-        if (error >= fit || (error > misfit && fits(plan, error, max_bytes)))
-            high = middle;
+    while (enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
+        unsigned middle = (few + enough) / 2;
+        if (seems_enough(b, refine(b, middle)))
+            enough = middle;
         else
-            low = middle;
+            few = middle;
     }
-    return exp(high);
+    return enough;
 }
 
-/* The table for an error target as it would be read back from its file: certificate and texts included. */
-static vndf_distribution *finish(vndf_plan *plan, double error, int quick, vndf_error *why)
+/* The table as it would be read back from its file: certificate and texts included. */
+static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error *why)
 {
-    const char *source = plan->profile->description;
-    vndf_distribution *draft = vndf_plan_assemble(plan, vndf_plan_size(plan, error)), *table = NULL;
-    unsigned char *bytes = NULL;
-    size_t size = 0;
-    vndf_error inner = {VNDF_OK, ""};
-    if (draft && (draft->source = copy(source)) && (draft->tool = copy(TOOL)))
-        bytes = malloc(size = vndf_table_encode(draft, NULL, 0));
+    draft->table.source = b->profile->description;
+    draft->table.tool = TOOL;
+    size_t size = vndf_table_encode(&draft->table, NULL, 0);
+    unsigned char *bytes = malloc(size);
+    vndf_distribution *table = NULL;
+    vndf_error inner = {VNDF_ERROR_MEMORY, ""};
     if (bytes) {
-        vndf_table_encode(draft, bytes, size);
+        vndf_table_encode(&draft->table, bytes, size);
         table = vndf_load_memory(bytes, size, &inner);
-        if (!table)
-            vndf_fail(why, VNDF_ERROR_DISTRIBUTION, "the distribution cannot be held in a table of floats: %s",
-                      inner.message);
     }
     free(bytes);
-    vndf_free(draft);
-    if (!bytes || inner.status == VNDF_ERROR_MEMORY ||
-        (table && !vndf_certificate_measure(&table->certificate, table, plan->profile, quick)))
-        plan->profile->guard->starved = 1;
-    if (!vndf_guard_stopped(plan->profile->guard))
-        return table;
-    vndf_guard_status(plan->profile->guard, why);
-    vndf_free(table);
-    return NULL;
-}
-
-/* A quick certificate decides where it is clear of `tv`: it finds at least half of what the full one finds, and the
- * full one finds all but a tenth of what there is. Between, the full one is measured, and stays. So either kind of
- * certificate leads to the same table. */
-static const double CLEARLY_LESS = 2.0, CLEARLY_MORE = 1.15;
-
-/* Whether the total variation of a table is at most tv. */
-static int reaches(const vndf_profile *profile, vndf_distribution *table, double tv)
-{
-    vndf_certificate *c = &table->certificate;
-    if (c->quick > 0 && c->tv > tv / CLEARLY_LESS && c->tv < tv * CLEARLY_MORE &&
-        !vndf_certificate_measure(c, table, profile, 0))
-        profile->guard->starved = 1;
-    return c->tv <= tv;
-}
-
-/* The smallest table with a measured TV of at most max_tv, or NULL and the TV that was reached. */
-static vndf_distribution *build_to_tv(vndf_plan *plan, double best, const request *asked, vndf_error *error)
-{
-    double max_tv = asked->max_tv, low = log(best), high = log(fmax(fmin(2 * max_tv, ERROR_MOST), best));
-    vndf_distribution *table = finish(plan, best, asked->quick, error);
-    if (table && !reaches(plan->profile, table, max_tv)) {
-        vndf_fail(error, VNDF_ERROR_TARGET,
-                  "a total variation of %g cannot be met within the size: %lu bytes reach %.3g at %g degrees",
-                  max_tv, (unsigned long)table->bytes, (double)table->certificate.tv,
-                  (double)table->certificate.tv_theta);
-        vndf_free(table);
-        return NULL;
-    }
-    for (int i = 0; table && i < 8 && high - low > 0.05; i++) {
-        double middle = (low + high) / 2;
-        vndf_error ignored;
-        /* if floats cannot hold it, the larger table stays */
-        vndf_distribution *smaller = finish(plan, exp(middle), asked->quick, &ignored);
-        if (smaller && reaches(plan->profile, smaller, max_tv)) {
-            vndf_free(table);
-            table = smaller;
-            low = middle;
-        } else {
-            vndf_free(smaller);
-            high = middle;
-        }
-    }
+    if (!table && inner.status == VNDF_ERROR_MEMORY)
+        note_memory(b);
+    else if (!table)
+        vndf_fail(why, VNDF_ERROR_DISTRIBUTION, "the distribution cannot be held in a table of floats: %s",
+                  inner.message);
     return table;
 }
 
-static vndf_distribution *cut_table(vndf_plan *plan, const request *asked, vndf_error *error)
+/* The table on so many knots, more if a close look asks for them, `most` at last. */
+static vndf_distribution *build_from(const builder *b, unsigned knots, unsigned most, vndf_error *error)
 {
-    double best = error_for_bytes(plan, asked->max_bytes);
-    if (best == 0.0) {
+    for (;;) {
+        vndf_draft draft;
+        unsigned next = knots + knots / 16 + 1, used = refine(b, knots);
+        vndf_guard_stage(b->profile->guard, 0.8, "certificate");
+        int good = draft_with(b, used, VNDF_CLOSELY, &draft);
+        if (!good || knots >= most || used < knots || reaches(&draft.table.certificate, b->asked.max_tv)) {
+            vndf_distribution *table = good ? finish(b, &draft, error) : NULL;
+            vndf_draft_free(&draft);
+            return table;
+        }
+        vndf_draft_free(&draft);
+        knots = next < most ? next : most;
+    }
+}
+
+static vndf_distribution *cut_table(const builder *b, vndf_error *error)
+{
+    unsigned most = most_knots(b), least = b->radial->start > CELLS_LEAST ? b->radial->start : CELLS_LEAST + 1;
+    if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
-                  (unsigned long)asked->max_bytes,
-                  (unsigned long)file_bytes(vndf_plan_size(plan, ERROR_MOST), plan->profile->description));
+                  (unsigned long)b->asked.max_bytes, (unsigned long)(b->base + least * b->per_knot));
         return NULL;
     }
-    vndf_guard_stage(plan->profile->guard, 0.8, "certificate");
-    return asked->max_tv > 0.0 ? build_to_tv(plan, best, asked, error) : finish(plan, best, asked->quick, error);
+    unsigned first = b->asked.max_tv > 0 ? fewest_knots(b, least + (most - least) / 8, most) : most;
+    return build_from(b, first, most, error);
 }
 
-/* max_tv bounds all directions, so the table for it serves all of them alike. */
 static vndf_distribution *build_within(const vndf_profile *profile, const request *asked, vndf_error *error)
 {
-    vndf_plan plan;
+    builder b = {.profile = profile, .asked = *asked, .radial = malloc(sizeof *b.radial)};
     vndf_distribution *table = NULL;
-    if (vndf_plan_make(&plan, profile, asked->max_bytes, asked->sphere || asked->max_tv > 0.0))
-        table = cut_table(&plan, asked, error);
-    else if (!vndf_guard_stopped(profile->guard))
-        profile->guard->starved = 1;
-    vndf_plan_free(&plan);
+    measure_bytes(&b);
+    vndf_guard_stage(profile->guard, 0.5, "knots");
+    if (b.radial && vndf_radial_from(b.radial, profile))
+        table = cut_table(&b, error);
+    else
+        note_memory(&b);
+    if (b.radial)
+        vndf_radial_free(b.radial);
+    free(b.radial);
     return table;
 }
 
-static vndf_distribution *build_default(const vndf_profile *profile, int quick, vndf_error *error)
-{
-    vndf_distribution *table = NULL;
-    for (unsigned i = 0; i < sizeof BYTES_TRIED / sizeof *BYTES_TRIED; i++) {
-        const request asked = {BYTES_TRIED[i], 0.0, quick, 0};
-        vndf_distribution *larger = build_within(profile, &asked, error);
-        int good = larger && reaches(profile, larger, TV_DEFAULT), taken = good || !table;
-        vndf_free(taken ? table : larger);
-        table = taken ? larger : table;
-        if (good || vndf_guard_stopped(profile->guard))
-            break;
-    }
-    return table;
-}
+/* ---- the call ---- */
 
 static vndf_status check_request(const vndf_source *source, const request *asked, vndf_error *error)
 {
     size_t max_bytes = asked->max_bytes;
-    double max_tv = asked->max_tv;
     if (!source)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no source: NULL was given");
     if (max_bytes < BYTES_LEAST || max_bytes > BYTES_MOST)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible",
                          (unsigned long)max_bytes, BYTES_LEAST, BYTES_MOST);
-    if (!(max_tv >= 0.0 && max_tv < 1.0))
+    if (!(asked->max_tv >= 0.0 && asked->max_tv < 1.0))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
-    if (asked->quick != 0 && asked->quick != 1)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "quick is %d; 0 and 1 are possible", asked->quick);
-    if (asked->sphere != 0 && asked->sphere != 1)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "sphere is %d; 0 and 1 are possible", asked->sphere);
+                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", asked->max_tv);
+    if (asked->moments < 2 || asked->moments > 4)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible", (int)asked->moments);
     return VNDF_OK;
+}
+
+/* The target was the caller's: a table that misses it is not what was asked for. */
+static vndf_distribution *check_target(vndf_distribution *table, double max_tv, vndf_error *error)
+{
+    if (!table || reaches(&table->certificate, max_tv))
+        return table;
+    const vndf_certificate *c = &table->certificate;
+    int above = c->tv_above > max_tv;
+    vndf_fail(error, VNDF_ERROR_TARGET,
+              "a total variation of %g%s cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+              above ? max_tv : BELOW * max_tv, above ? "" : " below the horizon", (unsigned long)table->bytes,
+              (double)(above ? c->tv_above : c->tv), (double)(above ? c->tv_above_theta : c->tv_theta));
+    vndf_free(table);
+    return NULL;
 }
 
 vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                               vndf_certificate *certificate, vndf_error *error)
 {
     vndf_build_options none = {0}, given = options ? *options : none;
-    const request asked = {given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv, given.quick,
-                           given.sphere};
-    if (check_request(source, &asked, error) != VNDF_OK)
-        return NULL;
+    request asked = {given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv,
+                     (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
     vndf_resolution resolution = {given.breaks, given.break_count, given.finest};
-    if (vndf_resolution_check(&resolution, error) != VNDF_OK)
+    if (check_request(source, &asked, error) != VNDF_OK || vndf_resolution_check(&resolution, error) != VNDF_OK)
         return NULL;
+    if (!given.max_bytes && !(given.max_tv > 0.0))
+        asked.max_tv = TV_DEFAULT;
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
     if (!profile)
         return NULL;
-    vndf_distribution *table = given.max_bytes || given.max_tv > 0.0 ? build_within(profile, &asked, error)
-                                                                     : build_default(profile, given.quick, error);
+    vndf_distribution *table = build_within(profile, &asked, error);
     if (vndf_guard_status(&guard, error) != VNDF_OK) {
         vndf_free(table);
         table = NULL;
     }
+    if (given.max_tv > 0.0)
+        table = check_target(table, given.max_tv, error);
     if (table && certificate)
         *certificate = table->certificate;
     vndf_profile_free(profile);
     return table;
+}
+
+/* 1 if the table was measured; 0 if there is no memory. */
+static int certify(const vndf_distribution *distribution, const vndf_profile *profile, vndf_certificate *certificate)
+{
+    vndf_table_draft table;
+    vndf_laws laws;
+    vndf_sight sight;
+    if (!vndf_table_draft_of(distribution, &table))
+        return 0;
+    int has_laws = vndf_laws_from(&laws, &table);
+    int good = vndf_sight_from(&sight, profile, table.knot, table.cells, table.squarings) && has_laws &&
+               vndf_certificate_measure(certificate, &laws, &sight, profile, VNDF_CLOSELY);
+    vndf_laws_free(&laws);
+    vndf_sight_free(&sight);
+    free(table.knot);
+    return good;
 }
 
 vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
@@ -262,7 +283,7 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         vndf_profile_free(profile);
         return other;
     }
-    int done = vndf_certificate_measure(certificate, distribution, profile, 0);
+    int done = certify(distribution, profile, certificate);
     vndf_profile_free(profile);
     if (!done)
         guard.starved = 1;

@@ -9,7 +9,7 @@
 
 static size_t encode_table(const void *table, unsigned char *bytes, size_t capacity)
 {
-    return vndf_table_encode(table, bytes, capacity);
+    return vndf_table_encode_loaded(table, bytes, capacity);
 }
 
 vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error)

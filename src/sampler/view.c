@@ -1,108 +1,395 @@
-/* The public calls on a view: what they promise for any input; the law of the distribution does the rest. */
-#include "math/vector.h"
-#include "sampler/frame.h"
-#include "sampler/law.h"
-#include "sampler/surface.h"
+/* The calls for one element: views, samples, densities and what goes with them, by the text of the kernel. */
+#include <float.h>
 
-vndf_view vndf_view_scaled(const vndf_distribution *d, double ax, double ay, vndf_vec3 wi)
+#include "sampler/sampler.h"
+#include "sampler/state.h"
+
+/* Entries of a matrix, in units of the distribution's slopes, are at most MOST; a mean slope is at most MEAN_MOST. */
+static const float MOST = 1e18f, MEAN_MOST = 1e6f;
+
+int vndf_surface_of(const vndf_affine *affine, affine_map *m)
 {
-    return vndf_law_view_scaled(d, ax, ay, wi);
+    if (!affine || !affine->distribution)
+        return 0;
+    float unit = affine->distribution->unit;
+    m->xx = affine->xx * unit;
+    m->xy = affine->xy * unit;
+    m->yx = affine->yx * unit;
+    m->yy = affine->yy * unit;
+    m->mean_x = affine->mean_x;
+    m->mean_y = affine->mean_y;
+    float determinant = size(difference_of_products(m->xx, m->yy, m->xy, m->yx));
+    float largest = most(most(size(m->xx), size(m->xy)), most(size(m->yx), size(m->yy)));
+    return determinant >= 1e-36f && determinant <= 1e36f && largest <= MOST && size(m->mean_x) <= MEAN_MOST &&
+           size(m->mean_y) <= MEAN_MOST;
 }
 
-void vndf_view_turn(vndf_view *view, vndf_vec3 wi)
+/* A plain surface is a diagonal matrix. */
+static vndf_affine affine_of(const vndf_surface *s)
 {
-    vndf_law_view_turn(view, wi);
+    vndf_affine none = {0};
+    if (!s || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
+        return none;
+    vndf_affine affine = {s->distribution, s->alpha_x, 0.0f, 0.0f, s->alpha_y, 0.0f, 0.0f};
+    return affine;
 }
 
-void vndf_view_bare(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+/* Not zero, infinite or NaN. */
+static int is_direction(vndf_vec3 w)
 {
-    view->distribution = NULL;
-    view->wi.x = wi.x;
-    view->wi.y = wi.y;
-    view->wi.z = wi.z;
-    if (vndf_surface_scaled(surface, &view->alpha_x, &view->alpha_y) && vndf_is_usable_direction(wi))
-        view->distribution = surface->distribution;
+    float largest = most(most(size(w.x), size(w.y)), size(w.z));
+    return largest > 0.0f && size(w.x) <= FLT_MAX && size(w.y) <= FLT_MAX && size(w.z) <= FLT_MAX;
+}
+
+/* ---- views ---- */
+
+VNDF_INLINE void see(vndf_state *s, const vndf_distribution *d, const affine_map *m, vndf_vec3 wi)
+{
+    s->f = frame_of(*m, wi.x, wi.y, wi.z);
+    if (d->kind == VNDF_KIND_TABLE)
+        s->of.table = vndf_is_below(s) ? table_view_of(table_of(d), s->f, 1) : table_view_of(table_of(d), s->f, 0);
+    else if (d->kind == VNDF_KIND_GGX)
+        s->of.ggx = ggx_see(s->f.ux, s->f.uy, s->f.uz);
+    else
+        s->of.beckmann = beckmann_see(s->f.ux, s->f.uy, s->f.uz);
+}
+
+VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi)
+{
+    vndf_view view;
+    affine_map m;
+    view.distribution = NULL;
+    if (!vndf_surface_of(affine, &m) || !is_direction(wi))
+        return view;
+    view.distribution = affine->distribution;
+    view.wi = wi;
+    see((vndf_state *)(void *)view.numbers, affine->distribution, &m, wi);
+    return view;
+}
+
+vndf_view vndf_view_of(const vndf_affine *affine, vndf_vec3 wi)
+{
+    return view_of(affine, wi);
+}
+
+vndf_affine_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
+{
+    return view_of(affine, wi);
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    if (!surface || !surface->distribution)
-        return vndf_invalid_view();
-    return vndf_law_view(surface, wi);
+    vndf_affine affine = affine_of(surface);
+    return view_of(&affine, wi);
 }
 
-void vndf_view_set(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+/* ---- samples ---- */
+
+VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int weigh)
 {
-    vndf_law_view_set(view, surface, wi);
+    const vndf_state *s = vndf_state_of(view);
+    weighed w = {{0.0f, 0.0f, 1.0f, 0.0f}, 1.0f};
+    if (view->distribution->kind == VNDF_KIND_TABLE) {
+        table t = table_of(view->distribution);
+        if (weigh)
+            return vndf_is_below(s) ? table_draw_weighed(t, s->of.table, u1, u2, 1)
+                                    : table_draw_weighed(t, s->of.table, u1, u2, 0);
+        w.n = vndf_is_below(s) ? table_draw(t, s->of.table, u1, u2, 1) : table_draw(t, s->of.table, u1, u2, 0);
+    } else if (view->distribution->kind == VNDF_KIND_GGX)
+        w.n = ggx_draw(s->of.ggx, u1, u2);
+    else
+        w.n = beckmann_draw(s->of.beckmann, u1, u2);
+    return w;
 }
 
-vndf_vec3 vndf_sample_exactly(const vndf_view *view, float u1, float u2, float *pdf)
+VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    return vndf_law_sample_exactly(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), pdf);
+    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
+    float density = 0.0f, factor = 0.0f;
+    if (view->distribution) {
+        weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
+        sampled n = frame_sampled(vndf_state_of(view)->f, w.n);
+        wm.x = n.x;
+        wm.y = n.y;
+        wm.z = n.z;
+        density = n.pdf;
+        factor = w.weight;
+    }
+    if (pdf)
+        *pdf = density;
+    if (weight)
+        *weight = factor;
+    return wm;
 }
 
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
 {
-    u1 = vndf_clamp_unit(u1);
-    u2 = vndf_clamp_unit(u2);
-    if (!view->distribution) {
-        vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-        if (pdf)
-            *pdf = 0.0f;
-        return up;
-    }
-    return vndf_law_sample(view, u1, u2, pdf);
+    return sample(view, u1, u2, pdf, NULL);
 }
 
-/* Above the horizon with the area that the draw divided by, as where the draw has told the weight. Below it that is a
- * float which may underflow. */
-float vndf_weight_of(const vndf_view *view, vndf_vec3 wm, float pdf)
+vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf)
 {
-    const vndf_distribution *d = view->distribution;
-    double facing = vndf_exact_dot(view->wi, wm);
-    vndf_query g = vndf_query_of(view, wm);
-    int ready;
-    if (!(pdf > 0.0f && facing > 0.0))
-        return 0.0f;
-    double visible = view->wi.z > 0.0f ? vndf_law_ndf(d, &g) * facing / (double)vndf_law_view_area(view, &ready)
-                                       : vndf_law_visible(d, &g, facing);
-    return vndf_density_from(visible / (double)pdf);
+    return sample(view, u1, u2, pdf, NULL);
 }
 
 vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    float density = 0.0f;
-    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
-    *weight = 0.0f;
-    if (view->distribution) {
-        wm = vndf_law_sample_weight(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), &density, weight);
-        if (!(*weight > 0.0f) || !(density > 0.0f))
-            *weight = vndf_weight_of(view, wm, density);
-    }
-    if (pdf)
-        *pdf = density;
-    return wm;
+    float ignored;
+    return sample(view, u1, u2, pdf, weight ? weight : &ignored);
+}
+
+/* ---- given normals ---- */
+
+/* The normal in the unit problem; 0 if it is not seen. */
+VNDF_INLINE int seen_normal(const vndf_view *view, vndf_vec3 wm, unit_normal *n)
+{
+    if (!view->distribution || !(wm.z >= 0.0f))
+        return 0;
+    *n = frame_normal(vndf_state_of(view)->f, wm.x, wm.y, wm.z);
+    return n->facing > 0.0f;
+}
+
+VNDF_INLINE float unit_ndf(const vndf_distribution *d, unit_normal n)
+{
+    if (d->kind == VNDF_KIND_TABLE)
+        return table_p22(table_of(d), table_given(table_of(d), n.x, n.y, n.z));
+    return d->kind == VNDF_KIND_GGX ? ggx_p22(n.x, n.y, n.z) : beckmann_p22(n.x, n.y, n.z);
+}
+
+/* The area of the unit problem along (ux, uy, uz). */
+VNDF_INLINE float unit_area(const vndf_distribution *d, const vndf_state *s)
+{
+    if (d->kind == VNDF_KIND_TABLE)
+        return law_area(table_of(d), s->of.table.v) * frame_reach(s->f);
+    return d->kind == VNDF_KIND_GGX ? ggx_area(s->f.ux, s->f.uy, s->f.uz) : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
+}
+
+VNDF_INLINE float density(const vndf_view *view, unit_normal n)
+{
+    const vndf_state *s = vndf_state_of(view);
+    const vndf_distribution *d = view->distribution;
+    if (d->kind == VNDF_KIND_GGX)
+        return ggx_density(s->of.ggx, n.x, n.y, n.z, n.facing);
+    if (d->kind == VNDF_KIND_BECKMANN)
+        return beckmann_density(s->of.beckmann, n.x, n.y, n.z, n.facing);
+    float reach = frame_reach(s->f);
+    return vndf_is_below(s) ? table_pdf(table_of(d), s->of.table, table_unturned(s->of.table, n), reach, 1)
+                            : table_pdf(table_of(d), s->of.table, n, reach, 0);
+}
+
+VNDF_INLINE float pdf_of(const vndf_view *view, vndf_vec3 wm)
+{
+    unit_normal n;
+    if (!seen_normal(view, wm, &n))
+        return 0.0f;
+    const frame *f = &vndf_state_of(view)->f;
+    return frame_density(*f, density(view, n) / f->determinant);
 }
 
 float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
-    return vndf_is_facing(view, wm) ? vndf_law_pdf(view, wm) : 0.0f;
+    return pdf_of(view, wm);
 }
 
-void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
 {
-    *u1 = *u2 = 0.0f;
-    if (!view->distribution || !(wm.z >= 0.0f) || !vndf_is_usable_direction(wm))
-        return;
-    vndf_law_invert(view, wm, u1, u2);
+    return pdf_of(view, wm);
+}
+
+VNDF_INLINE float visible_of(const vndf_view *view, vndf_vec3 wm)
+{
+    unit_normal n;
+    if (!seen_normal(view, wm, &n))
+        return 0.0f;
+    const vndf_state *s = vndf_state_of(view);
+    if (vndf_is_exact(view->distribution))
+        return frame_density(s->f, density(view, n) / s->f.determinant);
+    float area = most(unit_area(view->distribution, s), 1e-37f);
+    return frame_density(s->f, unit_ndf(view->distribution, n) / s->f.determinant * (n.facing / area));
 }
 
 float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
-    if (!vndf_is_facing(view, wm))
+    return visible_of(view, wm);
+}
+
+float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
+{
+    return visible_of(view, wm);
+}
+
+VNDF_INLINE void invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    pair u = {0.0f, 0.0f};
+    if (view->distribution) {
+        const vndf_state *s = vndf_state_of(view);
+        unit_normal n = frame_normal(s->f, wm.x, wm.y, most(wm.z, 0.0f));
+        if (view->distribution->kind == VNDF_KIND_TABLE)
+            u = vndf_is_below(s) ? table_numbers(table_of(view->distribution), s->of.table, n, 1)
+                                 : table_numbers(table_of(view->distribution), s->of.table, n, 0);
+        else
+            u = view->distribution->kind == VNDF_KIND_GGX ? ggx_invert(s->of.ggx, n.x, n.y, n.z)
+                                                          : beckmann_invert(s->of.beckmann, n.x, n.y, n.z);
+    }
+    *u1 = vndf_clamp_unit(u.a);
+    *u2 = vndf_clamp_unit(u.b);
+}
+
+void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    invert(view, wm, u1, u2);
+}
+
+void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, float *u2)
+{
+    invert(view, wm, u1, u2);
+}
+
+/* ---- the distribution itself ---- */
+
+int vndf_is_exact(const vndf_distribution *distribution)
+{
+    return distribution->kind != VNDF_KIND_TABLE;
+}
+
+float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
+{
+    if (!view->distribution || !(wm.z >= 0.0f))
         return 0.0f;
-    const vndf_distribution *d = view->distribution;
-    vndf_query g = vndf_query_of(view, wm);
-    float visible = vndf_density_from(vndf_law_visible(d, &g, vndf_exact_dot(view->wi, wm)));
-    return vndf_law_is_exact(d) ? vndf_positive(visible) : visible;
+    const frame *f = &vndf_state_of(view)->f;
+    return least(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
+}
+
+float vndf_affine_ndf(const vndf_affine *affine, vndf_vec3 wm)
+{
+    affine_map m;
+    if (!vndf_surface_of(affine, &m) || !(wm.z >= 0.0f))
+        return 0.0f;
+    frame f = frame_of(m, 0.0f, 0.0f, 1.0f);
+    return least(unit_ndf(affine->distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
+}
+
+float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
+{
+    vndf_affine affine = affine_of(surface);
+    return vndf_affine_ndf(&affine, wm);
+}
+
+/* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
+float vndf_affine_p22(const vndf_affine *affine, float x, float y)
+{
+    vndf_vec3 normal = {-x, -y, 1.0f};
+    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? vndf_affine_ndf(affine, normal) : 0.0f;
+}
+
+float vndf_p22(const vndf_surface *surface, float x, float y)
+{
+    vndf_affine affine = affine_of(surface);
+    return vndf_affine_p22(&affine, x, y);
+}
+
+/* ---- area and masking ---- */
+
+/* Area along w, and the projection of w on the mean plane. */
+typedef struct look_at {
+    float area, cosine;
+} look_at;
+
+static look_at look_along(const vndf_distribution *d, const affine_map *m, vndf_vec3 w)
+{
+    look_at at = {0.0f, 0.0f};
+    vndf_state s;
+    if (!is_direction(w))
+        return at;
+    see(&s, d, m, w);
+    at.cosine = s.f.uz * s.f.size;
+    at.area = unit_area(d, &s) * s.f.size;
+    return at;
+}
+
+float vndf_view_area(const vndf_view *view, vndf_vec3 w)
+{
+    return view->distribution ? look_along(view->distribution, &vndf_state_of(view)->f.m, w).area : 0.0f;
+}
+
+float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)
+{
+    const affine_map *m = &vndf_state_of(view)->f.m;
+    return view->distribution ? w.z - (w.x * m->mean_x + w.y * m->mean_y) : 0.0f;
+}
+
+static look_at affine_look(const vndf_affine *affine, vndf_vec3 w)
+{
+    const look_at nothing = {0.0f, 0.0f};
+    affine_map m;
+    return vndf_surface_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
+}
+
+float vndf_lambda_of(float area, float cosine)
+{
+    if (!(area > 0.0f) && cosine == 0.0f)
+        return 0.0f;
+    float lambda = (area - cosine) / cosine;
+    return lambda > FLT_MAX ? FLT_MAX : lambda < -FLT_MAX ? -FLT_MAX : lambda;
+}
+
+float vndf_g1_of(float area, float cosine)
+{
+    return cosine > 0.0f ? least(cosine / most(area, cosine), 1.0f) : 0.0f;
+}
+
+/* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1, is the smaller G1 times a factor that is 1/2 at least, since a
+ * product of two small ones would underflow. */
+float vndf_g2_of(float gi, float go, vndf_g2_model model)
+{
+    float lesser = least(gi, go), greater = most(gi, go);
+    if (model == VNDF_G2_SEPARABLE || lesser == 0.0f)
+        return gi * go;
+    return lesser * (greater / (greater + lesser * (1.0f - greater)));
+}
+
+float vndf_affine_projected_area(const vndf_affine *affine, vndf_vec3 w)
+{
+    return affine_look(affine, w).area;
+}
+
+float vndf_affine_lambda(const vndf_affine *affine, vndf_vec3 w)
+{
+    look_at at = affine_look(affine, w);
+    return vndf_lambda_of(at.area, at.cosine);
+}
+
+float vndf_affine_g1(const vndf_affine *affine, vndf_vec3 w)
+{
+    look_at at = affine_look(affine, w);
+    return vndf_g1_of(at.area, at.cosine);
+}
+
+float vndf_affine_g2(const vndf_affine *affine, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
+{
+    return vndf_g2_of(vndf_affine_g1(affine, wi), vndf_affine_g1(affine, wo), model);
+}
+
+float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
+{
+    vndf_affine affine = affine_of(surface);
+    return affine_look(&affine, w).area;
+}
+
+float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
+{
+    vndf_affine affine = affine_of(surface);
+    return vndf_affine_lambda(&affine, w);
+}
+
+float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
+{
+    vndf_affine affine = affine_of(surface);
+    return vndf_affine_g1(&affine, w);
+}
+
+float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
+{
+    vndf_affine affine = affine_of(surface);
+    return vndf_affine_g2(&affine, wi, wo, model);
 }

@@ -7,177 +7,127 @@
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
-#include "table/layout.h"
-#include "table/validate.h"
 
-static const vndf_frame FRAME = {"VNDFtab\n", "table", 3, VNDF_LIMIT_TABLE_BYTES};
+static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
+
+enum { ARRAYS = 11 };
+
+/* The arrays of a draft in the order of the file. */
+static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
+{
+    float **const all[ARRAYS] = {&d->knot, &d->g0, &d->g1, &d->m0, &d->m1, &d->m2,
+                                 &d->m4,   &d->b0, &d->b1, &d->area, &d->slope};
+    memcpy(array, all, sizeof all);
+}
 
 /* ---- writing ---- */
 
-static void write_array(vndf_writer *w, const float *values, size_t count, size_t stride)
+static void write_floats(vndf_writer *w, const float *values, size_t count, size_t stride)
 {
     for (size_t i = 0; i < count; i++)
         vndf_write_f32(w, values[i * stride]);
 }
 
-static void write_radial(vndf_writer *w, const vndf_distribution *table)
-{
-    size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
-    write_array(w, &table->knots.at->x, n + 1, 2);
-    write_array(w, &table->knots.at->z, n + 1, 2);
-    write_array(w, &table->cells->f0, n, cell);
-    write_array(w, &table->cells->f1, n, cell);
-    write_array(w, &table->cells->mu0, n, cell);
-    write_array(w, &table->cells->mu1, n, cell);
-}
-
-static void write_wedge(vndf_writer *w, const vndf_wedge *wedge)
-{
-    size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
-    write_array(w, wedge->q, cells + 1, 1);
-    write_array(w, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
-    for (size_t i = 0; i < rows; i++)
-        vndf_write_f32(w, *vndf_aspect_p(wedge, i));
-    for (size_t i = 0; i < rows; i++)
-        vndf_write_f32(w, *vndf_aspect_r(wedge, i));
-    for (size_t i = 0; i < rows; i++)
-        write_array(w, &vndf_row_cells(wedge, i)->mass, cells, 2);
-    for (size_t i = 0; i < rows; i++)
-        write_array(w, &vndf_row_cells(wedge, i)->density, cells + 1, 2);
-    write_array(w, wedge->knot_y, knots, 1);
-    write_array(w, wedge->mass, knots, 1);
-    write_array(w, wedge->slope, knots, 1);
-    write_array(w, wedge->curve, knots, 1);
-}
-
-/* The order of the numbers in the file and in memory. */
-static void write_certificate(vndf_writer *w, vndf_certificate c)
-{
-    if (c.quick > 0)
-        c.weight_bounded = c.weight_bounded > 0 ? 2.0f : -0.0f;
-    write_array(w, &c.tv, VNDF_CERTIFICATE_FLOATS, 1);
-}
-
-static void write_head(vndf_writer *w, const vndf_distribution *table, uint32_t size)
-{
-    vndf_frame_begin(&FRAME, w, size);
-    vndf_write_f64(w, table->normalization);
-    vndf_write_f64(w, table->scale);
-    vndf_write_u32(w, table->radial_count);
-    vndf_write_u32(w, table->above.cell_count);
-    vndf_write_u32(w, table->above.row_count);
-    vndf_write_u32(w, table->above.knot_count);
-    vndf_write_u32(w, table->below.cell_count);
-    vndf_write_u32(w, table->below.row_count);
-    vndf_write_u32(w, table->below.knot_count);
-    write_certificate(w, table->certificate);
-    vndf_write_text(w, table->source);
-    vndf_write_text(w, table->tool);
-}
-
-static size_t write_all(const vndf_distribution *table, unsigned char *bytes, size_t capacity, uint32_t size)
+static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity, size_t size)
 {
     vndf_writer w = {bytes, capacity, 0};
-    write_head(&w, table, size);
-    write_radial(&w, table);
-    write_wedge(&w, &table->above);
-    write_wedge(&w, &table->below);
+    vndf_table_draft d = *draft;
+    float **array[ARRAYS];
+    arrays_of(&d, array);
+    vndf_frame_begin(&FRAME, &w, size);
+    vndf_write_f64(&w, d.normalization);
+    vndf_write_f64(&w, d.scale);
+    vndf_write_u32(&w, d.cells);
+    vndf_write_u32(&w, d.moments);
+    vndf_write_u32(&w, d.squarings);
+    write_floats(&w, &d.certificate.tv, VNDF_CERTIFICATE_FLOATS, 1);
+    vndf_write_text(&w, d.source);
+    vndf_write_text(&w, d.tool);
+    for (int i = 0; i < ARRAYS; i++)
+        if (array[i] != &d.m4 || d.moments == 4)
+            write_floats(&w, *array[i], (size_t)d.cells + 1, d.stride ? d.stride : 1);
     vndf_frame_end(&w);
     return w.at;
 }
 
-size_t vndf_table_encode(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
+size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity)
 {
-    size_t size = write_all(table, NULL, 0, 0);
-    return size > capacity ? size : write_all(table, bytes, capacity, (uint32_t)size);
+    size_t size = write_all(draft, NULL, 0, 0);
+    return size > capacity ? size : write_all(draft, bytes, capacity, size);
 }
 
 /* ---- reading ---- */
 
-static void read_array(vndf_reader *r, float *values, size_t count, size_t stride)
+/* What is read before it is known to be a table; owns what it points to. */
+typedef struct reading {
+    vndf_table_draft draft;
+    float *block;
+    vndf_distribution *table;
+} reading;
+
+static void forget(reading *r)
 {
-    for (size_t i = 0; i < count; i++)
-        values[i * stride] = vndf_read_f32(r);
+    free(r->block);
+    vndf_free(r->table);
 }
 
-static void read_radial(vndf_reader *r, vndf_distribution *table)
+static int counts_valid(const vndf_table_draft *d)
 {
-    size_t n = table->radial_count, cell = sizeof *table->cells / sizeof(float);
-    read_array(r, &table->knots.at->x, n + 1, 2);
-    read_array(r, &table->knots.at->z, n + 1, 2);
-    read_array(r, &table->cells->f0, n, cell);
-    read_array(r, &table->cells->f1, n, cell);
-    read_array(r, &table->cells->mu0, n, cell);
-    read_array(r, &table->cells->mu1, n, cell);
+    return d->cells >= 2 && d->cells <= VNDF_CELLS_MAX && d->moments >= 2 && d->moments <= 4 &&
+           d->squarings <= VNDF_SQUARINGS_MAX;
 }
 
-static void read_wedge(vndf_reader *r, vndf_wedge *wedge)
+/* 0 if there is no memory. */
+static int allocate(reading *r)
 {
-    size_t cells = wedge->cell_count, rows = wedge->row_count, knots = wedge->knot_count;
-    read_array(r, wedge->q, cells + 1, 1);
-    read_array(r, wedge->row_y, vndf_row_knots(wedge->row_count), 1);
-    for (size_t i = 0; i < rows; i++)
-        *vndf_aspect_p(wedge, i) = vndf_read_f32(r);
-    for (size_t i = 0; i < rows; i++)
-        *vndf_aspect_r(wedge, i) = vndf_read_f32(r);
-    for (size_t i = 0; i < rows; i++)
-        read_array(r, &vndf_row_cells(wedge, i)->mass, cells, 2);
-    for (size_t i = 0; i < rows; i++)
-        read_array(r, &vndf_row_cells(wedge, i)->density, cells + 1, 2);
-    read_array(r, wedge->knot_y, knots, 1);
-    read_array(r, wedge->mass, knots, 1);
-    read_array(r, wedge->slope, knots, 1);
-    read_array(r, wedge->curve, knots, 1);
-}
-
-static vndf_table_size read_counts(vndf_reader *r)
-{
-    vndf_table_size size;
-    size.radial = vndf_read_u32(r);
-    size.above_cells = vndf_read_u32(r);
-    size.above_rows = vndf_read_u32(r);
-    size.above_knots = vndf_read_u32(r);
-    size.below_cells = vndf_read_u32(r);
-    size.below_rows = vndf_read_u32(r);
-    size.below_knots = vndf_read_u32(r);
-    return size;
-}
-
-static int within(uint32_t value, uint32_t least, uint32_t most)
-{
-    return value >= least && value <= most;
-}
-
-static int counts_valid(vndf_table_size s)
-{
-    return within(s.radial, 2, VNDF_RADIAL_CELLS_MAX) && within(s.above_cells, 2, VNDF_WEDGE_CELLS_MAX) &&
-           within(s.below_cells, 2, VNDF_WEDGE_CELLS_MAX) && within(s.above_rows, 3, VNDF_WEDGE_ROWS_MAX) &&
-           within(s.below_rows, 3, VNDF_WEDGE_ROWS_MAX) && s.above_rows % 2 == 1 && s.below_rows % 2 == 1 &&
-           within(s.above_knots, 2, VNDF_AREA_KNOTS_MAX) && within(s.below_knots, 2, VNDF_AREA_KNOTS_MAX);
-}
-
-static void read_certificate(vndf_reader *r, vndf_certificate *c)
-{
-    read_array(r, &c->tv, VNDF_CERTIFICATE_FLOATS, 1);
-    c->quick =
-        c->weight_bounded == 2.0f || (c->weight_bounded == 0.0f && signbit(c->weight_bounded)) ? 1.0f : 0.0f;
-    if (c->quick > 0)
-        c->weight_bounded = c->weight_bounded > 0 ? 1.0f : 0.0f;
-}
-
-/* Reads everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
-static int read_body(vndf_reader *r, vndf_distribution *table)
-{
-    read_certificate(r, &table->certificate);
-    table->source = vndf_read_text(r);
-    table->tool = vndf_read_text(r);
-    if (!table->source || !table->tool)
+    size_t n = (size_t)r->draft.cells + 1, count = VNDF_HEAD + 4 * VNDF_GROUPS * n;
+    float **array[ARRAYS];
+    arrays_of(&r->draft, array);
+    r->block = malloc(ARRAYS * n * sizeof *r->block);
+    r->table = calloc(1, sizeof *r->table);
+    if (!r->block || !r->table)
         return 0;
-    read_radial(r, table);
-    read_wedge(r, &table->above);
-    read_wedge(r, &table->below);
-    r->failed |= r->at + 4 != r->size;
-    return !r->failed;
+    for (int i = 0; i < ARRAYS; i++)
+        *array[i] = array[i] != &r->draft.m4 || r->draft.moments == 4 ? r->block + (size_t)i * n : NULL;
+    r->table->number_count = count;
+    r->table->numbers = malloc(count * sizeof(float));
+    r->table->columns = malloc(vndf_table_columns(r->draft.cells) * sizeof(float));
+    return r->table->numbers && r->table->columns;
+}
+
+/* Everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
+static int read_body(vndf_reader *bytes, reading *r)
+{
+    float **array[ARRAYS], *claims = &r->draft.certificate.tv;
+    arrays_of(&r->draft, array);
+    for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
+        claims[i] = vndf_read_f32(bytes);
+    r->table->source = vndf_read_text(bytes);
+    r->table->tool = vndf_read_text(bytes);
+    if (!r->table->source || !r->table->tool)
+        return 0;
+    for (int i = 0; i < ARRAYS; i++)
+        for (size_t j = 0; *array[i] && j <= r->draft.cells; j++)
+            (*array[i])[j] = vndf_read_f32(bytes);
+    bytes->failed |= bytes->at + 4 != bytes->size;
+    return !bytes->failed;
+}
+
+/* VNDF_OK and a table, or an error. */
+static vndf_status read_table(vndf_reader *bytes, reading *r, vndf_error *error)
+{
+    vndf_table_draft *d = &r->draft;
+    d->normalization = vndf_read_f64(bytes);
+    d->scale = vndf_read_f64(bytes);
+    d->cells = vndf_read_u32(bytes);
+    d->moments = vndf_read_u32(bytes);
+    d->squarings = vndf_read_u32(bytes);
+    if (!counts_valid(d))
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
+    if (!allocate(r) || (!read_body(bytes, r) && !bytes->failed))
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)bytes->size);
+    const char *why = bytes->failed ? "its parts do not fill the file" : vndf_table_fill(r->table, d);
+    return why ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why) : VNDF_OK;
 }
 
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
@@ -188,31 +138,15 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     }
     if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
-    double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
-    vndf_table_size counts = read_counts(&r);
-    if (!counts_valid(counts)) {
-        vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
+    vndf_reader reader = {bytes, size, VNDF_FRAME_HEAD, 0};
+    reading r = {{0}, NULL, NULL};
+    if (read_table(&reader, &r, error) != VNDF_OK) {
+        forget(&r);
         return NULL;
     }
-    vndf_distribution *table = vndf_table_allocate(counts);
-    if (!table) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
-        return NULL;
-    }
-    table->normalization = normalization;
-    table->scale = scale;
-    table->bytes = size;
-    int whole = read_body(&r, table);
-    const char *why = whole ? vndf_table_invalid(table) : r.failed ? "its parts do not fill the file" : NULL;
-    if (whole && !why && vndf_table_derive(table) && !(why = vndf_table_invalid_derived(table)))
-        return table;
-    if (why)
-        vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why);
-    else
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
-    vndf_free(table);
-    return NULL;
+    r.table->bytes = size;
+    free(r.block);
+    return r.table;
 }
 
 static void *decode(const void *bytes, size_t size, vndf_error *error)
@@ -223,4 +157,15 @@ static void *decode(const void *bytes, size_t size, vndf_error *error)
 vndf_distribution *vndf_load(const char *path, vndf_error *error)
 {
     return vndf_frame_load(&FRAME, path, decode, error);
+}
+
+void vndf_free(vndf_distribution *distribution)
+{
+    if (!distribution || !vndf_is_table(distribution))
+        return;
+    free(distribution->numbers);
+    free(distribution->columns);
+    free((char *)distribution->source);
+    free((char *)distribution->tool);
+    free(distribution);
 }

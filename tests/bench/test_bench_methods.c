@@ -286,7 +286,7 @@ static method_reference reference_of(const vndf_distribution *d)
 static void test_any(void)
 {
     vndf_source *source = vndf_source_family("student-t:2.5", NULL), *ggx = vndf_source_family("ggx", NULL);
-    vndf_distribution *fine = table_of(source, 16384), *small = table_of(source, 2048);
+    vndf_distribution *fine = table_of(source, 32768), *small = table_of(source, 2048);
     vndf_distribution *same = table_of(ggx, 16384);
     if (TEST(fine && small && same)) {
         method_reference reference = reference_of(fine), reference_ggx = reference_of(same);

@@ -118,8 +118,8 @@ read(zsh -n completion.zsh)
 file(WRITE ${OUT}/ask.bash "source ./completion.bash
 ask() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _vndf; printf '%s,' \"\${COMPREPLY[@]}\"; echo; }
 ask vndf bui
-ask vndf build --cert
-ask vndf build --certificate ''
+ask vndf build --mom
+ask vndf build --moments ''
 ask vndf build --ndf ''
 ask vndf export --language gl
 ask vndf sample 'a ta'
@@ -134,17 +134,17 @@ set(found OFF)
 read(bash ask.bash)
 if(found)
     expect("bash completes\n${output}" output STREQUAL
-        "build,\n--certificate,\nquick,full,\n,\nglsl,\na table.vndf,\nggx,\neffects,\n--run,\n,\nalbedo,\n")
+        "build,\n--moments,\n2,3,4,\n,\nglsl,\na table.vndf,\nggx,\neffects,\n--run,\n,\nalbedo,\n")
 endif()
 set(found OFF)
 read(fish --no-config -c "source completion.fish
     complete -C 'vndf bui'
-    complete -C 'vndf build --cert'
-    complete -C 'vndf build --certificate q'
+    complete -C 'vndf build --mom'
+    complete -C 'vndf build --moments 3'
     complete -C 'vndf bench effects --ru'
     complete -C 'vndf bench --ru'")
 if(found)
-    if(NOT output MATCHES "^build\t[^\n]*\n--certificate\t[^\n]*\nquick\t[^\n]*\n--run\t[^\n]*\n$")
+    if(NOT output MATCHES "^build\t[^\n]*\n--moments\t[^\n]*\n3\t[^\n]*\n--run\t[^\n]*\n$")
         math(EXPR failures "${failures} + 1")
         message("FAILED: fish completes\n${output}")
     endif()

@@ -197,8 +197,8 @@ void test_sources()
     TEST(!wrong && wrong.status() == VNDF_ERROR_SYNTAX && !*wrong && wrong->description()[0] == '\0');
     TEST(*wrong->p22(1) == 0 && !vndf::build(*wrong) && !vndf::ggx().certify(*wrong));
     TEST(!vndf::reference::from(*wrong));
-    const auto table = vndf::build(*formula, {2048, 0, {}, {}, 0, true, false});
-    TEST(table && table->info().bytes <= 2048 && vndf::source::of(*table));
+    const auto table = vndf::build(*formula, {2048, 0, {}, {}, 0, 3});
+    TEST(table && table->info().bytes <= 2048 && table->info().moments == 3 && vndf::source::of(*table));
     TEST(std::strcmp(vndf::source::of(*table)->description(), formula->description()) == 0);
     const auto exact = vndf::reference::from(*formula);
     TEST_RELATIVE(*exact->area(0.0), 1.0, 1e-7);
@@ -221,7 +221,7 @@ void test_callable()
     }
     TEST(counted_law::alive == 0);
     const auto source = vndf::source::slope_callback(counted_law(), "a law");
-    const auto table = vndf::build(*source, {2048, 0, {}, {1.0}, 0.01, true, false});
+    const auto table = vndf::build(*source, {2048, 0, {}, {1.0}, 0.01});
     TEST(table && table->info().certificate.hidden > 0);
     TEST_HAS(table->info().source, "a law");
 }

@@ -1,5 +1,6 @@
 #include "harness/constants.h"
 #include "oracle/oracle.h"
+#include "oracle/oracle_table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -103,27 +104,12 @@ typedef struct direction {
     double s, c;
 } direction;
 
-/* integral over the circle of slopes r of max(0, c + s r cos a), seen for |a| < e, cos e = -c/(s r). */
-static double circle(const direction *d, double r)
-{
-    double s = d->s * r, c = d->c, e;
-    if (s <= fabs(c))
-        return c > 0 ? 2 * PI * c : 0;
-    e = acos(-c / s);
-    if (c < 0) /* s (sin e - e cos e) loses digits for small e: e from a half angle, then the series */
-        e = 2 * atan2(sqrt(s + c), sqrt(s - c));
-    if (e > 0.3)
-        return 2 * (c * e + s * sin(e));
-    double e2 = e * e, series = 1 - e2 / 10 * (1 - e2 / 28 * (1 - e2 / 54 * (1 - e2 / 88)));
-    return 2 * s * e * e2 / 3 * series;
-}
-
 /* In u = log r. */
 static double seen_at(double u, const void *user)
 {
     const direction *d = user;
     double r = exp(u);
-    return d->o->shape(r) * r * r * circle(d, r);
+    return d->o->shape(r) * r * r * oracle_circle(d->c, d->s * r);
 }
 
 /* From r0 to r1 in panels of at most half an octave of slope, narrower where the shape falls steeply. */
@@ -232,4 +218,11 @@ int oracle_wanted(int arguments, char **argument, size_t index, const char *name
     char number[24];
     snprintf(number, sizeof number, "%lu", (unsigned long)index);
     return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
+}
+
+vndf_vec3 oracle_direction(double theta, double phi)
+{
+    double t = theta * PI / 180, p = phi * PI / 180, s = sin(t);
+    vndf_vec3 w = {(float)(s * cos(p)), (float)(s * sin(p)), theta == 90 ? 0.0f : (float)cos(t)};
+    return w;
 }

@@ -53,6 +53,9 @@ double oracle_p22(const oracle *o, double r);
 /* integral over slopes of P22 max(0, c + s r cos a): relative error below 1e-9 where it exceeds 1e-200. */
 double oracle_area(const oracle *o, double s, double c);
 
+/* wi at theta and phi in degrees; exactly horizontal at 90. */
+vndf_vec3 oracle_direction(double theta, double phi);
+
 /* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
  * name is its first argument. test_mutants.cmake asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);

@@ -9,15 +9,13 @@
 
 #include <stddef.h>
 
-#include "oracle/oracle_table.h"
+#include "oracle/oracle_surface.h"
 #include "vndf_bsdf.h"
 
 /* ---- distributions ---- */
 
-typedef enum oracle_ndf_kind { ORACLE_NDF_GGX, ORACLE_NDF_BECKMANN, ORACLE_NDF_TABLE } oracle_ndf_kind;
-
 typedef struct oracle_ndf {
-    oracle_ndf_kind kind;
+    oracle_kind kind;
     const char *name;
     const vndf_distribution *distribution;
     vndf_distribution *owned; /* a table's */

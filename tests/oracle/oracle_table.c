@@ -1,4 +1,3 @@
-/* The bytes of a table (src/table/file.c says what they are, in order), the masses of its rows and moments. */
 #include "oracle/oracle_table.h"
 
 #include <math.h>
@@ -7,158 +6,357 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes not yet read; beyond their end all is 0 and `short_of` is set. */
-typedef struct bytes {
-    const unsigned char *at, *end;
+#include "harness/constants.h"
+#include "vndf_build.h"
+
+/* ---- bytes ---- */
+
+typedef struct reader {
+    const unsigned char *at;
+    size_t left;
     int short_of;
-} bytes;
+} reader;
 
-static uint64_t read_integer(bytes *b, size_t size)
+static uint64_t take(reader *r, size_t bytes)
 {
-    uint64_t value = 0;
-    if ((size_t)(b->end - b->at) < size) {
-        b->short_of = 1;
+    uint64_t word = 0;
+    if (r->left < bytes) {
+        r->short_of = 1;
         return 0;
     }
-    for (size_t i = 0; i < size; i++)
-        value |= (uint64_t)b->at[i] << (8 * i);
-    b->at += size;
-    return value;
+    for (size_t i = 0; i < bytes; i++)
+        word |= (uint64_t)r->at[i] << 8 * i;
+    r->at += bytes;
+    r->left -= bytes;
+    return word;
 }
 
-static double read_single(bytes *b)
+static double take_float(reader *r)
 {
-    uint32_t bits = (uint32_t)read_integer(b, 4);
+    uint32_t word = (uint32_t)take(r, 4);
     float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    memcpy(&value, &word, sizeof value);
+    return (double)value;
 }
 
-static double read_double(bytes *b)
+static double take_double(reader *r)
 {
-    uint64_t bits = read_integer(b, 8);
+    uint64_t word = take(r, 8);
     double value;
-    memcpy(&value, &bits, sizeof value);
+    memcpy(&value, &word, sizeof value);
     return value;
 }
 
-static void skip_text(bytes *b)
+static void skip_text(reader *r)
 {
-    size_t n = (size_t)read_integer(b, 4);
-    if ((size_t)(b->end - b->at) < n)
-        b->short_of = 1;
-    else
-        b->at += n;
+    size_t length = (size_t)take(r, 4);
+    r->short_of |= length > r->left;
+    length = length > r->left ? r->left : length;
+    r->at += length;
+    r->left -= length;
 }
 
-/* The next n numbers of the file, put behind those before. */
-static double *read_numbers(bytes *b, double **free_place, size_t n)
+static uint32_t checksum(const unsigned char *bytes, size_t size)
 {
-    double *place = *free_place;
-    for (size_t i = 0; i < n; i++)
-        place[i] = read_single(b);
-    *free_place += n;
-    return place;
-}
-
-static void scale_rows(oracle_wedge *w)
-{
-    for (size_t i = 0; i < w->rows; i++) {
-        double total = 0;
-        for (size_t j = 0; j < w->cells; j++)
-            total += w->mass[i * w->cells + j];
-        for (size_t j = 0; j < w->cells; j++)
-            w->mass[i * w->cells + j] /= total;
-        for (size_t j = 0; j <= w->cells; j++)
-            w->density[i * (w->cells + 1) + j] /= total;
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
     }
+    return crc ^ 0xffffffffu;
 }
 
-static void read_wedge(bytes *b, double **place, oracle_wedge *w)
+static int take_arrays(oracle_table *t, reader *r)
 {
-    w->q = read_numbers(b, place, w->cells + 1);
-    w->row_y = read_numbers(b, place, (w->rows + 1) / 2);
-    w->aspect_p = read_numbers(b, place, w->rows);
-    w->aspect_r = read_numbers(b, place, w->rows);
-    w->mass = read_numbers(b, place, w->rows * w->cells);
-    w->density = read_numbers(b, place, w->rows * (w->cells + 1));
-    w->knot_y = read_numbers(b, place, w->knots);
-    w->area = read_numbers(b, place, w->knots);
-    w->slope = read_numbers(b, place, w->knots);
-    w->curve = read_numbers(b, place, w->knots);
-    scale_rows(w);
-}
-
-/* P22 R dR = f Z dxi, so a cell has z0 mu0 + z1 mu1 of the one moment and x0 mu0 + x1 mu1 of the other. */
-static void add_up(oracle_table *t)
-{
-    t->total0 = t->total1 = 0;
-    for (size_t j = 0; j < t->count; j++) {
-        t->total0 += t->z[j] * t->mu0[j] + t->z[j + 1] * t->mu1[j];
-        t->total1 += t->x[j] * t->mu0[j] + t->x[j + 1] * t->mu1[j];
-    }
-}
-
-static int read_table(oracle_table *t, bytes b, size_t size)
-{
-    enum { HEAD = 16, CERTIFICATE = 12 };
-    if (size < HEAD || memcmp(b.at, "VNDFtab\n\3\0\0", 11) != 0)
+    double **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
+                        &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
+    size_t count = t->cells + 1;
+    t->numbers = calloc(11 * count, sizeof *t->numbers);
+    if (!t->numbers)
         return 0;
-    b.at += HEAD;
-    read_double(&b); /* normalization */
-    t->scale = read_double(&b);
-    t->count = (size_t)read_integer(&b, 4);
-    for (int i = 0; i < 2; i++) {
-        oracle_wedge *w = i ? &t->below : &t->above;
-        w->cells = (size_t)read_integer(&b, 4);
-        w->rows = (size_t)read_integer(&b, 4);
-        w->knots = (size_t)read_integer(&b, 4);
+    for (size_t i = 0; i < 11; i++) {
+        *array[i] = t->numbers + i * count;
+        for (size_t j = 0; j < count && (i != 6 || t->moments == 4); j++)
+            (*array[i])[j] = take_float(r);
     }
-    for (int i = 0; i < CERTIFICATE; i++)
-        read_single(&b);
-    skip_text(&b);
-    skip_text(&b);
-    double *place = t->numbers = malloc(size / 4 * sizeof *place);
-    size_t n = t->count, head = 6 * n + 2, all = head;
-    for (int i = 0; i < 2; i++) {
-        oracle_wedge *w = i ? &t->below : &t->above;
-        all += w->cells + 1 + (w->rows + 1) / 2 + w->rows * (2 * w->cells + 3) + 4 * w->knots;
-    }
-    if (!place || b.short_of || (size_t)(b.end - b.at) != 4 * all + 4)
-        return 0;
-    t->x = read_numbers(&b, &place, n + 1);
-    t->z = read_numbers(&b, &place, n + 1);
-    t->f0 = read_numbers(&b, &place, n);
-    t->f1 = read_numbers(&b, &place, n);
-    t->mu0 = read_numbers(&b, &place, n);
-    t->mu1 = read_numbers(&b, &place, n);
-    read_wedge(&b, &place, &t->above);
-    read_wedge(&b, &place, &t->below);
-    add_up(t);
-    return 1;
+    return !r->short_of;
 }
 
-int oracle_table_read(oracle_table *t, const char *path)
+int oracle_table_read(oracle_table *t, const unsigned char *bytes, size_t size)
 {
-    enum { MOST = 1 << 22 };
-    FILE *file = fopen(path, "rb");
-    unsigned char *all = malloc(MOST);
-    size_t size = file && all ? fread(all, 1, MOST, file) : 0;
+    reader r = {bytes, size, 0};
     memset(t, 0, sizeof *t);
-    bytes b = {all, all + size, 0};
-    int good = size > 0 && size < MOST && read_table(t, b, size);
+    if (size < 64 || memcmp(bytes, "VNDFtab\n", 8) != 0) {
+        fprintf(stderr, "oracle: no table\n");
+        return 0;
+    }
+    r.at += 8;
+    r.left -= 8;
+    size_t version = (size_t)take(&r, 4), whole = (size_t)take(&r, 4);
+    t->normalization = take_double(&r);
+    t->scale = take_double(&r);
+    t->cells = (size_t)take(&r, 4);
+    t->moments = (size_t)take(&r, 4);
+    t->squarings = (size_t)take(&r, 4);
+    for (int i = 0; i < 12; i++)
+        t->certificate[i] = take_float(&r);
+    skip_text(&r);
+    skip_text(&r);
+    int good = version == 4 && whole == size && t->cells >= 2 && t->cells < 4096 && t->moments >= 2 &&
+               t->moments <= 4 && t->squarings <= 5 && take_arrays(t, &r) && r.left == 4 &&
+               take(&r, 4) == checksum(bytes, size - 4);
     if (!good) {
-        fprintf(stderr, "%s: no table that the oracle reads\n", path);
+        fprintf(stderr,
+                "oracle: format %lu, %lu cells, %lu moments, %lu squarings, %lu bytes left: not as it should be\n",
+                (unsigned long)version, (unsigned long)t->cells, (unsigned long)t->moments,
+                (unsigned long)t->squarings, (unsigned long)r.left);
         oracle_table_free(t);
     }
-    if (file)
-        fclose(file);
-    free(all);
+    return good;
+}
+
+int oracle_table_of(oracle_table *t, const vndf_distribution *distribution)
+{
+    size_t size = vndf_distribution_info(distribution).bytes;
+    unsigned char *bytes = malloc(size + 1);
+    int good =
+        bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && oracle_table_read(t, bytes, size);
+    free(bytes);
     return good;
 }
 
 void oracle_table_free(oracle_table *t)
 {
     free(t->numbers);
-    memset(t, 0, sizeof *t);
+    t->numbers = NULL;
+}
+
+/* ---- cells ---- */
+
+/* The rational density of mass m, with densities d0 and d1 at the ends, at xi = 1 - eta. */
+static double rational(double m, double d0, double d1, double xi, double eta)
+{
+    double q = xi * eta, under = m + (d0 + d1 - 2 * m) * q;
+    return m > 0 ? m / under * (m / under) * (d1 * xi * xi + 2 * m * q + d0 * eta * eta) : 0;
+}
+
+static size_t cell_of(const oracle_table *t, double r)
+{
+    size_t i = t->cells;
+    while (i > 0 && r < t->knot[i])
+        i--;
+    return i;
+}
+
+/* xi and 1 - xi in a cell, and dR/dxi. */
+typedef struct place {
+    double xi, eta, width;
+} place;
+
+static place place_in(const oracle_table *t, size_t i, double r)
+{
+    double from = t->knot[i], z = 1 / (1 + r);
+    place p;
+    if (i == t->cells) {
+        double power = pow(2, (double)t->squarings);
+        p.eta = pow(z * (1 + from), 1 / power);
+        p.xi = -expm1(log(z * (1 + from)) / power);
+        p.width = power / (z * p.eta);
+    } else {
+        double to = t->knot[i + 1];
+        p.xi = (r - from) / (to - from) * (1 + to) * z;
+        p.eta = (to - r) / (to - from) * (1 + from) * z;
+        p.width = (to - from) / ((1 + from) * (1 + to) * z * z);
+    }
+    return p;
+}
+
+/* z^2 W at slope x/z, W = w1 R^2 + w0 R + wq + w4 R^-3. */
+static double weigh(const double w[4], double x, double z)
+{
+    return w[0] * x * x + w[1] * x * z + w[2] * z * z + (w[3] > 0 ? w[3] * pow(z, 5) / pow(x, 3) : 0);
+}
+
+static double end_of(const oracle_table *t, size_t i, const double w[4], int right)
+{
+    double r = t->knot[right ? i + 1 : i];
+    if (right && i == t->cells)
+        return t->g1[i] * w[0];
+    return (right ? t->g1 : t->g0)[i] * weigh(w, r / (1 + r), 1 / (1 + r));
+}
+
+static double mass_of(const oracle_table *t, size_t i, const double w[4])
+{
+    double r = t->knot[i];
+    return w[0] * t->m2[i] + (2 * w[0] * r + w[1]) * t->m1[i] + ((w[0] * r + w[1]) * r + w[2]) * t->m0[i] +
+           w[3] * t->m4[i];
+}
+
+/* The law W f/R in cell i, at slope r, per slope. */
+static double law_in(const oracle_table *t, size_t i, const double w[4], double r)
+{
+    place p = place_in(t, i, r);
+    return rational(mass_of(t, i, w), end_of(t, i, w, 0), end_of(t, i, w, 1), p.xi, p.eta) / p.width;
+}
+
+/* f by its own law; in the last cell by that of R f, which is smooth for heavy tails too. */
+double oracle_table_p22(const oracle_table *t, double r)
+{
+    const double f[4] = {0, 1, 0, 0}, rf[4] = {1, 0, 0, 0};
+    size_t i = cell_of(t, r);
+    return i == t->cells ? law_in(t, i, rf, r) / (2 * PI * r * r) : law_in(t, i, f, r) / (2 * PI * r);
+}
+
+/* ---- area ---- */
+
+/* A/(c + s) at x = c/(c + s), above the horizon. */
+static double spline(const oracle_table *t, double x)
+{
+    size_t i = t->cells;
+    while (i > 0 && x < t->knot[i] / (1 + t->knot[i]))
+        i--;
+    double x0 = t->knot[i] / (1 + t->knot[i]), y0 = t->area[i], d0 = t->slope[i], x1 = 1, y1 = 1, d1 = 1;
+    if (i < t->cells)
+        x1 = t->knot[i + 1] / (1 + t->knot[i + 1]), y1 = t->area[i + 1], d1 = t->slope[i + 1];
+    double h = x1 - x0, u = (x - x0) / h, v = 1 - u;
+    return v * v * (1 + 2 * u) * y0 + u * u * (1 + 2 * v) * y1 + h * u * v * (v * d0 - u * d1);
+}
+
+double oracle_circle(double c, double s)
+{
+    if (s <= fabs(c))
+        return c > 0 ? 2 * PI * c : 0;
+    double e = c < 0 ? 2 * atan2(sqrt(s + c), sqrt(s - c)) : acos(-c / s); /* seen for |a| < e */
+    if (e > 0.3)
+        return 2 * (c * e + s * sin(e));
+    double e2 = e * e, series = 1 - e2 / 10 * (1 - e2 / 28 * (1 - e2 / 54 * (1 - e2 / 88)));
+    return 2 * s * e * e2 / 3 * series; /* s (sin e - e cos e) loses digits */
+}
+
+/* ---- the law above the horizon ---- */
+
+static double turn(const oracle_table *t, size_t j)
+{
+    double here = t->knot[j], before = j > 0 ? t->knot[j - 1] : 0;
+    return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(before / 0.8, sqrt(before * here)));
+}
+
+static void look_above(oracle_law *l)
+{
+    static const double powers[3][4] = {{.934604, 2.206989, 0, 0},
+                                        {1.00473604, 1.48847826, .64837836, 0},
+                                        {.99928177, 1.58441365, .47441838, .08347885}};
+    const oracle_table *t = l->t;
+    const double *a = powers[t->moments - 2], flat[4] = {0, l->c, 0, 0};
+    l->first = 0;
+    while (l->first < t->cells && turn(t, l->first + 1) <= l->rho)
+        l->first++;
+    l->w1 = l->s * a[0] / PI;
+    l->w0 = l->c * a[1] / PI;
+    l->wq = l->s > 0 ? l->c * l->rho * a[2] / PI : 0;
+    l->w4 = l->s > 0 ? l->c * pow(l->rho, 4) * a[3] / PI : 0;
+    for (size_t i = 0; i < l->first; i++)
+        l->near += mass_of(t, i, flat);
+}
+
+/* The polynomial of cell i. */
+static void weights_above(const oracle_law *l, size_t i, double w[4])
+{
+    int flat = i < l->first || i == 0 || l->first == l->t->cells;
+    w[0] = i < l->first ? 0 : l->w1;
+    w[1] = flat ? l->c : l->w0;
+    w[2] = flat ? 0 : l->wq;
+    w[3] = flat ? 0 : l->w4;
+}
+
+/* ---- the law below ---- */
+
+/* W = (R - rho)(b0 R + b1 (R - rho)), in sums of positive terms. */
+static double mass_below(const oracle_law *l, size_t i)
+{
+    const oracle_table *t = l->t;
+    double d = t->knot[i] - l->rho, e = l->b0 * t->knot[i] + l->b1 * d, b = l->b0 + l->b1;
+    return b * t->m2[i] + (b * d + e) * t->m1[i] + d * e * t->m0[i];
+}
+
+static double end_below(const oracle_law *l, size_t i, int right)
+{
+    const oracle_table *t = l->t;
+    double b = l->b0 + l->b1;
+    if (right && i == t->cells)
+        return t->g1[i] * b;
+    double r = t->knot[right ? i + 1 : i], d = r - l->rho, z = 1 / (1 + r);
+    return (right ? t->g1 : t->g0)[i] * z * z * d * (l->b0 * r + l->b1 * d);
+}
+
+/* r W_r (G1/3 + G_rho/6), W_r and G of the right end, r the part of the cell. */
+static double rough_part(const oracle_law *l, size_t i, double xi)
+{
+    const oracle_table *t = l->t;
+    double ends = t->g1[i] / 3 + (t->g0[i] + xi * (t->g1[i] - t->g0[i])) / 6;
+    return (1 - xi) * end_below(l, i, 1) / t->g1[i] * ends;
+}
+
+static void look_below(oracle_law *l)
+{
+    const oracle_table *t = l->t;
+    size_t i = l->first = cell_of(t, l->rho), next = i < t->cells ? i + 1 : i;
+    l->part = place_in(t, i, l->rho).xi;
+    l->b0 = t->b0[i] + l->part * (t->b0[next] - t->b0[i]);
+    l->b1 = t->b1[i] + l->part * (t->b1[next] - t->b1[i]);
+    oracle_law at = *l; /* at the knot the mass is exact */
+    at.rho = t->knot[i];
+    l->part_mass = rough_part(l, i, l->part) * mass_below(&at, i) / rough_part(&at, i, 0);
+}
+
+/* ---- both ---- */
+
+oracle_law oracle_law_from(const oracle_table *t, double s, double c)
+{
+    oracle_law l = {.t = t, .s = s, .c = c, .rho = s > 0 ? fabs(c) / s : HUGE_VAL};
+    double w[4], sum = 0, up = s + fabs(c), above = up * spline(t, fabs(c) / up);
+    if (c >= 0) {
+        look_above(&l);
+        for (size_t i = l.first; i <= t->cells; i++) {
+            weights_above(&l, i, w);
+            sum += mass_of(t, i, w);
+        }
+        l.drawn = l.near + sum;
+        l.area = above;
+        return l;
+    }
+    if (!(s > 0))
+        return l;
+    look_below(&l);
+    for (size_t i = l.first + 1; i <= t->cells; i++)
+        sum += mass_below(&l, i);
+    l.drawn = s / PI * (l.part_mass + sum);
+    double part = fmin(fmax((l.drawn / above - 0.02) / 0.08, 0), 1);
+    l.area = l.drawn + part * (above + c - l.drawn);
+    return l;
+}
+
+double oracle_law_radius(const oracle_law *l, double r)
+{
+    size_t i = cell_of(l->t, r);
+    double w[4];
+    if (l->c >= 0) {
+        weights_above(l, i, w);
+        return law_in(l->t, i, w, r) / l->drawn;
+    }
+    if (r <= l->rho)
+        return 0;
+    place p = place_in(l->t, i, r);
+    if (i > l->first)
+        return l->s / PI * rational(mass_below(l, i), end_below(l, i, 0), end_below(l, i, 1), p.xi, p.eta) /
+               p.width / l->drawn;
+    double part = 1 - l->part, eta = p.eta / part, xi = (p.xi - l->part) / part;
+    return l->s / PI * rational(l->part_mass, 0, part * end_below(l, i, 1), xi, eta) / (p.width * part) / l->drawn;
+}
+
+double oracle_law_density(const oracle_law *l, double r, double azimuth)
+{
+    double facing = l->c + l->s * r * cos(azimuth);
+    return facing > 0 ? oracle_law_radius(l, r) / r * facing / oracle_circle(l->c, l->s * r) : 0;
 }

@@ -1,83 +1,56 @@
-/* A table once more, in double, from the bytes of its file alone: what the run time's density, area, Lambda, G1
- * and D are to be, computed straight from their definition and sharing no code with src/. Slow and plain: no
- * guides, windows or prefix sums, every mass is added up cell by cell.
+/* A table of format 4 once more, in double, from its bytes alone: what it draws, its D and its area, straight from
+ * the definition and sharing no code with src/. Slow and plain: masses are added up cell by cell.
  *
- * True is the function of the very numbers that were given. The numbers of the file are exact; wi need not be
- * unit, it is the direction that counts; so does that of wm, whatever the rounding of its length; roughness is
- * alpha times the f64 scale of the file. So no conditioning of the input excuses an error: a wm whose
- * slope is 1e-6 has that slope to all its digits. Only where the density jumps (a radial knot may be a jump of D;
- * the seam between the azimuths towards wi and away from it) may an input within two ulps of the jump have the
- * value of its other side.
- *
- * With  n = (wm.x/ax, wm.y/ay, wm.z) = (X cos a, X sin a, Z)  in the frame whose x axis is that of
- * (ax wi.x, ay wi.y) = s (cos, sin),  c = wi.z:
- *
- *     s X cos a = wi.x wm.x + wi.y wm.y,      s X sin a = ax wi.x wm.y/ay - ay wi.y wm.x/ax,
- *     density   = (azimuth per radian) (radius per xi) Z^3 / (X width ax ay wm.z^3),      dR = width/Z^2 dxi. */
+ * The unit problem: slopes R of median 1, incident direction (s, 0, c), s >= 0, rho = |c|/s. In cell i, from knot R_i
+ * to R_(i+1), a law is W(R) f/R dR with a polynomial W; it has the mass that the moments of the cell give, and
+ * between the densities of both ends it runs as a rational quadratic (Gregory & Delbourgo 1982). Given R, the azimuth
+ * has the density (c + s R cos a)+. A surface has slopes M u + mean, u of the table. */
 #ifndef TESTS_ORACLE_ORACLE_TABLE_H
 #define TESTS_ORACLE_ORACLE_TABLE_H
 
 #include <stddef.h>
 
-typedef struct oracle_wedge {
-    size_t cells, rows, knots;
-    double *q, *row_y, *aspect_p, *aspect_r;
-    double *mass, *density; /* row by row; each row's mass is 1 */
-    double *knot_y, *area, *slope, *curve;
-} oracle_wedge;
+#include "vndf.h"
 
 typedef struct oracle_table {
-    double scale;
-    size_t count; /* radial cells */
-    double *x, *z, *f0, *f1, *mu0, *mu1;
-    double total0, total1; /* integrals of P22 R dR and P22 R^2 dR */
-    oracle_wedge above, below;
+    double normalization, scale, certificate[12];
+    size_t cells, moments, squarings;
+    double *knot, *g0, *g1, *m0, *m1, *m2, *m4, *b0, *b1, *area,
+        *slope;      /* cells + 1 each; of m4 zeros if moments < 4 */
     double *numbers; /* where all of them are */
 } oracle_table;
 
-/* Reads a file; 0 after a message if it is no table of version 3. */
-int oracle_table_read(oracle_table *t, const char *path);
+/* Reads the bytes of a file; 0 after a message if they are no table of format 4. */
+int oracle_table_read(oracle_table *t, const unsigned char *bytes, size_t size);
+
+/* The same of a loaded or built table, through vndf_save_memory. */
+int oracle_table_of(oracle_table *t, const vndf_distribution *distribution);
 void oracle_table_free(oracle_table *t);
 
-/* What is asked; any lengths. */
-typedef struct oracle_query {
-    double wi[3], alpha[2], wm[3];
-} oracle_query;
+/* ---- one direction ---- */
 
-/* The density per steradian in value[0], and in value[1...] what it is on the other side of each jump, and of
- * both, within two ulps. Returns how many values there are. */
-enum { ORACLE_SIDES = 6 };
-size_t oracle_table_densities(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES]);
+/* Masses are those of the drawn law times its area; `first` is the cell of the switch, or below the horizon that of
+ * rho, which begins at `part` of it. */
+typedef struct oracle_law {
+    const oracle_table *t;
+    double s, c, rho, w1, w0, wq, w4, b0, b1, part, part_mass, near;
+    size_t first;
+    double drawn, area; /* projected areas: the drawn one, and the public one */
+} oracle_law;
 
-/* The least and the largest density, or with `ndf` D, where the slope or the cut is 2^-50 less or more: where
- * they change by 1e-5 between these, no arithmetic in double could place the normal any better. */
-void oracle_table_blur(const oracle_table *t, const oracle_query *q, int ndf, double range[2]);
+/* s and c of any length; areas are per that length. */
+oracle_law oracle_law_from(const oracle_table *t, double s, double c);
 
-/* A(wi), Lambda, G1; D(wm), with the value on the other side of a knot within two ulps as above. */
-double oracle_table_area(const oracle_table *t, const oracle_query *q);
-double oracle_table_lambda(const oracle_table *t, const oracle_query *q);
-double oracle_table_g1(const oracle_table *t, const oracle_query *q);
-size_t oracle_table_ndfs(const oracle_table *t, const oracle_query *q, double value[ORACLE_SIDES]);
+/* The density of R in the drawn law, per slope length. */
+double oracle_law_radius(const oracle_law *law, double r);
 
-/* ---- the parts ---- */
+/* The density of slopes (R, azimuth from wi), per area of the slope plane. */
+double oracle_law_density(const oracle_law *law, double r, double azimuth);
 
-/* A place among the radial knots: the cell, and xi and 1 - xi there, each exact where it is small. */
-typedef struct oracle_place {
-    size_t cell;
-    double xi, eta;
-} oracle_place;
+/* P22 of the table, at canonical slope R. */
+double oracle_table_p22(const oracle_table *t, double r);
 
-/* Where the slope X/Z lies; `aside` is -1 or 1 for the end of the cell before or behind that is within two ulps,
- * 0 for the cell itself. Returns 0 if there is none. */
-int oracle_table_place(const oracle_table *t, double x, double z, int aside, oracle_place *at);
-
-/* f of a cell by its cubic, before it is held above 0; eta = 1 - xi. */
-double oracle_table_cubic(const oracle_table *t, size_t cell, double xi, double eta);
-
-/* Half a wedge's mass per (s + |c|), at y in [0, 1]. */
-double oracle_wedge_mass(const oracle_wedge *w, double y);
-
-/* The rational quadratic density of a cell (Gregory & Delbourgo 1982) at xi, eta = 1 - xi. */
-double oracle_rational(double e0, double e1, double mass, double xi, double eta);
+/* integral over the circle of max(0, c + s cos a). */
+double oracle_circle(double c, double s);
 
 #endif

@@ -102,9 +102,7 @@ static void test_rough_materials(void)
         return;
     }
     check_optics(&s);
-    TEST(s.table_count == 2); /* hazy once, and the family, which is built quickly */
-    TEST(vndf_distribution_info(s.tables[0]).certificate.quick == 0 &&
-         vndf_distribution_info(s.tables[1]).certificate.quick == 1);
+    TEST(s.table_count == 2); /* hazy once, and the family */
     const material *f = material_of(&s, "f"), *g = material_of(&s, "g"), *d = material_of(&s, "d");
     TEST(f && d && f->is.distribution == d->is.distribution && d->is.alpha_x == 1.0f && f->is.alpha_x == 2.0f);
     TEST(g && g->is.effects.lobes == VNDF_LOBES_TRANSMISSION);

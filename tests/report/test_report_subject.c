@@ -31,19 +31,20 @@ static void test_errors(const report_subject *s)
 {
     for (size_t i = 0; i < s->count; i++) {
         const report_table *t = &s->table[i];
-        double claimed = (double)t->info.certificate.tv;
+        double claimed = (double)t->info.certificate.tv, claimed_above = (double)t->info.certificate.tv_above;
         TEST(t->worst.tv > 0.6 * claimed && t->worst.tv < 1.4 * claimed);
-        TEST(t->tv >= claimed && t->tv_above <= t->worst.tv);
+        TEST(t->tv_below >= claimed && t->tv_above >= claimed_above && t->tv_above < 1.4 * claimed_above);
         TEST(t->worst.variance >= 4 * t->worst.tv * t->worst.tv * 0.99); /* Cauchy-Schwarz */
-        TEST(i == 0 || t->worst.tv < s->table[i - 1].worst.tv);
+        TEST(i == 0 || t->tv_above < s->table[i - 1].tv_above);
         TEST(t->time.view > 0 && t->time.sample > 0 && t->time.pdf > 0 && t->time.batch > 0);
     }
 }
 
-/* student-t:2.5: 2 KiB have a total variation above 1e-3, 4 KiB have not. */
+/* The table that is advised keeps the limit of the total variation, and the next smaller one breaks one. */
 static void test_advice(const report_subject *s)
 {
-    TEST(s->chosen == 1 && s->table[1].asked == 4096);
+    const report_table *t = &s->table[s->chosen];
+    TEST(t->tv_above <= 1e-3 && t->tv_below <= 3e-2 && s->chosen + 1 < s->count);
 }
 
 /* The error of a mean of 4096 samples is 1/64 of that of one; a biased one would level off. */
@@ -66,7 +67,7 @@ static void test_interrupted(void)
     vndf_error error = {VNDF_OK, ""};
     const report_watch watch = {stop, NULL};
     TEST(begin(&s, "ggx", &error) == VNDF_OK);
-    TEST(report_subject_build(&s, 4096, 1, &watch, &error) == VNDF_ERROR_ARGUMENT);
+    TEST(report_subject_build(&s, 1, &watch, &error) == VNDF_ERROR_ARGUMENT);
     TEST_HAS(error.message, "interrupted");
     report_subject_free(&s);
 }
@@ -77,7 +78,7 @@ int main(void)
     vndf_error error = {VNDF_OK, ""};
     const report_watch watch = {go_on, NULL};
     if (TEST(begin(&s, "student-t:2.5", &error) == VNDF_OK) &&
-        TEST(report_subject_build(&s, 16384, 3600, &watch, &error) == VNDF_OK) && TEST(s.count == 4)) {
+        TEST(report_subject_build(&s, 3600, &watch, &error) == VNDF_OK) && TEST(s.count >= 3)) {
         test_errors(&s);
         test_advice(&s);
         test_noise(&s);

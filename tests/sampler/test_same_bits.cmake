@@ -1,33 +1,22 @@
-# The run time gives the same bits whatever compiled it and wherever it runs: gcc and clang, from no optimisation
-# to everything that this machine's processor has, 32-bit x86 with SSE2, and the machines of `machines` below
-# through qemu, all compared with tests/corpus/same_bits.txt, so that machines that never met are compared too.
-# Only the rooms of the run time are compiled here, so they do not need the offline ones.
-#
-# LONG=ON (more_same_bits) does all of this: the optimised builds for this machine take 1e6 samples of every
-# distribution, the slow ones - not optimised, emulated, or 32-bit - the first 2e4 of the same. Without it three of
-# them take 2e4: the library as it was built here, a compiler that did not build it with all that the processor
-# has, and one machine through qemu, big-endian if it can be. What cannot be built or
-# run here is named on a line "not here: ...".
+# The run time gives the same bits whatever compiled it and wherever it runs: the library of this build, and gcc and
+# clang at -O0, -O2 and -O3 -march=native, 32-bit x86 with SSE2, and the machines below through qemu, where they are
+# here; all are compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Without LONG
+# (more_same_bits) it is the library, -O0 and -O3 of a compiler that did not build it, and one machine through qemu.
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
 # runs this with -DRENEW=ON and writes the file anew, if all builds agree.
 cmake_minimum_required(VERSION 3.16)
 
 set(expected_file ${SOURCE}/tests/corpus/same_bits.txt)
-set(machines aarch64-linux-gnu arm-linux-gnueabihf riscv64-linux-gnu s390x-linux-gnu) # the last is big-endian
-set(prefix 20000)
-set(whole 1000000)
-if(RENEW)
+set(machines s390x-linux-gnu aarch64-linux-gnu arm-linux-gnueabihf riscv64-linux-gnu) # the first is big-endian
+set(few 20000)
+set(many ${few})
+if(RENEW OR (LONG AND "$ENV{VNDF_TEST_QUICK}" STREQUAL ""))
     set(LONG ON)
-endif()
-if(NOT LONG OR NOT "$ENV{VNDF_TEST_QUICK}" STREQUAL "")
-    set(whole ${prefix})
+    set(many 1000000)
 endif()
 
 file(GLOB tables ${SOURCE}/tables/*.vndf)
-if(NOT tables)
-    message(FATAL_ERROR "no tables in ${SOURCE}/tables")
-endif()
 set(program ${SOURCE}/tests/sampler/same_bits.c)
 set(sources ${program})
 foreach(room core math table sampler bsdf)
@@ -39,49 +28,38 @@ set(flags -std=c11 ${arithmetic} -I${SOURCE}/src -I${SOURCE}/include -I${SOURCE}
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 
-# ---- expected hashes ----------------------------------------------------------------------------
-
-# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's, or without one (RENEW)
-# the first build's.
-function(compare_hashes who lines)
-    string(REGEX REPLACE "\n" ";" lines "${lines}")
+# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's or, to renew it, the first
+# build's.
+set(learning ON)
+function(compare who text)
+    string(REGEX MATCHALL "[0-9a-f]+ [0-9]+ [^\n]+" lines "${text}")
+    list(LENGTH lines found)
+    list(LENGTH tables least)
+    if(found LESS_EQUAL least)
+        message(SEND_ERROR "${who} has too few hashes:\n${text}")
+    endif()
     foreach(line IN LISTS lines)
-        if(line MATCHES "^([0-9a-f]+) ([0-9]+) (.+)$")
-            get_property(known GLOBAL PROPERTY "hash of ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}")
-            if(NOT known AND NOT from_file)
-                set_property(GLOBAL PROPERTY "hash of ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}" ${CMAKE_MATCH_1})
-                set_property(GLOBAL APPEND PROPERTY hash_lines "${line}")
-            elseif(NOT known STREQUAL CMAKE_MATCH_1)
-                message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2} samples of "
-                    "${CMAKE_MATCH_3}, expected '${known}'. If arithmetic or tables were changed on purpose: "
-                    "cmake --build build --target same_bits")
-            endif()
+        string(REGEX MATCH "^([^ ]+) (.+)$" line "${line}")
+        get_property(known GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}")
+        if(NOT known AND learning)
+            set_property(GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
+            set_property(GLOBAL APPEND PROPERTY hashes "${line}")
+        elseif(NOT known STREQUAL CMAKE_MATCH_1)
+            message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2}, expected '${known}'. If arithmetic "
+                "or tables were changed on purpose: cmake --build build --target same_bits")
         endif()
     endforeach()
 endfunction()
 
-set(from_file OFF)
 if(NOT RENEW)
-    if(NOT EXISTS ${expected_file})
-        message(FATAL_ERROR "${expected_file} is missing; cmake --build build --target same_bits writes it")
-    endif()
     file(READ ${expected_file} expected)
-    compare_hashes("${expected_file}" "${expected}")
-    set(from_file ON)
+    compare(${expected_file} "${expected}")
+    set(learning OFF)
 endif()
 
-# ---- one build ----------------------------------------------------------------------------------
-
-# run_build(NAME COUNT EMULATOR COMPILER FLAG...): EMULATOR may be empty.
-function(run_build who count emulator)
-    run_sources("${who}" ${count} "${emulator}" "${sources}" ${ARGN})
-endfunction()
-
-# The same of SOURCES, which may end in a library.
-function(run_sources who count emulator parts)
-    string(TIMESTAMP begin "%s")
-    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm
-        RESULT_VARIABLE status ERROR_VARIABLE errors)
+# run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty.
+function(run who count emulator parts)
+    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm RESULT_VARIABLE status ERROR_VARIABLE errors)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "${who} cannot build the run time:\n${errors}")
     endif()
@@ -90,95 +68,59 @@ function(run_sources who count emulator parts)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "built by ${who}, the program failed:\n${output}${errors}")
     endif()
-    compare_hashes("${who}" "${output}")
-    string(REGEX MATCHALL "[^\n]+" lines "${output}")
-    list(LENGTH lines found)
-    list(LENGTH tables least)
-    if(found LESS_EQUAL least)
-        message(SEND_ERROR "built by ${who}, the program printed too little:\n${output}")
-    endif()
-    string(TIMESTAMP end "%s")
-    math(EXPR seconds "${end} - ${begin}")
-    message("same bits: ${who}, ${count} samples of each distribution (${seconds} s)")
+    compare("${who}" "${output}")
+    message("same bits: ${who}, ${count} samples of each distribution")
 endfunction()
 
-# Whether a program with the headers of the run time can be built and run; nothing here is ours, so nothing is
-# judged.
+# Whether a compiler's programs run here.
 function(can_run result emulator)
-    file(WRITE ${OUT}/probe.c "#include <errno.h>\n#include <math.h>\n#include <stdio.h>\n#include <stdlib.h>\n"
-        "int main(int n, char **a) { return a[0] && errno == 0 && sqrt((double)n) == 1.0 ? 0 : 1; }\n")
-    execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm
-        RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+    file(WRITE ${OUT}/probe.c "#include <math.h>\n#include <stdio.h>\nint main(int n, char **a) { return a[0] && "
+        "sqrt((double)n) == 1.0 ? 0 : 1; }\n")
+    execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
     if(status EQUAL 0)
         execute_process(COMMAND ${emulator} ${OUT}/probe RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
     endif()
-    set(${result} OFF PARENT_SCOPE)
-    if(status EQUAL 0)
-        set(${result} ON PARENT_SCOPE)
+    string(COMPARE EQUAL "${status}" "0" good)
+    set(${result} ${good} PARENT_SCOPE)
+    if(NOT good)
+        message("not here: ${ARGN}")
     endif()
 endfunction()
 
 # ---- this machine -------------------------------------------------------------------------------
 
-get_filename_component(compilers ${C_COMPILER} REALPATH) # cc and gcc may be one
 if(SANITIZE STREQUAL "")
-    run_sources("the library of this build" ${prefix} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
+    run("the library of this build" ${few} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
 endif()
+get_filename_component(compilers ${C_COMPILER} REALPATH) # cc and gcc may be one
 foreach(name gcc clang)
     find_program(found_${name} ${name})
     if(found_${name})
         get_filename_component(compiler ${found_${name}} REALPATH)
         list(APPEND compilers ${compiler})
-    else()
-        message("not here: ${name}")
     endif()
 endforeach()
 list(REMOVE_DUPLICATES compilers)
 if(NOT LONG)
-    list(POP_BACK compilers others) # another than the one of this build, if there is one
-    set(compilers ${others})
+    list(POP_BACK compilers compilers) # another than the one of this build, if there is one
 endif()
 foreach(compiler IN LISTS compilers)
-    if(LONG)
-        run_build("${compiler} -O2" ${whole} "" ${compiler} -O2)
-        run_build("${compiler} -O0" ${prefix} "" ${compiler} -O0)
-    endif()
+    run("${compiler} -O0" ${few} "" "${sources}" ${compiler} -O0)
     can_run(native "" ${compiler} -march=native)
     if(native)
-        run_build("${compiler} -O3 -march=native" ${whole} "" ${compiler} -O3 -march=native)
-    else()
-        message("not here: ${compiler} -march=native")
+        run("${compiler} -O3 -march=native" ${many} "" "${sources}" ${compiler} -O3 -march=native)
     endif()
 endforeach()
 
-# ---- 32-bit x86, and the x87 --------------------------------------------------------------------
+# ---- others -------------------------------------------------------------------------------------
 
 # Distributions that have compilers for other machines too keep the kernel's headers apart.
 set(small gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/x86_64-linux-gnu)
-can_run(found "" ${small})
-if(found AND LONG)
-    run_build("gcc -m32 -msse2 -mfpmath=sse -O2" ${prefix} "" ${small} -O2)
-elseif(NOT found)
-    message("not here: gcc -m32 (Debian: gcc-multilib)")
-endif()
-
-can_run(found "" gcc -mfpmath=387)
-if(found)
-    execute_process(COMMAND gcc -mfpmath=387 ${flags} -fsyntax-only ${SOURCE}/src/sampler/analytic/ggx.c
-        RESULT_VARIABLE status ERROR_VARIABLE errors)
-    if(status EQUAL 0 OR NOT errors MATCHES "FLT_EVAL_METHOD 0")
-        message(SEND_ERROR "floats with more digits than they have are to be refused; gcc -mfpmath=387 says:\n"
-            "${errors}")
+if(LONG)
+    can_run(found "" ${small})
+    if(found)
+        run("gcc -m32 -msse2 -mfpmath=sse -O2" ${few} "" "${sources}" ${small} -O2)
     endif()
-    message("refused, as it must be: gcc -mfpmath=387")
-else()
-    message("not here: gcc -mfpmath=387")
-endif()
-
-# ---- other machines -----------------------------------------------------------------------------
-
-if(NOT LONG)
-    list(REVERSE machines)
 endif()
 foreach(machine IN LISTS machines)
     string(REGEX MATCH "^[^-]+" processor ${machine})
@@ -186,21 +128,16 @@ foreach(machine IN LISTS machines)
     can_run(found "${emulator_${processor}}" ${machine}-gcc -static)
     if(found AND emulator_${processor})
         # In ISO mode gcc for s390x keeps floats as doubles, which the sources refuse, unless it is told not to.
-        run_build("${machine}-gcc -O2" ${prefix} ${emulator_${processor}} ${machine}-gcc -static -O2
+        run("${machine}-gcc -O2" ${few} ${emulator_${processor}} "${sources}" ${machine}-gcc -static -O2
             -fexcess-precision=fast)
         if(NOT LONG)
             break()
         endif()
-    else()
-        message("not here: ${machine}-gcc with qemu-${processor}")
     endif()
 endforeach()
 
-# ---- renewal ------------------------------------------------------------------------------------
-
 if(RENEW)
-    get_property(lines GLOBAL PROPERTY hash_lines)
+    get_property(lines GLOBAL PROPERTY hashes)
     list(JOIN lines "\n" text)
     file(WRITE ${expected_file} "${text}\n")
-    message("${expected_file} is written")
 endif()

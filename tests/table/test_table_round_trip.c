@@ -3,12 +3,8 @@
 #include <stdlib.h>
 
 #include "oracle/oracle.h"
-#include "table/file.h"
+#include "vndf_build.h"
 #include "harness/test.h"
-
-#ifndef VNDF_SOURCE_DIR
-#  define VNDF_SOURCE_DIR "."
-#endif
 
 static int same(const void *a, const void *b, size_t size)
 {

@@ -1,258 +1,165 @@
-/* A table that breaks one rule of the format is refused, whatever its checksum says, and the message names the
- * rule: every rule of src/table/validate.c, the limits of the counts, and parts that leave bytes over. Random
- * damage (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
-#include <stdlib.h>
-
-#include "core/checksum.h"
+/* A table that breaks one rule of format 4 is refused, whatever its checksum says, and the message names the rule: the
+ * counts, the range of every number, knots that ascend, masses that add up to 1, parts that fill the file. Random damage
+ * (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
+#include "harness/damage.h"
 #include "oracle/oracle.h"
-#include "table/file.h"
-#include "table/table.h"
-#include "harness/test.h"
+#include "vndf_build.h"
 
-enum { SIZE = 4096, COUNTS = 32 /* where the seven counts begin */ };
+enum { ROOM = 1 << 16, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 92 };
 
-static void put_u32(unsigned char *at, unsigned value)
+/* The arrays in their order. */
+enum { KNOT, DENSITY_LEFT, DENSITY_RIGHT, M0, M1, M2, M4, B0, B1, AREA, SLOPE };
+
+typedef struct table_bytes {
+    unsigned char bytes[ROOM];
+    size_t size, arrays, knots; /* where the arrays begin; cells + 1 */
+} table_bytes;
+
+static unsigned long get_u32(const unsigned char *bytes)
 {
-    for (int i = 0; i < 4; i++)
-        at[i] = (unsigned char)(value >> 8 * i);
+    return bytes[0] | (unsigned long)bytes[1] << 8 | (unsigned long)bytes[2] << 16 | (unsigned long)bytes[3] << 24;
+}
+
+static void put_f32(unsigned char *bytes, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_u32(bytes, bits);
+}
+
+static float get_f32(const unsigned char *bytes)
+{
+    uint32_t bits = (uint32_t)get_u32(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Of four moments, so that all arrays are there. */
+static int make_table(table_bytes *t)
+{
+    oracle o = oracle_get(ORACLE_LAPLACE);
+    vndf_distribution *table = oracle_build(&o, 8192, NULL);
+    t->size = vndf_distribution_info(table).bytes;
+    int made = TEST(table && t->size <= ROOM && vndf_save_memory(table, t->bytes, t->size, NULL) == VNDF_OK);
+    vndf_free(table);
+    if (!made || !TEST(get_u32(t->bytes + 8) == 4 && get_u32(t->bytes + COUNTS + 4) == 4))
+        return 0;
+    size_t tool = TEXTS + 4 + get_u32(t->bytes + TEXTS);
+    t->arrays = tool + 4 + get_u32(t->bytes + tool);
+    t->knots = get_u32(t->bytes + COUNTS) + 1;
+    return TEST(t->arrays + 44 * t->knots + 4 == t->size);
 }
 
 /* The bytes with a right size and checksum are refused for a reason that holds `part`. */
-static void test_refused(unsigned char *bytes, size_t size, const char *part)
+static void test_refused_for(const table_bytes *t, const char *part)
 {
+    static table_bytes changed;
     vndf_error error = {VNDF_OK, ""};
-    put_u32(bytes + 12, (unsigned)size);
-    put_u32(bytes + size - 4, vndf_crc32(0, bytes, size - 4));
-    vndf_distribution *table = vndf_load_memory(bytes, size, &error);
+    changed = *t;
+    put_u32(changed.bytes + 12, (unsigned long)changed.size);
+    mend_checksum(changed.bytes, changed.size);
+    vndf_distribution *table = vndf_load_memory(changed.bytes, changed.size, &error);
     if (!(TEST(!table) & TEST(error.status == VNDF_ERROR_TABLE) & TEST_HAS(error.message, part)))
         fprintf(stderr, "  asked for: %s, had: %s\n", part, error.message);
     vndf_free(table);
 }
 
-/* ---- rules of what is in the parts --------------------------------------------------------------- */
-
-static void off_line(vndf_distribution *t)
-{
-    t->knots.at[3].x += 1e-4f;
-}
-
-static void moment_zero(vndf_distribution *t)
-{
-    t->cells[2].mu0 = 0;
-}
-
-static void moment_large(vndf_distribution *t)
-{
-    t->cells[2].mu1 = 1e7f;
-}
-
-static void density_negative(vndf_distribution *t)
-{
-    t->cells[2].f1 = -1e-6f;
-}
-
-static void density_nan(vndf_distribution *t)
-{
-    t->cells[2].f0 = NAN;
-}
-
-static void pole_dense(vndf_distribution *t)
-{
-    t->cells[0].f0 = 0.1f;
-}
-
-static void cubic_negative(vndf_distribution *t)
-{
-    t->cells[2].mu0 = 1e-30f;
-}
-
-static void claim_nan(vndf_distribution *t)
-{
-    t->certificate.max_weight = NAN;
-}
-
-static void claim_negative(vndf_distribution *t)
-{
-    t->certificate.tv = -1;
-}
-
-static void scale_zero(vndf_distribution *t)
-{
-    t->scale = 0;
-}
-
-static void normalization_infinite(vndf_distribution *t)
-{
-    t->normalization = INFINITY;
-}
-
-static void cells_coincide(vndf_wedge *w)
-{
-    w->q[2] = w->q[1];
-}
-
-static void row_mass_zero(vndf_wedge *w)
-{
-    w->row_cell[1].mass += w->row_cell[0].mass;
-    w->row_cell[0].mass = 0;
-}
-
-static void row_density_negative(vndf_wedge *w)
-{
-    w->row_cell[1].density = -1e-3f;
-}
-
-static void row_heavy(vndf_wedge *w)
-{
-    w->row_cell[1].mass += 0.001f;
-}
-
-static void aspect_zero(vndf_wedge *w)
-{
-    *vndf_aspect_r(w, 1) = 0;
-}
-
-static void rows_coincide(vndf_wedge *w)
-{
-    w->row_y[1] = 0;
-}
-
-static void rows_nearly_coincide(vndf_wedge *w)
-{
-    w->row_y[1] = 1e-20f;
-}
-
-static void knots_coincide(vndf_wedge *w)
-{
-    w->knot_y[1] = 0;
-}
-
-static void no_mass(vndf_wedge *w)
-{
-    w->mass[1] = 0;
-}
-
-static void slope_negative(vndf_wedge *w)
-{
-    w->slope[1] = -1;
-}
-
-static void curve_nan(vndf_wedge *w)
-{
-    w->curve[1] = NAN;
-}
-
-static void mass_falls(vndf_wedge *w)
-{
-    w->mass[1] = 2 * w->mass[2];
-}
-
-static void knots_swapped(vndf_distribution *t)
-{
-    vndf_knot knot = t->knots.at[3];
-    t->knots.at[3] = t->knots.at[4];
-    t->knots.at[4] = knot;
-}
-
-static void knots_equal(vndf_distribution *t)
-{
-    t->knots.at[4] = t->knots.at[3];
-}
+/* ---- numbers ---- */
 
 static const struct {
-    void (*spoil)(vndf_distribution *table);
+    int array;
+    size_t index; /* one beyond the last stands for the last */
+    float value;
     const char *message;
-} TABLE_RULES[] = {{off_line, "off the line"},
-                   {knots_swapped, "radial knots do not ascend"},
-                   {knots_equal, "coincide"},
-                   {moment_zero, "moment out of range"},
-                   {moment_large, "moment out of range"},
-                   {density_negative, "moment out of range"},
-                   {density_nan, "moment out of range"},
-                   {pole_dense, "from the pole"},
-                   {cubic_negative, "below zero"},
-                   {claim_nan, "no measurement"},
-                   {claim_negative, "no measurement"},
-                   {scale_zero, "scale or normalization"},
-                   {normalization_infinite, "scale or normalization"}};
+} NUMBERS[] = {{KNOT, 0, 1e-3f, "knots do not run"},
+               {KNOT, 1, 1e-13f, "knots do not run"},
+               {KNOT, 9999, 2e9f, "knots do not run"},
+               {KNOT, 5, 0, "ascend"},
+               {KNOT, 5, NAN, "ascend"},
+               {DENSITY_LEFT, 2, -1e-6f, "density is out of range"},
+               {DENSITY_RIGHT, 9999, NAN, "density is out of range"},
+               {DENSITY_LEFT, 0, 1e37f, "density is out of range"},
+               {M0, 3, 0, "moment is out of range"},
+               {M1, 3, -1, "moment is out of range"},
+               {M2, 9999, INFINITY, "moment is out of range"},
+               {M4, 2, -1e-9f, "moment is out of range"},
+               {B0, 1, -0.1f, "share is out of range"},
+               {B1, 9999, NAN, "share is out of range"},
+               {B0, 4, 1e7f, "share is out of range"},
+               {AREA, 0, 0, "area is out of range"},
+               {SLOPE, 3, NAN, "area is out of range"},
+               {M1, 6, 0.5f, "add up to 1"}};
 
-static const struct {
-    void (*spoil)(vndf_wedge *wedge);
-    const char *message;
-} WEDGE_RULES[] = {{cells_coincide, "azimuth cells do not ascend"},
-                   {row_mass_zero, "mass or density"},
-                   {row_density_negative, "mass or density"},
-                   {row_heavy, "add up to 1"},
-                   {aspect_zero, "aspect"},
-                   {rows_coincide, "azimuth rows do not ascend"},
-                   {rows_nearly_coincide, "azimuth rows do not ascend"},
-                   {knots_coincide, "area knots do not ascend"},
-                   {no_mass, "wedge mass is out of range"},
-                   {slope_negative, "wedge mass is out of range"},
-                   {curve_nan, "wedge mass is out of range"},
-                   {mass_falls, "wedge masses do not ascend"}};
-
-static void test_spoiled(vndf_distribution *table, const char *message)
+static void test_numbers(const table_bytes *sound)
 {
-    unsigned char bytes[SIZE];
-    test_refused(bytes, vndf_table_encode(table, bytes, sizeof bytes), message);
-    vndf_free(table);
+    static table_bytes t;
+    for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
+        size_t index = NUMBERS[i].index < sound->knots ? NUMBERS[i].index : sound->knots - 1;
+        t = *sound;
+        put_f32(t.bytes + t.arrays + 4 * ((size_t)NUMBERS[i].array * t.knots + index), NUMBERS[i].value);
+        test_refused_for(&t, NUMBERS[i].message);
+    }
+    t = *sound; /* two knots that are one */
+    put_f32(t.bytes + t.arrays + 20, get_f32(t.bytes + t.arrays + 16));
+    test_refused_for(&t, "ascend");
+    for (int claim = 0; claim < 12; claim++) {
+        t = *sound;
+        put_f32(t.bytes + CLAIMS + 4 * claim, claim % 2 ? NAN : claim == 11 ? 1 : -1);
+        test_refused_for(&t, "no measurement");
+    }
+    for (int which = 0; which < 2; which++)
+        for (int i = 0; i < 3; i++) { /* zero, infinity, NaN */
+            static const unsigned char tops[3][2] = {{0, 0}, {0xf0, 0x7f}, {0xf8, 0x7f}};
+            t = *sound;
+            memset(t.bytes + SCALES + 8 * which, 0, 6);
+            memcpy(t.bytes + SCALES + 8 * which + 6, tops[i], 2);
+            test_refused_for(&t, "scale or normalization");
+        }
 }
 
-static void test_rules(const unsigned char *sound, size_t size)
+/* ---- the whole ---- */
+
+static void test_whole(const table_bytes *sound)
 {
-    for (size_t i = 0; i < sizeof TABLE_RULES / sizeof *TABLE_RULES; i++) {
-        vndf_distribution *table = vndf_load_memory(sound, size, NULL);
-        TABLE_RULES[i].spoil(table);
-        test_spoiled(table, TABLE_RULES[i].message);
+    static const unsigned long counts[][2] = {{0, 1}, {0, 0}, {0, 5000}, {0, 0xffffffff}, {1, 1}, {1, 5}, {2, 6}};
+    static table_bytes t;
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        t = *sound;
+        put_u32(t.bytes + COUNTS + 4 * counts[i][0], counts[i][1]);
+        test_refused_for(&t, "outside the limits");
     }
-    for (size_t i = 0; i < 2 * (sizeof WEDGE_RULES / sizeof *WEDGE_RULES); i++) {
-        vndf_distribution *table = vndf_load_memory(sound, size, NULL);
-        WEDGE_RULES[i / 2].spoil(i % 2 ? &table->below : &table->above);
-        test_spoiled(table, WEDGE_RULES[i / 2].message);
+    for (size_t more = 1; more <= 8; more++) { /* parts that end before the file does */
+        t = *sound;
+        memset(t.bytes + t.size - 4, 0, 12);
+        t.size += more;
+        test_refused_for(&t, "do not fill the file");
     }
-}
-
-/* ---- rules of the whole -------------------------------------------------------------------------- */
-
-/* Which count, and a value outside its limits. */
-/* clang-format off */
-static const unsigned LIMITS[][2] = {
-    {0, 1}, {0, VNDF_RADIAL_CELLS_MAX + 1}, {1, 1}, {1, VNDF_WEDGE_CELLS_MAX + 1}, {2, 1}, {2, 4},
-    {2, VNDF_WEDGE_ROWS_MAX + 1}, {3, 1}, {3, VNDF_AREA_KNOTS_MAX + 1}, {4, 1}, {4, VNDF_WEDGE_CELLS_MAX + 1},
-    {5, 1}, {5, 4}, {5, VNDF_WEDGE_ROWS_MAX + 1}, {6, 1}, {6, VNDF_AREA_KNOTS_MAX + 1}};
-/* clang-format on */
-
-static void test_whole(const unsigned char *sound, size_t size)
-{
-    unsigned char bytes[SIZE + 8];
-    for (size_t i = 0; i < sizeof LIMITS / sizeof *LIMITS; i++) {
-        memcpy(bytes, sound, size);
-        put_u32(bytes + COUNTS + 4 * LIMITS[i][0], LIMITS[i][1]);
-        test_refused(bytes, size, "outside the limits");
+    t = *sound;
+    put_u32(t.bytes + COUNTS, (unsigned long)sound->knots + 3); /* and after it */
+    test_refused_for(&t, "do not fill the file");
+    t = *sound;
+    put_u32(t.bytes + COUNTS + 4, 3); /* one array less */
+    test_refused_for(&t, "do not fill the file");
+    for (unsigned version = 1; version < 4; version++) {
+        t = *sound;
+        put_u32(t.bytes + 8, version);
+        test_refused_for(&t, "build it again");
     }
-    for (unsigned more = 1; more <= 8; more++) { /* parts that end before the file does */
-        memset(bytes, 0, sizeof bytes);
-        memcpy(bytes, sound, size - 4);
-        test_refused(bytes, size + more, "do not fill the file");
-    }
-    memcpy(bytes, sound, size);
-    put_u32(bytes + COUNTS, 8000); /* and after it */
-    test_refused(bytes, size, "do not fill the file");
+    t = *sound;
+    put_u32(t.bytes + 8, 5);
+    test_refused_for(&t, "version");
 }
 
 int main(void)
 {
-    unsigned char sound[SIZE];
-    oracle o = oracle_get(ORACLE_LAPLACE);
-    vndf_distribution *table = oracle_build(&o, SIZE, NULL);
-    size_t size = table ? vndf_table_encode(table, sound, sizeof sound) : 0;
-    vndf_free(table);
-    table = vndf_load_memory(sound, size, NULL);
-    if (TEST(table != NULL)) {
-        test_rules(sound, size);
-        test_whole(sound, size);
+    static table_bytes sound;
+    if (make_table(&sound)) {
+        vndf_distribution *table = vndf_load_memory(sound.bytes, sound.size, NULL);
+        TEST(table != NULL);
+        vndf_free(table);
+        test_numbers(&sound);
+        test_whole(&sound);
     }
-    vndf_free(table);
     return test_done();
 }

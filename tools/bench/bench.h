@@ -22,23 +22,28 @@ typedef enum bench_kind {
 
 /* NaN: does not apply, or was not measured. */
 typedef struct bench_row {
-    char method[64];       /* "GGX spherical caps (2023)", "table 16 KiB" ... */
+    char method[64];       /* "spherical caps (2023)", "table 8 KiB, 4 moments" ... */
     char distribution[64]; /* what it samples: "ggx", "beckmann", the caller's name for the source */
     char instructions[16]; /* "scalar", "portable", "avx2", "avx512" */
     bench_kind kind;
     size_t memory;              /* bytes that its tables take when loaded; 0 for closed forms */
     size_t file_bytes;          /* of a table of ours; 0 for all others */
+    int moments;                /* the same */
     int wrong;                  /* 1: its results failed verification, so nothing was timed */
     double ns, ns_low, ns_high; /* per sample, a direction each (view, sample, density): median and quartiles */
     double shared_ns;           /* many samples for one direction; NaN if the method has no such use */
     double latency_ns;          /* each sample's input depends on the last one's output; NaN for batches */
     double ratio;               /* ns over that of scalar spherical caps of the same run */
-    double tv, tv_theta;        /* largest total variation to the true visible normals, and the angle, degrees */
+    double tv, tv_theta;        /* largest total variation to the true visible normals from above the horizon, and
+                                   the angle, degrees */
+    double tv_below;            /* of tables of ours: the same from all directions */
     double max_weight;          /* largest true/drawn density that was met; infinity where there are holes */
     double efficiency[2];       /* 1/(variance time) over that of all normals of the same distribution: albedo of
                                    a conductor at 60 and 85 degrees */
     double efficiency_light;    /* the same of the radiance reflected from a small light */
     double bias[2];             /* relative error of the albedo at 60 and 85 degrees; 0 if within its noise */
+    double stratified;          /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of spherical caps
+                                   (tools/measure/stratified_error.h) */
 } bench_row;
 
 typedef struct bench_rows {
@@ -51,10 +56,7 @@ typedef struct bench_plan {
     const char *name;          /* what to call it */
     double seconds;            /* to spend in all, roughly; building the tables may take longer */
     const char *only;          /* NULL, or a part of the method, distribution or instructions of the rows wanted */
-    const vndf_distribution *const *ready; /* tables of the source that the caller has built: no others then */
-    const size_t *ready_limits;            /* the max_bytes of each, ascending */
-    size_t ready_count;                    /* 0: they are built here */
-    vndf_progress *progress;               /* may be NULL; asked every few milliseconds */
+    vndf_progress *progress;   /* may be NULL; asked every few milliseconds */
     void *progress_user;
 } bench_plan;
 

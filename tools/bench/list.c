@@ -8,13 +8,18 @@
 
 static const char closed_name[] = "closed form";
 
+/* Both axes of what accuracy costs, and a table so fine that it stands for D itself. */
 static const struct {
     size_t bytes;
+    int moments;
     const char *name;
-} tables[BENCH_TABLES] = {{2048, "table 2 KiB"},   {4096, "table 4 KiB"},     {16384, "table 16 KiB"},
-                          {65536, "table 64 KiB"}, {262144, "table 256 KiB"}, {1048576, "table 1 MiB"}};
+} tables[BENCH_TABLES] = {{2048, 2, "table 2 KiB, 2 moments"}, {2048, 3, "table 2 KiB, 3 moments"},
+                          {2048, 4, "table 2 KiB, 4 moments"}, {4096, 2, "table 4 KiB, 2 moments"},
+                          {4096, 3, "table 4 KiB, 3 moments"}, {4096, 4, "table 4 KiB, 4 moments"},
+                          {8192, 2, "table 8 KiB, 2 moments"}, {8192, 3, "table 8 KiB, 3 moments"},
+                          {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
 
-enum { DEFAULT_TABLE = 2, FINE_TABLE = 3 };
+enum { DEFAULT_TABLE = 8, FINE_TABLE = 9 };
 
 /* The first stands for the scalar calls. */
 static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
@@ -37,9 +42,10 @@ static const char *distribution_name(const bench_list *list, bench_subject subje
 static void describe(bench_entry *e, const char *distribution)
 {
     bench_row *row = &e->row;
-    *row = (bench_row){.kind = e->m.kind, .memory = e->m.memory, .file_bytes = e->m.file_bytes};
+    *row = (bench_row){
+        .kind = e->m.kind, .memory = e->m.memory, .file_bytes = e->m.file_bytes, .moments = e->m.moments};
     row->ns = row->ns_low = row->ns_high = row->shared_ns = row->latency_ns = row->ratio = NAN;
-    row->tv = row->tv_theta = row->max_weight = row->efficiency_light = NAN;
+    row->tv = row->tv_theta = row->tv_below = row->max_weight = row->efficiency_light = row->stratified = NAN;
     row->efficiency[0] = row->efficiency[1] = row->bias[0] = row->bias[1] = NAN;
     snprintf(row->method, sizeof row->method, "%s", e->m.name);
     snprintf(row->distribution, sizeof row->distribution, "%s", distribution);
@@ -138,10 +144,13 @@ static int build_progress(double done, const char *what, void *user)
     return !bench_go_on(user, what);
 }
 
-static vndf_distribution *build(const bench_clock *at, size_t bytes, vndf_error *error)
+static vndf_distribution *build(const bench_clock *at, size_t i, vndf_error *error)
 {
     bench_clock clock = *at;
-    vndf_build_options options = {.max_bytes = bytes, .progress = build_progress, .progress_user = &clock};
+    vndf_build_options options = {.max_bytes = tables[i].bytes,
+                                  .moments = tables[i].moments,
+                                  .progress = build_progress,
+                                  .progress_user = &clock};
     return vndf_build(at->plan->source, &options, NULL, error);
 }
 
@@ -149,46 +158,18 @@ static vndf_distribution *build(const bench_clock *at, size_t bytes, vndf_error 
 static int table_wanted(const bench_list *list, const bench_plan *plan, size_t i)
 {
     const char *instructions = "scalar portable avx2 avx512";
-    char name[112];
+    char name[160];
     snprintf(name, sizeof name, "%s, batch, exported C%s", tables[i].name,
              i == DEFAULT_TABLE ? ": sample, weight: pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
     return wanted(plan, name, list->name[BENCH_USER], instructions);
 }
 
-/* The table that the caller has built under this limit; NULL if there is none. */
-static const vndf_distribution *find_ready(const bench_plan *plan, size_t bytes)
+static void keep(bench_list *list, const bench_plan *plan, vndf_distribution *table, size_t i)
 {
-    for (size_t i = 0; i < plan->ready_count; i++)
-        if (plan->ready_limits[i] == bytes)
-            return plan->ready[i];
-    return NULL;
-}
-
-static vndf_status table_at(const bench_list *list, const bench_clock *at, size_t i,
-                            const vndf_distribution **table, vndf_error *error)
-{
-    *table = list->borrowed ? find_ready(at->plan, tables[i].bytes) : build(at, tables[i].bytes, error);
-    return *table || list->borrowed ? VNDF_OK : error->status;
-}
-
-/* A larger limit that bought nothing: the table before once more. */
-static int repeats(const bench_list *list, const vndf_distribution *table)
-{
-    const vndf_distribution *last = list->table_count ? list->table[list->table_count - 1] : NULL;
-    return last && vndf_distribution_info(last).bytes == vndf_distribution_info(table).bytes;
-}
-
-static void keep(bench_list *list, const bench_plan *plan, const vndf_distribution *table, size_t i)
-{
-    if (repeats(list, table)) {
-        if (!list->borrowed)
-            vndf_free((vndf_distribution *)table);
-        return;
-    }
     list->table[list->table_count++] = table;
     add_ours(list, plan, BENCH_USER, table, tables[i].name);
-    add(list, plan, BENCH_USER, method_exported(table, tables[i].name), 0);
     if (i == DEFAULT_TABLE) {
+        add(list, plan, BENCH_USER, method_exported(table, tables[i].name), 0);
         add_calls(list, plan, table);
         add_surfaces(list, plan, BENCH_USER, table, tables[i].name);
     }
@@ -198,19 +179,14 @@ static void keep(bench_list *list, const bench_plan *plan, const vndf_distributi
 static vndf_status add_tables(bench_list *list, const bench_clock *at, size_t fine, vndf_error *error)
 {
     for (size_t i = 0; i < BENCH_TABLES; i++) {
-        const vndf_distribution *table = NULL;
-        vndf_status status = VNDF_OK;
-        if (i == fine || table_wanted(list, at->plan, i))
-            status = table_at(list, at, i, &table, error);
-        if (status != VNDF_OK)
-            return status;
-        if (table)
-            keep(list, at->plan, table, i);
+        if (i != fine && !table_wanted(list, at->plan, i))
+            continue;
+        vndf_distribution *table = build(at, i, error);
+        if (!table)
+            return error->status;
+        keep(list, at->plan, table, i);
     }
-    if (list->table_count)
-        return VNDF_OK;
-    snprintf(error->message, sizeof error->message, "none of the tables that are ready has a size that is timed");
-    return error->status = VNDF_ERROR_ARGUMENT;
+    return VNDF_OK;
 }
 
 /* ---- all of it --------------------------------------------------------------------------------- */
@@ -221,7 +197,7 @@ static method_reference reference_of(const vndf_distribution *d, double scale)
     return (method_reference){{d, alpha, alpha}, (float)scale};
 }
 
-/* The largest table is the reference; in a hurry, or where few rows are asked for, one of 16 KiB has to do. */
+/* The largest table is the reference; in a hurry the default one has to do. */
 static vndf_status add_user(bench_list *list, const bench_clock *at, vndf_error *error)
 {
     size_t fine = at->plan->seconds < 10 ? DEFAULT_TABLE : FINE_TABLE;
@@ -265,7 +241,7 @@ static vndf_status refuse(bench_list *list, vndf_error *error, const char *only)
 
 vndf_status bench_list_make(bench_list *list, const bench_clock *at, vndf_error *error)
 {
-    *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}, .borrowed = at->plan->ready_count > 0};
+    *list = (bench_list){.name = {"ggx", "beckmann", at->plan->name}};
     list->reference[BENCH_GGX] = reference_of(vndf_ggx(), 1);
     list->reference[BENCH_BECKMANN] = reference_of(vndf_beckmann(), 1);
     add_ggx(list, at->plan);
@@ -285,8 +261,8 @@ void bench_list_free(bench_list *list)
     for (size_t i = 0; i < list->count; i++)
         if (list->entry[i].m.release && list->entry[i].m.state)
             list->entry[i].m.release((void *)list->entry[i].m.state);
-    for (size_t i = 0; i < list->table_count && !list->borrowed; i++)
-        vndf_free((vndf_distribution *)list->table[i]);
+    for (size_t i = 0; i < list->table_count; i++)
+        vndf_free(list->table[i]);
     list->count = list->table_count = 0;
 }
 

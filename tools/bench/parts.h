@@ -27,7 +27,7 @@ int bench_go_on(const bench_clock *at, const char *what);
 
 /* ---- methods ----------------------------------------------------------------------------------- */
 
-enum { BENCH_ENTRIES_MAX = 112, BENCH_TABLES = 6 };
+enum { BENCH_ENTRIES_MAX = 160, BENCH_TABLES = 10 };
 
 typedef enum bench_subject { BENCH_GGX, BENCH_BECKMANN, BENCH_USER, BENCH_SUBJECTS } bench_subject;
 
@@ -40,8 +40,7 @@ typedef struct bench_entry {
 
 typedef struct bench_list {
     size_t count, table_count;
-    const vndf_distribution *table[BENCH_TABLES];
-    int borrowed; /* the tables are the caller's */
+    vndf_distribution *table[BENCH_TABLES];
     const char *name[BENCH_SUBJECTS];
     method_reference reference[BENCH_SUBJECTS]; /* distribution NULL where nothing of it is wanted */
     bench_entry entry[BENCH_ENTRIES_MAX];

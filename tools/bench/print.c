@@ -9,9 +9,10 @@ static const char legend[] =
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between "
     "quartiles);\n"
     "shared: many samples for one direction; latency: each waits for the last; ratio: to spherical caps, scalar.\n"
-    "TV: largest total variation to the true visible normals; weight: largest true over drawn density. eff:\n"
-    "1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and under a small\n"
-    "light; bias: of that albedo, where it is beyond its noise.\n";
+    "TV above, below: largest total variation to the true visible normals from above the horizon and from all\n"
+    "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
+    "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"
+    "under a small light; bias: of that albedo, where it is beyond its noise.\n";
 
 enum { CELL = 40 };
 
@@ -53,8 +54,10 @@ static void shown_columns(text_table *t, const bench_row *r)
     table_time(t, "shared", r->shared_ns);
     table_time(t, "latency", r->latency_ns);
     table_number(t, "ratio", "%.3g", r->ratio);
-    table_number(t, "TV", r->tv < 1e-9 ? "%.0f" : "%.1e", r->tv);
+    table_number(t, "TV above", r->tv < 1e-9 ? "%.0f" : "%.1e", r->tv);
+    table_number(t, "below", "%.1e", r->tv_below);
     table_number(t, "weight", "%.4g", r->max_weight);
+    table_number(t, "Sobol'", "%.2f", r->stratified);
     table_number(t, "eff 60", "%.3g", r->efficiency[0]);
     table_number(t, "eff 85", "%.3g", r->efficiency[1]);
     table_number(t, "eff light", "%.3g", r->efficiency_light);
@@ -76,6 +79,7 @@ static void all_columns(text_table *t, const bench_row *r)
     table_word(t, "kind", kind_name(r->kind));
     table_number(t, "memory", "%.0f", (double)r->memory);
     table_number(t, "file_bytes", "%.0f", (double)r->file_bytes);
+    table_value(t, "moments", r->moments);
     table_value(t, "wrong", r->wrong);
     table_value(t, "ns", r->ns);
     table_value(t, "ns_low", r->ns_low);
@@ -85,7 +89,9 @@ static void all_columns(text_table *t, const bench_row *r)
     table_value(t, "ratio", r->ratio);
     table_value(t, "tv", r->tv);
     table_value(t, "tv_theta", r->tv_theta);
+    table_value(t, "tv_below", r->tv_below);
     table_value(t, "max_weight", r->max_weight);
+    table_value(t, "stratified", r->stratified);
     table_value(t, "efficiency_60", r->efficiency[0]);
     table_value(t, "efficiency_85", r->efficiency[1]);
     table_value(t, "efficiency_light", r->efficiency_light);

@@ -6,6 +6,7 @@
 
 #include "bench/parts.h"
 #include "cli/clock.h"
+#include "measure/stratified_error.h"
 
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
@@ -68,8 +69,9 @@ static void note(state *s, size_t i, size_t angle, const bench_findings *f)
 /* What the builder measured is worth more than what a few samples show. */
 static void note_certificate(bench_row *row, const vndf_certificate *certificate)
 {
-    row->tv = (double)certificate->tv;
-    row->tv_theta = (double)certificate->tv_theta;
+    row->tv = (double)certificate->tv_above;
+    row->tv_theta = (double)certificate->tv_above_theta;
+    row->tv_below = (double)certificate->tv;
     row->max_weight = (double)certificate->max_weight;
 }
 
@@ -83,7 +85,9 @@ static int copy_worth(state *s, size_t i)
             const bench_row *from = &s->list.entry[k].row;
             row->tv = from->tv;
             row->tv_theta = from->tv_theta;
+            row->tv_below = from->tv_below;
             row->max_weight = from->max_weight;
+            row->stratified = from->stratified;
             memcpy(row->bias, from->bias, sizeof row->bias);
             s->worth[i] = s->worth[k];
             return 1;
@@ -103,6 +107,8 @@ static int measure_worth(state *s, size_t i)
             return 0;
         note(s, i, angle, &f);
     }
+    if (e->m.kind == BENCH_TABLE || e->m.kind == BENCH_CLOSED)
+        s->list.entry[i].row.stratified = vndf_stratified_error(e->m.state, 64);
     if (e->m.certified) {
         vndf_certificate certificate = vndf_distribution_info(e->m.certified).certificate;
         note_certificate(&s->list.entry[i].row, &certificate);

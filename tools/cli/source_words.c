@@ -200,8 +200,7 @@ vndf_distribution *table_from_words(const char *command, const source_words *giv
     vndf_source *source = source_from_words(command, given);
     if (!source)
         return NULL;
-    const vndf_build_options options = {.quick = 1};
-    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
+    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
     vndf_source_free(source);
     if (!table)
         complain(command, "%s", error.message);

@@ -19,7 +19,7 @@ int source_words_check_set(const char *command, const source_words *given);
 /* The source of the one that was given; NULL after a complaint. */
 vndf_source *source_from_words(const char *command, const source_words *given);
 
-/* A table of that source with a quick certificate, to be freed, and its name for people (source_text_name); NULL
+/* A table of that source of the default size, to be freed, and its name for people (source_text_name); NULL
  * after a complaint. */
 vndf_distribution *table_from_words(const char *command, const source_words *given, char *name, size_t size);
 

@@ -29,7 +29,7 @@ static const char help[] =
     "  --columns N      cosines of the grid, 8 to 128 (default 24, of a dielectric 48)\n"
     "  --rows N         roughnesses of the grid, 8 to 128 (default 20, of a dielectric 24)\n"
     "  --csv FILE, --family NAME, --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "                   your own D, as `vndf build --help` describes them, by a table of 16 KiB\n"
+    "                   your own D, as `vndf build --help` describes them, by a table of 8 KiB\n"
     "  -o OUT.csv       what is printed as CSV; - for stdout, in place of the text\n"
     "  --c OUT.h        float OUT[N][N], rows even in sqrt(alpha) and columns even in the cosine, from 0 to 1, and\n"
     "                   OUT_average[N]: for hosts with such tables; - for stdout\n"

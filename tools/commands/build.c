@@ -37,13 +37,12 @@ static const char help[] =
     "  --break R       a slope where a feature begins, ends or has its peak; may be repeated. Formulas, families and\n"
     "                  rows need none: narrow features are found, or refused with their slope\n"
     "  --finest W      samples a formula that cannot be bounded, to find features as wide as W of their slope\n"
-    "  --max-bytes N   size of the table at most, 2048 to 1048576 (default 16384; up to 32768 where that brings\n"
-    "                  the total variation below 1e-3, and no --max-tv is given)\n"
-    "  --max-tv X      the smallest table with total variation <= X; without it, the best table that fits\n"
-    "  --certificate quick|full    how the table is measured (default full). quick takes a quarter of the time, looks\n"
-    "                  at fewer directions, and may find two thirds of the error; the table is the same, and says so\n"
-    "  --sphere        a table below 16384 bytes serves all directions alike; without it those above the horizon\n"
-    "                  first (--max-tv bounds all directions, and its tables serve them alike)\n"
+    "  --max-bytes N   size of the table at most, 2048 to 1048576 (default: what a total variation of 1e-3 above and\n"
+    "                  3e-2 below the horizon takes, up to 8192)\n"
+    "  --max-tv X      the smallest table with total variation <= X above the horizon and 30 X below; without it,\n"
+    "                  the best table that fits\n"
+    "  --moments 2|3|4    default 4: above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
+    "                  visible ones, whatever D is, but for the error of cells; fewer are smaller and faster\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the text\n"
     "\n"
     "With --parameter, tables along a number of a family, in one file: between two of these knots the family is used\n"
@@ -56,20 +55,20 @@ static const char help[] =
     "                  that are visible at grazing incidence weigh the tail: where it is heavy they may be 0.06 off\n"
     "                  (student-t from 1.6; the line `grazing` of vndf info)\n"
     "  --knots N       2 to 256 knots, where that distance is least\n"
-    "  --max-bytes N   of each table; --sphere as above\n"
+    "  --max-bytes N, --moments 2|3|4    of each table\n"
     "\n";
 
 static const char examples[] =
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
-    "         vndf build --slope 'exp(-r^2)*(1+r)' --max-bytes 4096 --certificate quick -o now.vndf\n"
+    "         vndf build --slope 'exp(-r^2)*(1+r)' --max-bytes 2048 --moments 3 -o small.vndf\n"
     "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n";
 
 typedef struct build_words {
     source_words source;
     measured_words measured;
-    words list, bytes, tv, sphere, breaks, finest, parameter, knots, certificate, output;
+    words list, bytes, tv, moments, breaks, finest, parameter, knots, output;
 } build_words;
 
 static int print_list(void)
@@ -96,29 +95,20 @@ static int read_resolution(const build_words *given, double room[WORDS_MAX], vnd
     return option_number(name, "--finest", &given->finest, 1e-9, 1, &options->finest);
 }
 
-static int read_certificate(const build_words *given, int *quick)
-{
-    const char *kind = given->certificate.count ? only_word(&given->certificate) : "full";
-    *quick = strcmp(kind, "quick") == 0;
-    if (*quick || strcmp(kind, "full") == 0)
-        return 1;
-    complain(name, "--certificate '%s' is neither quick nor full", kind);
-    return 0;
-}
-
 static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
 {
     vndf_build_options options = {0};
     vndf_error error = {VNDF_OK, ""};
-    unsigned long long bytes = 0;
+    unsigned long long bytes = 0, moments = 0;
     double breaks[WORDS_MAX];
     progress p = progress_begin("building", held);
     if (!option_count(name, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
         !option_number(name, "--max-tv", &given->tv, 1e-12, 1, &options.max_tv) ||
-        !read_resolution(given, breaks, &options) || !read_certificate(given, &options.quick))
+        !option_count(name, "--moments", &given->moments, 2, 4, &moments) ||
+        !read_resolution(given, breaks, &options))
         return NULL;
     options.max_bytes = (size_t)bytes;
-    options.sphere = given->sphere.count > 0;
+    options.moments = (int)moments;
     options.progress = progress_show;
     options.progress_user = &p;
     vndf_distribution *table = vndf_build(source, &options, NULL, &error);
@@ -126,7 +116,9 @@ static vndf_distribution *build_table(const vndf_source *source, const build_wor
     if (!table && output_stopping(held))
         complain(name, "%s; '%s' was not touched", error.message, only_word(&given->output));
     else if (!table)
-        complain(name, "%s", error.message);
+        complain(name, "%s%s", error.message,
+                 error.status == VNDF_ERROR_TARGET && given->tv.count ? "; --max-bytes N allows a larger table"
+                                                                      : "");
     return table;
 }
 
@@ -142,18 +134,24 @@ static int save_to_stdout(const vndf_distribution *table)
     return good ? output_finish_stdout(name) : complain(name, "no memory for the table");
 }
 
-/* And says what it is and what was found in its data, if there is a place for it. */
-static int save_table(const vndf_distribution *table, const notes *found, const char *path)
+/* Saves the table and says what it is, what was found in its data and what it is worth. A table that is worth little
+ * is told of on stderr too. */
+static int save_table(const vndf_distribution *table, const notes *found, const build_words *given)
 {
+    const char *path = only_word(&given->output);
+    char verdict[DESCRIBE_VERDICT];
     vndf_error error = {VNDF_OK, ""};
+    vndf_info info = vndf_distribution_info(table);
+    if (!describe_verdict(&info, !given->bytes.count && !given->tv.count && !given->moments.count, verdict))
+        complain(name, "%s", verdict);
     if (output_is_stdout(path))
         return save_to_stdout(table);
     if (vndf_save(table, path, &error) != VNDF_OK)
         return complain(name, "%s", error.message);
-    vndf_info info = vndf_distribution_info(table);
     describe_info(&info);
     describe_certificate(&info.certificate);
     fputs(found->text, stdout);
+    printf("verdict %s\n", verdict);
     return STATUS_GOOD;
 }
 
@@ -164,7 +162,7 @@ static int build_and_save(const vndf_source *source, const notes *found, const b
     vndf_distribution *table = build_table(source, given, held);
     if (!table)
         return STATUS_USE;
-    int status = save_table(table, found, only_word(&given->output));
+    int status = save_table(table, found, given);
     vndf_free(table);
     return status;
 }
@@ -181,8 +179,6 @@ static int check_words(const build_words *given)
         return complain(name, "--parameter is for --family; a formula has its parameters by --set");
     if (given->parameter.count && (given->breaks.count || given->finest.count))
         return complain(name, "--parameter takes no %s", given->breaks.count ? "--break" : "--finest");
-    if (given->parameter.count && given->certificate.count)
-        return complain(name, "--parameter takes no --certificate; the tables of a family have full ones");
     if (given->knots.count && !given->parameter.count)
         return complain(name, "--knots is for --parameter LOW..HIGH");
     if (given->knots.count && given->tv.count)
@@ -200,7 +196,7 @@ static int check_words(const build_words *given)
 static int build_one_family(const build_words *given)
 {
     const family_words words_of = {given->source.family, given->parameter, given->knots, given->tv,
-                                   given->bytes,         given->sphere,    given->output};
+                                   given->bytes,         given->moments,   given->output};
     unsigned held = output_hold_signals();
     int status = build_family(name, &words_of, held);
     output_release_signals(held);
@@ -234,12 +230,11 @@ int command_build(int argc, char **argv)
         {"--set", 1, WORDS_MAX, &given.source.set},
         {"--max-bytes", 1, 1, &given.bytes},
         {"--max-tv", 1, 1, &given.tv},
-        {"--sphere", 0, 1, &given.sphere},
+        {"--moments", 1, 1, &given.moments},
         {"--break", 1, VNDF_LIMIT_BREAKS, &given.breaks},
         {"--finest", 1, 1, &given.finest},
         {"--parameter", 1, 1, &given.parameter},
         {"--knots", 1, 1, &given.knots},
-        {"--certificate", 1, 1, &given.certificate},
         {"--rgl", 1, 1, &given.measured.rgl},
         {"--merl", 1, 1, &given.measured.merl},
         {"--gonio", 1, 1, &given.measured.gonio},

@@ -21,7 +21,7 @@ static const char help[] =
     "  --samplers LIST     how normals are drawn, from visible, all, bounded, perfect (default: all of these\n"
     "                      that the scene can have); the first is the measure of the others\n"
     "  --tables LIST       instead: the distributions of the scene as tables of so many bytes, as in\n"
-    "                      2048,4096,65536, against the largest of them or one of 128 KiB, and closed forms\n"
+    "                      2048,4096,8192, against the largest of them or one of 32 KiB, and closed forms\n"
     "                      where the scene has no other\n"
     "  --seconds S         to spend in all, roughly (default 120); --spp decides otherwise\n"
     "  --spp N             samples a pixel of each way\n"
@@ -37,7 +37,7 @@ static const char help[] =
     "command leaves DIR as it was; DIR/reference.pfm may be read again.\n"
     "\n"
     "example: vndf compare tools/scenes/metal.scene metal-page --seconds 60 --width 320\n"
-    "         vndf compare tools/scenes/rings.scene rings-page --tables 2048,16384\n";
+    "         vndf compare tools/scenes/rings.scene rings-page --tables 2048,8192\n";
 
 typedef struct compare_words {
     words samplers, tables, seconds, spp, reference_spp, reference, width, threads, seed;

@@ -46,7 +46,7 @@ static int write_page(const char *path, const export_document *document)
 
 static int run(const words *files, const char *path)
 {
-    export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1};
+    export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL};
     named_tables tables;
     int status = STATUS_USE;
     translation_prefix(&document.as, "vndf");

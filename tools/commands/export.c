@@ -28,6 +28,9 @@ static const char help[] =
     "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, as 4 bytes,\n"
     "                   little-endian (at run time vndf_numbers writes the same)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
+    "  --distribution KIND  only table, ggx or beckmann (repeat for two); a kernel has all three by default\n"
+    "  --only CALLS     only these calls and what they need: view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,\n"
+    "                   mixture\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
     "  --notice TEXT    a notice for the head of OUT, such as your licence; --notice @FILE takes it from a file\n"
     "\n"
@@ -42,7 +45,7 @@ static const char help_end[] = "\n"
                                "exit status: 0 good, 2 wrong use\n";
 
 typedef struct export_words {
-    words tables, language, output, embed, buffer, prefix, lobes, notice;
+    words tables, language, output, embed, buffer, prefix, lobes, notice, only, distribution;
 } export_words;
 
 /* ---- words --------------------------------------------------------------------------------------- */
@@ -101,11 +104,47 @@ static int read_notice(const export_words *given, export_document *document, cha
     return !notice || document->notice;
 }
 
+/* A list with commas, cut in `text`. */
+static int read_only(const export_words *given, export_document *document, char *text, size_t size)
+{
+    const char *const *calls = document_calls();
+    size_t count = 0, n = 0;
+    snprintf(text, size, "%s", given->only.count ? only_word(&given->only) : "");
+    for (char *call = strtok(text, ","); call; call = strtok(NULL, ",")) {
+        for (n = 0; calls[n] && strcmp(calls[n], call) != 0; n++)
+            ;
+        if (!calls[n] || count + 1 >= EXPORT_CALLS)
+            return complain(name, "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area and "
+                                  "mixture are known, each once", call), 0;
+        document->only[count++] = call;
+    }
+    return 1;
+}
+
+static int read_kinds(const export_words *given, export_document *document)
+{
+    static const char *const kinds[] = {"table", "ggx", "beckmann"};
+    document->kinds = given->distribution.count ? 0 : EXPORT_ALL;
+    for (size_t i = 0; i < given->distribution.count; i++) {
+        unsigned kind = 0;
+        while (kind < 3 && strcmp(kinds[kind], given->distribution.item[i]) != 0)
+            kind++;
+        if (kind == 3)
+            return complain(name, "--distribution '%s': table, ggx or beckmann", given->distribution.item[i]), 0;
+        document->kinds |= 1u << kind;
+    }
+    if ((document->kinds & EXPORT_TABLE) && !given->tables.count)
+        return complain(name, "FILE is missing"), 0;
+    if (!(document->kinds & EXPORT_TABLE) && given->tables.count)
+        return complain(name, "'%s' is a table, which --distribution leaves out", given->tables.item[0]), 0;
+    return 1;
+}
+
 static int read_settings(const export_words *given, export_document *document)
 {
     const char *prefix = only_word(&given->prefix);
     unsigned long long lobes = 4;
-    if (!read_language(given, document))
+    if (!read_language(given, document) || !read_kinds(given, document))
         return 0;
     if (!translation_prefix(&document->as, prefix ? prefix : "vndf")) {
         complain(
@@ -194,9 +233,10 @@ static int run(const export_words *given, export_document *document)
 
 static int run_brdf(const export_words *given, brdf_words *brdf)
 {
-    const words *const others[] = {&given->language, &given->embed, &given->buffer,
-                                   &given->prefix,   &given->lobes, &given->notice};
-    static const char *const names[] = {"--language", "--embed", "--buffer", "--prefix", "--lobes", "--notice"};
+    const words *const others[] = {&given->language, &given->embed, &given->buffer, &given->prefix,
+                                   &given->lobes,    &given->notice, &given->only, &given->distribution};
+    static const char *const names[] = {"--language", "--embed",  "--buffer", "--prefix",
+                                        "--lobes",    "--notice", "--only",   "--distribution"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i]->count)
             return complain(name, "%s is for kernels, not for --rgl and --brdf", names[i]);
@@ -220,7 +260,7 @@ int command_export(int argc, char **argv)
     export_words given = {0};
     brdf_words brdf = {0};
     export_document document = {0};
-    char *notice = NULL;
+    char *notice = NULL, only[200];
     const option_form options[] = {
         {"--language", 1, 1, &given.language},
         {"-o", 1, 1, &given.output},
@@ -229,6 +269,8 @@ int command_export(int argc, char **argv)
         {"--prefix", 1, 1, &given.prefix},
         {"--lobes", 1, 1, &given.lobes},
         {"--notice", 1, 1, &given.notice},
+        {"--only", 1, 1, &given.only},
+        {"--distribution", 1, 3, &given.distribution},
         {"--rgl", 0, 1, &brdf.rgl},
         {"--brdf", 1, 1, &brdf.brdf},
         {"--alpha", 1, 1, &brdf.alpha},
@@ -238,7 +280,7 @@ int command_export(int argc, char **argv)
     static char text[sizeof help + sizeof help_end + BRDF_HELP_MAX]; /* `vndf help` reads it later */
     snprintf(text, sizeof text, "%s%s%s", help, brdf_help, help_end);
     const command_form form = {name,   text, options,          sizeof options / sizeof options[0],
-                               "FILE", 1,    EXPORT_TABLES_MAX};
+                               "FILE", 0,    EXPORT_TABLES_MAX};
     int parsed = parse_arguments(&form, argc, argv, &given.tables);
     if (parsed == PARSE_GO_ON && brdf_wanted(&brdf))
         return run_brdf(&given, &brdf);
@@ -246,7 +288,8 @@ int command_export(int argc, char **argv)
         parsed = check_not_brdf(&brdf);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    int good = read_settings(&given, &document) && read_notice(&given, &document, &notice);
+    int good = read_settings(&given, &document) && read_only(&given, &document, only, sizeof only) &&
+               read_notice(&given, &document, &notice);
     int status = good ? run(&given, &document) : STATUS_USE;
     free(notice);
     return status;

@@ -17,7 +17,8 @@ static const char help[] =
     "  tool           the version that made it\n"
     "  bytes          size of the table's file; 0 for the closed forms\n"
     "  memory         bytes that it takes when loaded\n"
-    "  radial_cells, azimuth_rows, azimuth_cells    its shape\n"
+    "  cells          intervals of the slope length before the tail; 0 for closed forms\n"
+    "  moments        2, 3 or 4, as in vndf build --moments\n"
     "  normalization  the factor by which the given D or P22 was multiplied\n"
     "  scale          median slope length at alpha = 1\n"
     "and the certificate, as measured when the table was made, incident directions from 0 to 180 degrees:\n"
@@ -32,8 +33,8 @@ static const char help[] =
     "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
     "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
-    "  certificate    full; or quick, for vndf build --certificate quick: tv, tv_above, max_weight, area_error and\n"
-    "                 ndf_error of a full one may be larger by a factor of 1.5\n"
+    "and the sum of it:\n"
+    "  verdict        how far samples are from exact on both sides of the horizon, and whether that is good to ship\n"
     "\n"
     "Of a family of tables (vndf build --parameter), which is used between its knots as a mixture of neighbours:\n"
     "  source, tool, bytes, memory    as above, memory of all tables together\n"
@@ -68,7 +69,6 @@ void describe_certificate(const vndf_certificate *certificate)
     printf("hidden %.4g\n", (double)certificate->hidden);
     printf("finest %.4g\n", (double)certificate->finest);
     printf("horizon_power %.4g\n", (double)certificate->horizon_power);
-    printf("certificate %s\n", certificate->quick > 0 ? "quick" : "full");
 }
 
 void describe_info(const vndf_info *info)
@@ -77,11 +77,33 @@ void describe_info(const vndf_info *info)
     printf("tool %s\n", info->tool);
     printf("bytes %zu\n", info->bytes);
     printf("memory %zu\n", info->memory);
-    printf("radial_cells %zu\n", info->radial_cells);
-    printf("azimuth_rows %zu\n", info->azimuth_rows);
-    printf("azimuth_cells %zu\n", info->azimuth_cells);
+    printf("cells %zu\n", info->cells);
+    printf("moments %d\n", info->moments);
     printf("normalization %.17g\n", info->normalization);
     printf("scale %.9g\n", info->scale);
+}
+
+int describe_verdict(const vndf_info *info, int by_default, char verdict[DESCRIBE_VERDICT])
+{
+    const double poor = 5e-2, aim_above = 1e-3, aim_below = 3e-2;
+    const vndf_certificate *c = &info->certificate;
+    double above = (double)c->tv_above, below = (double)c->tv;
+    char within[128];
+    snprintf(within, sizeof within, "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB",
+             100 * above, 100 * below, (double)info->bytes / 1024);
+    if (!(above <= poor && below <= poor)) {
+        snprintf(verdict, DESCRIBE_VERDICT, "%s; worth little at %.0f degrees: try a larger --max-bytes%s", within,
+                 (double)(above > poor ? c->tv_above_theta : c->tv_theta),
+                 above > poor && info->moments < 4 ? " or --moments 4" : "");
+        return 0;
+    }
+    if (by_default && !(above <= aim_above && below <= aim_below)) {
+        snprintf(verdict, DESCRIBE_VERDICT, "%s; %g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
+                 within, 100 * aim_above, 100 * aim_below);
+        return 0;
+    }
+    snprintf(verdict, DESCRIBE_VERDICT, "%s; good to ship", within);
+    return 1;
 }
 
 static void describe_knot(const vndf_family *family, size_t i)
@@ -171,8 +193,12 @@ int command_info(int argc, char **argv)
         return STATUS_USE;
     vndf_info info = vndf_distribution_info(chosen.distribution);
     describe_info(&info);
-    if (chosen.owned)
+    if (chosen.owned) {
+        char verdict[DESCRIBE_VERDICT];
         describe_certificate(&info.certificate);
+        describe_verdict(&info, 0, verdict);
+        printf("verdict %s\n", verdict);
+    }
     distribution_close(&chosen);
     return STATUS_GOOD;
 }

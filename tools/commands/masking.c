@@ -36,7 +36,7 @@ static const char help[] =
     "  --alpha AX[,AY]  roughness along x and y (default 0.5; at 1 the Schlick-Smith of ggx is Smith's)\n"
     "  --phi DEG        azimuth of the incident directions from the x axis, -360 to 360 (default 0)\n"
     "  --csv FILE, --family NAME, --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "                   your own D, as `vndf build --help` describes them, by a table of 16 KiB; it comes last\n"
+    "                   your own D, as `vndf build --help` describes them, by a table of 8 KiB; it comes last\n"
     "  -o OUT.csv       the integrals as CSV as well; - for stdout, in place of the text\n"
     "\n"
     "exit status: 0 whatever the verdicts are, 2 wrong use\n"

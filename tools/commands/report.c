@@ -107,15 +107,14 @@ static int add_subjects(report *r, const source_words *given)
     return status;
 }
 
-/* The first goes up to 1 MiB, the others to 64 KiB. */
 static int build_subjects(report *r, double seconds, progress *p)
 {
     const report_watch watch = {progress_show, p};
     for (size_t i = 0; i < r->count; i++) {
         vndf_error error = {VNDF_OK, ""};
         begin_step(p, r->subject[i].name, 0.3 + 0.1 * (double)i);
-        vndf_status status = report_subject_build(&r->subject[i], i == 0 ? 1048576 : 65536,
-                                                  seconds * (i == 0 ? first_part : other_part), &watch, &error);
+        vndf_status status =
+            report_subject_build(&r->subject[i], seconds * (i == 0 ? first_part : other_part), &watch, &error);
         if (status != VNDF_OK)
             return complain(name, "%s: %s", r->subject[i].name, error.message);
     }
@@ -127,20 +126,11 @@ static int build_subjects(report *r, double seconds, progress *p)
 /* The tables of the first distribution among all other methods, as `vndf bench` has them. */
 static int compare_methods(report *r, double seconds, progress *p)
 {
-    const vndf_distribution *ready[REPORT_SIZES];
-    size_t limits[REPORT_SIZES];
     const report_subject *s = &r->subject[0];
     vndf_error error = {VNDF_OK, ""};
-    for (size_t i = 0; i < s->count; i++) {
-        ready[i] = s->table[i].table;
-        limits[i] = s->table[i].asked;
-    }
     const bench_plan plan = {.source = s->source,
                              .name = s->name,
                              .seconds = seconds * bench_part,
-                             .ready = ready,
-                             .ready_limits = limits,
-                             .ready_count = s->count,
                              .progress = progress_show,
                              .progress_user = p};
     begin_step(p, "all methods side by side", 1);

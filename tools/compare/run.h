@@ -6,7 +6,7 @@
 #include "draw/folder.h"
 
 /* Bytes. A fine table is as good as exact, and soon built. */
-enum { COMPARE_TABLES_MAX = WAYS_MAX - 2, COMPARE_FINE_TABLE = 131072, COMPARE_LARGEST_TABLE = 1048576 };
+enum { COMPARE_TABLES_MAX = WAYS_MAX - 2, COMPARE_FINE_TABLE = 32768, COMPARE_LARGEST_TABLE = 1048576 };
 
 typedef struct compare_choice {
     const char *command;                                         /* opens every message */

@@ -33,29 +33,6 @@ int document_name_table(exported_table *table)
     return n > 0;
 }
 
-/* ---- patterns ------------------------------------------------------------------------------------ */
-
-/* A text with the kernel's names, which get their prefix; $NAME and $N are the parameters, $TITLE is the language. */
-static void put_pattern(FILE *to, const translation *t, const char *pattern, const char *name, long n)
-{
-    size_t length;
-    for (const char *at = pattern; *at; at += length) {
-        word next = word_at(at);
-        int marked = at > pattern && at[-1] == '$';
-        length = next.kind == WORD_COMMENT ? strlen("//") : next.length;
-        if (marked && word_is(&next, "NAME"))
-            fputs(name, to);
-        else if (marked && word_is(&next, "N"))
-            fprintf(to, "%ld", n);
-        else if (marked && word_is(&next, "TITLE"))
-            fputs(t->to->title, to);
-        else if (next.kind == WORD_NAME)
-            translate_name(t, to, at, length);
-        else if (*at != '$')
-            fprintf(to, "%.*s", (int)length, at);
-    }
-}
-
 /* ---- comments ------------------------------------------------------------------------------------ */
 
 /* Lines of a text, each a comment. */
@@ -84,25 +61,25 @@ static void put_certificate(FILE *to, const export_document *document, const exp
     fprintf(
         to,
         "\n//   made by %s; total variation from the true visible normals at most %.2g above the horizon, %.2g\n"
-        "//   below it; largest true density over the drawn one %.4g; area within %.1g%s\n",
-        info.tool, (double)c->tv_above, (double)c->tv, (double)c->max_weight, (double)c->area_error,
-        c->quick > 0 ? "; measured quickly" : "");
+        "//   below it; largest true density over the drawn one %.4g; area within %.1g\n",
+        info.tool, (double)c->tv_above, (double)c->tv, (double)c->max_weight, (double)c->area_error);
 }
 
 static const char head[] =
-    "// Visible normals of any isotropic distribution, in $TITLE: written by vndf " VNDF_VERSION ".\n//\n"
-    "// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): "
+    "//\n// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): "
     "a normal wm\n"
     "// that faces wi, and its density per steradian. vndf_pdf, vndf_visible and vndf_ndf answer for a given normal,\n"
     "// vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions; "
     "vndf_mixture is up to VNDF_LOBES surfaces.\n"
-    "// Directions are unit and may be below the surface; roughness is alpha, 0.02 to 1 and further with more\n"
-    "// rounding. All of it is float: the density of a sample is that of its normal within 1e-5 for 99.9% of\n"
-    "// the samples above the horizon, and within 1e-3 for all; down to 130 degrees 3e-5 and 1e-4.\n//\n";
+    "// Directions are unit and may be below the surface; roughness is alpha. All of it is float: the density of a sample\n"
+    "// is, to 1e-5, that of a normal within one rounding of it; beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
+    "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static void put_head(FILE *to, const export_document *document)
 {
-    put_pattern(to, &document->as, head, "", 0);
+    fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n", document->as.to->title,
+            VNDF_VERSION);
+    translate_pattern(&document->as, to, head, "", 0);
     for (size_t i = 0; i < document->tables; i++)
         put_certificate(to, document, &document->table[i]);
     if (document->notice) {
@@ -116,7 +93,9 @@ static void put_head(FILE *to, const export_document *document)
 
 static void put_constant(FILE *to, const translation *t, const char *name, long value)
 {
-    put_pattern(to, t, t->to->constant, name, value);
+    char whole[80];
+    snprintf(whole, sizeof whole, "VNDF_%s", name);
+    translate_pattern(t, to, t->to->constant, whole, value);
 }
 
 static void put_constants(FILE *to, const export_document *document)
@@ -129,97 +108,128 @@ static void put_constants(FILE *to, const export_document *document)
     fputs("\n", to);
 }
 
-static void put_number(FILE *to, const language *as, float x)
+static void put_number(FILE *to, float x)
 {
     char text[40];
     snprintf(text, sizeof text, "%.9g", (double)x);
     int whole = !strpbrk(text, ".e");
-    fprintf(to, "%s%s%s", text, whole ? ".0" : "", as->suffix);
+    fprintf(to, "%s%s", text, whole ? ".0f" : "f");
 }
 
 static void put_numbers(FILE *to, const export_document *document)
 {
     const language *as = document->as.to;
-    put_pattern(to, &document->as, as->numbers, "", (long)document->count);
+    translate_pattern(&document->as, to, as->numbers ? as->numbers : as->array, "VNDF_NUMBERS", (long)document->count);
     for (size_t i = 0; i < document->count; i++) {
         fputs(i % 8 ? ", " : i ? ",\n    " : "\n    ", to);
-        put_number(to, as, document->numbers[i]);
+        put_number(to, document->numbers[i]);
     }
-    fprintf(to, "\n%s\n\n", as->numbers_close);
-}
-
-static void put_bound(FILE *to, const translation *t)
-{
-    put_pattern(to, t, t->to->bound, "", 0);
-    fputs("\n", to);
+    fprintf(to, "\n%s\n\n", as->array_close);
 }
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
 
-static const char vec3_text[] = "struct vndf_vec3 {\n    float x, y, z;\n};\n\n"
-                                "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"
-                                "    return vndf_vec3(x, y, z);\n}\n\n";
-static const char limits_text[] = "float vndf_min(float a, float b) {\n    return a < b ? a : b;\n}\n\n"
-                                  "float vndf_max(float a, float b) {\n    return a > b ? a : b;\n}\n\n";
-static const char clamp_text[] = "float vndf_clamp(float x, float low, float high) {\n"
-                                 "    return min(max(x, low), high);\n}\n\n";
-static const char fetch_begin[] = "float vndf_fetch(int i) {\n    return ";
-static const char fetch_end[] = ";\n}\n\n";
+static const char vec3_struct[] = "typedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;\n\n";
+static const char vec3_plain[] = "struct vndf_vec3 {\n    float x, y, z;\n};\n\n";
+static const char vec3_made[] = "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"
+                                "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n\n";
 
-/* Whether a function of the language is one of ours. */
-static int has_own(const language *as, const char *function)
+static void put_vec3(FILE *to, const translation *t)
 {
-    const char *own = language_word(as, function, strlen(function));
-    return own && strncmp(own, "vndf_", 5) == 0;
+    translate_pattern(t, to, t->to->structs == STRUCT_TYPEDEF ? vec3_struct : vec3_plain, "", 0);
+    fputs(t->to->function, to);
+    translate_pattern(t, to, vec3_made, "", 0);
 }
 
-/* What stands before the kernel, and the kernel, as one text to translate; NULL if there is no memory. */
+/* Whether a line begins or ends a part that not all files have, and whether this one has it. */
+static int is_mark(const export_document *document, const char *line, int *in)
+{
+    static const char *const kinds[] = {"/* only table */", "/* only ggx */", "/* only beckmann */"};
+    const char *text = line + strspn(line, " ");
+    for (unsigned i = 0; i < 3; i++)
+        if (strcmp(text, kinds[i]) == 0) {
+            *in = (document->kinds >> i & 1u) != 0;
+            return 1;
+        }
+    if (strcmp(text, "/* C only */") == 0)
+        return *in = 0, 1;
+    return strcmp(text, "/* end */") == 0 ? *in = 1 : 0;
+}
+
+/* NULL if there is no memory. */
 static char *whole_text(const export_document *document)
 {
-    const language *as = document->as.to;
-    const char *fetched = document->embeds          ? "VNDF_NUMBERS[i]"
-                          : document->as.by_pointer ? "numbers[i]"
-                                                    : as->fetched;
-    const char *parts[] = {as->vec3_is_ours ? vec3_text : "",
-                           has_own(as, "min") ? limits_text : "",
-                           has_own(as, "clamp") ? clamp_text : "",
-                           fetch_begin,
-                           fetched,
-                           fetch_end};
     size_t size = 1;
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        size += strlen(parts[i]);
-    for (size_t i = 0; kernel_text[i]; i++)
-        size += strlen(kernel_text[i]) + 1;
+    for (const embedded_text *file = kernel_text; file->name; file++)
+        for (size_t i = 0; file->lines[i]; i++)
+            size += strlen(file->lines[i]) + 1;
     char *text = malloc(size), *end = text;
-    if (!text)
-        return NULL;
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        end += sprintf(end, "%s", parts[i]);
-    for (size_t i = 0; kernel_text[i]; i++)
-        end += sprintf(end, "%s\n", kernel_text[i]);
+    int in = 1;
+    for (const embedded_text *file = kernel_text; text && file->name; file++)
+        for (size_t i = 0; file->lines[i]; i++)
+            if (!is_mark(document, file->lines[i], &in) && in)
+                end += sprintf(end, "%s\n", file->lines[i]);
+    if (text)
+        *end = '\0';
     return text;
+}
+
+const char *const *document_calls(void)
+{
+    static const char *const calls[EXPORT_CALLS] = {"view",   "sample", "pdf", "visible",        "ndf",
+                                                    "lambda", "g1",     "g2",  "projected_area", "mixture"};
+    return calls;
+}
+
+static void want(const translation *t, part_list *parts, const char *call)
+{
+    static const char *const mixtures[] = {"view_of", "pdf", "visible", "sample", "ndf"};
+    char name[40];
+    for (size_t i = 0; i < sizeof mixtures / sizeof mixtures[0] && strcmp(call, "mixture") == 0; i++) {
+        snprintf(name, sizeof name, "vndf_mixture_%s", mixtures[i]);
+        translation_want(t, parts, name);
+    }
+    snprintf(name, sizeof name, strcmp(call, "view") == 0 ? "vndf_%s_of" : "vndf_%s", call);
+    translation_want(t, parts, name);
+}
+
+static int put_kernel(FILE *to, const export_document *document, const translation *t)
+{
+    char *text = whole_text(document);
+    part_list *parts = malloc(sizeof *parts);
+    if (text && parts) {
+        parts_read(parts, text);
+        translation_want(t, parts, "vndf_surface_of");
+        for (const char *const *call = document->only[0] ? document->only : document_calls(); *call; call++)
+            want(t, parts, *call);
+        translate(t, to, parts);
+    }
+    int good = text && parts;
+    free(parts);
+    free(text);
+    return good;
 }
 
 int document_write(const export_document *document, FILE *to)
 {
-    const language *as = document->as.to;
-    char *text = whole_text(document);
-    if (!text)
-        return 0;
+    translation as = document->as;
+    as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
     put_head(to, document);
-    if (as->guarded)
-        put_pattern(to, &document->as, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n", "", 0);
-    if (*as->begin)
-        fprintf(to, "%s\n", as->begin);
+    if (as.to->guarded)
+        translate_pattern(&as, to, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n", "", 0);
+    translate_pattern(&as, to, as.to->begin, "", 0);
+    fputs(*as.to->begin ? "\n" : "", to);
     put_constants(to, document);
-    if (document->embeds)
+    if (as.to->vec3_is_ours)
+        put_vec3(to, &as);
+    if (document->embeds && document->count)
         put_numbers(to, document);
-    else if (as->buffer == BUFFER_BOUND)
-        put_bound(to, &document->as);
-    translate(&document->as, to, text);
-    if (as->guarded)
-        fputs("\n#endif\n", to);
-    free(text);
-    return 1;
+    else if (as.to->buffer == BUFFER_BOUND && document->count) {
+        translate_pattern(&as, to, as.to->bound, "", 0);
+        fputs("\n", to);
+    }
+    int good = put_kernel(to, document, &as);
+    if (as.to->guarded)
+        fputs("#endif\n", to);
+    return good;
 }

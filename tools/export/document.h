@@ -7,7 +7,10 @@
 #include "export/translate.h"
 #include "vndf.h"
 
-enum { EXPORT_TABLES_MAX = 16 };
+enum { EXPORT_TABLES_MAX = 16, EXPORT_CALLS = 12 };
+
+/* Kinds of distributions that a kernel draws from, as bits. */
+enum { EXPORT_TABLE = 1, EXPORT_GGX = 2, EXPORT_BECKMANN = 4, EXPORT_ALL = 7 };
 
 typedef struct exported_table {
     const vndf_distribution *distribution;
@@ -24,7 +27,12 @@ typedef struct export_document {
     const char *notice; /* NULL or text */
     long lobes;
     int embeds;
+    unsigned kinds;
+    const char *only[EXPORT_CALLS]; /* calls that are wanted, ended by NULL; all if there is none */
 } export_document;
+
+/* The calls that can be wanted, ended by NULL: "view" ... */
+const char *const *document_calls(void);
 
 /* Names the table's constant after its file; 0 if that leaves no name. */
 int document_name_table(exported_table *table);

@@ -1,10 +1,15 @@
-/* The text of kernel.glsl, line by line; the build makes it. */
+/* Texts that the build embeds: the kernel's, in the order in which they are read. */
 #ifndef TOOLS_EXPORT_KERNEL_TEXT_H
 #define TOOLS_EXPORT_KERNEL_TEXT_H
 
 #include <stddef.h>
 
-/* Ended by NULL, without line breaks. */
-extern const char *const kernel_text[];
+typedef struct embedded_text {
+    const char *name;         /* of the file */
+    const char *const *lines; /* ended by NULL, without line breaks */
+} embedded_text;
+
+/* Ended by a name NULL. */
+extern const embedded_text kernel_text[];
 
 #endif

@@ -2,102 +2,119 @@
 
 #include <string.h>
 
-#define ROOTS_OF_C                                                                        \
-  {"abs", "fabsf"}, {"sqrt", "sqrtf"}, {"exp", "expf"}, {"log", "logf"}, {"sin", "sinf"}, \
-  {                                                                                       \
-    "cos", "cosf"                                                                         \
-  }
-/* The C library's fminf is a call, with care for NaN. */
-#define OUR_LIMITS                          \
-  {"min", "vndf_min"}, {"max", "vndf_max"}, \
-  {                                         \
-    "clamp", "vndf_clamp"                   \
-  }
+static const renamed common_types[] = {{"real", "float"}, {"whole", "int"}, {"mask", "bool"}, {NULL, NULL}};
+static const renamed common_calls[] = {{"set", "$1"},
+                                       {"set_whole", "$1"},
+                                       {"any", "$1"},
+                                       {"less", "($1 < $2)"},
+                                       {"at_most", "($1 <= $2)"},
+                                       {"same", "($1 == $2)"},
+                                       {"both", "($1 && $2)"},
+                                       {"either", "($1 || $2)"},
+                                       {"pick", "($1 ? $2 : $3)"},
+                                       {"pick_whole", "($1 ? $2 : $3)"},
+                                       {"root", "sqrt($1)"},
+                                       {"size", "abs($1)"},
+                                       {"to_real", "float($1)"},
+                                       {"to_whole", "int($1)"},
+                                       {NULL, NULL}};
+
+#define CALLS_OF_C {"root", "sqrtf($1)"}, {"size", "fabsf($1)"}, {"with_sign", "copysignf($1, $2)"}
+#define CASTS_OF_C {"to_real", "(float)($1)"}, {"to_whole", "(int)($1)"}
+#define BITS_OF_C {"bits", "vndf_bits($1)"}, {"of_bits", "vndf_of_bits($1)"}
+#define BITS_TEXT(how)                                                          \
+    how "int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n" \
+        "    return i;\n}\n\n" how                                              \
+        "float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n"
 
 static const language languages[] = {
     {.name = "c",
-     .constant = "enum { VNDF_$NAME = $N };\n",
-     .guarded = 1,
      .title = "C99",
+     .zero = "{0}",
      .structs = STRUCT_TYPEDEF,
-     .made = MADE_COMPOUND,
      .buffer = BUFFER_PARAMETER,
-     .casts = 1,
+     .keeps_const = 1,
      .vec3_is_ours = 1,
-     .suffix = "f",
+     .guarded = 1,
      .function = "static inline ",
-     .begin = "#include <math.h>\n#include <stdbool.h>\n",
-     .numbers = "static const float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
+     .begin = "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n\n" BITS_TEXT("static inline "),
+     .constant = "enum { $NAME = $N };\n",
+     .array = "static const float $NAME[$N] = {",
+     .array_close = "};",
      .pointer = "const float *",
-     .names = {ROOTS_OF_C, OUR_LIMITS, {"vec3", "vndf_vec3"}}},
+     .fetched = "numbers[$1]",
+     .types = {{"vec3", "vndf_vec3"}},
+     .calls = {CALLS_OF_C, CASTS_OF_C, BITS_OF_C, {"vec3", "vndf_vec3_of($1, $2, $3)"}}},
     {.name = "cpp",
-     .constant = "enum { VNDF_$NAME = $N };\n",
-     .guarded = 1,
      .title = "C++11",
-     .structs = STRUCT_PLAIN,
-     .made = MADE_BRACES,
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
+     .keeps_const = 1,
      .vec3_is_ours = 1,
-     .suffix = "f",
-     .function = "inline ",
-     .begin = "#include <cmath>\n",
-     .numbers = "static const float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
-     .pointer = "const float *",
-     .names = {{"abs", "std::fabs"},
-               {"sqrt", "std::sqrt"},
-               {"exp", "std::exp"},
-               {"log", "std::log"},
-               {"sin", "std::sin"},
-               {"cos", "std::cos"},
-               OUR_LIMITS,
-               {"vec3", "vndf_vec3"}}},
-    {.name = "cuda",
-     .constant = "enum { VNDF_$NAME = $N };\n",
      .guarded = 1,
+     .function = "inline ",
+     .begin = "#include <cmath>\n#include <cstring>\n\n" BITS_TEXT("inline "),
+     .constant = "enum { $NAME = $N };\n",
+     .array = "static const float $NAME[$N] = {",
+     .array_close = "};",
+     .pointer = "const float *",
+     .fetched = "numbers[$1]",
+     .types = {{"vec3", "vndf_vec3"}},
+     .calls = {{"root", "std::sqrt($1)"},
+               {"size", "std::fabs($1)"},
+               {"with_sign", "std::copysign($1, $2)"},
+               BITS_OF_C,
+               {"vec3", "vndf_vec3_of($1, $2, $3)"}}},
+    {.name = "cuda",
      .title = "CUDA",
-     .structs = STRUCT_PLAIN,
-     .made = MADE_BRACES,
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
-     .suffix = "f",
+     .keeps_const = 1,
+     .guarded = 1,
      .function = "__device__ inline ",
-     .vec3_made = "make_float3",
      .begin = "",
-     .numbers = "static __device__ const float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
+     .constant = "enum { $NAME = $N };\n",
+     .array = "static __device__ const float $NAME[$N] = {",
+     .array_close = "};",
      .pointer = "const float *__restrict__ ",
-     .names = {ROOTS_OF_C, {"min", "fminf"}, {"max", "fmaxf"}, {"clamp", "vndf_clamp"}, {"vec3", "float3"}}},
+     .fetched = "numbers[$1]",
+     .types = {{"vec3", "float3"}},
+     .calls = {CALLS_OF_C,
+               {"bits", "__float_as_int($1)"},
+               {"of_bits", "__int_as_float($1)"},
+               {"vec3", "make_float3($1, $2, $3)"}}},
     {.name = "opencl",
-     .constant = "enum { VNDF_$NAME = $N };\n",
      .title = "OpenCL C 1.2",
+     .zero = "{0}",
      .structs = STRUCT_TYPEDEF,
-     .made = MADE_COMPOUND,
      .buffer = BUFFER_PARAMETER,
-     .casts = 1,
-     .suffix = "f",
+     .keeps_const = 1,
      .function = "static inline ",
-     .vec3_made = "(float3)",
      .begin = "",
-     .numbers = "__constant float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
+     .constant = "enum { $NAME = $N };\n",
+     .array = "__constant float $NAME[$N] = {",
+     .array_close = "};",
      .pointer = "__global const float *",
+     .fetched = "numbers[$1]",
      .most_embedded = 16384,
      .why = "OpenCL promises 64 KiB of constants",
-     .names = {{"abs", "fabs"}, {"min", "fmin"}, {"max", "fmax"}, {"vec3", "float3"}}},
+     .types = {{"vec3", "float3"}},
+     .calls = {{"size", "fabs($1)"},
+               {"with_sign", "copysign($1, $2)"},
+               CASTS_OF_C,
+               {"bits", "as_int($1)"},
+               {"of_bits", "as_float($1)"},
+               {"vec3", "(float3)($1, $2, $3)"}}},
     {.name = "glsl",
-     .constant = "const int VNDF_$NAME = $N;\n",
-     .title = "GLSL 4.30 and GLSL ES 3.10",
-     .structs = STRUCT_PLAIN,
-     .made = MADE_CALL,
+     .title = "GLSL 4.30 and GLSL ES 3.00",
      .buffer = BUFFER_BOUND,
-     .suffix = "",
+     .made_by_call = 1,
      .function = "",
-     .vec3_made = "vec3",
      .begin = "",
-     .numbers = "const float VNDF_NUMBERS[$N] = float[$N](",
-     .numbers_close = ");",
-     .fetched = "VNDF_FETCH(i)",
+     .constant = "const int $NAME = $N;\n",
+     .array = "const float $NAME[$N] = float[$N](",
+     .array_close = ");",
+     .fetched = "VNDF_FETCH($1)",
      .bound = "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else, as a texture.\n"
               "#ifndef VNDF_FETCH\n"
               "layout(std430, binding = 0) readonly buffer vndf_buffer { float vndf_numbers[]; };\n"
@@ -105,20 +122,17 @@ static const language languages[] = {
               "#endif\n",
      .most_embedded = 4096,
      .why = "drivers copy a constant array that is read at an index into registers, or refuse it",
-     .names = {{NULL, NULL}}},
+     .calls = {{"bits", "floatBitsToInt($1)"}, {"of_bits", "intBitsToFloat($1)"}, {"vec3", "vec3($1, $2, $3)"}}},
     {.name = "hlsl",
-     .constant = "static const int VNDF_$NAME = $N;\n",
      .title = "HLSL, shader model 5 and later",
-     .structs = STRUCT_PLAIN,
-     .made = MADE_FUNCTION,
+     .zero = "($)0",
      .buffer = BUFFER_BOUND,
-     .suffix = "",
      .function = "",
-     .vec3_made = "float3",
      .begin = "",
-     .numbers = "static const float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
-     .fetched = "VNDF_FETCH(i)",
+     .constant = "static const int $NAME = $N;\n",
+     .array = "static const float $NAME[$N] = {",
+     .array_close = "};",
+     .fetched = "VNDF_FETCH($1)",
      .bound = "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else.\n"
               "#ifndef VNDF_FETCH\n"
               "StructuredBuffer<float> vndf_numbers : register(t0);\n"
@@ -126,42 +140,76 @@ static const language languages[] = {
               "#endif\n",
      .most_embedded = 4096,
      .why = "a shader's constants end at 64 KiB, where each number takes 16 bytes",
-     .names = {{"vec3", "float3"}}},
+     .types = {{"vec3", "float3"}},
+     .calls = {{"bits", "asint($1)"}, {"of_bits", "asfloat($1)"}, {"vec3", "float3($1, $2, $3)"}}},
     {.name = "wgsl",
-     .constant = "const VNDF_$NAME: i32 = $N;\n",
      .title = "WGSL",
      .structs = STRUCT_FIELDS,
-     .made = MADE_CALL,
      .buffer = BUFFER_BOUND,
      .typed_after = 1,
-     .suffix = "",
+     .made_by_call = 1,
      .function = "fn ",
-     .vec3_made = "vec3<f32>",
      .begin = "",
-     .numbers =
-         "var<private> VNDF_NUMBERS: array<f32, $N> = array<f32, $N>(", /* naga copies constant arrays at every fetch */
-     .numbers_close = ");",
-     .fetched = "vndf_numbers[i]",
+     .constant = "const $NAME: i32 = $N;\n",
+     .array = "const $NAME: array<f32, $N> = array<f32, $N>(",
+     .numbers = /* naga copies constant arrays at every fetch */
+     "var<private> $NAME: array<f32, $N> = array<f32, $N>(",
+     .array_close = ");",
+     .fetched = "vndf_numbers[$1]",
      .bound = "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n",
      .most_embedded = 2047,
      .why = "WGSL promises arrays of 2047 constants",
-     .names = {{"int", "i32"}, {"float", "f32"}, {"vec3", "vec3<f32>"}}},
+     .types = {{"int", "i32"}, {"float", "f32"}, {"real", "f32"}, {"whole", "i32"}, {"vec3", "vec3<f32>"}},
+     .calls = {{"pick", "select($3, $2, $1)"},
+               {"pick_whole", "select($3, $2, $1)"},
+               {"to_real", "f32($1)"},
+               {"to_whole", "i32($1)"},
+               {"bits", "bitcast<i32>($1)"},
+               {"of_bits", "bitcast<f32>($1)"},
+               {"vec3", "vec3<f32>($1, $2, $3)"}}},
     {.name = "msl",
-     .constant = "enum { VNDF_$NAME = $N };\n",
      .title = "the Metal shading language",
-     .structs = STRUCT_PLAIN,
-     .made = MADE_BRACES,
+     .zero = "{}",
      .buffer = BUFFER_PARAMETER,
-     .suffix = "f",
+     .keeps_const = 1,
      .function = "inline ",
-     .vec3_made = "float3",
      .begin = "#include <metal_stdlib>\nusing namespace metal;\n",
-     .numbers = "constant float VNDF_NUMBERS[$N] = {",
-     .numbers_close = "};",
+     .constant = "enum { $NAME = $N };\n",
+     .array = "constant float $NAME[$N] = {",
+     .array_close = "};",
      .pointer = "device const float *",
+     .fetched = "numbers[$1]",
      .most_embedded = 16384,
      .why = "Metal has 64 KiB of constants",
-     .names = {{"vec3", "float3"}}},
+     .types = {{"vec3", "float3"}},
+     .calls = {{"bits", "as_type<int>($1)"},
+               {"of_bits", "as_type<float>($1)"},
+               {"with_sign", "copysign($1, $2)"},
+               {"vec3", "float3($1, $2, $3)"}}},
+    {.name = "python",
+     .title = "Python, for Dr.Jit",
+     .zero = "$()",
+     .structs = STRUCT_CLASS,
+     .made_by_call = 1,
+     .indents = 1,
+     .constant = "$NAME = $N\n",
+     .array = "$NAME = (",
+     .array_close = ")",
+     .calls = {{"both", "($1 & $2)"},
+               {"either", "($1 | $2)"},
+               {"pick", "dr.select($1, $2, $3)"},
+               {"pick_whole", "dr.select($1, $2, $3)"},
+               {"least", "dr.select($1 < $2, $1, $2)"},
+               {"most", "dr.select($1 > $2, $1, $2)"},
+               {"root", "_root($1)"},
+               {"size", "abs($1)"},
+               {"with_sign", "_with_sign($1, $2)"},
+               {"bits", "_bits($1)"},
+               {"of_bits", "_of_bits($1)"},
+               {"to_real", "_to_real($1)"},
+               {"to_whole", "_to_whole($1)"},
+               {"look", "_look($1, $2, $3)"},
+               {"find_knot", "_find_knot($1, $2)"}}},
 };
 
 enum { LANGUAGES = sizeof languages / sizeof languages[0] };
@@ -180,10 +228,43 @@ const char *const *language_names(void)
     return names;
 }
 
-const char *language_word(const language *in, const char *name, size_t length)
+static const char *find(const renamed *list, size_t count, const char *name, size_t length)
 {
-    for (size_t i = 0; i < RENAMED_MAX && in->names[i].from; i++)
-        if (strlen(in->names[i].from) == length && memcmp(in->names[i].from, name, length) == 0)
-            return in->names[i].to;
+    for (size_t i = 0; i < count && list[i].from; i++)
+        if (strlen(list[i].from) == length && memcmp(list[i].from, name, length) == 0)
+            return list[i].to;
     return NULL;
+}
+
+const char *language_type(const language *in, const char *name, size_t length)
+{
+    const char *own = find(in->types, sizeof in->types / sizeof in->types[0], name, length);
+    return own ? own : find(common_types, 3, name, length);
+}
+
+const char *language_call(const language *in, const char *name, size_t length)
+{
+    const char *own = find(in->calls, RENAMED_MAX, name, length);
+    return own ? own : find(common_calls, sizeof common_calls / sizeof common_calls[0], name, length);
+}
+
+/* Of the eight and Python; those of C need not stand here. */
+static const char reserved[] =
+    " abstract active alignas and as asm assert async attribute auto await become binding buffer cast centroid class coherent "
+    "common compile constant crate debugger def del delete demote device discard elif enable except export "
+    "extern filter final finally fixed flat fn fragment friend from function fxgroup generic get global goto groupshared half "
+    "handle hook impl implements import in inline inout input interface invariant is kernel lambda layout length let line linear "
+    "local lowp macro match matrix mediump meta mod module move mut namespace new nil noexcept noinline "
+    "nointerpolation None nonlocal not null of operator or out output override package packed partition pass patch pipe pixelfragment point "
+    "precise precision priv private protected ptr pub public raise readonly ref regardless register require resource row_major "
+    "sample sampler self set shared smooth snorm std string subroutine super superp target technique template texture this "
+    "thread throw trait triangle try type typename uniform unless unorm use using var varying vec vector vertex virtual wgsl "
+    "where with writeonly xor yield ";
+
+int language_reserves(const char *name, size_t length)
+{
+    for (const char *at = reserved; (at = strchr(at, ' ')) && at[1]; at++)
+        if (strncmp(at + 1, name, length) == 0 && at[1 + length] == ' ')
+            return 1;
+    return 0;
 }

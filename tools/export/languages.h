@@ -1,4 +1,4 @@
-/* What the languages of `vndf export` have in common with the kernel's GLSL, and where they differ. */
+/* Where the languages of `vndf export` differ. */
 #ifndef TOOLS_EXPORT_LANGUAGES_H
 #define TOOLS_EXPORT_LANGUAGES_H
 
@@ -8,16 +8,9 @@
 typedef enum struct_form {
     STRUCT_PLAIN,   /* struct name { float a, b; }; */
     STRUCT_TYPEDEF, /* typedef struct name { float a, b; } name; */
-    STRUCT_FIELDS   /* struct name { a: f32, b: f32, } */
+    STRUCT_FIELDS,  /* struct name { a: f32, b: f32, } */
+    STRUCT_CLASS    /* of Python */
 } struct_form;
-
-/* How the struct T is made from a and b. */
-typedef enum made_form {
-    MADE_CALL,     /* T(a, b) */
-    MADE_COMPOUND, /* (T){a, b} */
-    MADE_BRACES,   /* T{a, b} */
-    MADE_FUNCTION  /* T_of(a, b), a function of ours */
-} made_form;
 
 /* Where numbers are fetched from, unless they are embedded. */
 typedef enum buffer_form {
@@ -25,44 +18,51 @@ typedef enum buffer_form {
     BUFFER_BOUND      /* a buffer that the host binds */
 } buffer_form;
 
+/* What a word of the kernel becomes: a type, or a call, whose arguments are $1, $2 and $3. */
 typedef struct renamed {
     const char *from, *to;
 } renamed;
 
-enum { RENAMED_MAX = 12 };
+enum { RENAMED_MAX = 24 };
 
 /* Declarations are patterns: in them the kernel's names get their prefix, and words that begin with $ are filled in. */
 typedef struct language {
     const char *name, *title;
     struct_form structs;
-    made_form made;
     buffer_form buffer;
-    int casts;             /* (int)(x), not int(x) */
     int typed_after;       /* x: f32, not float x */
+    int keeps_const;       /* of local values and parameters */
+    int made_by_call;      /* T(a, b), not {a, b} */
     int vec3_is_ours;      /* a struct of three floats */
-    const char *suffix;    /* of a number with a point */
+    int guarded;           /* #ifndef around all, since files include one another */
+    int indents;           /* as Python does: no braces, no types */
     const char *function;  /* before the type of a function */
-    const char *vec3_made; /* before the parenthesis that makes a vec3; NULL if that is a function of ours */
+    const char *zero;      /* what a struct $ is before its members are set, where that must be said */
     const char *begin;     /* after the first comment */
     const char *constant;  /* declares the whole number $NAME, which is $N */
-    int guarded;           /* #ifndef around all, since files include one another */
-    const char *numbers;   /* declares $N embedded numbers, up to what opens them */
-    const char *numbers_close;
+    const char *array;     /* declares $N constant numbers $NAME, up to what opens them */
+    const char *numbers;   /* the same for a table's numbers, if they are declared otherwise */
+    const char *array_close;
     const char *pointer;        /* type of the pointer, for BUFFER_PARAMETER */
     const char *bound;          /* declares the buffer, for BUFFER_BOUND */
-    const char *fetched;        /* number i of it */
+    const char *fetched;        /* number $1 of it */
     size_t most_embedded;       /* numbers; 0 for no limit */
     const char *why;            /* the limit */
-    renamed names[RENAMED_MAX]; /* types, and functions of the language */
+    renamed types[5];           /* beside real, whole and mask */
+    renamed calls[RENAMED_MAX]; /* beside those of most languages */
 } language;
 
 /* NULL if there is none of that name. */
 const language *language_named(const char *name);
 
-/* Ended by NULL. */
+/* Ended by NULL; without Python, which is for tools/python. */
 const char *const *language_names(void);
 
-/* What the language calls a name of the kernel's. */
-const char *language_word(const language *in, const char *name, size_t length);
+/* What a type or a call is in the language, or NULL. */
+const char *language_type(const language *in, const char *name, size_t length);
+const char *language_call(const language *in, const char *name, size_t length);
+
+/* Whether a name of the kernel's is taken in one of the languages. */
+int language_reserves(const char *name, size_t length);
 
 #endif

@@ -5,7 +5,7 @@
 
 int main(int argc, char **argv)
 {
-    export_document document = {.lobes = 1};
+    export_document document = {.lobes = 1, .count = 1, .kinds = EXPORT_ALL};
     FILE *to = argc == 2 ? fopen(argv[1], "w") : NULL;
     document.as.to = language_named("c");
     document.as.by_pointer = 1;

@@ -16,7 +16,7 @@ static int is_file(const char *text, size_t length)
 /* A word is typed as it stands; other alternatives are names of what is meant. */
 static int is_word(const char *text, size_t length)
 {
-    if (length == 0 || !islower((unsigned char)*text))
+    if (length == 0 || !(islower((unsigned char)*text) || isdigit((unsigned char)*text)))
         return 0;
     for (size_t i = 0; i < length; i++)
         if (!isalnum((unsigned char)text[i]))

@@ -5,8 +5,8 @@
  * panels of two octaves of R, in log R. Beyond them, R < 2^-64 and R > 2^100, the density of a table is smooth, and R
  * or 1/R will do.
  *
- * The cells of a table have their borders at constant slope and at constant azimuth, so a part of a panel is halved
- * in one of the two, whichever the density changes more in. The horizon of wi, where every density ends, is neither:
+ * The cells of a table have their borders at constant slope. A part of a panel is halved in slope or in azimuth,
+ * whichever the density changes more in. The horizon of wi, where every density ends, is neither:
  * it is a function of the azimuth, and the slopes of a panel are counted from it where it crosses the panel. */
 #include "measure/bins.h"
 

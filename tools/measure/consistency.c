@@ -1,9 +1,11 @@
 #include "measure/consistency.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "cli/subject.h"
 #include "cli/random.h"
+#include "cli/sort.h"
 
 /* Below it, certificates do not measure either: the whole lobe is the far end of a tail. */
 static const float least_area = 1e-12f;
@@ -22,13 +24,13 @@ static double dot(vndf_vec3 a, vndf_vec3 b)
 }
 
 /* Angles uniform, not the sphere: grazing and steep directions are where things break. */
-static consistency_point draw_point(random_stream *stream)
+static consistency_point draw_point(random_stream *stream, double scale)
 {
     consistency_point point;
     point.theta = 180 * random_double(stream);
     point.phi = 360 * random_double(stream);
-    point.alpha_x = (float)pow(10, -3 * random_double(stream));
-    point.alpha_y = (float)pow(10, -3 * random_double(stream));
+    point.alpha_x = (float)(pow(0.02, random_double(stream)) / scale);
+    point.alpha_y = (float)(pow(0.02, random_double(stream)) / scale);
     point.u1 = random_float(stream);
     point.u2 = random_float(stream);
     return point;
@@ -58,8 +60,18 @@ static int is_blind(const draw *it)
 
 static double pdf_difference(const draw *it)
 {
-    double pdf = (double)it->pdf;
-    return fabs((double)vndf_pdf(&it->view, it->wm) - pdf) / pdf;
+    return fabs((double)vndf_pdf(&it->view, it->wm) / (double)it->pdf - 1);
+}
+
+/* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has up to 50
+ * for d log P22 / d log r. */
+static int is_steep(const draw *it)
+{
+    const float up = 1.01f, down = 0.99f;
+    float x = it->wm.x / it->wm.z, y = it->wm.y / it->wm.z;
+    double high = (double)vndf_p22(&it->surface, up * x, up * y),
+           low = (double)vndf_p22(&it->surface, down * x, down * y);
+    return !(high > 0 && low > 0 && fabs(log(high / low)) < 50 * 0.02);
 }
 
 static double invert_difference(const draw *it)
@@ -76,40 +88,52 @@ static double invert_difference(const draw *it)
     return sqrt(dot(apart, apart));
 }
 
-/* NaN is worse than any number. */
-static void keep_worst(double difference, consistency_point point, double *worst, consistency_point *at)
+static void measure_point(const draw *it, double *above, double *below, consistency *found)
 {
-    if (difference <= *worst)
-        return;
-    *worst = isnan(difference) ? INFINITY : difference;
-    *at = point;
-}
-
-static void measure_point(const draw *it, consistency *result)
-{
+    int is_above = it->wi.z >= 0;
+    consistency_side *side = is_above ? &found->above : &found->below;
     if (is_blind(it)) {
-        result->blind++;
+        found->blind++;
         return;
     }
     if (!is_valid(it)) {
-        result->invalid++;
-        result->invalid_at = it->point;
+        found->invalid++;
+        found->invalid_at = it->point;
         return;
     }
     if (vndf_projected_area(&it->surface, it->wi) < least_area)
         return;
-    result->measured++;
-    keep_worst(pdf_difference(it), it->point, &result->worst_pdf, &result->pdf_at);
-    keep_worst(invert_difference(it), it->point, &result->worst_invert, &result->invert_at);
+    if (!is_steep(it))
+        (is_above ? above : below)[side->measured++] = pdf_difference(it);
+    double apart = invert_difference(it);
+    if (!(apart <= found->worst_invert)) { /* NaN is worse than any number */
+        found->worst_invert = isnan(apart) ? INFINITY : apart;
+        found->invert_at = it->point;
+    }
 }
 
-consistency consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed)
+static void conclude(consistency_side *side, double *difference)
 {
-    consistency result = {.points = points};
+    if (!side->measured)
+        return;
+    sort_numbers(difference, side->measured);
+    side->usual = difference[(size_t)(0.999 * (double)(side->measured - 1))];
+    side->rare = difference[(size_t)(0.9999 * (double)(side->measured - 1))];
+}
+
+int consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed, consistency *found)
+{
+    double scale = vndf_distribution_info(distribution).scale, *above = malloc(2 * points * sizeof *above);
     random_stream stream = random_from(seed);
+    *found = (consistency){.points = points};
+    if (!above)
+        return 0;
     for (size_t i = 0; i < points; i++) {
-        draw it = draw_normal(distribution, draw_point(&stream));
-        measure_point(&it, &result);
+        draw it = draw_normal(distribution, draw_point(&stream, scale > 0 ? scale : 1));
+        measure_point(&it, above, above + points, found);
     }
-    return result;
+    conclude(&found->above, above);
+    conclude(&found->below, above + points);
+    free(above);
+    return 1;
 }

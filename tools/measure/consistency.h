@@ -1,5 +1,5 @@
-/* Do sample, pdf and invert agree? Measured at random views - incident directions over the whole
- * sphere, roughness from 1e-3 to 1 along each axis - and random numbers. */
+/* Do sample, pdf and invert agree? Measured at random views - incident directions over the whole sphere, roughness from
+ * 0.02 to 1 of the median slope along each axis - and random numbers. */
 #ifndef TOOLS_MEASURE_CONSISTENCY_H
 #define TOOLS_MEASURE_CONSISTENCY_H
 
@@ -14,17 +14,26 @@ typedef struct consistency_point {
     float alpha_x, alpha_y, u1, u2;
 } consistency_point;
 
+/* Of incident directions above the horizon, and below it. */
+typedef struct consistency_side {
+    size_t
+        measured; /* samples where the projected area is above 1e-12 and D is no steeper than a lobe a tenth of its
+                            slope wide */
+    double usual, rare; /* |pdf(sample) / density returned - 1| of 99.9% and of 99.99% of them is at most this */
+} consistency_side;
+
 typedef struct consistency {
     size_t points, blind; /* blind: views that see nothing, not tested */
-    size_t measured;      /* views whose projected area is above 1e-12: those of worst_pdf and worst_invert */
     size_t invalid;       /* normals not unit, below the surface or facing away; densities not finite or <= 0 */
-    double worst_pdf;     /* largest |pdf(sample) - density returned| / density returned */
-    double worst_invert;  /* largest distance between a normal and sample(invert(normal)); a normal whose u's
-                             come back within 4 steps of 2^-24 counts as returned, since near the ends of
-                             heavy tails one such step moves the normal by more than any tolerance */
-    consistency_point invalid_at, pdf_at, invert_at; /* the last invalid one; the worst ones */
+    consistency_side above, below;
+    double
+        worst_invert; /* largest distance between a normal and sample(invert(normal)), slopes over alpha; 0 for a
+                            normal whose u's come back within 8 steps of 2^-24: near the ends of heavy tails one such
+                            step moves the normal by more than any tolerance */
+    consistency_point invalid_at, invert_at; /* the last invalid one; the worst one */
 } consistency;
 
-consistency consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed);
+/* Returns 0 if there is no memory. */
+int consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed, consistency *found);
 
 #endif

@@ -67,7 +67,7 @@ static vndf_source *thin_source(const profile *from, const char *name, refusal *
 
 vndf_distribution *profile_table(const profile *from, const char *name, refusal *why)
 {
-    const vndf_build_options options = {.max_bytes = 8192, .quick = 1, .sphere = 1};
+    const vndf_build_options options = {.max_bytes = 8192};
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source = thin_source(from, name, why);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, &error) : NULL;

@@ -1,11 +1,12 @@
 /* Which table to ship.
  *
  * Any table is right with its weight; a small one costs noise and rare bright samples, and bias without the weight. So
- * the advice is the smallest table that keeps four limits, over all directions from 0 to 180 degrees:
+ * the advice is the smallest table that keeps five limits:
  *     the largest weight of the samples tried is at most 2: no sample is brighter than chance would make it
  *         (the certificate's weight is larger: it looks where 1e-10 of the area is left);
  *     the weights add at most 1% to the variance: nobody can see that;
- *     total variation is at most 1e-3: without the weight the error stays below half a step of 8 bits;
+ *     total variation is at most 1e-3 from above the horizon: without the weight the error stays below half a step
+ *         of 8 bits; and 3e-2 from below it, where light has met the surface before;
  *     areas, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not mend them.
  * No table keeps a limit that the largest breaks; there a table is good if it is within a quarter of the largest. */
 #include <string.h>
@@ -14,9 +15,9 @@
 #include "draw/svg.h"
 #include "report/report.h"
 
-static const double most_weight = 2, most_variance = 0.01, most_tv = 1e-3, most_area = 1e-4;
+static const double most_weight = 2, most_variance = 0.01, most_above = 1e-3, most_below = 3e-2, most_area = 1e-4;
 
-enum { LIMITS = 4 };
+enum { LIMITS = 5 };
 
 typedef struct verdict {
     double value[LIMITS];
@@ -26,8 +27,8 @@ typedef struct verdict {
 static verdict judge(const report_table *t)
 {
     const vndf_certificate *c = &t->info.certificate;
-    verdict v = {{t->worst.max_weight, t->worst.variance, t->tv, (double)c->area_error}, {0, 0, 0, 0}};
-    const double limit[LIMITS] = {most_weight, most_variance, most_tv, most_area};
+    verdict v = {{t->worst.max_weight, t->worst.variance, t->tv_above, t->tv_below, (double)c->area_error}, {0}};
+    const double limit[LIMITS] = {most_weight, most_variance, most_above, most_below, most_area};
     for (int i = 0; i < LIMITS; i++)
         v.kept[i] = v.value[i] <= limit[i];
     return v;
@@ -36,7 +37,7 @@ static verdict judge(const report_table *t)
 static int keeps_all(const report_table *t)
 {
     verdict v = judge(t);
-    return v.kept[0] && v.kept[1] && v.kept[2] && v.kept[3];
+    return v.kept[0] && v.kept[1] && v.kept[2] && v.kept[3] && v.kept[4];
 }
 
 static int keeps_what_it_can(const report_table *t, const report_table *largest)
@@ -62,7 +63,8 @@ void report_choose(report_subject *subject)
 static void write_broken(FILE *html, const verdict *v)
 {
     static const char *const formats[LIMITS] = {"weights up to %.3g", "%.2g of added variance",
-                                                "a total variation of %.2g", "areas off by %.2g"};
+                                                "a total variation of %.2g above the horizon",
+                                                "a total variation of %.2g below it", "areas off by %.2g"};
     const char *between = "";
     for (int i = 0; i < LIMITS; i++)
         if (!v->kept[i]) {
@@ -83,33 +85,17 @@ static void write_choice(FILE *html, const report_subject *s)
     verdict v = judge(t);
     if (keeps_all(t))
         fprintf(html,
-                "It is the smallest that keeps all four limits: weights up to %.3g, %.2g%% of added variance, "
-                "a total variation of %.2g, G1 within %.1g. ",
-                v.value[0], 100 * v.value[1], v.value[2], v.value[3]);
+                "It is the smallest that keeps all limits: weights up to %.3g, %.2g%% of added variance, "
+                "a total variation of %.2g above the horizon and %.2g below it, G1 within %.1g. ",
+                v.value[0], 100 * v.value[1], v.value[2], v.value[3], v.value[4]);
     else {
-        fputs("None of those measured keeps all four limits; this is the smallest that comes near the largest, "
+        fputs("None of those measured keeps all limits; this is the smallest that comes near the largest, "
               "with ",
               html);
         write_broken(html, &v);
         fputs(". ", html);
     }
     fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", t->time.view + t->time.sample, t->time.batch);
-}
-
-/* Without directions from below the horizon a smaller table may do, if the error is worst there. */
-static void write_reflection(FILE *html, const report_subject *s)
-{
-    char size[16];
-    for (size_t i = 0; i < s->chosen; i++) {
-        const report_table *t = &s->table[i];
-        verdict v = judge(t);
-        if (!v.kept[0] || !v.kept[1] || !v.kept[3] || t->tv_above > most_tv)
-            continue;
-        table_bytes_text(size, (double)t->info.bytes);
-        fprintf(html, " For reflection alone %s will do: from above the horizon its total variation is %.2g.",
-                size, t->tv_above);
-        return;
-    }
 }
 
 /* Says which limits the next smaller table breaks, and gives the command. */
@@ -124,12 +110,11 @@ static void write_advice(FILE *html, const report_subject *s)
         write_broken(html, &v);
         fputs("; with the weight it is unbiased all the same.", html);
     }
-    write_reflection(html, s);
     if (s->left_out)
         fputs(" Larger sizes were left out to keep to the time that this page may take (--seconds).", html);
     fputs("<br><code>vndf build ", html);
     svg_escape(html, s->arguments);
-    fprintf(html, " --max-bytes %zu --sphere -o table.vndf</code></p>\n", s->table[s->chosen].asked);
+    fprintf(html, " --max-bytes %zu -o table.vndf</code></p>\n", s->table[s->chosen].asked);
 }
 
 /* ---- the table ----------------------------------------------------------------------------------- */
@@ -154,11 +139,11 @@ static void shown_columns(text_table *t, const report_table *of, int chosen)
     table_mark(t, chosen ? "chosen" : NULL);
     table_number(t, "bytes of the file", "%.0f", (double)of->info.bytes);
     table_number(t, "in memory", "%.0f", (double)of->info.memory);
-    put_limited(t, "total variation", "%.2e", v.value[2], v.kept[2]);
-    table_number(t, "above the horizon", "%.2e", of->tv_above);
+    put_limited(t, "total variation above", "%.2e", v.value[2], v.kept[2]);
+    put_limited(t, "below", "%.2e", v.value[3], v.kept[3]);
     put_limited(t, "largest weight", "%.3g", v.value[0], v.kept[0]);
     put_limited(t, "added variance", "%.2g%%", 100 * v.value[1], v.kept[1]);
-    put_limited(t, "area, G1 error", "%.1e", v.value[3], v.kept[3]);
+    put_limited(t, "area, G1 error", "%.1e", v.value[4], v.kept[4]);
     table_number(t, "ns, one by one", "%.0f", of->time.view + of->time.sample);
     table_number(t, "ns, batch", "%.1f", of->time.batch);
     table_number(t, "ns, batch, one direction", "%.1f", of->time.batch_shared);
@@ -216,9 +201,9 @@ int report_write_advice(html_page *page, const report *r)
     page_section(
         page, "advice", "Which table to ship",
         "Every table is exact with its weight; a small one costs noise. The advice is the smallest table with "
-        "weights up to 2, at most 1% more variance, a total variation up to 0.001 (so that the weight may "
-        "be left out where a bias below half a step of 8 bits does not matter) and G1 within 0.0001, for every "
-        "direction from 0 to 180 degrees.");
+        "weights up to 2, at most 1% more variance, a total variation up to 0.001 above the horizon (so that the "
+        "weight may be left out where a bias below half a step of 8 bits does not matter) and 0.03 below it, and G1 "
+        "within 0.0001.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++)
         write_advice(page->html, &r->subject[i]);

@@ -47,7 +47,8 @@ static int write_data(html_page *page, const report *r, const byte_points *other
     for (size_t k = 0; k < r->count; k++)
         for (size_t i = 0; i < r->subject[k].count; i++) {
             const report_table *of = &r->subject[k].table[i];
-            add_row(&data, "table", r->subject[k].name, (double)of->info.memory, (double)of->info.bytes, of->tv);
+            add_row(&data, "table", r->subject[k].name, (double)of->info.memory, (double)of->info.bytes,
+                    of->tv_above);
         }
     for (size_t i = 0; i < others->count; i++)
         add_row(&data, others->label[i], r->subject[0].name, others->x[i], 0, others->y[i]);
@@ -75,7 +76,7 @@ int report_write_bytes(html_page *page, const report *r)
     for (size_t k = 0; k < r->count; k++) {
         for (size_t i = 0; i < r->subject[k].count; i++) {
             x[k][i] = (double)r->subject[k].table[i].info.memory;
-            y[k][i] = r->subject[k].table[i].tv;
+            y[k][i] = r->subject[k].table[i].tv_above;
         }
         shorten(r->subject[k].name, label[k]);
         series[k] =
@@ -89,13 +90,13 @@ int report_write_bytes(html_page *page, const report *r)
                .height = 460,
                .right = 270,
                .x = {CHART_BYTES, 0, 0, 0, "memory that the table takes"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
                .series = series,
                .count = r->count + 1};
     chart_fit_series(&c, 0);
     page_section(
         page, "bytes", "Error against bytes",
-        "The largest total variation over all directions, by the memory that a loaded table takes. Curves: "
+        "The largest total variation from above the horizon, by the memory that a loaded table takes. Curves: "
         "tables of this library. Crosses: other methods that keep tables, for the first distribution.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);

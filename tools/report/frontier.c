@@ -1,5 +1,5 @@
-/* The frontier: error against time. Every row of tools/bench/bench.h is a point; a curve for each instruction set joins
- * the tables of this library over their sizes. Exact methods stand in a band of their own: a logarithm has no 0. */
+/* The frontier: error against time. Every row of tools/bench/bench.h is a point; a curve for each instruction set and
+ * number of moments joins the tables of this library over their sizes. Exact methods stand in a band of their own: a logarithm has no 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "draw/chart.h"
 #include "report/report.h"
 
-enum { ROWS_MAX = 96, LABEL = 160, SERIES_MAX = 16 };
+enum { ROWS_MAX = 96, LABEL = 160, SERIES_MAX = 24 };
 
 static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
 static const char *const set_names[] = {"one by one", "batch, portable", "batch, AVX2", "batch, AVX-512"};
@@ -85,21 +85,16 @@ static void add_row(frontier *f, const bench_row *row)
     chart_widen(&f->y_range, f->y[f->count][at]);
 }
 
-/* Makes a series of the rows of one kind and instruction set, if there are any. */
-static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, size_t set)
+/* Makes a series of the rows of one kind, instruction set and number of moments (0: no table), if there are any. */
+static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, size_t set, int moments)
 {
     static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
+    static const chart_line lines[] = {CHART_NO_LINE, CHART_NO_LINE, CHART_DOTTED, CHART_DASHED, CHART_SOLID};
     chart_series *s = &f->series[f->count];
-    *s = (chart_series){NULL,
-                        f->x[f->count],
-                        f->y[f->count],
-                        0,
-                        set_colours[set],
-                        marks[kind],
-                        kind == BENCH_TABLE ? CHART_SOLID : CHART_NO_LINE,
-                        f->text[f->count]};
+    *s = (chart_series){NULL,        f->x[f->count], f->y[f->count],   0, set_colours[set],
+                        marks[kind], lines[moments], f->text[f->count]};
     for (size_t i = 0; i < rows->count; i++)
-        if (rows->row[i].kind == kind && is_shown(&rows->row[i]) &&
+        if (rows->row[i].kind == kind && rows->row[i].moments == moments && is_shown(&rows->row[i]) &&
             strcmp(rows->row[i].instructions, sets[set]) == 0)
             add_row(f, &rows->row[i]);
     f->count += s->count > 0;
@@ -108,9 +103,12 @@ static void add_series(frontier *f, const bench_rows *rows, bench_kind kind, siz
 static void collect(frontier *f, const bench_rows *rows)
 {
     *f = (frontier){.x_range = {HUGE_VAL, 0}, .y_range = {HUGE_VAL, 0}};
-    for (size_t set = 0; set < SETS; set++)
-        for (int kind = BENCH_PUBLISHED; kind <= BENCH_TABLE; kind++)
-            add_series(f, rows, (bench_kind)kind, set);
+    for (size_t set = 0; set < SETS; set++) {
+        add_series(f, rows, BENCH_PUBLISHED, set, 0);
+        add_series(f, rows, BENCH_CLOSED, set, 0);
+        for (int moments = 2; moments <= 4; moments++)
+            add_series(f, rows, BENCH_TABLE, set, moments);
+    }
 }
 
 /* Shapes name the method, colours the number of samples at once. The key names the colours that occur. */
@@ -140,7 +138,7 @@ static chart chart_of(frontier *f, const char *name)
                .height = 710,
                .right = 20,
                .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation to the reference, worst angle"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation to the reference, worst angle above the horizon"},
                .zero = "exact",
                .band = 100,
                .series = f->series,
@@ -180,8 +178,8 @@ int report_write_frontier(html_page *page, const report *r)
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
-        "nearer to the reference. Tables are exact with their weight; the weight mends the error shown. The band at "
-        "the bottom holds methods that are exact but for the rounding of floats.");
+        "nearer to the reference. Curves join tables of 2, 4 and 8 KiB: of 4 moments the solid ones, of 3 the dashed, of "
+        "2 the dotted. Tables are exact with their weight; the weight mends the error shown. The band at the bottom holds methods that are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);

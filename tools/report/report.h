@@ -20,7 +20,7 @@
 #include "draw/table.h"
 #include "vndf_build.h"
 
-enum { REPORT_ANGLES = 61, REPORT_SIZES = 7, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
+enum { REPORT_ANGLES = 61, REPORT_SIZES = 5, REPORT_SUBJECTS = 4, REPORT_METHODS = 8, REPORT_COUNTS = 7 };
 
 /* How far drawn visible normals are from the true ones, from one direction. NaN where the visible area is below 1e-10
  * of the area at grazing incidence. */
@@ -41,8 +41,8 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
-    double tv;       /* the larger of the certificate's and that of the worst angle here */
-    double tv_above; /* the largest total variation from above the horizon */
+    double tv_above,
+        tv_below; /* the larger of the certificate's and that of the worst angle here, below: all angles */
     report_time time;
 } report_table;
 
@@ -93,10 +93,10 @@ double report_theta(size_t angle);
 vndf_status report_subject_begin(report_subject *subject, vndf_source *source, const char *name,
                                  const char *arguments, vndf_error *error);
 
-/* Builds and measures the tables up to `largest` bytes, smallest first: two at least, and more as long as the next one
- * is likely to end within `seconds`. */
-vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds,
-                                 const report_watch *watch, vndf_error *error);
+/* Builds and measures the tables, smallest first: two at least, and more as long as the next one is likely to end within
+ * `seconds`. */
+vndf_status report_subject_build(report_subject *subject, double seconds, const report_watch *watch,
+                                 vndf_error *error);
 void report_subject_free(report_subject *subject);
 
 /* Chooses the table to ship. */

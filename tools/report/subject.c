@@ -109,8 +109,7 @@ vndf_status report_subject_begin(report_subject *subject, vndf_source *source, c
 static vndf_status build_one(report_subject *subject, size_t bytes, const report_watch *watch, vndf_error *error)
 {
     report_table *t = &subject->table[subject->count];
-    vndf_build_options options = {
-        .max_bytes = bytes, .sphere = 1, .progress = watch->progress, .progress_user = watch->user};
+    vndf_build_options options = {.max_bytes = bytes, .progress = watch->progress, .progress_user = watch->user};
     *t = (report_table){.asked = bytes};
     t->table = vndf_build(subject->source, &options, NULL, error);
     if (!t->table)
@@ -127,16 +126,14 @@ static int is_full(const report_subject *subject)
     return n >= 2 && subject->table[n - 1].info.bytes < subject->table[n - 1].asked / 2;
 }
 
-/* Each size takes about twice the time of the one before; the largest has 16 times the bytes and takes four times. */
-static vndf_status build_all(report_subject *subject, size_t largest, double seconds, const report_watch *watch,
-                             vndf_error *error)
+/* Each size takes about twice the time of the one before. */
+static vndf_status build_all(report_subject *subject, double seconds, const report_watch *watch, vndf_error *error)
 {
-    static const size_t sizes[REPORT_SIZES] = {2048, 4096, 8192, 16384, 32768, 65536, 1048576};
+    static const size_t sizes[REPORT_SIZES] = {2048, 4096, 8192, 16384, 32768};
     /* time of this process: others on the machine do not make tables fewer */
     double begin = clock_processor_seconds(), before = begin, last = 0;
-    for (size_t i = 0; i < REPORT_SIZES && sizes[i] <= largest && !is_full(subject); i++) {
-        double next = last * (sizes[i] > 65536 ? 4 : 2);
-        if (i >= 2 && before - begin + next > seconds) {
+    for (size_t i = 0; i < REPORT_SIZES && !is_full(subject); i++) {
+        if (i >= 2 && before - begin + 2 * last > seconds) {
             subject->left_out++;
             continue;
         }
@@ -150,11 +147,11 @@ static vndf_status build_all(report_subject *subject, size_t largest, double sec
     return VNDF_OK;
 }
 
-vndf_status report_subject_build(report_subject *subject, size_t largest, double seconds,
-                                 const report_watch *watch, vndf_error *error)
+vndf_status report_subject_build(report_subject *subject, double seconds, const report_watch *watch,
+                                 vndf_error *error)
 {
     double areas[REPORT_ANGLES];
-    vndf_status status = build_all(subject, largest, seconds, watch, error);
+    vndf_status status = build_all(subject, seconds, watch, error);
     if (status != VNDF_OK)
         return status;
     for (size_t a = 0; a < REPORT_ANGLES; a++)
@@ -162,7 +159,9 @@ vndf_status report_subject_build(report_subject *subject, size_t largest, double
     for (size_t i = 0; i < subject->count; i++) {
         measure_angles(subject, areas, &subject->table[i]);
         subject->table[i].time = report_time_of(subject->table[i].table);
-        subject->table[i].tv = fmax((double)subject->table[i].info.certificate.tv, subject->table[i].worst.tv);
+        report_table *t = &subject->table[i];
+        t->tv_above = fmax((double)t->info.certificate.tv_above, t->tv_above);
+        t->tv_below = fmax((double)t->info.certificate.tv, t->worst.tv);
         if (watch->progress(1, "measuring errors", watch->user) != 0) {
             *error = (vndf_error){VNDF_ERROR_ARGUMENT, "interrupted"};
             return error->status;

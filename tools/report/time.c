@@ -54,7 +54,7 @@ typedef void loop(workload *w);
 static void make_views(workload *w)
 {
     for (int i = 0; i < DIRECTIONS; i++)
-        w->sum += vndf_view_from(&w->surface[i], w->wi[i]).ax;
+        w->sum += vndf_view_from(&w->surface[i], w->wi[i]).numbers[0];
 }
 
 static void draw_samples(workload *w)

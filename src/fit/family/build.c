@@ -211,7 +211,7 @@ static vndf_status build_table(builder *b, vndf_family *family, size_t index, vn
     char stage[48];
     double width = (1 - MEASURED) / (double)b->count, begin = MEASURED + width * (double)index;
     vndf_build_options options = {
-        .max_bytes = b->options.max_bytes, .sphere = b->options.sphere, .progress = show, .progress_user = b};
+        .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
     vndf_error inner = {VNDF_OK, ""};
     snprintf(stage, sizeof stage, "table %lu of %lu", (unsigned long)index + 1, (unsigned long)b->count);
     vndf_status status = enter(b, begin, begin + width, stage, error);

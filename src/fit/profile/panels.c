@@ -36,10 +36,21 @@ static double density(const vndf_profile *profile, double r)
     return finite(profile, r, vndf_profile_p22(profile, r));
 }
 
+/* The source at the doubles beside a slope where it is infinite: a pole there has a mass that no double shows. */
+static double beside_pole(const vndf_profile *profile, double r)
+{
+    const vndf_source *source = profile->source;
+    double below = source->p22(source, nextafter(r, 0.0)), beyond = source->p22(source, nextafter(r, HUGE_VAL));
+    vndf_guard_spend(profile->guard, 2 * source->operations);
+    return below < beyond ? below : beyond;
+}
+
 /* P at r from what the source gives there. */
 static double p22_of(const vndf_profile *profile, double r, double given)
 {
     double scale = profile->scale;
+    if (given == HUGE_VAL && r > 0.0)
+        given = beside_pole(profile, r * scale);
     if (!(given >= 0.0 && given < HUGE_VAL)) {
         vndf_guard_note(profile->guard, r * scale, given);
         given = 0.0;
@@ -120,7 +131,7 @@ static void push(vndf_profile *profile, double u0, estimate sum, int jump)
         profile->rough = 1;
     if (profile->rough || !grow(profile))
         return;
-    vndf_panel panel = {exp(u0), sum.m0, sum.m1, 0, 0, 0, 0, 0, jump};
+    vndf_panel panel = {.r = exp(u0), .m0 = sum.m0, .m1 = sum.m1, .jump = jump};
     profile->panel[profile->count++] = panel;
 }
 
@@ -268,7 +279,7 @@ void vndf_panels_fill(vndf_profile *profile, vndf_known *known)
     for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++)
         fill_between(profile, edge[i], edge[i + 1], least, known->simple + i);
     if (!vndf_profile_stopped(profile) && grow(profile)) {
-        vndf_panel end = {exp(edge[edges - 1]), 0, 0, 0, 0, 0, 0, 0, 0};
+        vndf_panel end = {.r = exp(edge[edges - 1])};
         profile->panel[profile->count] = end;
     }
     free(edge);
@@ -298,36 +309,50 @@ void vndf_panels_sum(vndf_profile *profile)
     vndf_panel *p = profile->panel;
     size_t n = profile->count;
     measure_tail(profile);
-    p[0].f0 = p[0].f1 = p[0].e = 0.0;
+    double before = 0.0; /* the integral of P r^2 */
+    p[0].f0 = 0.0;
     p[n].t0 = profile->tail_m0;
     p[n].s = profile->tail_m1;
     for (size_t i = 0; i < n; i++) {
-        double a = p[i].r, b = p[i + 1].r;
         p[i + 1].f0 = p[i].f0 + p[i].m0;
-        p[i + 1].f1 = p[i].f1 + p[i].m1 + a * p[i].m0;
-        p[i + 1].e = p[i].e + p[i].f1 * (1 / a - 1 / b) + ((b - a) * p[i].m0 - p[i].m1) / b;
+        before += p[i].m1 + p[i].r * p[i].m0;
     }
     for (size_t i = n; i-- > 0;) {
         p[i].t0 = p[i + 1].t0 + p[i].m0;
         p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
     }
     profile->f0 = p[n].f0 + profile->tail_m0;
-    profile->f1 = p[n].f1 + profile->tail_m1 + p[n].r * profile->tail_m0;
+    profile->f1 = before + profile->tail_m1 + p[n].r * profile->tail_m0;
+}
+
+/* The points of a panel. */
+static void put_points(vndf_profile *profile, const vndf_panel *panel, vndf_profile_point *point)
+{
+    double u0 = log(panel->r), du = log(panel[1].r) - u0, r[VNDF_GAUSS], p22[VNDF_GAUSS];
+    for (int k = 0; k < VNDF_GAUSS; k++)
+        r[k] = exp(u0 + du * vndf_gauss_node[k]);
+    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
+    for (int k = 0; k < VNDF_GAUSS; k++) {
+        double p = finite(profile, r[k], p22[k]);
+        point[k] = (vndf_profile_point){r[k], vndf_gauss_weight[k] * du * r[k] * r[k] * p};
+    }
 }
 
 int vndf_panels_points(vndf_profile *profile)
 {
+    vndf_panel *panel = profile->panel;
     free(profile->point);
     profile->point = malloc(profile->count * VNDF_GAUSS * sizeof *profile->point);
-    for (size_t i = 0; profile->point && i < profile->count; i++) {
-        double u0 = log(profile->panel[i].r), u1 = log(profile->panel[i + 1].r), r[VNDF_GAUSS], p22[VNDF_GAUSS];
-        for (int k = 0; k < VNDF_GAUSS; k++)
-            r[k] = exp(u0 + (u1 - u0) * vndf_gauss_node[k]);
-        vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
+    panel[profile->count].less = panel[profile->count].least = 0.0;
+    for (size_t i = profile->point ? profile->count : 0; i-- > 0;) {
+        vndf_profile_point *point = profile->point + i * VNDF_GAUSS;
+        put_points(profile, &panel[i], point);
+        panel[i].less = panel[i + 1].less;
+        panel[i].least = panel[i + 1].least;
         for (int k = 0; k < VNDF_GAUSS; k++) {
-            double p = finite(profile, r[k], p22[k]);
-            vndf_profile_point point = {r[k], vndf_gauss_weight[k] * (u1 - u0) * r[k] * r[k] * p};
-            profile->point[i * VNDF_GAUSS + (size_t)k] = point;
+            double less = point[k].weight / point[k].r;
+            panel[i].less += less;
+            panel[i].least += less / (point[k].r * point[k].r);
         }
     }
     return profile->point != NULL;

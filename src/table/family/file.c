@@ -15,10 +15,10 @@ static const vndf_frame FRAME = {"VNDFfam\n", "family", 1, VNDF_LIMIT_FAMILY_BYT
 /* Into the room that is left; where there is none, it counts. */
 static void write_table(vndf_writer *w, const vndf_distribution *table)
 {
-    size_t size = vndf_table_encode(table, NULL, 0);
+    size_t size = vndf_table_encode_loaded(table, NULL, 0);
     vndf_write_u32(w, (uint32_t)size);
     if (w->at <= w->capacity && size <= w->capacity - w->at)
-        vndf_table_encode(table, w->bytes + w->at, size);
+        vndf_table_encode_loaded(table, w->bytes + w->at, size);
     w->at += size;
 }
 

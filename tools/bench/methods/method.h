@@ -41,6 +41,7 @@ struct method {
     const char *instructions;
     bench_kind kind;
     size_t memory, file_bytes;          /* as in bench_row */
+    int moments;                        /* the same */
     const void *state;                  /* what was prepared */
     const vndf_distribution *certified; /* whose certificate says how far it is from the truth, or NULL */
     void (*release)(void *state);       /* NULL: the state has another owner */

@@ -58,6 +58,7 @@ static method ours(const vndf_distribution *distribution, const char *name, vndf
     vndf_info info = vndf_distribution_info(distribution);
     m.memory = info.memory;
     m.file_bytes = info.bytes;
+    m.moments = info.moments;
     snprintf(m.name, sizeof m.name, "%s%s", name, limit ? ", batch" : "");
     return m;
 }

@@ -30,13 +30,14 @@ static int read_range(const char *command, const char *text, double range[2])
 
 static int read_options(const char *command, const family_words *given, vndf_family_options *options)
 {
-    unsigned long long bytes = 0, knots = 0;
+    unsigned long long bytes = 0, knots = 0, moments = 0;
     if (!option_count(command, "--max-bytes", &given->bytes, 2048, 1048576, &bytes) ||
         !option_number(command, "--max-tv", &given->distance, 1e-12, 1, &options->max_distance) ||
-        !option_count(command, "--knots", &given->knots, 2, VNDF_LIMIT_FAMILY_KNOTS, &knots))
+        !option_count(command, "--knots", &given->knots, 2, VNDF_LIMIT_FAMILY_KNOTS, &knots) ||
+        !option_count(command, "--moments", &given->moments, 2, 4, &moments))
         return 0;
     options->max_bytes = (size_t)bytes;
-    options->sphere = given->sphere.count > 0;
+    options->moments = (int)moments;
     options->knots = (size_t)knots;
     return 1;
 }

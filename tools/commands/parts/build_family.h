@@ -5,7 +5,7 @@
 #include "cli/arguments.h"
 
 typedef struct family_words {
-    words family, parameter, knots, distance, bytes, sphere, output;
+    words family, parameter, knots, distance, bytes, moments, output;
 } family_words;
 
 /* Builds, saves and prints; `held` are the signals that wait meanwhile. An exit status. */

@@ -5,7 +5,8 @@
 
 static int is_named_before(const export_document *document, const exported_table *table)
 {
-    static const char *const taken[] = {"GGX", "BECKMANN", "LOBES", "NUMBERS", "KERNEL"};
+    static const char *const taken[] = {"GGX",  "BECKMANN", "LOBES", "NUMBERS", "KERNEL", "HEAD",
+                                        "KNOT", "LAW",      "MORE",  "TAIL",    "LOW",    "LAW_TERMS"};
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
         if (strcmp(taken[i], table->name) == 0)
             return 1;

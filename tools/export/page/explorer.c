@@ -66,8 +66,6 @@ static void put_measured(FILE *to, const vndf_certificate *c)
                 "<li>D grows towards the horizon as cos<sup>%.3g</sup>: no grid of angles resolves it "
                 "there.</li>\n",
                 (double)c->horizon_power);
-    if (c->quick > 0)
-        fputs("<li>It was measured quickly: these errors may be larger by a factor of 1.5.</li>\n", to);
 }
 
 static int put_certificates(const export_document *document, FILE *to)

@@ -2,12 +2,7 @@
 #ifndef TOOLS_EXPORT_PAGE_PAGE_TEXTS_H
 #define TOOLS_EXPORT_PAGE_PAGE_TEXTS_H
 
-#include <stddef.h>
-
-typedef struct embedded_text {
-    const char *name;         /* of the file */
-    const char *const *lines; /* ended by NULL, without line breaks */
-} embedded_text;
+#include "export/kernel_text.h"
 
 /* Ended by a name NULL. */
 extern const embedded_text page_texts[];

@@ -63,13 +63,12 @@ vndf_error = _struct("vndf_error", ("status", c_int), ("message", c_char * 512))
 vndf_certificate = _struct(
     "vndf_certificate",
     *_floats("tv", "tv_theta", "tv_above", "tv_above_theta", "max_weight", "weight_bounded", "area_error"),
-    *_floats("consistency", "ndf_error", "hidden", "finest", "horizon_power", "quick"),
+    *_floats("consistency", "ndf_error", "hidden", "finest", "horizon_power"),
 )
 vndf_info = _struct(
     "vndf_info",
-    ("source", c_char_p), ("tool", c_char_p), ("bytes", c_size_t), ("memory", c_size_t), ("radial_cells", c_size_t),
-    ("azimuth_rows", c_size_t), ("azimuth_cells", c_size_t), ("normalization", c_double), ("scale", c_double),
-    ("certificate", vndf_certificate),
+    ("source", c_char_p), ("tool", c_char_p), ("bytes", c_size_t), ("memory", c_size_t), ("cells", c_size_t),
+    ("moments", c_int), ("normalization", c_double), ("scale", c_double), ("certificate", vndf_certificate),
 )  # fmt: skip
 vndf_normals = _struct("vndf_normals", *_arrays("x", "y", "z"))
 _batch_begin = [("count", c_size_t), ("shared", c_uint), ("limit", c_int)]
@@ -103,11 +102,11 @@ vndf_parameter = _struct("vndf_parameter", ("name", c_char_p), ("value", c_doubl
 vndf_build_options = _struct(
     "vndf_build_options",
     ("max_bytes", c_size_t), ("max_tv", c_double), ("progress", progress_function), ("progress_user", c_void_p),
-    ("breaks", c_void_p), ("break_count", c_size_t), ("finest", c_double), ("quick", c_int), ("sphere", c_int),
+    ("breaks", c_void_p), ("break_count", c_size_t), ("finest", c_double), ("moments", c_int),
 )  # fmt: skip
 vndf_family_options = _struct(
     "vndf_family_options",
-    ("max_distance", c_double), ("knots", c_size_t), ("max_bytes", c_size_t), ("sphere", c_int),
+    ("max_distance", c_double), ("knots", c_size_t), ("max_bytes", c_size_t), ("moments", c_int),
     ("progress", progress_function), ("progress_user", c_void_p),
 )  # fmt: skip
 vndf_albedo_options = _struct(
@@ -131,12 +130,11 @@ vndf_description = _struct(
     ("order_limit", c_uint),
 )  # fmt: skip
 vndf_roughness = _struct("vndf_roughness", *_floats("alpha_x", "alpha_y", "cos_rotation", "sin_rotation"))
-_axes = _struct("vndf_axes", ("cosine", c_double), ("sine", c_double), *_floats("near_cosine", "near_sine"))
 vndf_material = _struct(
     "vndf_material",
-    ("is", vndf_description), *_arrays("routines", "unturned", "single", "specular", "fresnel", "masking"),
-    ("roughness", vndf_roughness), ("axes", _axes), ("per_wavelength", c_double), ("reflectance0", c_float * WAVELENGTHS),
-    ("reflectance", c_float * WAVELENGTHS), ("two_sided", c_int), ("steep", c_int), ("turn", c_float),
+    ("is", vndf_description), *_arrays("routines", "specular", "single", "normals", "fresnel", "masking"),
+    ("surface", vndf_affine), *_floats("cos_rotation", "sin_rotation"), ("per_wavelength", c_double),
+    ("reflectance0", c_float * WAVELENGTHS), ("reflectance", c_float * WAVELENGTHS), ("two_sided", c_int),
 )  # fmt: skip
 vndf_bsdf_batch = _struct(
     "vndf_bsdf_batch",

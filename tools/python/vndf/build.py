@@ -209,18 +209,16 @@ def build(
     *,
     max_bytes: int = 0,
     max_tv: float = 0.0,
-    certificate: str = "quick",
-    sphere: bool = False,
+    moments: int = 0,
     breaks: Iterable[float] = (),
     finest: float = 0.0,
     progress: Optional[Progress] = None,
 ) -> Distribution:
     """Builds a table.
 
-    max_bytes: largest size of the file, 2048 to 1 MiB; 0: 16384, or 32768 where that brings TV below 1e-3.
-    max_tv: build the smallest table that reaches this total variation; 0: the best that fits.
-    certificate: "quick" (a few directions; tens of milliseconds) or "full" (:func:`certify` measures it later).
-    sphere: a small table serves all directions alike; else those above the horizon first.
+    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, up to 8192.
+    max_tv: build the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
+    moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     breaks: slopes where a feature begins, ends or has its peak.
     finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.
     progress: called with the part that is done, 0 to 1, and the name of the stage; a true result stops the build.
@@ -228,15 +226,13 @@ def build(
     Raises :class:`vndf.Error` if the source cannot be the normals of a microsurface, with the reason, or if the
     target cannot be met, with what was reached. What `progress` or the function of the source raises comes through."""
     want(source, Source)
-    if certificate not in ("quick", "full"):
-        raise ValueError(f'certificate is "quick" or "full", not {certificate!r}')
     if max_bytes < 0:
         raise ValueError(f"max_bytes is {max_bytes}; it must not be negative")
     reporter = Reporter(progress, source)
     marks = np.ascontiguousarray(list(breaks), np.float64)
     options = _library.vndf_build_options(
         max_bytes=max_bytes, max_tv=max_tv, progress=reporter.pointer, breaks=marks.ctypes.data,
-        break_count=marks.size, finest=finest, quick=certificate == "quick", sphere=sphere,
+        break_count=marks.size, finest=finest, moments=moments,
     )  # fmt: skip
     try:
         return reporter.run(lambda: Distribution(checked("build", source._pointer, byref(options), None)))
@@ -245,7 +241,7 @@ def build(
 
 
 def certify(distribution: Distribution, source: Source) -> Certificate:
-    """Measures the full certificate of a table against a source."""
+    """Measures the certificate of a table against a source."""
     want(distribution, Distribution)
     want(source, Source)
     struct = _library.vndf_certificate()

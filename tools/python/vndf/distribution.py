@@ -29,7 +29,6 @@ class Certificate:
     hidden: float  #: the part of the mass that may have escaped the builder, 0 to 1
     finest: float  #: relative width in slope of features that may have escaped; 0 if none
     horizon_power: float  #: p < 0 if D grows as cos(theta)^p towards the horizon; else 0
-    quick: bool  #: only few directions were measured
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,16 +39,15 @@ class Info:
     tool: str  #: the version that made it
     bytes: int  #: size of the file; 0 for closed forms
     memory: int  #: bytes in memory; 0 for closed forms
-    radial_cells: int
-    azimuth_rows: int
-    azimuth_cells: int
+    cells: int  #: intervals of the slope length before the tail; 0 for closed forms
+    moments: int  #: 2, 3 or 4 (:func:`vndf.build`); 0 for closed forms
     normalization: float  #: the given D was multiplied by this
     scale: float  #: median slope under D cos(theta) at alpha = 1
 
 
 def certificate_of(struct: Any) -> Certificate:
     values = members(struct)
-    values.update(weight_bounded=bool(struct.weight_bounded), quick=bool(struct.quick))
+    values.update(weight_bounded=bool(struct.weight_bounded))
     return Certificate(**values)
 
 

@@ -274,12 +274,12 @@ class Family(Owner):
     @staticmethod
     def build(
         specification: str, low: float, high: float, *, max_distance: float = 0.0, knots: int = 0, max_bytes: int = 0,
-        sphere: bool = False, progress: Optional[Progress] = None,
+        moments: int = 0, progress: Optional[Progress] = None,
     ) -> Family:  # fmt: skip
         """Tables of a family of :meth:`Source.family` along the number written {p}, from low to high: as few as reach
         `max_distance` (total variation of slopes; 0: 1e-3), or `knots` of them."""
         reporter = Reporter(progress)
-        options = _library.vndf_family_options(max_distance, knots, max_bytes, sphere, reporter.pointer, None)
+        options = _library.vndf_family_options(max_distance, knots, max_bytes, moments, reporter.pointer, None)
         name = text_bytes(specification)
         return reporter.run(lambda: Family(checked("build_family", name, low, high, byref(options))))
 

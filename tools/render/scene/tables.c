@@ -21,7 +21,7 @@ static vndf_source *source_of(unsigned form, const char *text, vndf_error *error
 
 static vndf_distribution *build(unsigned form, const char *text, unsigned bytes, vndf_error *error)
 {
-    const vndf_build_options options = {.max_bytes = bytes, .quick = 1};
+    const vndf_build_options options = {.max_bytes = bytes};
     vndf_source *source = source_of(form, text, error);
     vndf_distribution *built = source ? vndf_build(source, &options, NULL, error) : NULL;
     vndf_source_free(source);

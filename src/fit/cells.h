@@ -1,0 +1,32 @@
+/* The measure f dR of a profile at points in a cell, and the cell's numbers. */
+#ifndef VNDF_FIT_CELLS_H
+#define VNDF_FIT_CELLS_H
+
+#include "fit/law.h"
+#include "fit/profile/profile.h"
+
+/* Slopes nearer than this part of themselves are one: less than a float of a normal can tell. A knot has no other within
+ * four floats of it. */
+#define VNDF_GRAIN 0x1.001p-21
+
+/* f dR = mass; the part of its cell that the point stands for, by xi. */
+typedef struct vndf_point {
+    double r, mass, xi, width;
+} vndf_point;
+
+typedef struct vndf_points {
+    vndf_point *at;
+    size_t count, capacity;
+    int starved; /* there was no memory for some */
+} vndf_points;
+
+/* Adds the points of a cell, from the slope span->r to `end`, which may be infinite: ten for each panel or part of one,
+ * but one for panels that together are narrower than the grain. */
+void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vndf_span *span, double end);
+void vndf_points_free(vndf_points *points);
+
+/* The numbers of a cell by its points. Where less than floats can hold is in a cell, it gets a little that is even. */
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end, const vndf_point *point,
+                            size_t count);
+
+#endif

@@ -1,0 +1,104 @@
+/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run time
+ * computes in float. The fit and the certificate ask here, and nobody states the law again.
+ *
+ * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a direction
+ * (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the direction; a cell is
+ * drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at both ends per unit of its
+ * coordinate xi. Masses are those of the projected area: they add up to it. */
+#ifndef VNDF_FIT_LAW_H
+#define VNDF_FIT_LAW_H
+
+#include "core/inline.h"
+#include "table/table.h"
+
+/* Where a cell lies. x grows by h from its left knot; in the tail cell z falls as (1 - xi)^power, to 0. */
+typedef struct vndf_span {
+    double r, x, z, h;
+    double power; /* 0: not the tail */
+} vndf_span;
+
+vndf_span vndf_span_between(double r0, double r1);
+vndf_span vndf_span_of_tail(double r0, unsigned squarings);
+
+/* xi of a slope in the cell, and d xi/dR. */
+double vndf_span_place(const vndf_span *span, double r);
+double vndf_span_density(const vndf_span *span, double r);
+
+/* The numbers of one cell (table/table.h), in double. */
+typedef struct vndf_cell {
+    double g0, g1, m0, m1, m2, m4;
+} vndf_cell;
+
+/* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
+typedef struct vndf_weight {
+    double w1, w0, wq, w4;
+} vndf_weight;
+
+/* What is drawn in a cell: its mass, and the densities per unit of xi at its ends. */
+typedef struct vndf_drawn {
+    double mass, d0, d1;
+} vndf_drawn;
+
+vndf_drawn vndf_drawn_by(const vndf_span *span, const vndf_cell *cell, const vndf_weight *weight);
+
+/* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
+vndf_drawn vndf_drawn_below(const vndf_span *span, const vndf_cell *cell, double rho, double b0, double b1);
+
+/* The density that is drawn at xi; 0 in an empty cell. */
+VNDF_INLINE double vndf_drawn_density(const vndf_drawn *d, double xi)
+{
+    double eta = 1 - xi, w = xi * eta, under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
+    double part = under > 0 ? d->mass / under : 0;
+    return (d->d1 * xi * xi + 2 * d->mass * w + d->d0 * eta * eta) * part * part;
+}
+
+/* The mass that is drawn over `width` about xi, for a point of a rule: by the density; of a wide part exactly. */
+double vndf_drawn_part(const vndf_drawn *drawn, double xi, double width);
+
+/* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments. */
+typedef struct vndf_kernel {
+    double a1, a0, aq, a4;
+} vndf_kernel;
+vndf_kernel vndf_kernel_of(unsigned moments);
+
+/* A table as laws read it; the draft must stay. */
+typedef struct vndf_laws {
+    const vndf_table_draft *draft;
+    unsigned cells; /* and a tail cell */
+    vndf_span *span;
+    vndf_cell *cell;
+    double *turn;  /* the slope of rho from which a knot is the switch */
+    double *part;  /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
+} vndf_laws;
+
+/* 0 if there is no memory; free it either way. */
+int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
+void vndf_laws_free(vndf_laws *laws);
+
+/* The cell of a slope. */
+unsigned vndf_laws_cell(const vndf_laws *laws, double r);
+
+/* A direction. */
+typedef struct vndf_law {
+    const vndf_laws *laws;
+    double rho, s, c; /* c >= 0 on either side */
+    int below;
+    unsigned first;            /* above: the switch knot; below: the cell of rho */
+    vndf_weight near, far, end; /* above: before the switch, from it on, and where far is not used */
+    double xi, b0, b1;         /* below: of rho in its cell; the shares */
+} vndf_law;
+
+vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below);
+
+/* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
+ * is 0 at rho: (xi - law.xi)/(1 - law.xi). */
+vndf_drawn vndf_law_cell(const vndf_law *law, unsigned cell);
+
+/* The drawn area. */
+double vndf_law_area(const vndf_law *law);
+
+/* The area that the run time gives out: above the horizon a spline of the numbers; below it that less c, or the drawn
+ * area where the two are close. */
+double vndf_law_public_area(const vndf_law *law, double drawn);
+
+#endif

@@ -1,0 +1,200 @@
+/* Visible normals of a table in its unit problem: draws, densities and inverses, by the law of the slope length (law.h)
+ * and the azimuth that goes with it (arc.h). Each function is a step that short loops over a block of samples take one
+ * after the other, since a processor overlaps short bodies better than one long one. */
+#ifndef VNDF_KERNEL_DRAW_H
+#define VNDF_KERNEL_DRAW_H
+
+#include "kernel/law.h"
+
+HERE seen table_see(table t, real s, real c, real rho, const int below)
+{
+    if (below)
+        return law_see_below(t, s, c, rho);
+    return law_see_above(t, s, c, rho);
+}
+
+/* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
+typedef struct aim {
+    weights w;
+    real at, left;
+} aim;
+
+HERE aim table_aim(seen v, real u2, const int below)
+{
+    real at = least(u2, set(0.99999994f)) * v.total;
+    aim a = {v.w, at, v.total - at};
+    if (!below) {
+        mask near = less(at, v.near);
+        a.w.w1 = pick(near, set(0.0f), v.w.w1);
+        a.w.w0 = pick(near, v.c, v.w.w0);
+        a.w.wq = pick(near, set(0.0f), v.w.wq);
+        a.w.w4 = pick(near, set(0.0f), v.w.w4);
+        a.left = pick(near, v.c - at, a.left);
+    }
+    return a;
+}
+
+/* The cell of the slope. */
+HERE whole table_find(table t, seen v, aim a, const int below)
+{
+    if (below)
+        return law_find_below(t, v, a.left);
+    mask near = less(a.at, v.near);
+    whole i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
+    return pick_whole(near, least_whole(i, v.first - 1), most_whole(i, v.first));
+}
+
+/* The place of the slope: cell and the mass before it there. */
+typedef struct found {
+    piece at;
+    real before;
+} found;
+
+HERE found table_cell(table t, seen v, aim a, whole i, const int below)
+{
+    found f;
+    quad tail = look(t, VNDF_TAIL, i);
+    if (below) {
+        f.at = law_cell_below(t, v, i);
+        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
+        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+        f.before = pick(at_most(to_real(i), to_real(v.cell)), a.at, sum - a.left);
+        return f;
+    }
+    f.at = law_cell_above(t, v, a.w, i);
+    f.before = pick(same(i, 0), a.at, law_sum(a.w, tail) - a.left);
+    return f;
+}
+
+/* A slope length as it was drawn, and its mass per x, all times over + rest and its powers (law.h). */
+typedef struct drawn_length {
+    slope_length r;
+    real density; /* over x total */
+} drawn_length;
+
+HERE drawn_length table_length(table t, seen v, found f)
+{
+    place in = law_invert(f.at, f.before);
+    drawn_length d;
+    d.r = law_length(t, v, f.at, in);
+    d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
+    return d;
+}
+
+HERE arc table_arc(seen v, slope_length r, const int below)
+{
+    return arc_of(size(v.c) * r.z, v.s * r.x, r.edge, below);
+}
+
+/* The normal in the frame of the direction: x towards it. */
+HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
+{
+    real reach = k.sum / v.s, facing = most(a.facing, set(1e-7f) * k.mass);
+    drawn n = {a.along * reach, a.aside * reach, d.r.z, d.density * (facing / (2.0f * k.mass))};
+    return n;
+}
+
+/* The visible density over the density as drawn, where the slope length is that of f at that place of the cell. */
+HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length r, arc k, real area, const int below)
+{
+    piece all = law_cell_all(t, i);
+    real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
+    if (below) { /* from the place in what is seen of the cell to that in the cell */
+        part = pick(at_most(to_real(i), to_real(v.cell)), v.near, part);
+        rest = rest * part;
+        over = under - rest;
+    }
+    real below_all = law_below(all, over, rest), f_mass = law_of_f(all, over, rest, r.x, r.z) / (below_all * below_all);
+    return f_mass * part * in.below / (f.at.mass * in.root) * (v.total / area) * (k.mass * k.sum) / (3.14159265f * r.z);
+}
+
+/* ---- given normals ---- */
+
+/* A normal (x, y, z) of the unit problem, in the frame of the direction, any length: its slope and cell. */
+typedef struct given {
+    real r, x, z, per; /* slope; x + z = 1; what made it so */
+    whole cell;
+} given;
+
+HERE given table_given(table t, real x, real y, real z)
+{
+    given g;
+    real across = root(x * x + y * y);
+    z = most(z, across * 1e-28f);
+    g.per = 1.0f / (across + z);
+    g.x = across * g.per;
+    g.z = z * g.per;
+    g.r = across / z;
+    g.cell = find_knot(t, g.r);
+    return g;
+}
+
+/* The cell of a given slope as the direction draws it. */
+HERE piece table_given_cell(table t, seen v, whole i, const int below)
+{
+    if (below)
+        return law_cell_below(t, v, i);
+    mask near = less(to_real(i), to_real(v.first));
+    weights w = {pick(near, set(0.0f), v.w.w1), pick(near, v.c, v.w.w0), pick(near, set(0.0f), v.w.wq),
+                 pick(near, set(0.0f), v.w.w4)};
+    return law_cell_above(t, v, w, i);
+}
+
+HERE arc table_given_arc(seen v, given g, const int below)
+{
+    real edge = v.s * g.x - size(v.c) * g.z;
+    if (below)
+        edge = (g.r - v.rho) * (g.z * v.s);
+    return arc_of(size(v.c) * g.z, v.s * g.x, edge, below);
+}
+
+/* The density of a given normal, of which `facing` is seen from (s, 0, c): per steradian over len^3/|det| (math.h). */
+HERE real table_density(table t, seen v, given g, real facing, const int below)
+{
+    whole i = g.cell;
+    if (below)
+        i = most_whole(i, v.cell);
+    piece at = table_given_cell(t, v, i, below);
+    place in = law_place(t, at, g.r, g.z);
+    arc k = table_given_arc(v, g, below);
+    real x = pick(same(i, 0), at.x1 * in.over, g.x), per = g.per * g.per; /* the place is held away from the pole */
+    real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
+    return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
+}
+
+/* P22 over z^4 of a given normal: D times |det| over len^4. */
+HERE real table_p22(table t, given g)
+{
+    piece all = law_cell_all(t, g.cell);
+    place in = law_place(t, all, g.r, g.z);
+    real per = g.per * g.per, density = law_of_f(all, in.over, in.rest, g.x, g.z);
+    density = density / (in.below * in.below * law_width(t, all, in));
+    real x = pick(same(g.cell, 0), all.x1 * in.over, g.x);
+    return density / (6.28318531f * x * g.z) * (per * per);
+}
+
+/* The numbers that draw a given normal, nearly. */
+HERE pair table_invert(table t, seen v, given g, real x, real y, const int below)
+{
+    whole i = g.cell;
+    if (below)
+        i = most_whole(i, v.cell);
+    piece at = table_given_cell(t, v, i, below);
+    place in = law_place(t, at, g.r, g.z);
+    real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
+    quad tail = look(t, VNDF_TAIL, i);
+    real sum = before;
+    if (below) {
+        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
+        real beyond = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+        sum = pick(at_most(to_real(i), to_real(v.cell)), before, (v.total - beyond) + before);
+    } else {
+        mask near = less(to_real(i), to_real(v.first));
+        sum = pick(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);
+        sum = pick(same(i, 0), before, sum);
+    }
+    pair u = {arc_invert(table_given_arc(v, g, below), x, y), least(most(sum / v.total, set(0.0f)), set(1.0f))};
+    return u;
+}
+
+#endif

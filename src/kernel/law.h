@@ -1,0 +1,380 @@
+/* Visible normals of a table in its unit problem: the law of the slope length R.
+ *
+ * Seen from (s, 0, c), s + |c| = 1, rho = |c|/s, y = R/rho, the visible normals have the marginal
+ *
+ *     (|c|/(pi A)) k(y) f(R),      k = acos(-1/y) + sqrt(y^2 - 1) for y > 1, pi below, above the horizon;
+ *                                  k = sqrt(y^2 - 1) - acos(1/y) for y > 1, 0 below, below the horizon.
+ *
+ * What is drawn has k~ instead, whose integrals are sums of one-dimensional moments of f, the same for all directions:
+ *
+ *     above  k~ = a_1 y + a_0 + a_-1/y + a_-4/y^4 beyond a knot near rho, pi before it,
+ *     below  k~ = b_0 (y - 1) + b_1 (y - 1)^2/y, with shares that are a function of rho,
+ *
+ * and is exact in all else, so weights are within 6.5e-2, 4.7e-3 or 7.2e-4 of their mean above the horizon, for 2, 3
+ * or 4 terms and any D (least-maximum fits: |k~ - k| <= e k for y >= 1). Cell by cell the law is the monotone rational quadratic
+ * of Gregory & Delbourgo (IMA J. Numer. Anal. 2, 1982) through the mass and the densities at both ends. */
+#ifndef VNDF_KERNEL_LAW_H
+#define VNDF_KERNEL_LAW_H
+
+#include "kernel/arc.h"
+
+/* a_1, a_0, a_-1, a_-4, over pi, for 2, 3 and 4 terms. */
+static const float law_terms[12] = {0.297494729f, 0.702505271f, 0.0f, 0.0f,
+                                    0.319817399f, 0.473797580f, 0.206385021f, 0.0f,
+                                    0.318081264f, 0.504334526f, 0.151012047f, 0.026572163f};
+
+/* Weights of the measures f R, f, f/R, f/R^4. */
+typedef struct weights {
+    real w1, w0, wq, w4;
+} weights;
+
+/* A direction as a table sees it. */
+typedef struct seen {
+    real s, c, rho;
+    whole cell;        /* of rho */
+    whole first;       /* above: the knot where the law of k~ begins; below: `cell` */
+    weights w;         /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
+    real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
+} seen;
+
+#ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
+
+/* The last knot at or below a slope. */
+HERE whole find_knot(table t, real slope)
+{
+    whole i = set_whole(0);
+    int step = t.highest;
+    for (int n = 0; n < t.steps; n++) {
+        whole next = least_whole(i + step, set_whole(t.cells));
+        i = pick_whole(at_most(look(t, VNDF_KNOT, next).a, slope), next, i);
+        step = step / 2;
+    }
+    return i;
+}
+
+/* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
+ * terms do. */
+HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
+{
+    whole i = set_whole(0);
+    int step = t.highest;
+    for (int n = 0; n < t.steps; n++) {
+        whole next = least_whole(i + step, set_whole(t.cells));
+        quad tail = look(t, VNDF_TAIL, next);
+        i = pick_whole(at_most(left, (w1 * tail.a + w0 * tail.b) + (wq * tail.c + w4 * tail.d)), next, i);
+        step = step / 2;
+    }
+    return i;
+}
+
+#endif
+
+/* ---- above the horizon ---- */
+
+/* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there. */
+HERE weights law_weights_at(weights w, real c, mask end)
+{
+    weights at = {w.w1, pick(end, c, w.w0), pick(end, set(0.0f), w.wq), pick(end, set(0.0f), w.w4)};
+    return at;
+}
+
+HERE real law_sum(weights w, quad tail)
+{
+    return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
+}
+
+HERE seen law_see_above(table t, real s, real c, real rho)
+{
+    seen v;
+    v.s = s;
+    v.c = c;
+    v.rho = rho;
+    v.cell = find_knot(t, v.rho);
+    quad k = look(t, VNDF_KNOT, v.cell);
+    v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
+    quad tail = look(t, VNDF_TAIL, v.first);
+    real reach = least(rho, set(1e9f)), square = reach * reach;
+    int n = 4 * (t.moments - 2);
+    weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
+                 c * (square * square) * law_terms[n + 3]};
+    v.w = law_weights_at(w, c, same(v.first, t.cells));
+    v.near = c * most(1.0f - tail.b, set(0.0f));
+    real far = law_sum(v.w, tail);
+    mask grazing = same(v.first, 0);
+    if (any(grazing)) {
+        quad second = look(t, VNDF_TAIL, v.first + 1);
+        real rest = law_sum(v.w, second), whole_first = v.w.w1 * (tail.a - second.a) + c * (tail.b - second.b);
+        far = pick(grazing, rest + whole_first, far);
+        v.near = pick(grazing, set(0.0f), v.near);
+    }
+    v.total = v.near + far;
+    return v;
+}
+
+/* ---- a cell ---- */
+
+/* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
+ * at the beginning. */
+typedef struct piece {
+    real mass, per, e0, e1; /* per: 1/mass */
+    real from, x0, z0, x1, z1;  /* the slope where it begins */
+    real edge0, edge1, width;   /* edge: s x - |c| z */
+    mask last;
+} piece;
+
+HERE piece law_cell_at(table t, real s, real c, whole i, quad k)
+{
+    piece at;
+    at.last = same(i, t.cells);
+    at.from = k.a;
+    at.z0 = k.b;
+    at.x0 = k.a * k.b;
+    at.width = k.c;
+    at.x1 = pick(at.last, set(1.0f), at.x0 + k.c);
+    at.z1 = pick(at.last, set(0.0f), at.z0 - k.c);
+    at.edge0 = s * at.x0 - c * at.z0;
+    at.edge1 = s * at.x1 - c * at.z1;
+    return at;
+}
+
+/* The densities at both ends over the mass. */
+HERE piece law_cell_of(piece at, real mass, real d0, real d1)
+{
+    at.mass = most(mass, set(1e-36f));
+    at.per = 1.0f / at.mass;
+    at.e0 = d0 * at.per;
+    at.e1 = d1 * at.per;
+    return at;
+}
+
+/* What a cell's density is divided by, at xi = over/(over + rest), times (over + rest)^2. */
+HERE real law_below(piece at, real over, real rest)
+{
+    real under = over + rest;
+    return under * under + (at.e0 + at.e1 - 2.0f) * (over * rest);
+}
+
+/* Mass per xi over under^2, times the square of `below`. */
+HERE real law_shape(piece at, real over, real rest)
+{
+    return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
+}
+
+/* w_1 x^2 + w_0 x z + w_q z^2 + w_4 z^5/x^3: the weight over z^2. */
+HERE real law_weight_at(table t, weights w, real x, real z)
+{
+    real sum = x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
+    if (t.moments > 3) {
+        real y = z / most(x, set(1e-6f));
+        sum = sum + w.w4 * (y * y * y) * (z * z);
+    }
+    return sum;
+}
+
+HERE piece law_cell_above(table t, seen v, weights w, whole i)
+{
+    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
+    piece at = law_cell_at(t, v.s, v.c, i, k);
+    w = law_weights_at(w, v.c, same(i, 0));
+    real line = w.w1 * k.a + w.w0, m = w.w1 * more.a + (line + w.w1 * k.a) * l.d + (line * k.a + w.wq) * l.c;
+    return law_cell_of(at, m + w.w4 * more.b, l.a * law_weight_at(t, w, at.x0, at.z0),
+                       l.b * law_weight_at(t, w, at.x1, at.z1));
+}
+
+/* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
+HERE piece law_cell_all(table t, whole i)
+{
+    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
+    piece at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
+    real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = pick(at.last, at.x0, at.z0), z1 = pick(at.last, at.x1, at.z1);
+    return law_cell_of(at, pick(at.last, slope, m), l.a * (at.x0 * z0), l.b * (at.x1 * z1));
+}
+
+/* Its mass per xi, over (over + rest)^2 and times below^2, for the slope length (x, z). */
+HERE real law_of_f(piece at, real over, real rest, real x, real z)
+{
+    real m = law_shape(at, over, rest);
+    return pick(at.last, m * (z / x), m);
+}
+
+/* ---- below the horizon ---- */
+
+/* Mass beyond knot k, whose row is `low`, a sum of positive terms: `beyond` = R_k - rho >= 0. */
+HERE real law_sum_below(weights w, real r, real beyond, quad tail, quad low)
+{
+    real e = w.w1 * r + w.w0 * beyond;
+    return (w.w1 + w.w0) * (low.b + beyond * low.a) + e * (low.a + beyond * tail.c);
+}
+
+/* The weight over z^2 at x, where R - rho = beyond/z. */
+HERE real law_weight_below(weights w, real x, real beyond)
+{
+    return beyond * (w.w1 * x + w.w0 * beyond);
+}
+
+/* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
+ * both ends; the factor makes the mass exact where rho is the knot. `part` of the cell is seen. */
+HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, quad l, real m2, real part)
+{
+    real x1 = pick(last, set(1.0f), after.a * after.b), one = set(1.0f);
+    real beyond = pick(last, one, most(after.a - rho, set(0.0f)) * after.b);
+    real at_knot = pick(last, one, (after.a - k.a) * after.b);
+    real all = (w.w1 + w.w0) * m2 + w.w1 * k.a * l.d, third = 0.333333333f * l.b + 0.166666667f * l.a;
+    real near = law_weight_below(w, x1, at_knot) * third, end = part * law_weight_below(w, x1, beyond);
+    real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a), factor = all / most(near, 1e-3f * all + 1e-36f);
+    w.wq = most(end * here * factor, set(1e-34f));
+    w.w4 = end * l.b;
+    return w;
+}
+
+HERE seen law_see_below(table t, real s, real c, real rho)
+{
+    seen v;
+    v.s = s;
+    v.c = c;
+    v.rho = rho;
+    v.cell = find_knot(t, v.rho);
+    v.first = v.cell;
+    mask last = same(v.cell, t.cells);
+    whole next = pick_whole(last, v.cell, v.cell + 1);
+    quad k = look(t, VNDF_KNOT, v.cell), after = look(t, VNDF_KNOT, next);
+    quad more = look(t, VNDF_MORE, v.cell), shares = look(t, VNDF_MORE, next);
+    real beyond = most(after.a - v.rho, set(0.0f)), tail = least(s / k.b, set(1.0f));
+    for (int n = 0; n < t.squarings; n++)
+        tail = root(tail);
+    v.near = least(most(pick(last, tail, s * (beyond * after.b) / k.c), set(1e-9f)), set(1.0f));
+    real xi = 1.0f - v.near;
+    weights w = {more.c + xi * (shares.c - more.c), more.d + xi * (shares.d - more.d), set(0.0f), set(0.0f)};
+    v.w = law_partial(w, v.rho, last, k, after, look(t, VNDF_LAW, v.cell), more.a, v.near);
+    real rest = law_sum_below(v.w, after.a, beyond, look(t, VNDF_TAIL, next), look(t, VNDF_LOW, next));
+    v.total = v.w.wq + pick(last, set(0.0f), rest);
+    return v;
+}
+
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+HERE whole law_find_below(table t, seen v, real left)
+{
+    whole i = v.cell;
+    int step = t.highest;
+    for (int n = 0; n < t.steps; n++) {
+        whole next = least_whole(i + step, set_whole(t.cells));
+        quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
+        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+        i = pick_whole(at_most(left, sum), next, i);
+        step = step / 2;
+    }
+    return i;
+}
+
+HERE piece law_cell_below(table t, seen v, whole i)
+{
+    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
+    piece at = law_cell_at(t, v.s, v.c, i, k);
+    real beyond = most(k.a - v.rho, set(0.0f)), e = v.w.w1 * k.a + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
+    real m = b * more.a + (b * beyond + e) * l.d + beyond * e * l.c, start = beyond * at.z0;
+    real end = pick(at.last, set(1.0f), k.c * (1.0f + k.a) + beyond * at.z1);
+    real d0 = l.a * law_weight_below(v.w, at.x0, start), d1 = l.b * law_weight_below(v.w, at.x1, end);
+    mask partial = at_most(to_real(i), to_real(v.cell));
+    at.from = pick(partial, v.rho, at.from);
+    at.x0 = pick(partial, -v.c, at.x0);
+    at.z0 = pick(partial, v.s, at.z0);
+    at.width = pick(partial, pick(at.last, k.c * (v.s / k.b), k.c * v.near), at.width);
+    at.edge0 = pick(partial, set(0.0f), v.s * start);
+    at.edge1 = pick(at.last, v.s, at.edge0 + at.width);
+    return law_cell_of(at, pick(partial, v.w.wq, m), pick(partial, set(0.0f), d0), pick(partial, v.w.w4, d1));
+}
+
+/* ---- places in a cell ---- */
+
+/* xi = over/under, 1 - xi = rest/under, under = over + rest; the mass per xi is mass root under^2/below. */
+typedef struct place {
+    real over, rest, root, below;
+} place;
+
+/* The place with the mass m before it: no root is a difference. */
+HERE place law_invert(piece at, real m)
+{
+    real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
+    real middle = at.e0 - q * (at.e0 + at.e1), square = root(middle * middle + 4.0f * (q * p));
+    mask rising = at_most(set(0.0f), middle + 2.0f * q);
+    place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square, set(0.0f)};
+    in.below = law_below(at, in.over, in.rest);
+    return in;
+}
+
+/* A slope length in a cell: x, z and edge, all times over + rest. */
+typedef struct slope_length {
+    real x, z, edge;
+} slope_length;
+
+HERE slope_length law_length(table t, seen v, piece at, place in)
+{
+    real under = in.over + in.rest;
+    slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
+                at.edge0 * in.rest + at.edge1 * in.over};
+    if (t.squarings > 0 && any(at.last)) {
+        real power = in.rest / under;
+        for (int n = 0; n < t.squarings; n++)
+            power = power * power;
+        r.z = pick(at.last, at.z0 * most(power, set(1e-26f)) * under, r.z);
+        r.x = pick(at.last, under - r.z, r.x);
+        r.edge = pick(at.last, v.s * under - r.z, r.edge);
+    }
+    return r;
+}
+
+/* The place of a slope r = x/z, x + z = 1, in its cell. */
+HERE place law_place(table t, piece at, real r, real z)
+{
+    real over = (r - at.from) * (at.z0 * z) / at.width;
+    if (t.squarings > 0 && any(at.last)) {
+        real eta = z / at.z0;
+        for (int n = 0; n < t.squarings; n++)
+            eta = root(eta);
+        over = pick(at.last, 1.0f - eta, over);
+    }
+    over = least(most(over, set(1e-6f)), set(0.9999999f));
+    place in = {over, 1.0f - over, set(0.0f), set(0.0f)};
+    in.below = law_below(at, in.over, in.rest);
+    return in;
+}
+
+/* The derivative of x by xi at that place. */
+HERE real law_width(table t, piece at, place in)
+{
+    real width = at.width;
+    if (t.squarings > 0 && any(at.last)) {
+        real power = set(1.0f), eta = in.rest / (in.over + in.rest);
+        for (int n = 0; n < t.squarings; n++) { /* eta^(2^n - 1) */
+            power = power * eta;
+            eta = eta * eta;
+        }
+        width = pick(at.last, width * most(power, set(1e-30f)), width);
+    }
+    return width;
+}
+
+/* ---- area ---- */
+
+/* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). */
+HERE real law_area_above(table t, seen v)
+{
+    mask last = same(v.cell, t.cells);
+    whole next = pick_whole(last, v.cell, v.cell + 1);
+    quad k = look(t, VNDF_KNOT, v.cell), low = look(t, VNDF_LOW, v.cell), up = look(t, VNDF_LOW, next);
+    real width = pick(last, k.b, k.c), a1 = pick(last, set(1.0f), up.c), d1 = width * pick(last, set(1.0f), up.d);
+    real u = least((v.rho - k.a) * k.b * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.d;
+    return w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
+}
+
+/* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its digits,
+ * and the area that is drawn where it does not. */
+HERE real law_area(table t, seen v)
+{
+    real above = law_area_above(t, v), sampled = v.s * v.total * 0.318309886f;
+    real mixed = least(most((sampled / above - 0.02f) * 12.5f, set(0.0f)), set(1.0f));
+    real below = sampled + mixed * ((above - size(v.c)) - sampled);
+    return pick(less(v.c, set(0.0f)), below, above);
+}
+
+#endif

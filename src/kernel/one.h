@@ -1,0 +1,273 @@
+/* The types of the kernel as one number: `real`, `whole` and `mask` are a float, an int and a truth. lanes.h has the
+ * same names for several numbers side by side; exported kernels have them in each language (tools/export). With either
+ * page below it the text of the kernel gives the same bits: + - * /, roots, comparisons and bits of floats alone. */
+#ifndef VNDF_KERNEL_ONE_H
+#define VNDF_KERNEL_ONE_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "core/inline.h"
+#include "table/columns.h"
+#include "table/table.h"
+
+#define HERE VNDF_INLINE
+
+typedef float real;
+typedef int32_t whole;
+
+#if defined(__SSE2__) /* choices without a branch, which random data would mispredict; lane 0 of four */
+#  include <emmintrin.h>
+#  define VNDF_KERNEL_SSE2 1
+typedef __m128 mask;
+#else
+typedef int mask;
+#endif
+
+/* Four numbers of a table that stand side by side. */
+typedef struct quad {
+    real a, b, c, d;
+} quad;
+
+HERE real set(float x)
+{
+    return x;
+}
+
+HERE whole set_whole(int i)
+{
+    return i;
+}
+
+#if defined(VNDF_KERNEL_SSE2)
+
+/* Lane 0 is x; with gcc without an instruction that clears the others. */
+HERE __m128 lane(float x)
+{
+#  if defined(__clang__)
+    return _mm_set_ss(x);
+#  else
+    __m128 all;
+    __asm__("" : "=x"(all) : "0"(x));
+    return all;
+#  endif
+}
+
+HERE mask less(real a, real b)
+{
+    return _mm_cmplt_ss(lane(a), lane(b));
+}
+
+HERE mask at_most(real a, real b)
+{
+    return _mm_cmple_ss(lane(a), lane(b));
+}
+
+HERE mask same(whole a, int b)
+{
+    return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_cvtsi32_si128(a), _mm_cvtsi32_si128(b)));
+}
+
+HERE mask both(mask a, mask b)
+{
+    return _mm_and_ps(a, b);
+}
+
+HERE mask either(mask a, mask b)
+{
+    return _mm_or_ps(a, b);
+}
+
+HERE int any(mask m)
+{
+    return _mm_movemask_ps(m) & 1;
+}
+
+HERE real pick(mask m, real yes, real no)
+{
+    return _mm_cvtss_f32(_mm_or_ps(_mm_and_ps(m, lane(yes)), _mm_andnot_ps(m, lane(no))));
+}
+
+#else
+
+HERE mask less(real a, real b)
+{
+    return a < b;
+}
+
+HERE mask at_most(real a, real b)
+{
+    return a <= b;
+}
+
+HERE mask same(whole a, int b)
+{
+    return a == b;
+}
+
+HERE mask both(mask a, mask b)
+{
+    return a & b;
+}
+
+HERE mask either(mask a, mask b)
+{
+    return a | b;
+}
+
+HERE int any(mask m)
+{
+    return m;
+}
+
+HERE real pick(mask m, real yes, real no)
+{
+    return m ? yes : no;
+}
+
+#endif
+
+HERE whole pick_whole(mask m, whole yes, whole no)
+{
+    return any(m) ? yes : no;
+}
+
+/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
+HERE real least(real a, real b)
+{
+    return a < b ? a : b;
+}
+
+HERE real most(real a, real b)
+{
+    return a > b ? a : b;
+}
+
+HERE real root(real x)
+{
+    return sqrtf(x);
+}
+
+HERE real size(real x)
+{
+    return fabsf(x);
+}
+
+/* |x| with the sign of y. */
+HERE real with_sign(real x, real y)
+{
+    return copysignf(x, y);
+}
+
+HERE whole bits(real x)
+{
+    whole i;
+    memcpy(&i, &x, sizeof i);
+    return i;
+}
+
+HERE real of_bits(whole i)
+{
+    real x;
+    memcpy(&x, &i, sizeof x);
+    return x;
+}
+
+HERE real to_real(whole i)
+{
+    return (real)i;
+}
+
+/* The whole part of x, |x| < 2^31. */
+HERE whole to_whole(real x)
+{
+    return (whole)x;
+}
+
+HERE whole least_whole(whole a, whole b)
+{
+    return a < b ? a : b;
+}
+
+HERE whole most_whole(whole a, whole b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- tables ---- */
+
+/* A table as the kernel reads it (table/table.h). */
+typedef struct table {
+    const float *numbers, *columns;
+    int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
+} table;
+
+HERE table table_of(const vndf_distribution *d)
+{
+    table t = {d->numbers + VNDF_HEAD, d->columns, d->cells, d->moments, d->squarings, d->highest, d->steps};
+    return t;
+}
+
+/* Row i of a group. */
+HERE quad look(table t, int group, whole i)
+{
+    const float *row = t.numbers + 4 * (group * (t.cells + 1) + i);
+    quad q = {row[0], row[1], row[2], row[3]};
+    return q;
+}
+
+#if defined(VNDF_KERNEL_SSE2)
+
+/* How many of the first four lanes are set before one is not, added up over two masks. */
+HERE int count_ones(unsigned bits_set)
+{
+    return __builtin_ctz(~bits_set);
+}
+
+HERE unsigned at_most_4(const float *numbers, float x)
+{
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(numbers), _mm_set1_ps(x)));
+}
+
+/* The last knot at or below a slope (law.h has the same as a loop). */
+HERE whole find_knot(table t, real slope)
+{
+    int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
+    const float *pivot = t.columns + VNDF_COLUMNS * size_of;
+    for (int i = 0; i < pivots; i += 4)
+        block += count_ones(at_most_4(pivot + i, slope));
+    const float *first = t.columns + VNDF_COLUMN_STEP * block + 1;
+    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, slope) | at_most_4(first + 4, slope) << 4);
+}
+
+/* Weights of a law, four times each. */
+typedef struct weights_4 {
+    __m128 w1, w0, wq, w4, left;
+} weights_4;
+
+/* Which of four sums are at least `left`, in the order of law_sum. */
+HERE unsigned sums_4(const float *columns, int stride, weights_4 w)
+{
+    __m128 a = _mm_add_ps(_mm_mul_ps(w.w1, _mm_loadu_ps(columns)), _mm_mul_ps(w.w0, _mm_loadu_ps(columns + stride)));
+    __m128 b = _mm_add_ps(_mm_mul_ps(w.wq, _mm_loadu_ps(columns + 2 * stride)),
+                          _mm_mul_ps(w.w4, _mm_loadu_ps(columns + 3 * stride)));
+    return (unsigned)_mm_movemask_ps(_mm_cmpge_ps(_mm_add_ps(a, b), w.left));
+}
+
+/* The last knot beyond which at least `left` of the law lies. */
+HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
+{
+    int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
+    const float *pivot = t.columns + VNDF_COLUMNS * size_of + pivots;
+    weights_4 w = {_mm_set1_ps(w1), _mm_set1_ps(w0), _mm_set1_ps(wq), _mm_set1_ps(w4), _mm_set1_ps(left)};
+    for (int i = 0; i < pivots; i += 4)
+        block += count_ones(sums_4(pivot + i, pivots, w));
+    const float *first = t.columns + size_of + VNDF_COLUMN_STEP * block + 1;
+    return VNDF_COLUMN_STEP * block + count_ones(sums_4(first, size_of, w) | sums_4(first + 4, size_of, w) << 4);
+}
+
+#  define VNDF_KERNEL_FINDS 1
+#endif
+
+#endif

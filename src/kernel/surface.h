@@ -1,0 +1,129 @@
+/* Surfaces: slopes are M u + mean, where u are slopes of the unit problem (design: affine images of slopes, Dupuy et al.,
+ * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013; Atanasov et al. 2022).
+ *
+ * A normal of the unit problem, (x, y, z) with the slope -(x, y)/z, is the normal (M (x, y) - mean z, z) of the surface,
+ * and wi . wm is w . (x, y, z) with w = (M^T wi_xy, wi_z - wi_xy . mean): the surface is seen from wi as the unit
+ * problem is seen from w, and A(wi) = A(w). */
+#ifndef VNDF_KERNEL_SURFACE_H
+#define VNDF_KERNEL_SURFACE_H
+
+#include "kernel/math.h"
+
+/* M, in units of the table's slopes, and the mean slope. */
+typedef struct affine_map {
+    real xx, xy, yx, yy, mean_x, mean_y;
+} affine_map;
+
+/* A direction wi on a surface. */
+typedef struct frame {
+    affine_map m;
+    real wx, wy, wz;   /* wi, times a power of two */
+    real ux, uy, uz;   /* w, times another one: the largest component is within [1, 2) */
+    real grow;         /* w = grow (ux, uy, uz) for wi as it was scaled, */
+    real size;         /* and `size` for wi as it was given */
+    real determinant;  /* |det M| */
+    real rarest;       /* the least density of a sample: 0 straight from below, where nothing is seen */
+} frame;
+
+HERE frame frame_of(affine_map m, real x, real y, real z)
+{
+    real largest = most(most(size(x), size(y)), size(z)), k = set(1.0f);
+    mask odd = either(less(largest, set(1e-9f)), less(set(1e9f), largest));
+    if (any(odd))
+        k = pick(odd, inverse_scale(largest), k);
+    frame f;
+    f.m = m;
+    f.wx = x * k;
+    f.wy = y * k;
+    f.wz = z * k;
+    real ux = m.xx * f.wx + m.yx * f.wy, uy = m.xy * f.wx + m.yy * f.wy, uz = f.wz - (f.wx * m.mean_x + f.wy * m.mean_y);
+    real l = inverse_scale(most(most(size(ux), size(uy)), size(uz)));
+    f.ux = ux * l;
+    f.uy = uy * l;
+    f.uz = uz * l;
+    f.grow = 1.0f / l;
+    f.size = 1.0f / k / l;
+    f.determinant = size(difference_of_products(m.xx, m.yy, m.xy, m.yx));
+    mask unseen = both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f)));
+    f.rarest = pick(unseen, set(0.0f), set(1.17549435e-38f));
+    return f;
+}
+
+/* A normal that a frame draws: unit, and its density per steradian. */
+typedef struct sampled {
+    real x, y, z, pdf;
+} sampled;
+
+/* A density that a float can hold, not 0 where something is seen. */
+HERE real frame_density(frame f, real density)
+{
+    real held = least(most(density, f.rarest), set(3.40282347e38f));
+    return pick(less(set(0.0f), f.rarest), held, set(0.0f));
+}
+
+/* The real normal of one of the unit problem. Where rounding turns it away from wi it is turned back, by wi, and the
+ * density is that of where it went: wi . wm exceeds what three more roundings may take. */
+HERE sampled frame_sampled(frame f, drawn n)
+{
+    real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z, y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
+    real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
+    real lack = 3e-7f * (size(a) + size(b) + size(c)) - (a + b + c);
+    mask away = less(set(0.0f), lack);
+    if (any(away)) {
+        real turn_by = pick(away, lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f)), set(0.0f));
+        x = x + turn_by * f.wx;
+        y = y + turn_by * f.wy;
+        z = z + turn_by * up;
+    }
+    real square = (x * x + y * y) + z * z, reach = root(square), per = 1.0f / reach;
+    sampled s = {x * per, y * per, z * per, frame_density(f, n.density * (reach / f.determinant) * square)};
+    return s;
+}
+
+/* The normal of the unit problem for a unit normal of the surface; what w sees of it, for w = (ux, uy, uz). */
+typedef struct unit_normal {
+    real x, y, z, facing;
+} unit_normal;
+
+HERE unit_normal frame_normal(frame f, real x, real y, real z)
+{
+    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z, per = 1.0f / (f.m.xx * f.m.yy - f.m.xy * f.m.yx);
+    unit_normal n = {(f.m.yy * a - f.m.xy * b) * per, (f.m.xx * b - f.m.yx * a) * per, z,
+                     ((f.wx * x + f.wy * y) + f.wz * z) / f.grow};
+    return n;
+}
+
+/* ---- a table on a surface ---- */
+
+typedef struct table_view {
+    real ex, ey; /* the direction of (ux, uy) */
+    seen v;
+} table_view;
+
+/* `below` is known: w is below the horizon in all lanes, or in none. */
+HERE table_view table_view_of(table t, frame f, const int below)
+{
+    table_view view;
+    real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
+    mask straight = less(across, 1e-15f * level);
+    across = most(across, 1e-15f * level);
+    real both = 1.0f / (across * (across + level)), per = across * both, over = (across + level) * both;
+    view.ex = pick(straight, set(1.0f), f.ux * over);
+    view.ey = pick(straight, set(0.0f), f.uy * over);
+    view.v = table_see(t, across * per, f.uz * per, level * over, below);
+    return view;
+}
+
+HERE drawn table_turned(table_view view, drawn n)
+{
+    drawn turned = {view.ex * n.x - view.ey * n.y, view.ey * n.x + view.ex * n.y, n.z, n.density};
+    return turned;
+}
+
+/* What |(ux, uy)| + |uz| is: facing of a frame over it is that of (s, 0, c). */
+HERE real frame_reach(frame f)
+{
+    return root(f.ux * f.ux + f.uy * f.uy) + size(f.uz);
+}
+
+#endif

@@ -1,0 +1,218 @@
+/* Mixtures of affine surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz & d'Eon
+ * 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A; the density is the whole sum.
+ * Shares are kept themselves, never as differences of running sums: that of a faint lobe has all its digits. */
+#include <float.h>
+
+#include "sampler/sampler.h"
+#include "sampler/state.h"
+
+/* ---- views ---- */
+
+/* The sum of the weights, scaled so that the largest is 1; 0 if they are invalid. */
+static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_LOBES])
+{
+    float largest = 0.0f, sum = 0.0f;
+    if (!mixture || mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
+        return 0.0f;
+    for (int i = 0; i < mixture->count; i++) {
+        float w = mixture->lobe[i].weight;
+        if (!(w >= 0.0f && w <= FLT_MAX))
+            return 0.0f;
+        largest = most(largest, w);
+    }
+    if (!(largest > 0.0f))
+        return 0.0f;
+    for (int i = 0; i < mixture->count; i++) {
+        weight[i] = mixture->lobe[i].weight / largest;
+        sum += weight[i];
+    }
+    for (int i = 0; i < mixture->count; i++)
+        weight[i] /= sum;
+    return sum;
+}
+
+/* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone count. */
+static void set_shares(vndf_mixture_view *view, vndf_vec3 wi)
+{
+    float sum = 0.0f, total = 0.0f;
+    view->cosine = 0.0f;
+    for (int i = 0; i < view->count; i++) {
+        view->share[i] = view->weight[i] * vndf_view_area(&view->lobe[i], wi);
+        view->cosine += view->weight[i] * vndf_view_cosine(&view->lobe[i], wi);
+        sum += view->share[i];
+        total += view->weight[i];
+    }
+    view->area = sum;
+    for (int i = 0; i < view->count; i++)
+        view->share[i] = sum > FLT_MIN ? view->share[i] / sum : view->weight[i] / total;
+}
+
+vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
+{
+    vndf_mixture_view view;
+    float weight[VNDF_MIXTURE_LOBES];
+    view.count = 0;
+    if (!(weights_of(mixture, weight) > 0.0f))
+        return view;
+    for (int i = 0; i < mixture->count; i++) {
+        if (mixture->lobe[i].weight == 0.0f)
+            continue;
+        view.lobe[view.count] = vndf_view_of(&mixture->lobe[i].surface, wi);
+        if (!view.lobe[view.count].distribution) {
+            view.count = 0;
+            return view;
+        }
+        view.index[view.count] = i;
+        view.weight[view.count++] = weight[i];
+    }
+    set_shares(&view, wi);
+    return view;
+}
+
+/* ---- samples and densities ---- */
+
+/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. */
+static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn_lobe, float known)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < view->count; i++)
+        sum += view->share[i] * (i == drawn_lobe ? known : vndf_pdf(&view->lobe[i], wm));
+    return sum;
+}
+
+vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe)
+{
+    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
+    float begin = 0.0f, density = 0.0f, u = vndf_clamp_unit(u1);
+    int i = 0;
+    while (i + 1 < view->count && u >= begin + view->share[i])
+        begin += view->share[i++];
+    if (view->count) {
+        wm = vndf_sample(&view->lobe[i], (u - begin) / view->share[i], u2, &density);
+        density = density > 0.0f ? most(density_with(view, wm, i, density), FLT_MIN) : 0.0f;
+    }
+    if (pdf)
+        *pdf = least(density, FLT_MAX);
+    if (lobe)
+        *lobe = view->count ? view->index[i] : -1;
+    return wm;
+}
+
+static int is_seen(const vndf_mixture_view *view, vndf_vec3 wm)
+{
+    return view->count && vndf_pdf(&view->lobe[0], wm) > 0.0f;
+}
+
+float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
+{
+    return is_seen(view, wm) ? least(most(density_with(view, wm, -1, 0.0f), FLT_MIN), FLT_MAX) : 0.0f;
+}
+
+float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < view->count; i++)
+        sum += view->share[i] * vndf_visible(&view->lobe[i], wm);
+    return least(sum, FLT_MAX);
+}
+
+int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2)
+{
+    float begin = 0.0f, best = -1.0f, best_begin = 0.0f;
+    int found_lobe = -1;
+    for (int i = 0; i < view->count; i++) {
+        float drawn_here = lobe >= 0 ? 0.0f : view->share[i] * vndf_pdf(&view->lobe[i], wm);
+        if ((lobe >= 0 && view->index[i] == lobe) || (lobe < 0 && drawn_here > best)) {
+            best = drawn_here;
+            best_begin = begin;
+            found_lobe = i;
+        }
+        begin += view->share[i];
+    }
+    *u1 = *u2 = 0.0f;
+    if (found_lobe < 0)
+        return -1;
+    vndf_invert(&view->lobe[found_lobe], wm, u1, u2);
+    *u1 = vndf_clamp_unit(best_begin + *u1 * view->share[found_lobe]);
+    return view->index[found_lobe];
+}
+
+/* ---- the whole ---- */
+
+float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < view->count; i++)
+        sum += view->weight[i] * vndf_view_ndf(&view->lobe[i], wm);
+    return least(sum, FLT_MAX);
+}
+
+float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < view->count; i++)
+        sum += view->weight[i] * vndf_view_area(&view->lobe[i], w);
+    return sum;
+}
+
+float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < view->count; i++)
+        sum += view->weight[i] * vndf_view_cosine(&view->lobe[i], w);
+    return sum;
+}
+
+/* A function of the surfaces, weighed. */
+typedef float of_surface(const vndf_affine *surface, vndf_vec3 w);
+
+static float weighed_sum(const vndf_mixture *mixture, of_surface *function, vndf_vec3 w)
+{
+    float weight[VNDF_MIXTURE_LOBES], sum = 0.0f;
+    if (!(weights_of(mixture, weight) > 0.0f))
+        return 0.0f;
+    for (int i = 0; i < mixture->count; i++)
+        sum += weight[i] > 0.0f ? weight[i] * function(&mixture->lobe[i].surface, w) : 0.0f;
+    return least(sum, FLT_MAX);
+}
+
+static float cosine_of(const vndf_affine *s, vndf_vec3 w)
+{
+    return w.z - (w.x * s->mean_x + w.y * s->mean_y);
+}
+
+float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm)
+{
+    return weighed_sum(mixture, vndf_affine_ndf, wm);
+}
+
+static float p22_at(const vndf_affine *s, vndf_vec3 slope)
+{
+    return vndf_affine_p22(s, slope.x, slope.y);
+}
+
+float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y)
+{
+    vndf_vec3 slope = {x, y, 0.0f};
+    return weighed_sum(mixture, p22_at, slope);
+}
+
+float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w)
+{
+    return weighed_sum(mixture, vndf_affine_projected_area, w);
+}
+
+float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w)
+{
+    return vndf_lambda_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
+}
+
+float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w)
+{
+    return vndf_g1_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
+}
+
+float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
+{
+    return vndf_g2_of(vndf_mixture_g1(mixture, wi), vndf_mixture_g1(mixture, wo), model);
+}

@@ -1,0 +1,50 @@
+/* What a view holds in its numbers: the direction on the surface, and what its distribution makes of it. Kinds of
+ * distributions are told apart in view.c and normals.c alone. */
+#ifndef VNDF_SAMPLER_STATE_H
+#define VNDF_SAMPLER_STATE_H
+
+#include "kernel/one.h"
+
+#include "kernel/bounded.h"
+#include "kernel/ggx.h"
+#include "kernel/sample.h"
+
+#if defined(__GNUC__)
+#  define VNDF_MAY_ALIAS __attribute__((may_alias))
+#else
+#  define VNDF_MAY_ALIAS
+#endif
+
+/* Views hold it as floats, which may be copied as such. */
+typedef struct VNDF_MAY_ALIAS vndf_state {
+    frame f;
+    union {
+        table_view table;
+        ggx_view ggx;
+        beckmann_view beckmann;
+    } of;
+} vndf_state;
+
+_Static_assert(sizeof(vndf_state) <= VNDF_VIEW_NUMBERS * sizeof(float), "VNDF_VIEW_NUMBERS is too small");
+
+VNDF_INLINE const vndf_state *vndf_state_of(const vndf_view *view)
+{
+    return (const vndf_state *)(const void *)view->numbers;
+}
+
+/* A table is seen from below the horizon. */
+VNDF_INLINE int vndf_is_below(const vndf_state *s)
+{
+    return s->f.uz < 0.0f;
+}
+
+/* u in [0, 1]; NaN becomes 0. */
+VNDF_INLINE float vndf_clamp_unit(float u)
+{
+    return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
+}
+
+/* The surface in units of its distribution; 0 if it is invalid. */
+int vndf_surface_of(const vndf_affine *affine, affine_map *m);
+
+#endif

@@ -1,0 +1,162 @@
+/* What the tests of the sampler ask: surfaces of every kind from one direction, by the calls of their kind. */
+#ifndef TESTS_SAMPLER_SEEN_H
+#define TESTS_SAMPLER_SEEN_H
+
+#include "harness/constants.h"
+#include "harness/test.h"
+#include "oracle/oracle.h"
+#include "statistics/slopes.h"
+#include "vndf.h"
+
+typedef enum seen_kind { SEEN_SURFACE, SEEN_AFFINE, SEEN_MIXTURE } seen_kind;
+
+typedef struct seen {
+    seen_kind kind;
+    vndf_mixture of; /* of the first two kinds one lobe */
+    vndf_vec3 wi;
+    vndf_view view;
+    vndf_affine_view affine;
+    vndf_mixture_view mixture;
+} seen;
+
+static inline vndf_affine seen_straight(const vndf_distribution *d, float alpha_x, float alpha_y)
+{
+    vndf_affine a = {d, alpha_x, 0, 0, alpha_y, 0, 0};
+    return a;
+}
+
+static inline seen seen_from(seen_kind kind, const vndf_mixture *of, vndf_vec3 wi)
+{
+    const vndf_affine *first = &of->lobe[0].surface;
+    const vndf_surface surface = {first->distribution, first->xx, first->yy};
+    seen s;
+    memset(&s, 0, sizeof s);
+    s.kind = kind;
+    s.of = *of;
+    s.wi = wi;
+    if (kind == SEEN_SURFACE)
+        s.view = vndf_view_from(&surface, wi);
+    else if (kind == SEEN_AFFINE)
+        s.affine = vndf_affine_view_from(first, wi);
+    else
+        s.mixture = vndf_mixture_view_from(&s.of, wi);
+    return s;
+}
+
+static inline seen seen_surface(const vndf_distribution *d, float alpha_x, float alpha_y, vndf_vec3 wi)
+{
+    const vndf_mixture one = {1, {{seen_straight(d, alpha_x, alpha_y), 1}}};
+    return seen_from(SEEN_SURFACE, &one, wi);
+}
+
+static inline vndf_vec3 seen_draw(const void *of, float u1, float u2, float *pdf)
+{
+    const seen *s = of;
+    return s->kind == SEEN_SURFACE  ? vndf_sample(&s->view, u1, u2, pdf)
+           : s->kind == SEEN_AFFINE ? vndf_affine_sample(&s->affine, u1, u2, pdf)
+                                    : vndf_mixture_sample(&s->mixture, u1, u2, pdf, NULL);
+}
+
+static inline float seen_pdf(const seen *s, vndf_vec3 wm)
+{
+    return s->kind == SEEN_SURFACE  ? vndf_pdf(&s->view, wm)
+           : s->kind == SEEN_AFFINE ? vndf_affine_pdf(&s->affine, wm)
+                                    : vndf_mixture_pdf(&s->mixture, wm);
+}
+
+static inline float seen_visible(const seen *s, vndf_vec3 wm)
+{
+    return s->kind == SEEN_SURFACE  ? vndf_visible(&s->view, wm)
+           : s->kind == SEEN_AFFINE ? vndf_affine_visible(&s->affine, wm)
+                                    : vndf_mixture_visible(&s->mixture, wm);
+}
+
+static inline float seen_area(const seen *s, vndf_vec3 w)
+{
+    const vndf_affine *first = &s->of.lobe[0].surface;
+    const vndf_surface surface = {first->distribution, first->xx, first->yy};
+    return s->kind == SEEN_SURFACE  ? vndf_projected_area(&surface, w)
+           : s->kind == SEEN_AFFINE ? vndf_affine_projected_area(first, w)
+                                    : vndf_mixture_projected_area(&s->of, w);
+}
+
+static inline vndf_vec3 vec3_of(const double w[3])
+{
+    vndf_vec3 v = {(float)w[0], (float)w[1], (float)w[2]};
+    return v;
+}
+
+/* For slopes.h. */
+static inline double seen_density(const double wm[3], const void *of)
+{
+    return (double)seen_pdf(of, vec3_of(wm));
+}
+
+static inline slope_frame seen_frame(const seen *s)
+{
+    return slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
+}
+
+static inline void seen_print(const seen *s, const char *name)
+{
+    fprintf(stderr, "  %s: wi %.9g %.9g %.9g\n", name, (double)s->wi.x, (double)s->wi.y, (double)s->wi.z);
+    for (int i = 0; i < s->of.count && i < VNDF_MIXTURE_LOBES; i++) {
+        const vndf_affine *a = &s->of.lobe[i].surface;
+        fprintf(stderr, "    (%.9g %.9g; %.9g %.9g) mean %.9g %.9g weight %.9g\n", (double)a->xx, (double)a->xy,
+                (double)a->yx, (double)a->yy, (double)a->mean_x, (double)a->mean_y, (double)s->of.lobe[i].weight);
+    }
+}
+
+/* ---- subjects ---- */
+
+/* GGX, Beckmann, and tables of the shapes of oracle.h, built here. */
+enum { SUBJECT_COUNT = 2 + ORACLE_COUNT };
+
+typedef struct subject {
+    const char *name;
+    const vndf_distribution *d;
+    vndf_distribution *owned;
+    oracle shape; /* its D as a formula */
+} subject;
+
+static inline subject subject_open(size_t index)
+{
+    subject s = {index ? "closed beckmann" : "closed ggx", index ? vndf_beckmann() : vndf_ggx(), NULL,
+                 oracle_get(index < 2 ? index : index - 2)};
+    if (index < 2)
+        return s;
+    s.name = oracle_name(&s.shape);
+    s.d = s.owned = oracle_build(&s.shape, 0, NULL);
+    TEST(s.d != NULL);
+    return s;
+}
+
+static inline double random_between(unsigned long long *state, double from, double to)
+{
+    return from + (to - from) * test_uniform_double(state);
+}
+
+/* 10 to a power that is uniform. */
+static inline double random_decade(unsigned long long *state, double from, double to)
+{
+    return pow(10, random_between(state, from, to));
+}
+
+static inline vndf_vec3 random_direction(unsigned long long *state, double least_z)
+{
+    double z = random_between(state, least_z, 1), phi = random_between(state, -PI, PI), s = sqrt(1 - z * z);
+    vndf_vec3 w = {(float)(s * cos(phi)), (float)(s * sin(phi)), (float)z};
+    return w;
+}
+
+static inline double dot_of(vndf_vec3 a, vndf_vec3 b)
+{
+    return (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
+}
+
+static inline double length_of(vndf_vec3 w)
+{
+    return sqrt(dot_of(w, w));
+}
+
+#endif

@@ -1,0 +1,125 @@
+/* Bounded normals, all normals and V-cavity normals are drawn as sampler.h says: unit, not below the surface, with a
+ * density that is that of the normal returned, has the integral 1 and passes chi-square; no bounded normal of a round
+ * roughness reflects wi below the horizon; the density of all normals is D cos(theta_m), that of V-cavities D G1
+ * (wi.wm)/cos_i; the weight is the visible density over the one drawn. It notices a bound, a twin or a factor that is
+ * wrong. */
+#include <float.h>
+
+#include "measure/statistics.h"
+#include "sampler/sampler.h"
+#include "sampler/seen.h"
+
+typedef enum law { BOUNDED, ALL, V_CAVITY, LAWS } law;
+static const char *const law_names[LAWS] = {"bounded", "all", "v-cavity"};
+
+/* A law seen from one direction. */
+typedef struct drawn {
+    law which;
+    vndf_view view;
+} drawn;
+
+static vndf_drawn_normal draw(const drawn *d, float u1, float u2)
+{
+    return d->which == BOUNDED ? vndf_sample_bounded(&d->view, u1, u2)
+           : d->which == ALL   ? vndf_sample_all(&d->view, u1, u2)
+                               : vndf_sample_v_cavity(&d->view, u1, u2);
+}
+
+static float density(const drawn *d, vndf_vec3 wm)
+{
+    return d->which == BOUNDED ? vndf_pdf_bounded(&d->view, wm)
+           : d->which == ALL   ? vndf_pdf_all(&d->view, wm)
+                               : vndf_pdf_v_cavity(&d->view, wm);
+}
+
+static vndf_vec3 draw_slope(const void *of, float u1, float u2, float *pdf)
+{
+    vndf_drawn_normal n = draw(of, u1, u2);
+    if (pdf)
+        *pdf = n.density;
+    return n.wm;
+}
+
+static double density_at(const double wm[3], const void *of)
+{
+    return (double)density(of, vec3_of(wm));
+}
+
+/* ---- every sample ---- */
+
+/* What the weight is to be: visible normals over the density; of V-cavities D (wi.wm)/A(wi). Both are vndf_visible. */
+static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vndf_drawn_normal n, int round)
+{
+    double facing = dot_of(wi, n.wm), up = 2 * facing * n.wm.z - wi.z,
+           visible = (double)vndf_visible(&d->view, n.wm);
+    double shape = (double)vndf_ndf(surface, n.wm) * n.wm.z, g1 = fmin(1, 2 * n.wm.z * wi.z / facing);
+    int good = TEST(fabs(length_of(n.wm) - 1) <= 4 * 0x1p-23 && n.wm.z >= 0);
+    good &= TEST(n.density >= FLT_MIN && n.density <= FLT_MAX && n.weight >= 0 && n.weight <= FLT_MAX);
+    if (d->which == BOUNDED)
+        return good & TEST(facing > 0) & TEST(!round || up > -1e-6) &
+               TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible + 1e-30);
+    if (n.wm.z < 1e-3f || !(shape > 1e-20)) /* D grows beyond floats at the horizon */
+        return good;
+    good &= TEST(d->which == ALL || facing > -1e-7);
+    if (facing > 1e-3)
+        good &= TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible);
+    double want = d->which == ALL ? shape : shape * g1 * facing / (n.wm.z * (double)wi.z);
+    return good & TEST(facing < 1e-3 || fabs((double)n.density - want) <= 0.1 * want); /* tables' cells differ */
+}
+
+static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, const char *name,
+                         size_t samples)
+{
+    static const float edges[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f, 1, NAN};
+    unsigned long long state = 17;
+    size_t apart[2] = {0, 0};
+    for (size_t i = 0; i < samples; i++) {
+        float r1 = test_uniform(&state), r2 = test_uniform(&state);
+        float u1 = i < 64 ? edges[i / 8] : r1, u2 = i < 64 ? edges[i % 8] : r2;
+        vndf_drawn_normal n = draw(d, u1, u2);
+        double error = fabs((double)density(d, n.wm) / (double)n.density - 1);
+        apart[0] += !(error <= 1e-5), apart[1] += !(error <= 1e-3);
+        if (!is_good(d, surface, wi, n, surface->alpha_x == surface->alpha_y) && test_failures < 20)
+            fprintf(stderr,
+                    "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
+                    name, law_names[d->which], (double)wi.x, (double)wi.y, (double)wi.z, (double)surface->alpha_x,
+                    (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y,
+                    (double)n.wm.z, (double)n.density, (double)n.weight);
+    }
+    if (!(TEST(apart[0] <= 64 + samples / 500) & TEST(apart[1] <= 8)))
+        fprintf(stderr, "  %s, %s: %lu densities are apart by 1e-5, %lu by 1e-3\n", name, law_names[d->which],
+                (unsigned long)apart[0], (unsigned long)apart[1]);
+}
+
+/* ---- all of them together ---- */
+
+static void test_setting(const subject *of, law which, float alpha_x, float alpha_y, vndf_vec3 wi, double level)
+{
+    const vndf_surface surface = {of->d, alpha_x, alpha_y};
+    const vndf_affine shape = seen_straight(of->d, alpha_x, alpha_y);
+    const drawn d = {which, vndf_view_from(&surface, wi)};
+    const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
+    test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
+    slope_test found =
+        slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
+    if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 2e-4))))
+        fprintf(stderr, "  %s, %s, alpha %g %g, wi.z %.9g: p %.3g of %lu, integral %.7f\n", of->name,
+                law_names[which], (double)alpha_x, (double)alpha_y, (double)wi.z, found.p,
+                (unsigned long)found.classes, found.mass);
+}
+
+int main(int arguments, char **argument)
+{
+    static const double thetas[] = {0, 45, 80, 89.9};
+    static const float alphas[][2] = {{0.3f, 0.3f}, {0.05f, 0.05f}, {1, 1}, {0.2f, 0.6f}};
+    double level = statistics_sidak(0.01, 4 * LAWS * SUBJECT_COUNT);
+    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
+        subject of = subject_open(i);
+        for (size_t j = 0; of.d && j < 4 * LAWS; j++)
+            if (oracle_wanted(arguments, argument, i, of.name))
+                test_setting(&of, (law)(j / 4), alphas[(i + j) % 4][0], alphas[(i + j) % 4][1],
+                             oracle_direction(thetas[j % 4], 40.0 * (double)j), level);
+        vndf_free(of.owned);
+    }
+    return test_done();
+}

@@ -1,0 +1,68 @@
+/* What stands before the kernel where it is exported: tables in a buffer of numbers, of which fetch(i) is number i, and
+ * what not every language has. languages.c has the types and the other words of src/kernel/one.h. */
+
+/* Four numbers of a table that stand side by side. */
+typedef struct quad {
+    real a, b, c, d;
+} quad;
+
+/* A table: where its rows begin among the numbers, how many cells it has, terms of its law, squarings of its last cell,
+ * and the highest power of two <= cells, 2^(steps - 1). */
+typedef struct table {
+    int at, cells, moments, squarings, highest, steps;
+} table;
+
+enum { HEAD = 8 };
+enum { VNDF_KNOT, VNDF_LAW, VNDF_MORE, VNDF_TAIL, VNDF_LOW };
+
+/* The table whose first number is number `base`. */
+HERE table table_at(int base)
+{
+    const int cells = to_whole(fetch(base));
+    int highest = 1, steps = 1;
+    for (int left = cells; left > 1; left = left / 2) {
+        highest = highest * 2;
+        steps = steps + 1;
+    }
+    const table t = {base + HEAD, cells, to_whole(fetch(base + 1)), to_whole(fetch(base + 2)), highest, steps};
+    return t;
+}
+
+/* Row i of a group. */
+HERE quad look(table t, int group, whole i)
+{
+    const int at = t.at + 4 * (group * (t.cells + 1) + i);
+    const quad row = {fetch(at), fetch(at + 1), fetch(at + 2), fetch(at + 3)};
+    return row;
+}
+
+/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
+HERE real least(real a, real b)
+{
+    return pick(less(a, b), a, b);
+}
+
+HERE real most(real a, real b)
+{
+    return pick(less(b, a), a, b);
+}
+
+HERE whole least_whole(whole a, whole b)
+{
+    if (a < b)
+        return a;
+    return b;
+}
+
+HERE whole most_whole(whole a, whole b)
+{
+    if (a > b)
+        return a;
+    return b;
+}
+
+/* |x| with the sign of y. */
+HERE real with_sign(real x, real y)
+{
+    return pick(less(to_real(bits(y)), 0.0f), -size(x), size(x));
+}
