@@ -15,6 +15,7 @@ static const char TOOL[] = "vndf " VNDF_VERSION;
 
 /* What a table is asked to be. */
 typedef struct request {
+    size_t least_bytes; /* a smaller table is not looked for */
     size_t max_bytes;
     double max_tv; /* 0: the best that fits */
     unsigned moments;
@@ -52,9 +53,9 @@ static void measure_bytes(builder *b)
 }
 
 /* The largest number of knots that fits, or 0. */
-static unsigned most_knots(const builder *b)
+static unsigned knots_in(const builder *b, size_t bytes)
 {
-    size_t room = b->asked.max_bytes > b->base ? b->asked.max_bytes - b->base : 0, knots = room / b->per_knot;
+    size_t room = bytes > b->base ? bytes - b->base : 0, knots = room / b->per_knot;
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
@@ -151,14 +152,15 @@ static vndf_distribution *build_from(const builder *b, unsigned knots, unsigned 
 
 static vndf_distribution *cut_table(const builder *b, vndf_error *error)
 {
-    unsigned most = most_knots(b), least = b->radial->start > CELLS_LEAST ? b->radial->start : CELLS_LEAST + 1;
+    unsigned most = knots_in(b, b->asked.max_bytes), few = knots_in(b, b->asked.least_bytes);
+    unsigned least = b->radial->start > CELLS_LEAST ? b->radial->start : CELLS_LEAST + 1;
     if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)b->asked.max_bytes, (unsigned long)(b->base + least * b->per_knot));
         return NULL;
     }
-    unsigned first = b->asked.max_tv > 0 ? fewest_knots(b, least + (most - least) / 8, most) : most;
+    unsigned first = b->asked.max_tv > 0 ? fewest_knots(b, few > least ? few : least, most) : most;
     return build_from(b, first, most, error);
 }
 
@@ -215,13 +217,15 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
                               vndf_certificate *certificate, vndf_error *error)
 {
     vndf_build_options none = {0}, given = options ? *options : none;
-    request asked = {given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv,
+    request asked = {0, given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv,
                      (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
     vndf_resolution resolution = {given.breaks, given.break_count, given.finest};
     if (check_request(source, &asked, error) != VNDF_OK || vndf_resolution_check(&resolution, error) != VNDF_OK)
         return NULL;
-    if (!given.max_bytes && !(given.max_tv > 0.0))
+    if (!given.max_bytes && !(given.max_tv > 0.0)) {
         asked.max_tv = TV_DEFAULT;
+        asked.least_bytes = BYTES_LEAST;
+    }
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
@@ -243,17 +247,12 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
 /* 1 if the table was measured; 0 if there is no memory. */
 static int certify(const vndf_distribution *distribution, const vndf_profile *profile, vndf_certificate *certificate)
 {
-    vndf_table_draft table;
-    vndf_laws laws;
-    vndf_sight sight;
-    if (!vndf_table_draft_of(distribution, &table))
-        return 0;
-    int has_laws = vndf_laws_from(&laws, &table);
-    int good = vndf_sight_from(&sight, profile, table.knot, table.cells, table.squarings) && has_laws &&
-               vndf_certificate_measure(certificate, &laws, &sight, profile, VNDF_CLOSELY);
-    vndf_laws_free(&laws);
-    vndf_sight_free(&sight);
-    free(table.knot);
+    vndf_draft draft;
+    memset(&draft, 0, sizeof draft);
+    int good = vndf_table_draft_of(distribution, &draft.table) && vndf_laws_from(&draft.laws, &draft.table) &&
+               vndf_sight_from(&draft.sight, profile, &draft.laws) &&
+               vndf_certificate_measure(certificate, &draft.laws, &draft.sight, profile, VNDF_CLOSELY);
+    vndf_draft_free(&draft);
     return good;
 }
 

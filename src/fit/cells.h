@@ -5,9 +5,9 @@
 #include "fit/law.h"
 #include "fit/profile/profile.h"
 
-/* Slopes nearer than this part of themselves are one: less than a float of a normal can tell. A knot has no other within
- * four floats of it. */
-#define VNDF_GRAIN 0x1.001p-21
+/* Slopes nearer than this part of themselves count as one: normals of floats hardly tell them apart. No cell that is
+ * wider has to stay whole (fit/radial.c). */
+#define VNDF_GRAIN 0x1p-21
 
 /* f dR = mass; the part of its cell that the point stands for, by xi. */
 typedef struct vndf_point {

@@ -125,11 +125,19 @@ static double rounding_of(const vndf_law *law, double area)
     return fabs(sum / area - 1);
 }
 
+/* Whether rho is not among slopes that count as one: the area may be anything between those of its neighbours. */
+static int resolves(const vndf_laws *laws, double rho)
+{
+    unsigned i = vndf_laws_cell(laws, rho);
+    return i == laws->cells || laws->span[i + 1].r - laws->span[i].r > 2 * VNDF_GRAIN * rho;
+}
+
 static finding look(survey *s, double rho, int below, double area)
 {
     vndf_law law = vndf_law_of(s->laws, rho, below);
     double drawn = vndf_law_area(&law);
-    finding found = {0, 1, fabs(vndf_law_public_area(&law, drawn) / area - 1), rounding_of(&law, drawn)};
+    double miss = resolves(s->laws, rho) ? fabs(vndf_law_public_area(&law, drawn) / area - 1) : 0;
+    finding found = {0, 1, miss, rounding_of(&law, drawn)};
     sums sum = {0, 1};
     double seen = seen_area(s, &law);
     s->candidates = 0;

@@ -27,17 +27,19 @@ static void thin(vndf_points *points, size_t first, size_t group)
     points->count = group > 1 ? n : points->count;
 }
 
-int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const float *knot, unsigned cells,
-                    unsigned squarings)
+static double end_of(const vndf_laws *laws, unsigned i)
+{
+    return i < laws->cells ? laws->span[i + 1].r : HUGE_VAL;
+}
+
+int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const vndf_laws *laws)
 {
     enum { GROUP_MOST = 5, FEW = 4 * VNDF_GAUSS };
     size_t group = 1 + (size_t)((double)(profile->count * VNDF_GAUSS) / POINTS_MANY);
-    *sight = (vndf_sight){{NULL, 0, 0, 0}, malloc((cells + 2) * sizeof *sight->first)};
-    for (unsigned i = 0; sight->first && i <= cells; i++) {
-        int tail = i == cells;
-        vndf_span span = tail ? vndf_span_of_tail(knot[i], squarings) : vndf_span_between(knot[i], knot[i + 1]);
+    *sight = (vndf_sight){{NULL, 0, 0, 0}, malloc((laws->cells + 2) * sizeof *sight->first)};
+    for (unsigned i = 0; sight->first && i <= laws->cells; i++) {
         size_t first = sight->first[i] = sight->points.count;
-        vndf_points_add(&sight->points, profile, &span, tail ? HUGE_VAL : knot[i + 1]);
+        vndf_points_add(&sight->points, profile, &laws->span[i], end_of(laws, i));
         if (sight->points.count > first + FEW)
             thin(&sight->points, first, group < GROUP_MOST ? group : GROUP_MOST);
         sight->first[i + 1] = sight->points.count;
@@ -69,11 +71,8 @@ static void put_cell(vndf_draft *draft, const vndf_profile *profile, unsigned i)
 {
     vndf_table_draft *t = &draft->table;
     const vndf_sight *sight = &draft->sight;
-    int tail = i == t->cells;
-    double end = tail ? HUGE_VAL : t->knot[i + 1];
-    vndf_span span = tail ? vndf_span_of_tail(t->knot[i], t->squarings) : vndf_span_between(t->knot[i], end);
-    vndf_cell cell = vndf_cell_measure(profile, &span, end, sight->points.at + sight->first[i],
-                                       sight->first[i + 1] - sight->first[i]);
+    vndf_cell cell = vndf_cell_measure(profile, &draft->laws.span[i], end_of(&draft->laws, i),
+                                       sight->points.at + sight->first[i], sight->first[i + 1] - sight->first[i]);
     t->g0[i] = (float)cell.g0;
     t->g1[i] = (float)cell.g1;
     t->m0[i] = (float)cell.m0;
@@ -182,30 +181,31 @@ static void put_all_shares(vndf_draft *draft, const vndf_knot *knot, const doubl
 
 /* ---- the whole ---- */
 
-static void put_knot(vndf_table_draft *t, const vndf_knot *knot, unsigned i)
+static void put_knots(vndf_table_draft *t, const vndf_knot *knot)
 {
-    double rho = knot[i].r;
-    t->area[i] = (float)(knot[i].area.below + rho / (1 + rho));
-    t->slope[i] = (float)(1 - knot[i].area.turned - knot[i].area.along);
+    for (unsigned i = 0; i <= t->cells; i++) {
+        double rho = t->knot[i] = knot[i].r;
+        t->area[i] = (float)(knot[i].area.below + rho / (1 + rho));
+        t->slope[i] = (float)(1 - knot[i].area.turned - knot[i].area.along);
+    }
 }
 
+/* What follows from the knots. */
 static int fill(vndf_draft *draft, const vndf_profile *profile, const vndf_knot *knot)
 {
     vndf_table_draft *t = &draft->table;
-    unsigned n = t->cells + 1;
-    double *grazing = malloc(n * sizeof *grazing);
+    if (!vndf_laws_from(&draft->laws, t) || !vndf_sight_from(&draft->sight, profile, &draft->laws))
+        return 0;
+    for (unsigned i = 0; i <= t->cells; i++)
+        put_cell(draft, profile, i);
+    vndf_laws_read(&draft->laws);
+    double *grazing = malloc((t->cells + 1) * sizeof *grazing);
     ray *room = malloc((draft->sight.points.count + 1) * sizeof *room);
     int good = grazing && room;
-    for (unsigned i = 0; good && i < n; i++) {
-        put_cell(draft, profile, i);
-        put_knot(t, knot, i);
-    }
-    good = good && vndf_laws_from(&draft->laws, t);
     if (good) {
         sum_grazing(&draft->sight, t->cells, grazing);
         put_all_shares(draft, knot, grazing, room);
-        vndf_laws_free(&draft->laws);
-        good = vndf_laws_from(&draft->laws, t); /* with the shares */
+        vndf_laws_read(&draft->laws);
     }
     free(grazing);
     free(room);
@@ -222,13 +222,12 @@ int vndf_draft_from(vndf_draft *draft, const vndf_radial *radial, unsigned count
                                     .normalization = profile->normalization,
                                     .scale = profile->scale,
                                     .source = profile->description}};
-    int good = allocate(&draft->table) && knot;
-    if (good)
+    int good = knot && allocate(&draft->table);
+    if (good) {
         vndf_radial_knots(radial, count, knot);
-    for (unsigned i = 0; good && i < count; i++)
-        draft->table.knot[i] = knot[i].r;
-    good = good && vndf_sight_from(&draft->sight, profile, draft->table.knot, count - 1, radial->squarings) &&
-           fill(draft, profile, knot);
+        put_knots(&draft->table, knot);
+        good = fill(draft, profile, knot);
+    }
     free(knot);
     return good;
 }

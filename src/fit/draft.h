@@ -11,8 +11,7 @@ typedef struct vndf_sight {
 } vndf_sight;
 
 /* 0 if there is no memory; free it either way. */
-int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const float *knot, unsigned cells,
-                    unsigned squarings);
+int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const vndf_laws *laws);
 void vndf_sight_free(vndf_sight *sight);
 
 /* A table and what it was made from. */

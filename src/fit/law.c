@@ -141,6 +141,12 @@ static void fill(vndf_laws *laws, unsigned i)
                          1e3);
 }
 
+void vndf_laws_read(vndf_laws *laws)
+{
+    for (unsigned i = 0; i <= laws->cells; i++)
+        fill(laws, i);
+}
+
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft)
 {
     size_t n = draft->cells + 1;
@@ -148,8 +154,8 @@ int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft)
                       malloc(n * sizeof *made.turn), malloc(n * sizeof *made.part)};
     *laws = made;
     int good = made.span && made.cell && made.turn && made.part;
-    for (unsigned i = 0; good && i < n; i++)
-        fill(laws, i);
+    if (good)
+        vndf_laws_read(laws);
     return good;
 }
 
@@ -266,8 +272,8 @@ static double spline(const vndf_laws *laws, double rho)
     const vndf_span *span = &laws->span[i];
     int last = i == laws->cells;
     double width = last ? span->z : span->h, t = last ? 1 - 1 / (1 + rho) / span->z : vndf_span_place(span, rho);
-    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1], d0 = d->slope[i] * width;
-    double d1 = (last ? 1 : d->slope[i + 1]) * width, u = 1 - t;
+    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1], u = 1 - t;
+    double d0 = d->slope[i] * width, d1 = (last ? 1 : d->slope[i + 1]) * width;
     return u * u * ((1 + 2 * t) * a0 + t * d0) + t * t * ((1 + 2 * u) * a1 - u * d1);
 }
 

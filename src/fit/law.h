@@ -71,7 +71,8 @@ typedef struct vndf_laws {
     double *part;  /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
 } vndf_laws;
 
-/* 0 if there is no memory; free it either way. */
+/* Reads the numbers of the draft; again, after they were changed. 0 if there is no memory; free it either way. */
+void vndf_laws_read(vndf_laws *laws);
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
 void vndf_laws_free(vndf_laws *laws);
 

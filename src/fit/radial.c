@@ -13,7 +13,6 @@ static const double SHARE0 = 0.45, SHARE1 = 0.55; /* of the law below, about */
 static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p29;
 static const double RHO_MOST = 0x1p20; /* claims end there */
 static const double UNRESOLVED = 0.02; /* part of a cell's mass that strays from what is drawn: it holds features */
-enum { FLOATS_APART = 4 };
 
 /* ---- the error of a cell ---- */
 
@@ -124,11 +123,11 @@ static double unresolved(const view *v)
     return 0;
 }
 
-static float apart(float r, float towards)
+/* The nearest float that may be a knot beside one at r: cells that cannot be cut are narrower than VNDF_GRAIN. */
+static float apart(float r, int up)
 {
-    for (int i = 0; i < FLOATS_APART; i++)
-        r = nextafterf(r, towards);
-    return r;
+    const float width = 0x1p-22f;
+    return up ? r * (1 + width) : r * (1 - width);
 }
 
 /* The place of a cut, some floats from both ends; 0 if there is none. */
@@ -137,7 +136,7 @@ static float cut_of(const view *v, float from, float to)
     double z = 1 / (1 + (double)from), middle = 2 * (double)from, own = unresolved(v);
     if (to < HUGE_VALF)
         middle = (from * z + to / (1 + (double)to)) / (z + 1 / (1 + (double)to));
-    float first = apart(from, HUGE_VALF), last = to < HUGE_VALF ? apart(to, 0.0f) : HUGE_VALF;
+    float first = apart(from, 1), last = to < HUGE_VALF ? apart(to, 0) : HUGE_VALF;
     float at = (float)(own > 0 && (to < HUGE_VALF || own < 4 * (double)from) ? own : middle);
     at = at < first ? first : at > last ? last : at;
     return at >= first && at <= last && at >= KNOT_LEAST && at <= KNOT_MOST ? at : 0.0f;
@@ -210,7 +209,7 @@ static void add_start(vndf_radial *radial, float r)
 static int is_free(const vndf_radial *radial, float r)
 {
     for (unsigned i = 0; i < radial->start; i++)
-        if (radial->knot[i].r < apart(r, HUGE_VALF) && radial->knot[i].r > apart(r, 0.0f))
+        if (radial->knot[i].r < apart(r, 1) && radial->knot[i].r > apart(r, 0))
             return 0;
     return r >= KNOT_LEAST && r <= KNOT_MOST;
 }

@@ -20,7 +20,7 @@
 
 /* Of a slope: what is above, its arc A and half mass T, all over `sum`. */
 typedef struct arc {
-    real cc, p, q, r;
+    real cc, p, q, q2, r;
     real length, mass; /* A and T */
     real sum;          /* |c| z + s x */
 } arc;
@@ -28,19 +28,20 @@ typedef struct arc {
 /* From cz = |c| z, sx = s x and edge = sx - cz, which keeps its digits where it is small. */
 HERE arc arc_of(real cz, real sx, real edge, const int below)
 {
-    real sum = cz + sx, per = 1.0f / sum, cc = cz * per, ss = sx * per, e = edge * per;
-    real q2 = least(most(e, set(0.0f)), set(1.0f));
-    if (below)
-        q2 = most(q2, set(1e-10f)); /* cubes of q^2 occur */
-    real q = root(q2), g = arc_rest(q2), bend = 2.0f * q * (1.0f - q2 * g);
-    arc k = {cc, most(-e, set(0.0f)), q, least(cc, ss), 3.14159265f - bend, cc, sum};
-    k.mass = cc * k.length + q;
+    real sum = cz + sx, reach = root(most(edge, set(0.0f)) * sum), per = 1.0f / sum;
+    real cc = cz * per, e = edge * per, q = least(reach * per, set(1.0f)), q2 = least(most(e, set(0.0f)), set(1.0f));
+    if (below) {
+        q = most(q, set(1e-5f)); /* cubes of q occur */
+        q2 = most(q2, set(1e-10f));
+    }
+    real g = arc_rest(q2), bend = 2.0f * q * (1.0f - q2 * g), rest = (q * q2) * (1.0f + g * (1.0f - q2));
+    arc k = {cc, most(-e, set(0.0f)), q, q2, least(cc, sx * per), 3.14159265f - bend, 3.14159265f * cc + rest, sum};
     if (below) {
         k.cc = -cc;
         k.p = set(0.0f);
         k.r = -cc;
         k.length = bend;
-        k.mass = q * q2 * (1.0f + g * (1.0f - q2));
+        k.mass = rest;
     }
     return k;
 }
@@ -58,17 +59,18 @@ HERE real arc_two_thirds(real x)
     return of_bits(to_whole(to_real(bits(x)) * 0.666666667f + 355.0e6f));
 }
 
-/* A d with F(d) near v T. */
+/* A d with F(d) near v T, from v^2/d^2 as a sum of the powers of v that the terms of F have alone. */
 HERE real arc_start(arc k, real v, const int below)
 {
-    real goal = v * k.mass, slope = k.mass / k.length, half = 0.5f * k.q, begin = half * goal, end = half * k.mass;
-    if (!below) {
-        real pp = k.p * k.p, r6 = k.r * 0.166666667f;
-        begin = begin + pp + arc_two_thirds(r6 * (goal * goal));
-        end = end + pp + arc_two_thirds(r6 * (k.mass * k.mass));
+    real v2 = v * v, p = k.p, t = k.q2;
+    if (below) {
+        real inverse = (1.43172f * v - 0.461627f * v2) + t * (0.628066f * v + 0.071245f * v2);
+        return (2.0f * k.q * v) * arc_inverse_root(inverse);
     }
-    real inverse = most(begin + (slope * slope - end) * (v * v), set(1e-36f));
-    return least(goal * arc_inverse_root(inverse), k.length);
+    real v43 = arc_two_thirds(v2), inverse = (0.151813f * v43 - 0.050724f * v2) + t * (-0.122628f * v43 - 0.12813f * v2);
+    inverse = inverse + p * ((0.024493f * v2 - 0.118976f * v43) + p * (0.390562f + p * (0.280348f * p - 0.568917f)));
+    inverse = inverse + k.q * (0.248745f * v + (0.285757f * v) * t);
+    return v * arc_inverse_root(most(inverse, set(1e-36f)));
 }
 
 /* Of a normal at azimuth a: ss cos a, ss sin a, and cc + ss cos a, which is what is seen of it. */
@@ -76,26 +78,34 @@ typedef struct bearing {
     real along, aside, facing;
 } bearing;
 
-/* sin(h)/h from h^2, |h| <= pi/2; relative error 6e-9. */
-HERE real arc_sine(real h2)
+/* sqrt(2) sin(d/2)/d from d^2, 0 <= d <= pi; relative error 6e-9. */
+HERE real arc_sine(real d2)
 {
-    real h4 = h2 * h2;
-    return (0.999999995f - 0.166666567f * h2) + h4 * ((0.00833302514f - 0.000198074187f * h2) + h4 * 2.60190307e-6f);
+    real d4 = d2 * d2;
+    return (0.707106778f - 0.0294627649f * d2) + d4 * ((0.000368271161f - 2.18843126e-6f * d2) + d4 * 7.18680978e-9f);
+}
+
+/* sin d and 1 - cos d, 0 <= d <= pi, both with their digits where they are small. */
+HERE turn arc_turn(real d)
+{
+    real rest = 3.14159265f - d, sine = d * arc_sine(d * d), cosine = rest * arc_sine(rest * rest);
+    const turn t = {sine * cosine, sine * sine};
+    return t;
 }
 
 /* One step from d. With P = q sin d - r cos d and Q = q cos d + r sin d the derivatives of F are cc + P, Q, -P; all are
  * turned by the step. */
 HERE bearing arc_step(arc k, real d, real goal)
 {
-    real h = 0.5f * d, rest = 1.57079633f - h, sine = h * arc_sine(h * h), cosine = rest * arc_sine(rest * rest);
-    real sn = 2.0f * sine * cosine, vs = 2.0f * sine * sine, cs = 1.0f - vs;
-    real f = (k.p * d + k.q * vs) + k.r * (d - sn) - goal, f1 = k.p + (k.q * sn + k.r * vs);
+    turn t = arc_turn(d);
+    real sn = t.sine, vs = t.cosine, cs = 1.0f - vs, f1 = k.p + (k.q * sn + k.r * vs);
+    real f = ((k.p * d - goal) + k.q * vs) + k.r * (d - sn);
     real p = k.q * sn - k.r * cs, q = k.q * cs + k.r * sn, fq = f * q, f12 = f1 * f1;
-    real step = f * (0.5f * fq - f12) / (f1 * (f12 - fq) - f * f * (p * 0.166666667f) + 1e-36f);
-    step = most(least(step, set(0.25f)), set(-0.25f));
-    step = most(least(step, k.length - d), -d);
+    real below = f1 * (f12 - fq) - (f * f * (p * 0.166666667f) - 1e-36f), step = f * (0.5f * fq - f12) / below;
+    step = most(least(step, least(set(0.25f), k.length - d)), most(set(-0.25f), -d));
     real s2 = step * step, ds = step - step * s2 * 0.166666667f, dc = s2 * (0.5f - s2 * 0.0416666667f);
-    bearing a = {p - p * dc + q * ds, q - q * dc - p * ds, f1 - p * dc + q * ds};
+    real more = q * ds - p * dc;
+    bearing a = {p + more, q - (q * dc + p * ds), f1 + more};
     return a;
 }
 
@@ -111,9 +121,9 @@ HERE bearing arc_draw(arc k, real u1, const int below)
 /* The number u1 of a normal whose azimuth has this cosine and sine, both times a positive number. */
 HERE real arc_invert(arc k, real along, real aside)
 {
-    real d = most(k.length - angle_of(size(aside), along), set(0.0f)), h = 0.5f * d, rest = 1.57079633f - h;
-    real sine = h * arc_sine(h * h), sn = 2.0f * sine * (rest * arc_sine(rest * rest)), vs = 2.0f * sine * sine;
-    real v = least(((k.p * d + k.q * vs) + k.r * (d - sn)) / k.mass, set(1.0f)) * 0.5f;
+    real d = most(k.length - angle_of(size(aside), along), set(0.0f));
+    turn t = arc_turn(d);
+    real v = least(((k.p * d + k.q * t.cosine) + k.r * (d - t.sine)) / k.mass, set(1.0f)) * 0.5f;
     return pick(less(aside, set(0.0f)), v, 1.0f - v);
 }
 

@@ -86,7 +86,21 @@ HERE int any(mask m)
 
 HERE real pick(mask m, real yes, real no)
 {
-    return _mm_cvtss_f32(_mm_or_ps(_mm_and_ps(m, lane(yes)), _mm_andnot_ps(m, lane(no))));
+    __m128 a = _mm_and_ps(m, lane(yes));
+    if (__builtin_constant_p(no) && no == 0.0f)
+        return _mm_cvtss_f32(a);
+    return _mm_cvtss_f32(_mm_or_ps(a, _mm_andnot_ps(m, lane(no))));
+}
+
+/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
+HERE real least(real a, real b)
+{
+    return _mm_cvtss_f32(_mm_min_ss(lane(a), lane(b)));
+}
+
+HERE real most(real a, real b)
+{
+    return _mm_cvtss_f32(_mm_max_ss(lane(a), lane(b)));
 }
 
 #else
@@ -126,14 +140,6 @@ HERE real pick(mask m, real yes, real no)
     return m ? yes : no;
 }
 
-#endif
-
-HERE whole pick_whole(mask m, whole yes, whole no)
-{
-    return any(m) ? yes : no;
-}
-
-/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
 HERE real least(real a, real b)
 {
     return a < b ? a : b;
@@ -142,6 +148,13 @@ HERE real least(real a, real b)
 HERE real most(real a, real b)
 {
     return a > b ? a : b;
+}
+
+#endif
+
+HERE whole pick_whole(mask m, whole yes, whole no)
+{
+    return any(m) ? yes : no;
 }
 
 HERE real root(real x)
