@@ -157,7 +157,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.r, g.z);
     arc k = table_given_arc(v, g, below);
-    real x = pick(same(i, 0), at.x1 * in.over, g.x), per = g.per * g.per; /* the place is held away from the pole */
+    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x), per = g.per * g.per; /* held away from the pole */
     real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
     return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }

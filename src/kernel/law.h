@@ -328,15 +328,17 @@ HERE slope_length law_length(table t, seen v, piece at, place in)
 /* The place of a slope r = x/z, x + z = 1, in its cell. */
 HERE place law_place(table t, piece at, real r, real z)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width;
-    if (t.squarings > 0 && any(at.last)) {
+    real over = (r - at.from) * (at.z0 * z) / at.width, rest = 1.0f - over;
+    if (any(at.last)) { /* there 1 - xi is what keeps its digits */
         real eta = z / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
-        over = pick(at.last, 1.0f - eta, over);
+        rest = pick(at.last, eta, rest);
+        over = t.squarings > 0 ? pick(at.last, 1.0f - eta, over) : over;
     }
     over = least(most(over, set(1e-6f)), set(0.9999999f));
-    place in = {over, 1.0f - over, set(0.0f), set(0.0f)};
+    rest = least(most(rest, set(1e-7f)), set(0.999999f));
+    place in = {over, rest, set(0.0f), set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
     return in;
 }
