@@ -262,8 +262,9 @@ static int certify(const vndf_distribution *distribution, const vndf_profile *pr
 {
     vndf_draft draft;
     memset(&draft, 0, sizeof draft);
-    int good = vndf_table_draft_of(distribution, &draft.table) && vndf_laws_from(&draft.laws, &draft.table) &&
-               vndf_sight_from(&draft.sight, profile, &draft.laws) &&
+    if (!vndf_table_draft_of(distribution, &draft.table))
+        return 0;
+    int good = vndf_laws_from(&draft.laws, &draft.table) && vndf_sight_from(&draft.sight, profile, &draft.laws) &&
                vndf_certificate_measure(certificate, &draft.laws, &draft.sight, profile, VNDF_CLOSELY);
     vndf_draft_free(&draft);
     return good;
