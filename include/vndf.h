@@ -219,10 +219,9 @@ VNDF_API vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2,
  * equal to it: vndf_visible/vndf_pdf is the weight, and the certificate holds the largest one. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm. A normal that vndf_sample drew comes back within 1e-5, the
- * distance between unit normals whose slopes are divided by alpha, or within the distance that four steps of 2^-24 of
- * u1 and u2 move it: in far tails and gaps of D such a step leads farther. The numbers themselves may differ by as
- * many steps, or by as much as the rounding of wm moves them.
+/* The uniform numbers that vndf_sample turns into wm. Of the normals that vndf_sample drew 99.9% come back within 1e-5
+ * and 99.99% within 1e-4, the distance between unit normals whose slopes are divided by alpha, or their numbers come
+ * back within eight steps of 2^-24: in far tails and gaps of D such a step leads farther.
  *
  * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0 every
  * u1 gives one normal); for directions below the horizon that see less than 1e-10 of the area at grazing incidence;

@@ -31,7 +31,7 @@ static int moments_hold(const vndf_table_draft *table, const vndf_profile *profi
     double f0 = 0, f1 = 0;
     int good = 1;
     for (unsigned i = 0; i <= table->cells; i++) {
-        double r = table->knot[i], m0 = table->m0[i], m1 = table->m1[i], m2 = table->m2[i];
+        double r = (double)table->knot[i], m0 = (double)table->m0[i], m1 = (double)table->m1[i], m2 = (double)table->m2[i];
         f0 += m1 + r * m0;
         f1 += m2 + 2 * r * m1 + r * r * m0;
         good &= i == table->cells || TEST(table->knot[i + 1] - table->knot[i] > 2e-7f * table->knot[i]);
