@@ -41,8 +41,9 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
-    double tv_above,
-        tv_below; /* the larger of the certificate's and that of the worst angle here, below: all angles */
+    /* The larger of the certificate's and that of the worst angle here; below: of all angles. */
+    double tv_above, tv_below;
+    double area; /* largest relative error of the area above the horizon, hence of Lambda and G1 */
     report_time time;
 } report_table;
 
