@@ -131,7 +131,7 @@ int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf
         if (!(fabsf(off) < 1e-3f))
             return 0;
     }
-    *surface = (vndf_affine){material->is.distribution, c * r->alpha_x, -s * r->alpha_y, s * r->alpha_x,
-                             c * r->alpha_y,            0.0f,           0.0f};
+    *surface = (vndf_affine){
+        material->is.distribution, c * r->alpha_x, -s * r->alpha_y, s * r->alpha_x, c * r->alpha_y, 0.0f, 0.0f};
     return r->alpha_x > 0.0f && r->alpha_y > 0.0f;
 }

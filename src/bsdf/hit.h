@@ -9,15 +9,13 @@ enum { VNDF_HIT_LEVEL, VNDF_HIT_TILTED, VNDF_HIT_MIXTURE };
 
 VNDF_INLINE float vndf_hit_ndf(const struct vndf_hit_view *v, vndf_vec3 wm)
 {
-    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_ndf(&v->of.mixture, wm)
-                                       : vndf_view_ndf(&v->of.one, wm);
+    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_ndf(&v->of.mixture, wm) : vndf_view_ndf(&v->of.one, wm);
 }
 
 /* A(w). */
 VNDF_INLINE float vndf_hit_area(const struct vndf_hit_view *v, vndf_vec3 w)
 {
-    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_area(&v->of.mixture, w)
-                                       : vndf_view_area(&v->of.one, w);
+    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_area(&v->of.mixture, w) : vndf_view_area(&v->of.one, w);
 }
 
 /* w'. */

@@ -2,9 +2,7 @@
 #include "bsdf/material.h"
 
 #include "bsdf/hit.h"
-#include "bsdf/lobes/compensated.h"
-#include "bsdf/lobes/retro.h"
-#include "bsdf/lobes/single.h"
+#include "bsdf/lobes/lobes.h"
 #include "bsdf/terms/fresnel.h"
 #include "bsdf/terms/masking.h"
 #include "math/turn.h"

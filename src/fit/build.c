@@ -9,6 +9,10 @@
 #include "table/table.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
+
+/* Some 62 knots: a smaller table would not be faster, since lanes hold 64 of them in registers. */
+enum { BYTES_ENOUGH = 3000 };
+
 static const double TV_DEFAULT = 1e-3;
 static const double BELOW = 30; /* times the total variation above the horizon may be reached below it */
 static const char TOOL[] = "vndf " VNDF_VERSION;
@@ -224,7 +228,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
         return NULL;
     if (!given.max_bytes && !(given.max_tv > 0.0)) {
         asked.max_tv = TV_DEFAULT;
-        asked.least_bytes = BYTES_LEAST;
+        asked.least_bytes = BYTES_ENOUGH;
     }
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");

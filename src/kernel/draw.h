@@ -40,8 +40,8 @@ HERE whole table_find(table t, seen v, aim a, const int below)
     if (below)
         return law_find_below(t, v, a.left);
     mask near = less(a.at, v.near);
-    whole i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
-    return pick_whole(near, least_whole(i, v.first - 1), most_whole(i, v.first));
+    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
+    return least_whole(most_whole(find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left), first), last);
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -90,7 +90,7 @@ HERE arc table_arc(seen v, slope_length r, const int below)
 HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
 {
     real reach = k.sum / v.s, facing = most(a.facing, set(1e-7f) * k.mass);
-    drawn n = {a.along * reach, a.aside * reach, d.r.z, d.density * (facing / (2.0f * k.mass))};
+    drawn n = {a.along * reach, a.aside * reach, d.r.z, (d.density / (2.0f * k.mass)) * facing};
     return n;
 }
 

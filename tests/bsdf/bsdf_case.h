@@ -65,4 +65,16 @@ static inline void bsdf_describe(const vndf_description *is, const char *ndf, vn
             (double)wi.x, (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
 }
 
+/* How far one rounding of wo moves the density of samples. */
+static inline double bsdf_spread(const vndf_bsdf *bsdf, vndf_vec3 wo, double pdf)
+{
+    double sum = 0;
+    for (int i = 0; i < 6; i++) {
+        float by = i % 2 ? 0x1p-23f : -0x1p-23f;
+        vndf_vec3 near = {wo.x + (i / 2 == 0) * by, wo.y + (i / 2 == 1) * by, wo.z + (i / 2 == 2) * by};
+        sum += fabs((double)vndf_bsdf_pdf(bsdf, near) - pdf);
+    }
+    return sum;
+}
+
 #endif

@@ -1,10 +1,9 @@
-/* vndf_bsdf_eval and vndf_bsdf_pdf are the published formulas, within 1e-5, of directions within two roundings (2^-22) of
- * those that are given: for every sensible set of effects,
- * GGX, Beckmann and tables, roughness from 0.01 to 2, isotropic, anisotropic and rotated, from both sides, index
- * ratios down to 1.001 and up to 2.4, cosines down to 1e-6. Tested at directions that were sampled and at ones
- * that are spread over the sphere. The formulas are of directions; where it shows that a float direction is not
- * unit, either reading is right. The law of bounded normals is the library's own: bsdf_quadrature and
- * bsdf_chi_square are for it. */
+/* vndf_bsdf_eval and vndf_bsdf_pdf are the published formulas, within 1e-5, of directions within two roundings
+ * (2^-22) of those that are given: for every sensible set of effects, GGX, Beckmann and tables, roughness from 0.01
+ * to 2, isotropic, anisotropic and rotated, from both sides, index ratios down to 1.001 and up to 2.4, cosines down
+ * to 1e-6. Tested at directions that were sampled and at ones that are spread over the sphere. The formulas are of
+ * directions; where it shows that a float direction is not unit, either reading is right. The law of bounded normals
+ * is the library's own: bsdf_quadrature and bsdf_chi_square are for it. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"

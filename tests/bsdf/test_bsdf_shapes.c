@@ -300,7 +300,8 @@ static int check_sample(const subject *s, const vndf_bsdf *bsdf, vndf_vec3 wi, c
     vndf_bsdf_eval_pdf(bsdf, drawn->wo, 0, &f, &pdf);
     spread_of(s, i, o, formula_at(s, i, o), &spread);
     double want = (double)f * fabs((double)cosine) / (double)pdf;
-    double weight = fmax(fabs((double)drawn->weight[0] - want) - want * spread / (double)pdf, 0) / fmax(want, 1e-3);
+    double weight =
+        fmax(fabs((double)drawn->weight[0] - want) - want * spread / (double)pdf, 0) / fmax(want, 1e-3);
     double density = excess((double)pdf, (double)drawn->density, spread);
     int reflected = rise_of(s, i) * rise_of(s, o) > 0;
     if (!(drawn->density < 1e35f) || !(drawn->density > 1e-25f) || !(f < 1e35f))

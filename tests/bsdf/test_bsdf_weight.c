@@ -1,9 +1,9 @@
-/* A sample's weight and density are, within 1e-5, f |cos_o| over vndf_bsdf_pdf and vndf_bsdf_pdf of a direction within
- * one rounding (2^-23 in each coordinate) of wo, for 99.9% of the samples (weights of normals that are not visible ones
- * 99.5%), in every sensible set of effects, GGX, Beckmann and tables, roughness from 1e-3 to 3, from both sides, cosines down to 1e-6, index
- * ratios down to 1.001 and up to 2.4. The direction is unit within 10 ulps and on the side that the lobe says; a lost
- * sample is (0, 0, 1) with weights and density 0. Only samples whose f or density is beyond what a float holds are left
- * out, and counted. */
+/* A sample's weight and density are, within 1e-5, f |cos_o| over vndf_bsdf_pdf and vndf_bsdf_pdf of a direction
+ * within one rounding (2^-23 in each coordinate) of wo, for 99.9% of the samples (weights of normals that are not
+ * visible ones 99.5%), in every sensible set of effects, GGX, Beckmann and tables, roughness from 1e-3 to 3, from
+ * both sides, cosines down to 1e-6, index ratios down to 1.001 and up to 2.4. The direction is unit within 10 ulps
+ * and on the side that the lobe says; a lost sample is (0, 0, 1) with weights and density 0. Only samples whose f or
+ * density is beyond what a float holds are left out, and counted. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"
@@ -83,7 +83,8 @@ static int check_weight(const vndf_bsdf *bsdf, const vndf_scattered *s, finding 
     found->density = fmax(found->density, density);
     found->weight = fmax(found->weight, worst);
     found->densities += density > 1e-5;
-    *(bsdf->material->is.effects.normals == VNDF_NORMALS_VISIBLE ? &found->weights : &found->others) += worst > 1e-5;
+    *(bsdf->material->is.effects.normals == VNDF_NORMALS_VISIBLE ? &found->weights : &found->others) +=
+        worst > 1e-5;
     return density <= 1e-3 && worst <= 1e-3;
 }
 
@@ -139,11 +140,14 @@ static void test_ndf(const char *name, unsigned long long seed)
         if (effects.scattering == VNDF_SCATTERING_SINGLE && oracle_effects_sensible(&effects))
             test_set(&ndf, &effects, seed + i, &found);
     }
-    printf("%s: weight within %.2g (%lu and %lu above 1e-5), density within %.2g (%lu), length within %.2g; %lu samples, %lu "
-           "lost, %lu extreme\n",
-           name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density, (unsigned long)found.densities,
-           found.length, (unsigned long)found.kept, (unsigned long)found.lost, (unsigned long)found.extreme);
-    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 200 && found.densities < found.kept / 1000);
+    printf(
+        "%s: weight within %.2g (%lu and %lu above 1e-5), density within %.2g (%lu), length within %.2g; %lu samples, %lu "
+        "lost, %lu extreme\n",
+        name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
+        (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
+        (unsigned long)found.extreme);
+    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 200 &&
+         found.densities < found.kept / 1000);
     TEST(found.kept > 2 * found.lost && found.extreme < found.kept / 20);
     oracle_ndf_close(&ndf);
 }

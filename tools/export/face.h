@@ -30,14 +30,14 @@ typedef struct vndf_view {
 } vndf_view;
 
 /* The matrix in units of the distribution's slopes. */
-HERE surface matrix_of(vndf_surface m)
+HERE affine_map matrix_of(vndf_surface m)
 {
     float scale = 1.0f;
     /* only table */
     if (m.distribution >= 0)
         scale = fetch(m.distribution + 3);
     /* end */
-    const surface s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
     return s;
 }
 
@@ -134,10 +134,9 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     /* end */
     /* only table */
     if (view.surface.distribution >= 0)
-        density = table_density(view.t, view.seen_from.v, table_given(view.t, n.x, n.y, n.z),
-                                n.facing / frame_reach(view.at), view.below);
+        density = table_pdf(view.t, view.seen_from, n, frame_reach(view.at), view.below);
     /* end */
-    return positive(density / view.at.determinant);
+    return frame_density(view.at, density / view.at.determinant);
 }
 
 /* ---- sampling ---- */
@@ -147,19 +146,6 @@ typedef struct vndf_sampled {
     vec3 wm;
     float pdf;
 } vndf_sampled;
-
-/* only table */
-HERE drawn table_draw(vndf_view view, float u1, float u2)
-{
-    table t = view.t;
-    seen v = view.seen_from.v;
-    aim a = table_aim(v, u2, view.below);
-    found f = table_cell(t, v, a, table_find(t, v, a, view.below), view.below);
-    drawn_length r = table_length(t, v, f);
-    arc k = table_arc(v, r.r, view.below);
-    return table_turned(view.seen_from, table_normal(v, r, k, arc_draw(k, u1, view.below)));
-}
-/* end */
 
 /* Draws a visible normal with two uniform numbers in [0, 1]. */
 HERE vndf_sampled vndf_sample(vndf_view view, float u1, float u2)
@@ -175,7 +161,7 @@ HERE vndf_sampled vndf_sample(vndf_view view, float u1, float u2)
     /* end */
     /* only table */
     if (view.surface.distribution >= 0)
-        n = table_draw(view, u1, u2);
+        n = table_draw(view.t, view.seen_from, u1, u2, view.below);
     /* end */
     sampled s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};

@@ -10,7 +10,7 @@
 /* ---- rules --------------------------------------------------------------------------------------- */
 
 enum {
-    EVEN_PANELS = 30,      /* up to R/(1 + R) = 15/16, */
+    EVEN_PANELS = 30,       /* up to R/(1 + R) = 15/16, */
     TAIL_PANELS = 12,       /* then by halves of the rest; */
     TABLE_TAIL_PANELS = 32, /* of a table, whose tail may be heavier */
     QUANTILE_PANELS = 64,   /* between quantiles of a table */

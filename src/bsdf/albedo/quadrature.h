@@ -8,12 +8,13 @@
  * over the normals whose wo leaves the surface. At cos_i = 0 the first is the integral of visible normals times F,
  * and the second 0.
  *
- * The radius runs over panels of x = R/(1 + R), even ones and the quantiles of R, so that no lobe of D is missed, cut
- * where the range of azimuths begins to be limited or stops. The azimuth runs between the places where wo comes to the horizon and reflection becomes
- * total; all of these are arccosines of numbers that the formulas give. So the integrand is smooth in each panel,
- * and Gauss's rule serves. Nodes crowd by a square towards the end of a panel, where a root may vanish or a layer
- * as thin as the roughness may lie. An azimuth is given by the tangent of half of it, or of half its complement to
- * a half turn: there is no sine and no cosine, and the bits are the same everywhere. */
+ * The radius runs over panels of x = R/(1 + R), even ones and the quantiles of R, so that no lobe of D is missed,
+ * cut where the range of azimuths begins to be limited or stops. The azimuth runs between the places where wo comes
+ * to the horizon and reflection becomes total; all of these are arccosines of numbers that the formulas give. So the
+ * integrand is smooth in each panel, and Gauss's rule serves. Nodes crowd by a square towards the end of a panel,
+ * where a root may vanish or a layer as thin as the roughness may lie. An azimuth is given by the tangent of half of
+ * it, or of half its complement to a half turn: there is no sine and no cosine, and the bits are the same
+ * everywhere. */
 #ifndef VNDF_BSDF_ALBEDO_QUADRATURE_H
 #define VNDF_BSDF_ALBEDO_QUADRATURE_H
 

@@ -4,7 +4,7 @@
  * f = b_A (1 - E_A(wi)) (1 - E_B(wo))/(pi (1 - E_avg,B)). Energy asks for a part of 1 - b_A that stays, reciprocity for
  * b_A (1 - E_avg,A) n_A^2 = b_B (1 - E_avg,B) n_B^2. Since (1 - F_avg) n^2 is the same seen from both sides, b =
  * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
-#include "bsdf/lobes/compensated.h"
+#include "bsdf/lobes/lobes.h"
 
 #include "math/turn.h"
 #include "math/exp_log.h"
@@ -178,8 +178,7 @@ static added added_towards(const vndf_bsdf *b, float z)
         return none;
     float lost = lost_from(b, z), per = stays ? c->per : c->beyond * (float)b->carried;
     float cosine = fabsf(z), density = cosine + 0.5f * c->per_log / (cosine + c->near);
-    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per,
-               part * density * (0.5f * INVERSE_PI)};
+    added a = {part * c->lost * (lost > 0.0f ? lost : 0.0f) * per, part * density * (0.5f * INVERSE_PI)};
     return a;
 }
 

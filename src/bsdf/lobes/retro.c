@@ -1,6 +1,6 @@
 /* Samples, values and densities are those of the same material without retroreflection, with wo turned by half a turn
  * where it is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
-#include "bsdf/lobes/retro.h"
+#include "bsdf/lobes/lobes.h"
 
 static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
 {

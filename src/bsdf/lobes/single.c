@@ -9,7 +9,7 @@
  *
  * bare       mirror_at, facet of two directions in float: reflection and nothing else
  * the rest   reflect_at and refract_at, from a drawn normal; reflecting and refracting, from two directions */
-#include "bsdf/lobes/single.h"
+#include "bsdf/lobes/lobes.h"
 
 #include "bsdf/hit.h"
 #include "bsdf/terms/fresnel.h"
@@ -184,7 +184,8 @@ static void scatter_both(const vndf_bsdf *b, const vndf_drawn_normal *n, float u
     double part = vndf_mean_of(b->material, f);
     int reflects = (part > 0.0 && u3 < part) || !(part < 1.0 && square > 0.0);
     double own = reflects ? part : 1.0 - part;
-    if (own > 0.0 && (reflects ? reflect_at(b, n->wm, facing, &e) : refract_at(b, n->wm, facing, sqrt(square), &e)))
+    if (own > 0.0 &&
+        (reflects ? reflect_at(b, n->wm, facing, &e) : refract_at(b, n->wm, facing, sqrt(square), &e)))
         set_scattered(b, n, &e, reflects, f, own, s);
     else
         vndf_scatter_nothing(s);

@@ -21,11 +21,13 @@ typedef struct vndf_walk_half {
  * matters, so both lengths are made 1. 0 if no microfacet sends v to o. */
 VNDF_INLINE int vndf_walk_half_of(vndf_vec3 v, vndf_vec3 o, double eta, int across, vndf_walk_half *half)
 {
-    double iv = 1.0 / sqrt(vndf_walk_dot(v, v)), io = 1.0 / sqrt(vndf_walk_dot(o, o)), rise = across ? eta - 1.0 : 0.0;
+    double iv = 1.0 / sqrt(vndf_walk_dot(v, v)), io = 1.0 / sqrt(vndf_walk_dot(o, o)),
+           rise = across ? eta - 1.0 : 0.0;
     double side = across ? -1.0 : 1.0, vx = v.x * iv, vy = v.y * iv, vz = v.z * iv;
     double ox = o.x * io, oy = o.y * io, oz = o.z * io;
     double x = rise * ox + (ox + side * vx), y = rise * oy + (oy + side * vy), z = rise * oz + (oz + side * vz);
-    double square = x * x + y * y + z * z, per = square > 0.0 ? copysign(1.0 / sqrt(square), across ? rise : 1.0) : 0.0;
+    double square = x * x + y * y + z * z,
+           per = square > 0.0 ? copysign(1.0 / sqrt(square), across ? rise : 1.0) : 0.0;
     double cosine = (vx * x + vy * y + vz * z) * per, beyond = (ox * x + oy * y + oz * z) * per;
     half->wm = vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
     half->cosine = cosine;

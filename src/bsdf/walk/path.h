@@ -52,8 +52,7 @@ VNDF_INLINE int vndf_walk_travel(const vndf_walk *walk, vndf_walk_path *path, vn
 VNDF_INLINE void vndf_walk_enter(const vndf_walk *walk, const vndf_view *view, vndf_vec3 from, uint64_t seed,
                                  vndf_walk_path *path)
 {
-    *path = (vndf_walk_path){from,      *view, 0.0, {1.0, 1.0, 1.0, 1.0},
-                             walk->eta, 0,     vndf_walk_random_from(seed)};
+    *path = (vndf_walk_path){from, *view, 0.0, {1.0, 1.0, 1.0, 1.0}, walk->eta, 0, vndf_walk_random_from(seed)};
     path->depth = vndf_walk_exponential(&path->random) * (double)from.z / (double)vndf_view_area(view, from);
 }
 

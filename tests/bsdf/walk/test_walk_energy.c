@@ -1,6 +1,7 @@
 /* A lossless walk loses nothing: each sample that leaves has weight 1 (closed forms: to the bit; tables, whose
- * weight holds the ratio of true to drawn density: in the mean), and the order limit of 64 loses less than 1e-3
- * of any; directions are unit and on the side that the lobe says; a limit of the order cuts the same walk short. Means at 4.5 sigmas, 7e-6 each, of 17 x 5 x 6 x 4. */
+ * weight holds the ratio of true to drawn density: in the mean), and the order limit of 64 loses less than 1e-3 of
+ * any; directions are unit and on the side that the lobe says; a limit of the order cuts the same walk short. Means
+ * at 4.5 sigmas, 7e-6 each, of 17 x 5 x 6 x 4. */
 #include "bsdf/walk/walk_case.h"
 
 static const float ALPHAS[][2] = {{0.05f, 0.05f}, {0.3f, 0.3f}, {1, 1}, {0.1f, 1}, {1e-3f, 1e-3f}};
@@ -121,8 +122,8 @@ static void test_radiance(void)
         vndf_bsdf_sample(&h.bsdf, u, &w);
         vndf_bsdf_sample(&r.bsdf, u, &v);
         TEST(v.wo.x == w.wo.x && v.wo.y == w.wo.y && v.wo.z == w.wo.z && v.lobe == w.lobe);
-        TEST_RELATIVE((double)v.weight[0],
-                      (double)w.weight[0] / (w.lobe == VNDF_LOBE_TRANSMISSION ? 2.25 : 1.0), 1e-6);
+        TEST_RELATIVE((double)v.weight[0], (double)w.weight[0] / (w.lobe == VNDF_LOBE_TRANSMISSION ? 2.25 : 1.0),
+                      1e-6);
     }
 }
 

@@ -28,8 +28,7 @@ static vndf_vec3 propose(const walk_hit *h, unsigned long long *state)
     float u[3];
     walk_numbers(state, u);
     int below = walk_transmits(&h->is) && test_uniform(state) < 0.5f;
-    return u[2] < 0.5f ? walk_propose_cosine(below, u[0], u[1])
-                       : walk_propose_event(h, below, u[0], u[1]);
+    return u[2] < 0.5f ? walk_propose_cosine(below, u[0], u[1]) : walk_propose_event(h, below, u[0], u[1]);
 }
 
 static void eval_bins(const walk_hit *h, size_t count, walk_mean bins[], size_t hits[])

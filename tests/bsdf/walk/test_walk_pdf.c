@@ -1,5 +1,5 @@
-/* vndf_bsdf_pdf of a walk is a density: its integral over the directions that it covers is 1 within 1e-4, it is positive
- * there, and it is near the law of the samples: a total variation over 96 bins below 0.42 everywhere (0.39
+/* vndf_bsdf_pdf of a walk is a density: its integral over the directions that it covers is 1 within 1e-4, it is
+ * positive there, and it is near the law of the samples: a total variation over 96 bins below 0.42 everywhere (0.39
  * measured, for a hazy mirror of roughness 0.1 x 1), and below 0.05 where alpha is 0.1 (0.034). */
 #include "bsdf/walk/walk_proposal.h"
 
@@ -63,7 +63,7 @@ enum { SETTING_COUNT = 6, WALK_COUNT = 4 };
 static void test_subject(int subject)
 {
     vndf_description walks[WALK_COUNT] = {walk_of_mirror(), walk_of_glass(1.5f), walk_of_glass(1.0f / 1.5f),
-                                   walk_of_glass(2.4f)};
+                                          walk_of_glass(2.4f)};
     const vndf_distribution *d = walk_subject(subject);
     float scale = (float)vndf_distribution_info(d).scale;
     for (int i = 0; d && i < SETTING_COUNT * WALK_COUNT; i++) {

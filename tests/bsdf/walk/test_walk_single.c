@@ -1,8 +1,8 @@
 /* The first order of the walk is the known model of single scattering: for GGX and Beckmann, reflection and
  * transmission, eval with an order limit of 1 is the published formula (Walter et al. 2007, height-correlated
- * masking) to 2e-5 at every direction and two roundings of it, and samples that leave after one event follow it: chi-square over 96 bins,
- * level 1e-3 for all together. The formulas are written out here once more, with the C library's functions. For
- * tables eval is D G2/(4 cos_i) with the library's own D and G2. */
+ * masking) to 2e-5 at every direction and two roundings of it, and samples that leave after one event follow it:
+ * chi-square over 96 bins, level 1e-3 for all together. The formulas are written out here once more, with the C
+ * library's functions. For tables eval is D G2/(4 cos_i) with the library's own D and G2. */
 #include "bsdf/walk/walk_case.h"
 
 typedef struct model {

@@ -1,5 +1,5 @@
-/* What the tests of the random walk share: distributions, materials and their hits, directions, and the comparison of two
- * estimated histograms. */
+/* What the tests of the random walk share: distributions, materials and their hits, directions, and the comparison
+ * of two estimated histograms. */
 #ifndef TESTS_BSDF_WALK_WALK_CASE_H
 #define TESTS_BSDF_WALK_WALK_CASE_H
 

@@ -43,7 +43,8 @@ static inline vndf_vec3 walk_propose_cosine(int below, double u1, double u2)
 static inline vndf_vec3 walk_scattered_once(const walk_hit *h, int refracted, vndf_vec3 wm)
 {
     vndf_vec3 v = h->wi;
-    double eta = (double)h->is.eta, c = (double)v.x * wm.x + (double)v.y * wm.y + (double)v.z * wm.z, t2 = eta * eta - 1.0 + c * c;
+    double eta = (double)h->is.eta, c = (double)v.x * wm.x + (double)v.y * wm.y + (double)v.z * wm.z,
+           t2 = eta * eta - 1.0 + c * c;
     double along = !refracted ? 2.0 * c : t2 > 0.0 ? (c - sqrt(t2)) / eta : NAN;
     double per = refracted ? 1.0 / eta : 1.0;
     vndf_vec3 wo = {walk_rounded(along * wm.x - per * v.x), walk_rounded(along * wm.y - per * v.y),
