@@ -94,8 +94,8 @@ double report_theta(size_t angle);
 vndf_status report_subject_begin(report_subject *subject, vndf_source *source, const char *name,
                                  const char *arguments, vndf_error *error);
 
-/* Builds and measures the tables, smallest first: two at least, and more as long as the next one is likely to end within
- * `seconds`. */
+/* Builds and measures the tables, smallest first: two at least, and more as long as the next one is likely to end
+ * within `seconds`. */
 vndf_status report_subject_build(report_subject *subject, double seconds, const report_watch *watch,
                                  vndf_error *error);
 void report_subject_free(report_subject *subject);
