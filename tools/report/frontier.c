@@ -179,8 +179,8 @@ int report_write_frontier(html_page *page, const report *r)
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
-        "nearer to the reference. Curves join tables of 2, 4 and 8 KiB: of 4 moments the solid ones, of 3 the dashed, of "
-        "2 the dotted. Tables are exact with their weight; the weight mends the error shown. The band at the bottom "
+        "nearer to the reference. Curves join tables of 2, 4 and 8 KiB: solid ones 4 moments, dashed ones 3, dotted "
+        "ones 2. Tables are exact with their weight; the weight mends the error shown. The band at the bottom "
         "holds methods that are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
