@@ -72,18 +72,20 @@ typedef struct drawn_length {
     real density; /* over x total */
 } drawn_length;
 
-HERE drawn_length table_length(table t, seen v, found f)
+HERE drawn_length table_length(table t, seen v, found f, const int below)
 {
     place in = law_invert(f.at, f.before);
     drawn_length d;
-    d.r = law_length(t, v, f.at, in);
+    d.r = law_length(t, v, f.at, in, below);
     d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
     return d;
 }
 
 HERE arc table_arc(seen v, slope_length r, const int below)
 {
-    return arc_of(size(v.c) * r.z, v.s * r.x, r.edge, below);
+    if (below)
+        return arc_of(-v.c * r.z, v.s * r.x, r.edge, below);
+    return arc_of(v.c * r.z, v.s * r.x, r.edge, below);
 }
 
 /* The normal in the frame of the direction: x towards it. */

@@ -309,11 +309,13 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-HERE slope_length law_length(table t, seen v, piece at, place in)
+HERE slope_length law_length(table t, seen v, piece at, place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
                 at.edge0 * in.rest + at.edge1 * in.over};
+    if (!below)
+        r.edge = v.s * r.x - v.c * r.z;
     if (t.squarings > 0 && any(at.last)) {
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
