@@ -83,13 +83,13 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-HERE seen law_see_above(table t, real s, real c, real rho)
+HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     quad k = look(t, VNDF_KNOT, v.cell);
     v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
     quad tail = look(t, VNDF_TAIL, v.first);
@@ -227,13 +227,13 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c, real rho)
+HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     v.first = v.cell;
     mask last = same(v.cell, t.cells);
     whole next = pick_whole(last, v.cell, v.cell + 1);
