@@ -2,9 +2,9 @@
  * same names as in one.h, the same operations in the same order: the same bits. Intrinsics stand only where the
  * extensions have no word for an instruction.
  *
- * A table is read by rows of four numbers, one load a lane and a transposition. With 16 lanes the first COPIED rows are
- * read from columns in registers instead, by permutations, which takes a third of the time. Searches begin with a few
- * knots at equal distances, the anchors. Columns and anchors are copies, made once for each call. */
+ * A table is read by rows of four numbers, one load a lane and a transposition. With 16 lanes, searches of small tables
+ * read columns in registers instead, by permutations. A search begins with the anchors, a few knots at equal distances.
+ * Columns and anchors are copies that a call makes once. */
 #ifndef VNDF_KERNEL_LANES_H
 #define VNDF_KERNEL_LANES_H
 
@@ -248,15 +248,16 @@ HERE whole most_whole(whole a, whole b)
 /* ---- tables ---- */
 
 enum {
-    COPIED = VNDF_LANES == 16 ? 128 : 0,      /* rows */
-    ANCHORS = VNDF_LANES == 16 ? 16 : 8,      /* anchor k is knot k * stride; there is none before the first */
-    ANCHOR_COLUMNS = 5                        /* R and the four of VNDF_TAIL */
+    ANCHORS = VNDF_LANES == 16 ? 16 : 8, /* anchor k is knot k * stride */
+    COPIED = 128,                        /* cells of a table whose columns are copied, with 16 lanes */
+    COPIED_COUNT = 256,                  /* for so many elements or more */
+    COPIED_GROUPS = 3                    /* VNDF_KNOT, VNDF_TAIL, VNDF_LOW */
 };
 
 typedef struct table_copies {
-    float anchor[ANCHOR_COLUMNS][ANCHORS];
+    float anchor[5][ANCHORS]; /* R and the four sums of VNDF_TAIL */
 #if VNDF_LANES == 16
-    float column[VNDF_GROUPS][4][COPIED];
+    float column[COPIED_GROUPS][4][COPIED]; /* without the last row */
 #endif
 } table_copies __attribute__((aligned(64)));
 
@@ -265,7 +266,7 @@ typedef struct table {
     const float *numbers;
     const table_copies *copies;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
-    int stride, copied;                            /* of anchors; whether all rows before the last are copied */
+    int stride, copied;
 } table;
 
 /* Four numbers of each lane, those of lane l from row[l] on. */
@@ -323,55 +324,60 @@ HERE quad look_rows(table t, int group, whole i)
 
 #if VNDF_LANES == 16
 
-/* Number i of a column, the last row apart. */
+/* Where the columns of a group are copied; -1 if they are not: all numbers of a cell are read at once, best by rows. */
+HERE int copied_group(int group)
+{
+    return group == VNDF_KNOT ? 0 : group == VNDF_TAIL ? 1 : group == VNDF_LOW ? 2 : -1;
+}
+
 HERE real look_column(table t, int group, int n, whole i)
 {
-    const float *c = t.copies->column[group][n];
+    const float *c = t.copies->column[copied_group(group)][n];
     const __m512i at = (__m512i)i;
     __m512 r = _mm512_permutex2var_ps(_mm512_load_ps(c), at, _mm512_load_ps(c + 16));
-    mask second = _mm512_test_epi32_mask(at, _mm512_set1_epi32(32));
-    r = _mm512_mask_blend_ps(second, r, _mm512_permutex2var_ps(_mm512_load_ps(c + 32), at, _mm512_load_ps(c + 48)));
+    mask odd = _mm512_test_epi32_mask(at, _mm512_set1_epi32(32));
+    r = _mm512_mask_blend_ps(odd, r, _mm512_permutex2var_ps(_mm512_load_ps(c + 32), at, _mm512_load_ps(c + 48)));
     if (t.cells > 64) {
         __m512 s = _mm512_permutex2var_ps(_mm512_load_ps(c + 64), at, _mm512_load_ps(c + 80));
-        s = _mm512_mask_blend_ps(second, s, _mm512_permutex2var_ps(_mm512_load_ps(c + 96), at, _mm512_load_ps(c + 112)));
+        s = _mm512_mask_blend_ps(odd, s, _mm512_permutex2var_ps(_mm512_load_ps(c + 96), at, _mm512_load_ps(c + 112)));
         r = _mm512_mask_blend_ps(_mm512_test_epi32_mask(at, _mm512_set1_epi32(64)), r, s);
     }
-    float last = t.numbers[4 * (group * (t.cells + 1) + t.cells) + n];
-    return pick(same(i, t.cells), set(last), (real)r);
+    return pick(same(i, t.cells), set(t.numbers[4 * (group * (t.cells + 1) + t.cells) + n]), (real)r);
+}
+
+HERE void copy_columns(table t, table_copies *copies)
+{
+    const int groups[COPIED_GROUPS] = {VNDF_KNOT, VNDF_TAIL, VNDF_LOW};
+    const whole lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    for (int first = 0; first < (t.cells > 64 ? 128 : 64); first += 16)
+        for (int g = 0; g < COPIED_GROUPS; g++) {
+            quad q = look_rows(t, groups[g], least_whole(lanes + first, set_whole(t.cells)));
+            store(copies->column[g][0] + first, q.a);
+            store(copies->column[g][1] + first, q.b);
+            store(copies->column[g][2] + first, q.c);
+            store(copies->column[g][3] + first, q.d);
+        }
 }
 
 #endif
 
-#ifndef ROWS
-#define ROWS(g) 0
-#endif
+/* Row i of a group. */
 HERE quad look(table t, int group, whole i)
 {
 #if VNDF_LANES == 16
-    if (t.copied && !ROWS(group))
-        return (quad){look_column(t, group, 0, i), look_column(t, group, 1, i), look_column(t, group, 2, i),
-                      look_column(t, group, 3, i)};
-#endif
-    return look_rows(t, group, i);
-}
-/* Row i of a group. */
-HERE quad look_search(table t, int group, whole i)
-{
-#if VNDF_LANES == 16
-    if (t.copied)
-        return (quad){look_column(t, group, 0, i), look_column(t, group, 1, i), look_column(t, group, 2, i),
-                      look_column(t, group, 3, i)};
+    if (t.copied && copied_group(group) >= 0) {
+        quad q = {look_column(t, group, 0, i), look_column(t, group, 1, i), look_column(t, group, 2, i),
+                  look_column(t, group, 3, i)};
+        return q;
+    }
 #endif
     return look_rows(t, group, i);
 }
 
-/* ---- searches ---- */
-
-/* The copies of a table, and the table as the kernel reads it. */
-HERE table table_of(const vndf_distribution *d, table_copies *copies)
+/* A table, and its copies for a call with `count` elements. */
+HERE table table_of(const vndf_distribution *d, table_copies *copies, size_t count)
 {
-    table t = {d->numbers + VNDF_HEAD, copies, d->cells, d->moments, d->squarings, d->highest, d->steps, 1,
-               d->cells <= COPIED};
+    table t = {d->numbers + VNDF_HEAD, copies, d->cells, d->moments, d->squarings, d->highest, d->steps, 1, 0};
     while (ANCHORS * t.stride < t.cells)
         t.stride *= 2;
     for (int k = 0; k < ANCHORS; k++) {
@@ -382,18 +388,22 @@ HERE table table_of(const vndf_distribution *d, table_copies *copies)
             copies->anchor[1 + n][k] = there ? tail[n] : -1.0f;
     }
 #if VNDF_LANES == 16
-    const whole lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    for (int first = 0; t.copied && first < (t.cells > 64 ? 128 : 64); first += 16)
-        for (int group = 0; group < VNDF_GROUPS; group++) {
-            quad q = look_rows(t, group, least_whole(lanes + first, set_whole(t.cells)));
-            store(copies->column[group][0] + first, q.a);
-            store(copies->column[group][1] + first, q.b);
-            store(copies->column[group][2] + first, q.c);
-            store(copies->column[group][3] + first, q.d);
-        }
+    t.copied = t.cells <= COPIED && count >= COPIED_COUNT;
+    if (t.copied)
+        copy_columns(t, copies);
+#else
+    (void)count;
 #endif
     return t;
 }
+
+/* ---- searches ----
+ *
+ * The last knot at or below a slope, and the last knot beyond which at least `left` of the law lies, by the sums of
+ * law_sum: from the anchors and the last knot on in steps that are halved. Blocks take each step for all their elements
+ * before the next, since a step waits for what it looks up. */
+
+#define VNDF_KERNEL_FINDS 1
 
 #if VNDF_LANES > 4
 
@@ -408,74 +418,80 @@ HERE real look_anchor(table t, int n, whole k)
 
 #endif
 
-#define VNDF_KERNEL_FINDS 1
-/* Searches go step by step for a block */
-HERE whole knot_anchor(table t, real slope)
+HERE whole begin_knot(table t, real slope)
 {
-    whole i = set_whole(0);
+    whole k = set_whole(0);
 #if VNDF_LANES > 4
-    for (int step = ANCHORS / 2; step > 0; step /= 2) {
-        whole next = i + step;
-        i = pick_whole(at_most(look_anchor(t, 0, next), slope), next, i);
-    }
+    for (int step = ANCHORS / 2; step > 0; step /= 2)
+        k = pick_whole(at_most(look_anchor(t, 0, k + step), slope), k + step, k);
 #else
-    for (int k = 1; k < ANCHORS; k++)
-        i = i - at_most(set(t.copies->anchor[0][k]), slope);
+    for (int n = 1; n < ANCHORS; n++)
+        k = k - at_most(set(t.copies->anchor[0][n]), slope);
 #endif
-    return pick_whole(at_most(set(t.numbers[4 * t.cells]), slope), set_whole(t.cells), i * t.stride);
+    return pick_whole(at_most(set(t.numbers[4 * t.cells]), slope), set_whole(t.cells), k * t.stride);
 }
 
-HERE whole knot_step(table t, real slope, whole i, int step)
+HERE whole step_knot(table t, real slope, whole i, int step)
 {
     whole next = least_whole(i + step, set_whole(t.cells));
-    return pick_whole(at_most(look_search(t, VNDF_KNOT, next).a, slope), next, i);
+    return pick_whole(at_most(look(t, VNDF_KNOT, next).a, slope), next, i);
 }
 
 HERE whole find_knot(table t, real slope)
 {
-    whole i = knot_anchor(t, slope);
+    whole i = begin_knot(t, slope);
     for (int step = t.stride / 2; step > 0; step /= 2)
-        i = knot_step(t, slope, i, step);
+        i = step_knot(t, slope, i, step);
     return i;
 }
 
-HERE whole sum_anchor(table t, real w1, real w0, real wq, real w4, real left)
+/* The fourth term is 0 for fewer moments. */
+HERE mask sum_reaches(table t, real w1, real w0, real wq, real w4, quad tail, real left)
 {
-    whole i = set_whole(0);
-#if VNDF_LANES > 4
-    for (int step = ANCHORS / 2; step > 0; step /= 2) {
-        whole next = i + step;
-        real far = wq * look_anchor(t, 3, next);
-        if (t.moments > 3)
-            far = far + w4 * look_anchor(t, 4, next);
-        i = pick_whole(at_most(left, (w1 * look_anchor(t, 1, next) + w0 * look_anchor(t, 2, next)) + far), next, i);
-    }
-#else
-    for (int k = 1; k < ANCHORS; k++) {
-        const table_copies *c = t.copies;
-        real sum = (w1 * c->anchor[1][k] + w0 * c->anchor[2][k]) + (wq * c->anchor[3][k] + w4 * c->anchor[4][k]);
-        i = i - at_most(left, sum);
-    }
-#endif
-    const float *end = t.numbers + 4 * (VNDF_TAIL * (t.cells + 1) + t.cells);
-    real beyond = (w1 * end[0] + w0 * end[1]) + (wq * end[2] + w4 * end[3]);
-    return pick_whole(at_most(left, beyond), set_whole(t.cells), i * t.stride);
-}
-
-HERE whole sum_step(table t, real w1, real w0, real wq, real w4, real left, whole i, int step)
-{
-    whole next = least_whole(i + step, set_whole(t.cells));
-    quad tail = look_search(t, VNDF_TAIL, next);
     real far = wq * tail.c;
     if (t.moments > 3)
         far = far + w4 * tail.d;
-    return pick_whole(at_most(left, (w1 * tail.a + w0 * tail.b) + far), next, i);
+    return at_most(left, (w1 * tail.a + w0 * tail.b) + far);
 }
+
+HERE quad quad_of(const float *a, const float *b, const float *c, const float *d)
+{
+    quad q = {set(*a), set(*b), set(*c), set(*d)};
+    return q;
+}
+
+HERE whole begin_sum(table t, real w1, real w0, real wq, real w4, real left)
+{
+    const table_copies *c = t.copies;
+    const float *end = t.numbers + 4 * (VNDF_TAIL * (t.cells + 1) + t.cells);
+    whole k = set_whole(0);
+#if VNDF_LANES > 4
+    (void)c;
+    for (int step = ANCHORS / 2; step > 0; step /= 2) {
+        whole next = k + step;
+        quad tail = {look_anchor(t, 1, next), look_anchor(t, 2, next), look_anchor(t, 3, next), look_anchor(t, 4, next)};
+        k = pick_whole(sum_reaches(t, w1, w0, wq, w4, tail, left), next, k);
+    }
+#else
+    for (int n = 1; n < ANCHORS; n++)
+        k = k - sum_reaches(t, w1, w0, wq, w4,
+                            quad_of(&c->anchor[1][n], &c->anchor[2][n], &c->anchor[3][n], &c->anchor[4][n]), left);
+#endif
+    mask last = sum_reaches(t, w1, w0, wq, w4, quad_of(end, end + 1, end + 2, end + 3), left);
+    return pick_whole(last, set_whole(t.cells), k * t.stride);
+}
+
+HERE whole step_sum(table t, real w1, real w0, real wq, real w4, real left, whole i, int step)
+{
+    whole next = least_whole(i + step, set_whole(t.cells));
+    return pick_whole(sum_reaches(t, w1, w0, wq, w4, look(t, VNDF_TAIL, next), left), next, i);
+}
+
 HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
-    whole i = sum_anchor(t, w1, w0, wq, w4, left);
+    whole i = begin_sum(t, w1, w0, wq, w4, left);
     for (int step = t.stride / 2; step > 0; step /= 2)
-        i = sum_step(t, w1, w0, wq, w4, left, i, step);
+        i = step_sum(t, w1, w0, wq, w4, left, i, step);
     return i;
 }
 

@@ -251,16 +251,22 @@ HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
     return v;
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. Rounded sums need not fall from
+ * knot to knot: which knot is found depends on the order of the steps. */
+HERE whole law_step_below(table t, seen v, real left, whole i, int step)
+{
+    whole next = least_whole(i + step, set_whole(t.cells));
+    quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
+    real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+    return pick_whole(at_most(left, sum), next, i);
+}
+
 HERE whole law_find_below(table t, seen v, real left)
 {
     whole i = v.cell;
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
-        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        i = pick_whole(at_most(left, sum), next, i);
+        i = law_step_below(t, v, left, i, step);
         step = step / 2;
     }
     return i;

@@ -170,9 +170,9 @@ HERE table_view table_view_of(table t, frame f, const int below)
     return view;
 }
 
-HERE drawn table_turned(table_view view, drawn n)
+HERE drawn table_turned(real ex, real ey, drawn n)
 {
-    drawn turned = {view.ex * n.x - view.ey * n.y, view.ey * n.x + view.ex * n.y, n.z, n.density};
+    drawn turned = {ex * n.x - ey * n.y, ey * n.x + ex * n.y, n.z, n.density};
     return turned;
 }
 

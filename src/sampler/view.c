@@ -165,8 +165,9 @@ VNDF_INLINE float density(const vndf_view *view, unit_normal n)
     if (d->kind == VNDF_KIND_BECKMANN)
         return beckmann_density(s->of.beckmann, n.x, n.y, n.z, n.facing);
     float reach = frame_reach(s->f);
-    return vndf_is_below(s) ? table_pdf(table_of(d), s->of.table, table_unturned(s->of.table, n), reach, 1)
-                            : table_pdf(table_of(d), s->of.table, n, reach, 0);
+    if (!vndf_is_below(s))
+        return table_pdf(table_of(d), s->of.table, n, reach, 0);
+    return table_pdf(table_of(d), s->of.table, table_unturned(s->of.table.ex, s->of.table.ey, n), reach, 1);
 }
 
 VNDF_INLINE float pdf_of(const vndf_view *view, vndf_vec3 wm)
