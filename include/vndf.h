@@ -163,9 +163,9 @@ typedef struct vndf_info {
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each of
- * the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how
- * kernels are used. */
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
+ * of the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells
+ * how kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */

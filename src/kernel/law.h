@@ -309,11 +309,13 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-HERE slope_length law_length(table t, seen v, piece at, place in)
+HERE slope_length law_length(table t, seen v, piece at, place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
                 at.edge0 * in.rest + at.edge1 * in.over};
+    if (!below)
+        r.edge = v.s * r.x - v.c * r.z;
     if (t.squarings > 0 && any(at.last)) {
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
@@ -328,15 +330,17 @@ HERE slope_length law_length(table t, seen v, piece at, place in)
 /* The place of a slope r = x/z, x + z = 1, in its cell. */
 HERE place law_place(table t, piece at, real r, real z)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width;
-    if (t.squarings > 0 && any(at.last)) {
+    real over = (r - at.from) * (at.z0 * z) / at.width, rest = 1.0f - over;
+    if (any(at.last)) { /* there 1 - xi is what keeps its digits */
         real eta = z / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
-        over = pick(at.last, 1.0f - eta, over);
+        rest = pick(at.last, eta, rest);
+        over = t.squarings > 0 ? pick(at.last, 1.0f - eta, over) : over;
     }
     over = least(most(over, set(1e-6f)), set(0.9999999f));
-    place in = {over, 1.0f - over, set(0.0f), set(0.0f)};
+    rest = least(most(rest, set(1e-7f)), set(0.999999f));
+    place in = {over, rest, set(0.0f), set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
     return in;
 }

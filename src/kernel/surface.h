@@ -75,7 +75,8 @@ HERE sampled frame_sampled(frame f, drawn n)
 {
     real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z, y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
     real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
-    real lack = 3e-7f * (size(a) + size(b) + size(c)) - (a + b + c);
+    real tiny = 1e-12f * (size(x) + size(y) + z) * (size(f.wx) + size(f.wy) + size(f.wz)); /* all terms may be 0 */
+    real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     mask away = less(set(0.0f), lack);
     if (any(away)) {
         real turn_by = pick(away, lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f)), set(0.0f));
@@ -95,8 +96,10 @@ typedef struct unit_normal {
 
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
-    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z, per = 1.0f / (f.m.xx * f.m.yy - f.m.xy * f.m.yx);
-    unit_normal n = {(f.m.yy * a - f.m.xy * b) * per, (f.m.xx * b - f.m.yx * a) * per, z,
+    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z;
+    real per = 1.0f / difference_of_products(f.m.xx, f.m.yy, f.m.xy, f.m.yx);
+    unit_normal n = {difference_of_products(f.m.yy, a, f.m.xy, b) * per,
+                     difference_of_products(f.m.xx, b, f.m.yx, a) * per, z,
                      ((f.wx * x + f.wy * y) + f.wz * z) / f.grow};
     return n;
 }
