@@ -122,7 +122,8 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
  * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
- * incidence. All members are zero for the closed forms.
+ * incidence. Slopes nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed
+ * forms.
  *
  * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
  * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
