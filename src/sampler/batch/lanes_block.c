@@ -168,7 +168,7 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
     for (int g = 0; g < groups; g++)
         f[g] = table_cell(t, v[g], a[g], i[g], below);
     for (int g = 0; g < groups; g++)
-        d[g] = table_length(t, v[g], f[g]);
+        d[g] = table_length(t, v[g], f[g], below);
     for (int g = 0; g < groups; g++)
         k[g] = table_arc(v[g], d[g].r, below);
     draw_azimuths(groups, k, s->read[GIVEN_A], turned, below);
