@@ -111,7 +111,7 @@ typedef enum vndf_normals_drawn {
     VNDF_NORMALS_VISIBLE,
     /* Visible normals that reflect wi to above the horizon: no sample is lost. The weight is that of a visible
      * normal times the part of the visible normals that is left where wm is drawn; for GGX of anisotropic
-     * roughness up to 1.7 times that. */
+     * roughness up to 1.7 times that. Tables of anisotropic roughness draw visible normals instead. */
     VNDF_NORMALS_BOUNDED,
     VNDF_NORMALS_ALL,     /* D cos(theta_m), the way before visible normals: weights are unbounded */
     VNDF_NORMALS_V_CAVITY /* normals that wi sees in V-cavities; for V-cavity masking only */

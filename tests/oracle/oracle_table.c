@@ -358,5 +358,6 @@ double oracle_law_radius(const oracle_law *l, double r)
 double oracle_law_density(const oracle_law *l, double r, double azimuth)
 {
     double facing = l->c + l->s * r * cos(azimuth);
+    r = fmax(r, 1e-12); /* 0/0 */
     return facing > 0 ? oracle_law_radius(l, r) / r * facing / oracle_circle(l->c, l->s * r) : 0;
 }
