@@ -122,7 +122,8 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
  * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
- * incidence. All members are zero for the closed forms.
+ * incidence. Slopes nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed
+ * forms.
  *
  * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
  * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
@@ -162,9 +163,9 @@ typedef struct vndf_info {
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each of
- * the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how
- * kernels are used. */
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
+ * of the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells
+ * how kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
@@ -219,10 +220,9 @@ VNDF_API vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2,
  * equal to it: vndf_visible/vndf_pdf is the weight, and the certificate holds the largest one. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm. A normal that vndf_sample drew comes back within 1e-5, the
- * distance between unit normals whose slopes are divided by alpha, or within the distance that four steps of 2^-24 of
- * u1 and u2 move it: in far tails and gaps of D such a step leads farther. The numbers themselves may differ by as
- * many steps, or by as much as the rounding of wm moves them.
+/* The uniform numbers that vndf_sample turns into wm. Of the normals that vndf_sample drew 99.9% come back within 1e-5
+ * and 99.99% within 1e-4, the distance between unit normals whose slopes are divided by alpha, or their numbers come
+ * back within eight steps of 2^-24: in far tails and gaps of D such a step leads farther.
  *
  * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0 every
  * u1 gives one normal); for directions below the horizon that see less than 1e-10 of the area at grazing incidence;

@@ -40,8 +40,8 @@ HERE whole table_find(table t, seen v, aim a, const int below)
     if (below)
         return law_find_below(t, v, a.left);
     mask near = less(a.at, v.near);
-    whole i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
-    return pick_whole(near, least_whole(i, v.first - 1), most_whole(i, v.first));
+    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
+    return least_whole(most_whole(find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left), first), last);
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -72,25 +72,27 @@ typedef struct drawn_length {
     real density; /* over x total */
 } drawn_length;
 
-HERE drawn_length table_length(table t, seen v, found f)
+HERE drawn_length table_length(table t, seen v, found f, const int below)
 {
     place in = law_invert(f.at, f.before);
     drawn_length d;
-    d.r = law_length(t, v, f.at, in);
+    d.r = law_length(t, v, f.at, in, below);
     d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
     return d;
 }
 
 HERE arc table_arc(seen v, slope_length r, const int below)
 {
-    return arc_of(size(v.c) * r.z, v.s * r.x, r.edge, below);
+    if (below)
+        return arc_of(-v.c * r.z, v.s * r.x, r.edge, below);
+    return arc_of(v.c * r.z, v.s * r.x, r.edge, below);
 }
 
 /* The normal in the frame of the direction: x towards it. */
 HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
 {
     real reach = k.sum / v.s, facing = most(a.facing, set(1e-7f) * k.mass);
-    drawn n = {a.along * reach, a.aside * reach, d.r.z, d.density * (facing / (2.0f * k.mass))};
+    drawn n = {a.along * reach, a.aside * reach, d.r.z, (d.density / (2.0f * k.mass)) * facing};
     return n;
 }
 
@@ -157,7 +159,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.r, g.z);
     arc k = table_given_arc(v, g, below);
-    real x = pick(same(i, 0), at.x1 * in.over, g.x), per = g.per * g.per; /* the place is held away from the pole */
+    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x), per = g.per * g.per; /* held away from the pole */
     real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
     return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }

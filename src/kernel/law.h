@@ -116,7 +116,7 @@ HERE seen law_see_above(table t, real s, real c, real rho)
 /* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
  * at the beginning. */
 typedef struct piece {
-    real mass, per, e0, e1; /* per: 1/mass */
+    real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
     real from, x0, z0, x1, z1;  /* the slope where it begins */
     real edge0, edge1, width;   /* edge: s x - |c| z */
     mask last;
@@ -144,6 +144,7 @@ HERE piece law_cell_of(piece at, real mass, real d0, real d1)
     at.per = 1.0f / at.mass;
     at.e0 = d0 * at.per;
     at.e1 = d1 * at.per;
+    at.sum = (d0 + d1) * at.per;
     return at;
 }
 
@@ -151,7 +152,7 @@ HERE piece law_cell_of(piece at, real mass, real d0, real d1)
 HERE real law_below(piece at, real over, real rest)
 {
     real under = over + rest;
-    return under * under + (at.e0 + at.e1 - 2.0f) * (over * rest);
+    return under * under + (at.sum - 2.0f) * (over * rest);
 }
 
 /* Mass per xi over under^2, times the square of `below`. */
@@ -176,8 +177,9 @@ HERE piece law_cell_above(table t, seen v, weights w, whole i)
     quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
     piece at = law_cell_at(t, v.s, v.c, i, k);
     w = law_weights_at(w, v.c, same(i, 0));
-    real line = w.w1 * k.a + w.w0, m = w.w1 * more.a + (line + w.w1 * k.a) * l.d + (line * k.a + w.wq) * l.c;
-    return law_cell_of(at, m + w.w4 * more.b, l.a * law_weight_at(t, w, at.x0, at.z0),
+    real a = w.w1 * k.a, line = a + w.w0;
+    real m = ((w.w1 * more.a + w.w4 * more.b) + (line + a) * l.d) + (line * k.a + w.wq) * l.c;
+    return law_cell_of(at, m, l.a * law_weight_at(t, w, at.x0, at.z0),
                        l.b * law_weight_at(t, w, at.x1, at.z1));
 }
 
@@ -295,7 +297,7 @@ typedef struct place {
 HERE place law_invert(piece at, real m)
 {
     real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
-    real middle = at.e0 - q * (at.e0 + at.e1), square = root(middle * middle + 4.0f * (q * p));
+    real middle = at.e0 - q * at.sum, square = root(middle * middle + 4.0f * (q * p));
     mask rising = at_most(set(0.0f), middle + 2.0f * q);
     place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square, set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
@@ -307,11 +309,13 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-HERE slope_length law_length(table t, seen v, piece at, place in)
+HERE slope_length law_length(table t, seen v, piece at, place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
                 at.edge0 * in.rest + at.edge1 * in.over};
+    if (!below)
+        r.edge = v.s * r.x - v.c * r.z;
     if (t.squarings > 0 && any(at.last)) {
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
@@ -326,15 +330,17 @@ HERE slope_length law_length(table t, seen v, piece at, place in)
 /* The place of a slope r = x/z, x + z = 1, in its cell. */
 HERE place law_place(table t, piece at, real r, real z)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width;
-    if (t.squarings > 0 && any(at.last)) {
+    real over = (r - at.from) * (at.z0 * z) / at.width, rest = 1.0f - over;
+    if (any(at.last)) { /* there 1 - xi is what keeps its digits */
         real eta = z / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
-        over = pick(at.last, 1.0f - eta, over);
+        rest = pick(at.last, eta, rest);
+        over = t.squarings > 0 ? pick(at.last, 1.0f - eta, over) : over;
     }
     over = least(most(over, set(1e-6f)), set(0.9999999f));
-    place in = {over, 1.0f - over, set(0.0f), set(0.0f)};
+    rest = least(most(rest, set(1e-7f)), set(0.999999f));
+    place in = {over, rest, set(0.0f), set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
     return in;
 }

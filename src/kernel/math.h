@@ -86,15 +86,15 @@ HERE real angle_of(real y, real x)
 
 /* ---- exponentials ---- */
 
-/* exp(x), |x| <= 87: 3.1e-9. Measured: 1e-7. The nearest k to x/log 2 appears in the low bits of a sum that is too
- * large for fractions; log 2 is split so that k times its first part is exact. */
+/* exp(x), |x| <= 87: 3.1e-9. Measured: 1e-7. k is the nearest whole number to x/log 2; log 2 is split so that k times its
+ * first part is exact. */
 HERE real exp_near(real x)
 {
-    real shifted = x * 1.44269504f + 12582912.0f, k = shifted - 12582912.0f;
-    real r = (x - k * 0.693145752f) - k * 1.42860677e-6f, r2 = r * r;
+    whole n = to_whole(x * 1.44269504f + 127.5f);
+    real k = to_real(n - 127), r = (x - k * 0.693145752f) - k * 1.42860677e-6f, r2 = r * r;
     real more =
         (0.499999934f + 0.166665201f * r) + r2 * ((0.0416683938f + 0.00836877631f * r) + r2 * 0.00138144754f);
-    real power = of_bits((bits(shifted) - 1262485377) * 8388608);
+    real power = of_bits(n * 8388608);
     return power + power * (r + r2 * more);
 }
 

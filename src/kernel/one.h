@@ -86,10 +86,12 @@ HERE int any(mask m)
 
 HERE real pick(mask m, real yes, real no)
 {
-    __m128 a = _mm_and_ps(m, lane(yes));
+    if (__builtin_constant_p(yes) && yes == 0.0f)
+        return _mm_cvtss_f32(_mm_andnot_ps(m, lane(no)));
     if (__builtin_constant_p(no) && no == 0.0f)
-        return _mm_cvtss_f32(a);
-    return _mm_cvtss_f32(_mm_or_ps(a, _mm_andnot_ps(m, lane(no))));
+        return _mm_cvtss_f32(_mm_and_ps(m, lane(yes)));
+    __m128 other = lane(no);
+    return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
@@ -154,7 +156,7 @@ HERE real most(real a, real b)
 
 HERE whole pick_whole(mask m, whole yes, whole no)
 {
-    return any(m) ? yes : no;
+    return no + ((yes - no) & -any(m));
 }
 
 HERE real root(real x)
@@ -225,7 +227,7 @@ HERE table table_of(const vndf_distribution *d)
 /* Row i of a group. */
 HERE quad look(table t, int group, whole i)
 {
-    const float *row = t.numbers + 4 * (group * (t.cells + 1) + i);
+    const float *row = t.numbers + 4 * (size_t)group * ((size_t)t.cells + 1) + 4 * (size_t)(unsigned)i;
     quad q = {row[0], row[1], row[2], row[3]};
     return q;
 }
@@ -238,9 +240,15 @@ HERE int count_ones(unsigned bits_set)
     return __builtin_ctz(~bits_set);
 }
 
-HERE unsigned at_most_4(const float *numbers, float x)
+/* x four times, from a register. */
+HERE __m128 spread(float x)
 {
-    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(numbers), _mm_set1_ps(x)));
+    return _mm_shuffle_ps(lane(x), lane(x), 0);
+}
+
+HERE unsigned at_most_4(const float *numbers, __m128 x)
+{
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(numbers), x));
 }
 
 /* The last knot at or below a slope (law.h has the same as a loop). */
@@ -248,10 +256,11 @@ HERE whole find_knot(table t, real slope)
 {
     int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
     const float *pivot = t.columns + VNDF_COLUMNS * size_of;
+    __m128 x = spread(slope);
     for (int i = 0; i < pivots; i += 4)
-        block += count_ones(at_most_4(pivot + i, slope));
+        block += count_ones(at_most_4(pivot + i, x));
     const float *first = t.columns + VNDF_COLUMN_STEP * block + 1;
-    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, slope) | at_most_4(first + 4, slope) << 4);
+    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, x) | at_most_4(first + 4, x) << 4);
 }
 
 /* Weights of a law, four times each. */
@@ -273,7 +282,7 @@ HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
     int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
     const float *pivot = t.columns + VNDF_COLUMNS * size_of + pivots;
-    weights_4 w = {_mm_set1_ps(w1), _mm_set1_ps(w0), _mm_set1_ps(wq), _mm_set1_ps(w4), _mm_set1_ps(left)};
+    weights_4 w = {spread(w1), spread(w0), spread(wq), spread(w4), spread(left)};
     for (int i = 0; i < pivots; i += 4)
         block += count_ones(sums_4(pivot + i, pivots, w));
     const float *first = t.columns + size_of + VNDF_COLUMN_STEP * block + 1;

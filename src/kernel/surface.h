@@ -18,7 +18,8 @@ typedef struct affine_map {
 typedef struct frame {
     affine_map m;
     real wx, wy, wz;   /* wi, times a power of two */
-    real ux, uy, uz;   /* w, times another one: the largest component is within [1, 2) */
+    real ux, uy, uz;   /* w, times another one, which is 1 where the largest component is within [1/16, 16], or makes it
+                        * so */
     real grow;         /* w = grow (ux, uy, uz) for wi as it was scaled, */
     real size;         /* and `size` for wi as it was given */
     real determinant;  /* |det M| */
@@ -37,13 +38,20 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
     f.wy = y * k;
     f.wz = z * k;
     real ux = m.xx * f.wx + m.yx * f.wy, uy = m.xy * f.wx + m.yy * f.wy, uz = f.wz - (f.wx * m.mean_x + f.wy * m.mean_y);
-    real l = inverse_scale(most(most(size(ux), size(uy)), size(uz)));
+    real l = set(1.0f);
+    largest = most(most(size(ux), size(uy)), size(uz));
+    odd = either(less(largest, set(0.0625f)), less(set(16.0f), largest));
+    if (any(odd))
+        l = pick(odd, inverse_scale(largest), l);
     f.ux = ux * l;
     f.uy = uy * l;
     f.uz = uz * l;
     f.grow = 1.0f / l;
     f.size = 1.0f / k / l;
-    f.determinant = size(difference_of_products(m.xx, m.yy, m.xy, m.yx));
+    f.determinant = size(m.xx * m.yy);
+    mask mixed = less(set(0.0f), size(m.xy * m.yx));
+    if (any(mixed))
+        f.determinant = pick(mixed, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), f.determinant);
     mask unseen = both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f)));
     f.rarest = pick(unseen, set(0.0f), set(1.17549435e-38f));
     return f;
@@ -67,7 +75,8 @@ HERE sampled frame_sampled(frame f, drawn n)
 {
     real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z, y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
     real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
-    real lack = 3e-7f * (size(a) + size(b) + size(c)) - (a + b + c);
+    real tiny = 1e-12f * (size(x) + size(y) + z) * (size(f.wx) + size(f.wy) + size(f.wz)); /* all terms may be 0 */
+    real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     mask away = less(set(0.0f), lack);
     if (any(away)) {
         real turn_by = pick(away, lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f)), set(0.0f));
@@ -75,8 +84,8 @@ HERE sampled frame_sampled(frame f, drawn n)
         y = y + turn_by * f.wy;
         z = z + turn_by * up;
     }
-    real square = (x * x + y * y) + z * z, reach = root(square), per = 1.0f / reach;
-    sampled s = {x * per, y * per, z * per, frame_density(f, n.density * (reach / f.determinant) * square)};
+    real square = (x * x + y * y) + z * z, reach = root(square), per = reach * (1.0f / square);
+    sampled s = {x * per, y * per, z * per, frame_density(f, (n.density * reach) * (square / f.determinant))};
     return s;
 }
 
@@ -87,8 +96,10 @@ typedef struct unit_normal {
 
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
-    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z, per = 1.0f / (f.m.xx * f.m.yy - f.m.xy * f.m.yx);
-    unit_normal n = {(f.m.yy * a - f.m.xy * b) * per, (f.m.xx * b - f.m.yx * a) * per, z,
+    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z;
+    real per = 1.0f / difference_of_products(f.m.xx, f.m.yy, f.m.xy, f.m.yx);
+    unit_normal n = {difference_of_products(f.m.yy, a, f.m.xy, b) * per,
+                     difference_of_products(f.m.xx, b, f.m.yx, a) * per, z,
                      ((f.wx * x + f.wy * y) + f.wz * z) / f.grow};
     return n;
 }
@@ -107,7 +118,7 @@ HERE table_view table_view_of(table t, frame f, const int below)
     real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
     mask straight = less(across, 1e-15f * level);
     across = most(across, 1e-15f * level);
-    real both = 1.0f / (across * (across + level)), per = across * both, over = (across + level) * both;
+    real over = 1.0f / across, per = 1.0f / (across + level);
     view.ex = pick(straight, set(1.0f), f.ux * over);
     view.ey = pick(straight, set(0.0f), f.uy * over);
     view.v = table_see(t, across * per, f.uz * per, level * over, below);

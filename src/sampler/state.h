@@ -45,6 +45,6 @@ VNDF_INLINE float vndf_clamp_unit(float u)
 }
 
 /* The surface in units of its distribution; 0 if it is invalid. */
-int vndf_surface_of(const vndf_affine *affine, affine_map *m);
+int vndf_map_of(const vndf_affine *affine, affine_map *m);
 
 #endif

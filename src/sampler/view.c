@@ -7,7 +7,7 @@
 /* Entries of a matrix, in units of the distribution's slopes, are at most MOST; a mean slope is at most MEAN_MOST. */
 static const float MOST = 1e18f, MEAN_MOST = 1e6f;
 
-int vndf_surface_of(const vndf_affine *affine, affine_map *m)
+int vndf_map_of(const vndf_affine *affine, affine_map *m)
 {
     if (!affine || !affine->distribution)
         return 0;
@@ -59,7 +59,7 @@ VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi)
     vndf_view view;
     affine_map m;
     view.distribution = NULL;
-    if (!vndf_surface_of(affine, &m) || !is_direction(wi))
+    if (!vndf_map_of(affine, &m) || !is_direction(wi))
         return view;
     view.distribution = affine->distribution;
     view.wi = wi;
@@ -263,7 +263,7 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
 float vndf_affine_ndf(const vndf_affine *affine, vndf_vec3 wm)
 {
     affine_map m;
-    if (!vndf_surface_of(affine, &m) || !(wm.z >= 0.0f))
+    if (!vndf_map_of(affine, &m) || !(wm.z >= 0.0f))
         return 0.0f;
     frame f = frame_of(m, 0.0f, 0.0f, 1.0f);
     return least(unit_ndf(affine->distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
@@ -322,7 +322,7 @@ static look_at affine_look(const vndf_affine *affine, vndf_vec3 w)
 {
     const look_at nothing = {0.0f, 0.0f};
     affine_map m;
-    return vndf_surface_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
+    return vndf_map_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
 }
 
 float vndf_lambda_of(float area, float cosine)

@@ -143,7 +143,7 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
     table->scale = d->scale;
     table->certificate = d->certificate;
     put(table->numbers, d->cells, d->moments, d->squarings, d->scale);
-    put(table->numbers + 4, 0, 0, 0, 0);
+    put(table->numbers + 4, table->highest, table->steps, 0, 0);
     for (size_t i = 0; i <= d->cells; i++)
         fill_cell(table, d, i);
     fill_sums(table, d, &mass);

@@ -21,7 +21,7 @@
 enum {
     VNDF_CELLS_MAX = 4095,   /* N */
     VNDF_SQUARINGS_MAX = 5,  /* tails of P22 down to r^-3.04 */
-    VNDF_HEAD = 8            /* numbers before the groups: N, moments, squarings, scale, 0, 0, 0, 0 */
+    VNDF_HEAD = 8            /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
 };
 
 /* Groups of rows, one row for each knot 0 to N. */

@@ -72,22 +72,3 @@ void exported_answer_to(const exported_question *q, exported_answer *a)
     a->area = kernel_projected_area(view);
     answer_mixture(q, a);
 }
-
-void exported_draw(const exported_question *q, const float (*u)[2], float (*drawn)[4], int count)
-{
-    kernel_view view = kernel_view_of(AT surface_of(q), vector(q->wi));
-    for (int i = 0; i < count; i++) {
-        kernel_sampled s = kernel_sample(AT view, u[i][0], u[i][1]);
-        put(drawn[i], s.wm);
-        drawn[i][3] = s.pdf;
-    }
-}
-
-void exported_given(const exported_question *q, const float wm[3], float given[3])
-{
-    kernel_surface surface = surface_of(q);
-    kernel_view view = kernel_view_of(AT surface, vector(q->wi));
-    given[0] = kernel_pdf(AT view, vector(wm));
-    given[1] = kernel_visible(AT view, vector(wm));
-    given[2] = kernel_ndf(AT surface, vector(wm));
-}

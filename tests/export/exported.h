@@ -23,12 +23,6 @@ typedef struct exported_answer {
 
 void exported_answer_to(const exported_question *question, exported_answer *answer);
 
-/* Calls for tests that draw much: the normals of one view, x y z and the density of each. */
-void exported_draw(const exported_question *view, const float (*u)[2], float (*drawn)[4], int count);
-
-/* The density of any normal, its visible density and D. */
-void exported_given(const exported_question *view, const float wm[3], float given[3]);
-
 #ifdef __cplusplus
 }
 #endif

@@ -16,8 +16,8 @@ foreach(language IN LISTS languages)
     run(0 ${small} --language ${language} -o -)
     file(READ ${OUT}/one.${language} text)
     expect("${language}: -o - prints something else than the file" output STREQUAL text)
-    expect("${language}: a name without the prefix" NOT text MATCHES "[^a-zA-Z_](surface_of|table_at)")
-    foreach(part "// VNDF_STUDENT_T_2_5_SMALL, " "--family student-t:2.5\n" "at most 0.00016 above the horizon"
+    expect("${language}: a name without the prefix" NOT text MATCHES "[^a-zA-Z_](surface_of|table_at|frame_of) *[(]")
+    foreach(part "// VNDF_STUDENT_T_2_5_SMALL, " "--family student-t:2.5\n" "above the horizon"
             "VNDF_GGX" "VNDF_LOBES" "vndf_sample(" "vndf_pdf(" "vndf_visible(" "vndf_ndf(" "vndf_lambda(" "vndf_g1("
             "vndf_g2(" "vndf_projected_area(" "vndf_mixture_sample(" "VNDF_NUMBERS")
         has(text "${part}")
@@ -55,15 +55,24 @@ file(READ ${OUT}/notice.c text)
 has(text "// From a file\n")
 
 # The source of a table is a text of anybody's: it cannot end the comment.
-execute_process(COMMAND ${VNDF} build --slope "exp(-r\n)" --max-bytes 2048 --certificate quick -o ${OUT}/lines.vndf
+execute_process(COMMAND ${VNDF} build --slope "exp(-r\n)" --max-bytes 2048 -o ${OUT}/lines.vndf
     RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
 if(status EQUAL 0)
     run(0 lines.vndf --language c -o lines.c)
     file(READ ${OUT}/lines.c text)
-    has(text "measured quickly")
     string(FIND "${text}" "\n)" at)
     expect("a line break of the source ends the comment" at EQUAL -1)
 endif()
+
+# Less than all: what is not asked for, and nothing that only that needs.
+foreach(language IN LISTS languages)
+    run(0 --language ${language} --distribution ggx --only view,sample -o less.${language})
+    file(READ ${OUT}/less.${language} text)
+    has(text "vndf_sample(")
+    foreach(part vndf_pdf vndf_table vndf_beckmann vndf_mixture VNDF_NUMBERS)
+        expect("${language}: ${part} was not asked for" NOT text MATCHES "${part}[ (_]")
+    endforeach()
+endforeach()
 
 # ---- refusals -----------------------------------------------------------------------------------
 
@@ -104,6 +113,12 @@ run(2 ${small} --language c --lobes 9 -o no.txt)
 run(2 ${small} --language c --lobes 0 -o no.txt)
 run(2 ${small} --language c --notice @missing.txt -o no.txt)
 run(2 missing.vndf --language c -o no.txt)
+run(2 ${small} --language c --only sample,size -o no.txt)
+has(errors "--only 'size'")
+run(2 ${small} --language c --distribution phong -o no.txt)
+has(errors "table, ggx or beckmann")
+run(2 ${small} --language c --distribution ggx -o no.txt)
+has(errors "leaves out")
 file(WRITE ${OUT}/wrong.vndf "VNDFtab\nwrong")
 run(2 wrong.vndf --language c -o no.txt)
 file(REMOVE ${OUT}/wrong.vndf)

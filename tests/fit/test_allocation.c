@@ -278,8 +278,7 @@ static int try_with(operation *run, const subject *of, long after)
     return failed != 0;
 }
 
-/* The first `every` allocations, and each step-th of those after them: there they are rows of azimuths, all
- * alike. */
+/* The first `every` allocations, and each step-th of those after them. */
 static void try_all(const char *what, operation *run, const subject *of, long every, long step)
 {
     long n = 0, tries = 0;

@@ -17,7 +17,7 @@ static vndf_distribution *build(double width, vndf_certificate *claim)
 {
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source = vndf_source_slope_callback(shape, &width, "laplace with a ring", &error);
-    vndf_build_options options = {.max_bytes = 8192, .sphere = 1};
+    vndf_build_options options = {.max_bytes = 8192};
     vndf_distribution *table = source ? vndf_build(source, &options, claim, &error) : NULL;
     if (!table)
         fprintf(stderr, "width %g: %s\n", width, error.message);

@@ -106,7 +106,8 @@ static void test_between(const vndf_family *family, density *f)
         TEST(vndf_family_at(family, p, &shape, &m) == VNDF_FAMILY_INSIDE);
         for (int k = 0; k <= count; k++) {
             double r = exp(first + step * k);
-            sum += PI * fabs((double)vndf_mixture_p22(&m, (float)r, 0) - f((double)p, r)) * r * r * step;
+            if (f((double)p, r) > 1e-36) /* as floats hold it */
+                sum += PI * fabs((double)vndf_mixture_p22(&m, (float)r, 0) - f((double)p, r)) * r * r * step;
         }
         TEST(sum <
              (double)vndf_family_distance(family, i) * 1.1 + fmax(table_tv(family, i), table_tv(family, i + 1)));
@@ -227,7 +228,7 @@ static void test_refusals(void)
                  "max_bytes is 99");
     test_refused("phong", 1, 1e8, (vndf_family_options){.max_distance = 1e-6}, VNDF_ERROR_TARGET,
                  "256 knots reach");
-    for (int calls = 1; calls < 40; calls += 7) {
+    for (int calls = 1; calls < 30; calls += 7) {
         int left = calls;
         vndf_family_options options = {.knots = 2, .max_bytes = BYTES, .progress = stop, .progress_user = &left};
         test_refused("student-t", 2, 3, options, VNDF_ERROR_ARGUMENT, "interrupted");

@@ -137,7 +137,7 @@ static void test_stated_size(void)
 {
     unsigned char bytes[64] = "VNDFtab\n";
     vndf_error error = {VNDF_OK, ""};
-    bytes[8] = 3; /* the version */
+    bytes[8] = 4; /* the version */
     state_size(bytes, VNDF_LIMIT_TABLE_BYTES);
     TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && !strstr(error.message, "are possible"));
     state_size(bytes, VNDF_LIMIT_TABLE_BYTES + 1u);
@@ -189,8 +189,7 @@ static int note_time(double done, const char *what, void *user)
     return 0;
 }
 
-/* Some 1e8 operations: asked every 2^18 of them, milliseconds each; one of a certificate's directions that forgot
- * to count took a third of a second. */
+/* A build asks where a stage begins, and every 2^18 operations, milliseconds each. */
 static void test_asked_often(void)
 {
     asked a = {0, clock(), 0};
@@ -198,7 +197,7 @@ static void test_asked_often(void)
     vndf_source *source = vndf_source_family("ggx", NULL);
     vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
     double longest = (double)a.longest / CLOCKS_PER_SEC;
-    TEST(table && a.times > 100);
+    TEST(table && a.times > 5);
     TEST(test_quick() || longest < 0.06);
     fprintf(stderr, "a default build asked %ld times, with silences of %.3g s at most\n", a.times, longest);
     vndf_free(table);
@@ -221,7 +220,7 @@ static void test_late_values(void)
 {
     static const double values[] = {-1, NAN, INFINITY};
     static const char *const words[] = {"negative", "not a number", "infinite"};
-    static const long calls[] = {0, 1000, 100000, 400000, 700000};
+    static const long calls[] = {0, 1000, 100000, 400000, 430000};
     for (int i = 0; i < 15; i++) {
         turncoat t = {calls[i / 3], values[i % 3]};
         vndf_error error = {VNDF_OK, ""};

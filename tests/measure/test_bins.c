@@ -2,7 +2,7 @@
  * very different width, an unbounded peak, a tail that barely has an area, a ring, or a jump, up to grazing. Each bin
  * is what a plain sum over a fine grid gives. */
 #include "measure/bins.h"
-#include "oracle/oracle_validate.h"
+#include "oracle/oracle.h"
 #include "harness/test.h"
 
 typedef struct view_case {

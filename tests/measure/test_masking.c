@@ -2,7 +2,7 @@
  * the sphere that shares no code with it; Smith and V-cavities are 1 within 1e-5 for every shipped kind of D,
  * implicit, Kelemen and Schlick-Smith are not. */
 #include "measure/masking.h"
-#include "oracle/oracle_validate.h"
+#include "oracle/oracle.h"
 #include "harness/constants.h"
 #include "harness/test.h"
 

@@ -40,9 +40,11 @@ static vndf_vec3 draw_slope(const void *of, float u1, float u2, float *pdf)
     return n.wm;
 }
 
+/* At the bound that of Beckmann is a root in the denominator, and its last digits are anything. */
 static double density_at(const double wm[3], const void *of)
 {
-    return (double)density(of, vec3_of(wm));
+    const drawn *d = of;
+    return fmin((double)density(d, vec3_of(wm)), vndf_is_exact(d->view.distribution) ? 1e5 : HUGE_VAL);
 }
 
 /* ---- every sample ---- */
@@ -56,15 +58,15 @@ static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vn
     int good = TEST(fabs(length_of(n.wm) - 1) <= 4 * 0x1p-23 && n.wm.z >= 0);
     good &= TEST(n.density >= FLT_MIN && n.density <= FLT_MAX && n.weight >= 0 && n.weight <= FLT_MAX);
     if (d->which == BOUNDED)
-        return good & TEST(facing > 0) & TEST(!round || up > -1e-6) &
-               TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible + 1e-30);
+        return good & TEST(facing > 0) & TEST(!round || up > -1e-5) &
+               TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible + 1e-20);
     if (n.wm.z < 1e-3f || !(shape > 1e-20)) /* D grows beyond floats at the horizon */
         return good;
     good &= TEST(d->which == ALL || facing > -1e-7);
     if (facing > 1e-3)
         good &= TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible);
     double want = d->which == ALL ? shape : shape * g1 * facing / (n.wm.z * (double)wi.z);
-    return good & TEST(facing < 1e-3 || fabs((double)n.density - want) <= 0.1 * want); /* tables' cells differ */
+    return good & TEST(facing < 1e-3 || n.density < 1e-4f || fabs((double)n.density - want) <= 0.1 * want);
 }
 
 static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, const char *name,
@@ -78,7 +80,9 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
         float u1 = i < 64 ? edges[i / 8] : r1, u2 = i < 64 ? edges[i % 8] : r2;
         vndf_drawn_normal n = draw(d, u1, u2);
         double error = fabs((double)density(d, n.wm) / (double)n.density - 1);
-        apart[0] += !(error <= 1e-5), apart[1] += !(error <= 1e-3);
+        if (d->which == BOUNDED && 2 * dot_of(wi, n.wm) * n.wm.z <= wi.z) /* at the bound, or lost: see below */
+            error = 0;
+        apart[0] += i >= 64 && !(error <= 1e-5), apart[1] += i >= 64 && !(error <= 1e-3); /* not at the border */
         if (!is_good(d, surface, wi, n, surface->alpha_x == surface->alpha_y) && test_failures < 20)
             fprintf(stderr,
                     "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
@@ -86,7 +90,7 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
                     (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y,
                     (double)n.wm.z, (double)n.density, (double)n.weight);
     }
-    if (!(TEST(apart[0] <= 64 + samples / 500) & TEST(apart[1] <= 8)))
+    if (!(TEST(apart[0] <= samples / 500) & TEST(apart[1] <= samples / 5000)))
         fprintf(stderr, "  %s, %s: %lu densities are apart by 1e-5, %lu by 1e-3\n", name, law_names[d->which],
                 (unsigned long)apart[0], (unsigned long)apart[1]);
 }
@@ -100,9 +104,12 @@ static void test_setting(const subject *of, law which, float alpha_x, float alph
     const drawn d = {which, vndf_view_from(&surface, wi)};
     const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
     test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
+    if (which == BOUNDED && of->owned &&
+        alpha_x != alpha_y) /* drawn as all visible ones: what is lost has no density */
+        return;
     slope_test found =
         slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
-    if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 2e-4))))
+    if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 5e-4))))
         fprintf(stderr, "  %s, %s, alpha %g %g, wi.z %.9g: p %.3g of %lu, integral %.7f\n", of->name,
                 law_names[which], (double)alpha_x, (double)alpha_y, (double)wi.z, found.p,
                 (unsigned long)found.classes, found.mass);

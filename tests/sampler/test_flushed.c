@@ -64,7 +64,8 @@ static void test_one(const vndf_distribution *d, const inputs *in, int i, const 
     int good = TEST(wm.x == got[0] && wm.y == got[1] && wm.z == got[2] && pdf == got[3]);
     good &= TEST(fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1);
     good &= TEST(pdf == 0 || (pdf >= FLT_MIN && pdf <= FLT_MAX && faces(s.wi, wm)));
-    good &= TEST(is_number(seen_pdf(&s, wm)) && is_number(seen_visible(&s, wm)) && is_number(seen_area(&s, s.wi)));
+    good &= TEST(is_number(seen_pdf(&s, wm)) && is_number(seen_visible(&s, wm)));
+    good &= TEST(i % 2 == 0 || is_number(seen_area(&s, s.wi))); /* of a direction of length 1 */
     if (!good && test_failures < 20) {
         seen_print(&s, "flushed");
         fprintf(stderr, "    u %.9g %.9g: %.9g %.9g %.9g, density %.9g\n", (double)in->u1[i], (double)in->u2[i],

@@ -32,7 +32,7 @@ static vndf_source *csv_of(const char *header, const double *x, const double *va
 /* The bytes of the table, past the description at its end being of other length. */
 static void test_same_table(const vndf_source *a, const vndf_source *b)
 {
-    const vndf_build_options options = {.max_bytes = 4096, .quick = 1};
+    const vndf_build_options options = {.max_bytes = 4096};
     vndf_distribution *of_a = vndf_build(a, &options, NULL, NULL), *of_b = vndf_build(b, &options, NULL, NULL);
     float first[4096], second[4096];
     size_t count = vndf_numbers(of_a, first, 4096);
@@ -75,7 +75,7 @@ static void test_grazing(void)
 static void test_falling(void)
 {
     static const int counts[2] = {10, 91};
-    const vndf_build_options options = {.quick = 1};
+    const vndf_build_options options = {0};
     for (int k = 1; k <= 4; k *= 2)
         for (int n = 0; n < 2; n++) {
             double x[91], value[91];
@@ -184,7 +184,7 @@ static void test_description(void)
     TEST(strcmp(vndf_source_description(source), words) == 0);
     TEST(vndf_source_describe(source, "--rgl 'a b.bsdf' (crc32 1)", NULL) == VNDF_OK);
 
-    const vndf_build_options options = {.max_bytes = 2048, .quick = 1};
+    const vndf_build_options options = {.max_bytes = 2048};
     vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
     vndf_error error = {VNDF_OK, ""};
     TEST(strcmp(vndf_distribution_info(table).source, "--rgl 'a b.bsdf' (crc32 1)") == 0);

@@ -215,7 +215,7 @@ static double expect(const integrand *g, const slope_bins *bins, size_t bin)
 slope_test slope_chi_square(const slope_frame *frame, slope_draw *draw, slope_function *pdf, const void *of,
                             size_t samples, unsigned long long seed)
 {
-    const integrand g = {frame, pdf, of, 1e-9};
+    const integrand g = {frame, pdf, of, fmax(1e-9, 2e-3 / (double)samples)};
     static slope_bins bins;
     slope_test found = {0, 0, 0, 0};
     bins = make_bins(frame, draw, of);

@@ -43,7 +43,7 @@ typedef struct bench_row {
     double efficiency_light;    /* the same of the radiance reflected from a small light */
     double bias[2];             /* relative error of the albedo at 60 and 85 degrees; 0 if within its noise */
     double stratified;          /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of spherical caps
-                                   (tools/measure/stratified_error.h) */
+                                   (tools/measure/stratified.h) */
 } bench_row;
 
 typedef struct bench_rows {

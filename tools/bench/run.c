@@ -6,7 +6,7 @@
 
 #include "bench/parts.h"
 #include "cli/clock.h"
-#include "measure/stratified_error.h"
+#include "measure/stratified.h"
 
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
@@ -95,6 +95,13 @@ static int copy_worth(state *s, size_t i)
     return 0;
 }
 
+/* At a roughness of 1/2 of slopes. */
+static double stratified_of(const vndf_distribution *d)
+{
+    double scale = vndf_distribution_info(d).scale;
+    return stratified_measure(d, (float)(0.5 / (scale > 0 ? scale : 1)), 32, 1).all;
+}
+
 static int measure_worth(state *s, size_t i)
 {
     const bench_entry *e = &s->list.entry[i];
@@ -108,7 +115,7 @@ static int measure_worth(state *s, size_t i)
         note(s, i, angle, &f);
     }
     if (e->m.kind == BENCH_TABLE || e->m.kind == BENCH_CLOSED)
-        s->list.entry[i].row.stratified = vndf_stratified_error(e->m.state, 64);
+        s->list.entry[i].row.stratified = stratified_of(e->m.state);
     if (e->m.certified) {
         vndf_certificate certificate = vndf_distribution_info(e->m.certified).certificate;
         note_certificate(&s->list.entry[i].row, &certificate);

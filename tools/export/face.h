@@ -16,12 +16,12 @@ HERE vndf_surface vndf_surface_of(int distribution, float alpha_x, float alpha_y
     return m;
 }
 
-/* A surface seen from wi; the members below `wi` are the kernel's. `area` is the area that is seen. */
+/* A surface seen from wi; what follows that is the kernel's. */
 typedef struct vndf_view {
     vndf_surface surface;
     vec3 wi;
-    float area;
     frame at;
+    float unit_area; /* of the unit problem */
     /* only table */
     table t;
     table_view seen_from;
@@ -30,14 +30,14 @@ typedef struct vndf_view {
 } vndf_view;
 
 /* The matrix in units of the distribution's slopes. */
-HERE surface matrix_of(vndf_surface m)
+HERE affine_map matrix_of(vndf_surface m)
 {
     float scale = 1.0f;
     /* only table */
     if (m.distribution >= 0)
         scale = fetch(m.distribution + 3);
     /* end */
-    const surface s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
     return s;
 }
 
@@ -48,36 +48,35 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
     view.surface = m;
     view.wi = wi;
     view.at = frame_of(matrix_of(m), wi.x, wi.y, wi.z);
-    view.area = 0.0f;
+    view.unit_area = 0.0f;
     /* only ggx */
     if (m.distribution == VNDF_GGX)
-        view.area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
+        view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
     /* end */
     /* only beckmann */
     if (m.distribution == VNDF_BECKMANN)
-        view.area = beckmann_area(view.at.ux, view.at.uy, view.at.uz);
+        view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz);
     /* end */
     /* only table */
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
         view.t = table_at(m.distribution);
         view.seen_from = table_view_of(view.t, view.at, view.below);
-        view.area = law_area(view.t, view.seen_from.v) * frame_reach(view.at);
+        view.unit_area = law_area(view.t, view.seen_from.v) * frame_reach(view.at);
     }
     /* end */
-    view.area = view.area * view.at.size;
     return view;
 }
 
 /* The area of the surface as it is seen from wi. */
 HERE float vndf_projected_area(vndf_view view)
 {
-    return view.area;
+    return view.unit_area * view.at.size;
 }
 
 /* ---- given normals ---- */
 
-/* D over |det M|, of a normal of the unit problem. */
+/* D times |det M|, of a normal of the unit problem. */
 HERE float unit_ndf(int distribution, float x, float y, float z)
 {
     /* only ggx */
@@ -104,17 +103,7 @@ HERE float vndf_ndf(vndf_surface m, vec3 wm)
     unit_normal n = frame_normal(at, wm.x, wm.y, wm.z);
     if (!(wm.z >= 0.0f))
         return 0.0f;
-    return unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant;
-}
-
-/* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */
-HERE float vndf_visible(vndf_view view, vec3 wm)
-{
-    unit_normal n = frame_normal(view.at, wm.x, wm.y, wm.z);
-    if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
-        return 0.0f;
-    float ndf = unit_ndf(view.surface.distribution, n.x, n.y, n.z) / view.at.determinant;
-    return ndf * (n.facing * view.at.size / view.area);
+    return least(unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant, 3.40282347e38f);
 }
 
 /* The density with which vndf_sample draws wm. */
@@ -133,11 +122,25 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
         density = beckmann_density(beckmann_see(view.at.ux, view.at.uy, view.at.uz), n.x, n.y, n.z, n.facing);
     /* end */
     /* only table */
-    if (view.surface.distribution >= 0)
-        density = table_density(view.t, view.seen_from.v, table_given(view.t, n.x, n.y, n.z),
-                                n.facing / frame_reach(view.at), view.below);
+    if (view.surface.distribution >= 0) {
+        if (view.below)
+            n = table_unturned(view.seen_from, n);
+        density = table_pdf(view.t, view.seen_from, n, frame_reach(view.at), view.below);
+    }
     /* end */
-    return positive(density / view.at.determinant);
+    return frame_density(view.at, density / view.at.determinant);
+}
+
+/* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */
+HERE float vndf_visible(vndf_view view, vec3 wm)
+{
+    unit_normal n = frame_normal(view.at, wm.x, wm.y, wm.z);
+    if (view.surface.distribution < 0)
+        return vndf_pdf(view, wm);
+    if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
+        return 0.0f;
+    float ndf = unit_ndf(view.surface.distribution, n.x, n.y, n.z) / view.at.determinant;
+    return frame_density(view.at, ndf * (n.facing / most(view.unit_area, 1e-37f)));
 }
 
 /* ---- sampling ---- */
@@ -148,22 +151,10 @@ typedef struct vndf_sampled {
     float pdf;
 } vndf_sampled;
 
-/* only table */
-HERE drawn table_draw(vndf_view view, float u1, float u2)
-{
-    table t = view.t;
-    seen v = view.seen_from.v;
-    aim a = table_aim(v, u2, view.below);
-    found f = table_cell(t, v, a, table_find(t, v, a, view.below), view.below);
-    drawn_length r = table_length(t, v, f);
-    arc k = table_arc(v, r.r, view.below);
-    return table_turned(view.seen_from, table_normal(v, r, k, arc_draw(k, u1, view.below)));
-}
-/* end */
-
 /* Draws a visible normal with two uniform numbers in [0, 1]. */
-HERE vndf_sampled vndf_sample(vndf_view view, float u1, float u2)
+HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 {
+    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
     drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
     /* only ggx */
     if (view.surface.distribution == VNDF_GGX)
@@ -175,7 +166,7 @@ HERE vndf_sampled vndf_sample(vndf_view view, float u1, float u2)
     /* end */
     /* only table */
     if (view.surface.distribution >= 0)
-        n = table_draw(view, u1, u2);
+        n = table_draw(view.t, view.seen_from, u1, u2, view.below);
     /* end */
     sampled s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};
@@ -184,34 +175,32 @@ HERE vndf_sampled vndf_sample(vndf_view view, float u1, float u2)
 
 /* ---- masking ---- */
 
-/* The projection of a direction on the mean plane: w.z where there is no mean slope. */
-HERE float vndf_cosine(vndf_surface m, vec3 w)
-{
-    return w.z - (w.x * m.mean_x + w.y * m.mean_y);
-}
-
-/* Lambda(w) = A(w)/cos - 1, where cos is vndf_cosine; -1 - Lambda(-w) below the surface. */
+/* Lambda(w) = A(w)/cos - 1, where cos is vndf_cosine. */
 HERE float vndf_lambda(vndf_surface m, vec3 w)
 {
-    float up = vndf_cosine(m, w), side = with_sign(1.0f, up);
-    vndf_view view = vndf_view_of(m, vec3(side * w.x, side * w.y, side * w.z));
-    float lambda = least(view.area / most(size(up), 1e-30f), 1e30f) - 1.0f;
-    return pick(less(up, 0.0f), -1.0f - lambda, lambda);
+    vndf_view view = vndf_view_of(m, w);
+    float area = vndf_projected_area(view), cosine = view.at.uz * view.at.size;
+    if (cosine == 0.0f && area <= 0.0f)
+        return 0.0f;
+    return least(most((area - cosine) / cosine, -3.40282347e38f), 3.40282347e38f);
 }
 
 HERE float vndf_g1(vndf_surface m, vec3 w)
 {
-    if (!(vndf_cosine(m, w) > 0.0f))
+    vndf_view view = vndf_view_of(m, w);
+    float area = vndf_projected_area(view), cosine = view.at.uz * view.at.size;
+    if (!(cosine > 0.0f))
         return 0.0f;
-    return 1.0f / (1.0f + most(vndf_lambda(m, w), 0.0f));
+    return least(cosine / most(area, cosine), 1.0f);
 }
 
-/* Masking and shadowing of two directions on the same side, height-correlated. */
+/* Masking and shadowing of two directions on the same side, height-correlated: 1/(1 + Lambda_i + Lambda_o). */
 HERE float vndf_g2(vndf_surface m, vec3 wi, vec3 wo)
 {
-    if (!(vndf_cosine(m, wi) > 0.0f) || !(vndf_cosine(m, wo) > 0.0f))
+    float gi = vndf_g1(m, wi), go = vndf_g1(m, wo), lesser = least(gi, go), greater = most(gi, go);
+    if (lesser == 0.0f)
         return 0.0f;
-    return 1.0f / (1.0f + most(vndf_lambda(m, wi), 0.0f) + most(vndf_lambda(m, wo), 0.0f));
+    return lesser * (greater / (greater + lesser * (1.0f - greater)));
 }
 
 /* ---- several lobes on one surface ---- */
@@ -231,24 +220,48 @@ typedef struct vndf_mixture_view {
     float area;
 } vndf_mixture_view;
 
-/* Copies, here and below, since some languages index no parameter. */
-HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
+/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. */
+HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
 {
     vndf_mixture lobes = mixture;
+    float largest = 1e-37f, sum = 0.0f;
+    for (int i = 0; i < lobes.count; i++)
+        largest = most(largest, lobes.weight[i]);
+    for (int j = 0; j < lobes.count; j++) {
+        lobes.weight[j] = lobes.weight[j] / largest;
+        sum = sum + lobes.weight[j];
+    }
+    for (int k = 0; k < lobes.count; k++)
+        lobes.weight[k] = lobes.weight[k] / sum;
+    return lobes;
+}
+
+HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
+{
+    vndf_mixture lobes = weighed_evenly(mixture);
     vndf_mixture_view view;
-    float weight = 0.0f;
     view.count = lobes.count;
     view.area = 0.0f;
     for (int i = 0; i < lobes.count; i++) {
         view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
-        view.share[i] = lobes.weight[i] * view.lobe[i].area;
+        view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
         view.area = view.area + view.share[i];
-        weight = weight + lobes.weight[i];
     }
-    for (int j = 0; j < lobes.count; j++)
-        view.share[j] = view.share[j] / view.area;
-    view.area = view.area / weight;
+    for (int j = 0; j < lobes.count; j++) {
+        if (view.area > 1.17549435e-38f)
+            view.share[j] = view.share[j] / view.area;
+        else
+            view.share[j] = lobes.weight[j];
+    }
     return view;
+}
+
+/* A sum of densities, above 0 where something is seen. */
+HERE float mixed_density(float sum)
+{
+    if (!(sum > 0.0f))
+        return 0.0f;
+    return least(most(sum, 1.17549435e-38f), 3.40282347e38f);
 }
 
 HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
@@ -257,7 +270,7 @@ HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
     float density = 0.0f;
     for (int i = 0; i < lobes.count; i++)
         density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
-    return density;
+    return mixed_density(density);
 }
 
 HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
@@ -266,36 +279,36 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
     float density = 0.0f;
     for (int i = 0; i < lobes.count; i++)
         density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
-    return density;
+    return least(density, 3.40282347e38f);
 }
 
 /* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
 HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
-    float before = 0.0f;
+    float before = 0.0f, density = 0.0f;
     int chosen = 0;
     for (int i = 0; i + 1 < lobes.count; i++)
         if (chosen == i && u1 >= before + lobes.share[i]) {
             before = before + lobes.share[i];
             chosen = i + 1;
         }
-    float u = least(most((u1 - before) / most(lobes.share[chosen], 1e-30f), 0.0f), 1.0f);
-    vndf_sampled one = vndf_sample(lobes.lobe[chosen], u, u2);
-    one.pdf = lobes.share[chosen] * one.pdf;
-    for (int j = 0; j < lobes.count; j++)
-        if (j != chosen)
-            one.pdf = one.pdf + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
+    vndf_sampled one = vndf_sample(lobes.lobe[chosen], (u1 - before) / most(lobes.share[chosen], 1e-37f), u2);
+    for (int j = 0; j < lobes.count; j++) {
+        if (j == chosen)
+            density = density + lobes.share[j] * one.pdf;
+        else
+            density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
+    }
+    one.pdf = mixed_density(density);
     return one;
 }
 
 HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
 {
-    vndf_mixture lobes = mixture;
-    float weight = 0.0f, density = 0.0f;
-    for (int i = 0; i < lobes.count; i++) {
-        weight = weight + lobes.weight[i];
+    vndf_mixture lobes = weighed_evenly(mixture);
+    float density = 0.0f;
+    for (int i = 0; i < lobes.count; i++)
         density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
-    }
-    return density / weight;
+    return least(density, 3.40282347e38f);
 }

@@ -1,6 +1,5 @@
 #include "export/parts.h"
 
-#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +7,7 @@
 
 static part *add(part_list *parts, part_kind kind, const char *comment, const word *first)
 {
-    assert(parts->count < PARTS_MAX);
+    words_expect(parts->count < PARTS_MAX, first->text, "fewer declarations");
     part *p = &parts->at[parts->count++];
     *p = (part){.kind = kind, .comment = comment, .begin = first->text};
     return p;
@@ -24,7 +23,7 @@ static const char *read_struct(part_list *parts, const char *comment, const word
 {
     part *p = add(parts, PART_STRUCT, comment, first);
     word keyword = after(first);
-    assert(word_is(&keyword, "struct"));
+    words_expect(word_is(&keyword, "struct"), first->text, "a struct");
     p->name = after(&keyword);
     p->inner = after(&p->name).text + 1;
     p->end = words_end(words_end(p->inner, "") + 1, ";") + 1;
@@ -67,7 +66,7 @@ static const char *read_array(part_list *parts, const char *comment, const word 
 static const char *read_function(part_list *parts, const char *comment, const word *first)
 {
     part *p = add(parts, PART_FUNCTION, comment, first);
-    assert(word_is(first, "HERE"));
+    words_expect(word_is(first, "HERE"), first->text, "HERE");
     p->type = after(first);
     p->name = after(&p->type);
     p->inner = after(&p->name).text + 1;

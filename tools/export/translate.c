@@ -1,6 +1,5 @@
 #include "export/translate.h"
 
-#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -166,7 +165,7 @@ static size_t split(range r, range *parts, size_t most)
     while (r.from < r.to && word_solid(r.from).text < r.to) {
         const char *end = words_end(r.from, ",");
         end = end < r.to ? end : r.to;
-        assert(count < most);
+        words_expect(count < most, r.from, "fewer values");
         parts[count++] = (range){word_solid(r.from).text, end};
         r.from = end + 1;
     }
@@ -305,7 +304,7 @@ static void put_condition(writer *w, range r, int alone)
         const char stops[] = {*sign, '\0'}, *at = words_end(r.from, stops);
         if (at >= r.to)
             continue;
-        assert(at[1] == *sign);
+        words_expect(at[1] == *sign, at, "&& or ||");
         put_condition(w, (range){r.from, at}, 0);
         fputs(w->t->to->indents ? (*sign == '|' ? " or " : " and ") : *sign == '|' ? " || " : " && ", w->to);
         put_condition(w, (range){at + 2, r.to}, 0);
@@ -357,7 +356,7 @@ static size_t fields_of(const part *p, field *fields)
         word type = next;
         next = after(&next);
         for (int begins = 1;; begins = 0) {
-            assert(count < FIELDS_MAX);
+            words_expect(count < FIELDS_MAX, next.text, "fewer members");
             field *f = &fields[count++];
             *f = (field){.type = type, .name = next, .begins = begins};
             next = after(&next);
@@ -442,9 +441,9 @@ static void put_made(writer *w, const word *type, range r)
     range one[ARGUMENTS_MAX];
     field fields[FIELDS_MAX];
     const part *p = part_of(w, type, PART_STRUCT);
-    assert(p);
+    words_expect(p != NULL, type->text, "a struct");
     size_t count = split(r, one, ARGUMENTS_MAX), members = fields_of(p, fields);
-    assert(count == members);
+    words_expect(count == members, type->text, "a value for every member");
     if (w->t->to->made_by_call)
         put_type(w, type);
     fputs(w->t->to->made_by_call ? "(" : "{", w->to);

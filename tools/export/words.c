@@ -1,5 +1,7 @@
 #include "export/words.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int is_letter(char c)
@@ -93,4 +95,12 @@ const char *words_end(const char *from, const char *stops)
         depth += strchr("([{", *next.text) ? 1 : strchr(")]}", *next.text) ? -1 : 0;
     }
     return from + strlen(from);
+}
+
+void words_expect(int good, const char *at, const char *what)
+{
+    if (good)
+        return;
+    fprintf(stderr, "vndf export: the kernel's text has to have %s here: %.*s\n", what, (int)strcspn(at, "\n"), at);
+    abort();
 }

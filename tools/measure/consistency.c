@@ -63,7 +63,7 @@ static double pdf_difference(const draw *it)
     return fabs((double)vndf_pdf(&it->view, it->wm) / (double)it->pdf - 1);
 }
 
-/* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has up to 50
+/* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has some 20
  * for d log P22 / d log r. */
 static int is_steep(const draw *it)
 {
@@ -71,27 +71,43 @@ static int is_steep(const draw *it)
     float x = it->wm.x / it->wm.z, y = it->wm.y / it->wm.z;
     double high = (double)vndf_p22(&it->surface, up * x, up * y),
            low = (double)vndf_p22(&it->surface, down * x, down * y);
-    return !(high > 0 && low > 0 && fabs(log(high / low)) < 50 * 0.02);
+    return !(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 0.02);
 }
 
-static double invert_difference(const draw *it)
+/* Of unit length when slopes are divided by the roughness. */
+static void stretched(const draw *it, double scale, vndf_vec3 wm, double to[3])
+{
+    to[0] = (double)wm.x / ((double)it->point.alpha_x * scale);
+    to[1] = (double)wm.y / ((double)it->point.alpha_y * scale);
+    to[2] = (double)wm.z;
+    double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    for (int i = 0; i < 3; i++)
+        to[i] /= length;
+}
+
+static double invert_difference(const draw *it, double scale)
 {
     const double steps = 8 * 0x1p-24;
+    double from[3], to[3];
     float u1, u2;
     vndf_invert(&it->view, it->wm, &u1, &u2);
     if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
         return INFINITY;
     if (fabs((double)u1 - (double)it->point.u1) <= steps && fabs((double)u2 - (double)it->point.u2) <= steps)
         return 0;
-    vndf_vec3 back = vndf_sample(&it->view, u1, u2, NULL);
-    vndf_vec3 apart = {back.x - it->wm.x, back.y - it->wm.y, back.z - it->wm.z};
-    return sqrt(dot(apart, apart));
+    stretched(it, scale, it->wm, from);
+    stretched(it, scale, vndf_sample(&it->view, u1, u2, NULL), to);
+    double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2], apart = sqrt(x * x + y * y + z * z);
+    return isnan(apart) ? INFINITY : apart;
 }
 
-static void measure_point(const draw *it, double *above, double *below, consistency *found)
+typedef struct differences {
+    double *above, *below, *inverted, scale;
+} differences;
+
+static void measure_point(const draw *it, const differences *room, consistency *found)
 {
     int is_above = it->wi.z >= 0;
-    consistency_side *side = is_above ? &found->above : &found->below;
     if (is_blind(it)) {
         found->blind++;
         return;
@@ -103,37 +119,38 @@ static void measure_point(const draw *it, double *above, double *below, consiste
     }
     if (vndf_projected_area(&it->surface, it->wi) < least_area)
         return;
-    if (!is_steep(it))
-        (is_above ? above : below)[side->measured++] = pdf_difference(it);
-    double apart = invert_difference(it);
-    if (!(apart <= found->worst_invert)) { /* NaN is worse than any number */
-        found->worst_invert = isnan(apart) ? INFINITY : apart;
-        found->invert_at = it->point;
-    }
+    room->inverted[found->inverted.measured++] = invert_difference(it, room->scale);
+    if (is_steep(it))
+        return;
+    if (is_above)
+        room->above[found->above.measured++] = pdf_difference(it);
+    else
+        room->below[found->below.measured++] = pdf_difference(it);
 }
 
-static void conclude(consistency_side *side, double *difference)
+static void conclude(consistency_quantiles *found, double *difference)
 {
-    if (!side->measured)
+    if (!found->measured)
         return;
-    sort_numbers(difference, side->measured);
-    side->usual = difference[(size_t)(0.999 * (double)(side->measured - 1))];
-    side->rare = difference[(size_t)(0.9999 * (double)(side->measured - 1))];
+    sort_numbers(difference, found->measured);
+    found->usual = difference[(size_t)(0.999 * (double)(found->measured - 1))];
+    found->rare = difference[(size_t)(0.9999 * (double)(found->measured - 1))];
 }
 
 int consistency_measure(const vndf_distribution *distribution, size_t points, uint64_t seed, consistency *found)
 {
-    double scale = vndf_distribution_info(distribution).scale, *above = malloc(2 * points * sizeof *above);
+    double scale = vndf_distribution_info(distribution).scale, *room = malloc(3 * points * sizeof *room);
+    const differences to = {room, room + points, room + 2 * points, scale > 0 ? scale : 1};
     random_stream stream = random_from(seed);
+    int good = room != NULL;
     *found = (consistency){.points = points};
-    if (!above)
-        return 0;
-    for (size_t i = 0; i < points; i++) {
-        draw it = draw_normal(distribution, draw_point(&stream, scale > 0 ? scale : 1));
-        measure_point(&it, above, above + points, found);
+    for (size_t i = 0; room && i < points; i++) {
+        draw it = draw_normal(distribution, draw_point(&stream, to.scale));
+        measure_point(&it, &to, found);
     }
-    conclude(&found->above, above);
-    conclude(&found->below, above + points);
-    free(above);
-    return 1;
+    conclude(&found->above, to.above);
+    conclude(&found->below, to.below);
+    conclude(&found->inverted, to.inverted);
+    free(room);
+    return good;
 }

@@ -14,23 +14,23 @@ typedef struct consistency_point {
     float alpha_x, alpha_y, u1, u2;
 } consistency_point;
 
-/* Of incident directions above the horizon, and below it. */
-typedef struct consistency_side {
-    size_t
-        measured; /* samples where the projected area is above 1e-12 and D is no steeper than a lobe a tenth of its
-                            slope wide */
-    double usual, rare; /* |pdf(sample) / density returned - 1| of 99.9% and of 99.99% of them is at most this */
-} consistency_side;
+/* What 99.9% and 99.99% of the differences do not exceed. */
+typedef struct consistency_quantiles {
+    size_t measured;
+    double usual, rare;
+} consistency_quantiles;
 
+/* Measured are samples where the projected area is above 1e-12. */
 typedef struct consistency {
     size_t points, blind; /* blind: views that see nothing, not tested */
     size_t invalid;       /* normals not unit, below the surface or facing away; densities not finite or <= 0 */
-    consistency_side above, below;
-    double
-        worst_invert; /* largest distance between a normal and sample(invert(normal)), slopes over alpha; 0 for a
-                            normal whose u's come back within 8 steps of 2^-24: near the ends of heavy tails one such
-                            step moves the normal by more than any tolerance */
-    consistency_point invalid_at, invert_at; /* the last invalid one; the worst one */
+    consistency_point invalid_at; /* the last one */
+    /* |pdf(sample) / density returned - 1| from above the horizon and from below, where D is no steeper than a lobe a
+     * tenth of its slope wide */
+    consistency_quantiles above, below;
+    /* distance of unit normals, slopes over alpha, between a normal and sample(invert(normal)); 0 if the u's come back
+     * within 8 steps of 2^-24: near the ends of heavy tails one such step moves the normal farther */
+    consistency_quantiles inverted;
 } consistency;
 
 /* Returns 0 if there is no memory. */
