@@ -193,7 +193,7 @@ typedef struct vndf_view {
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
  * the density Dv = D(wm) cos(theta_m), and u1 turns them from -x through +x. Straight from below, wi.x = wi.y = 0 >
- * wi.z, every normal is turned away: samples are horizontal normals with density 0. */
+ * wi.z, every normal is turned away: samples have density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). The normal has unit

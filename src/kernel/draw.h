@@ -6,11 +6,12 @@
 
 #include "kernel/law.h"
 
-HERE seen table_see(table t, real s, real c, real rho, const int below)
+/* `cell` is that of rho. */
+HERE seen table_see(table t, real s, real c, real rho, whole cell, const int below)
 {
     if (below)
-        return law_see_below(t, s, c, rho);
-    return law_see_above(t, s, c, rho);
+        return law_see_below(t, s, c, rho, cell);
+    return law_see_above(t, s, c, rho, cell);
 }
 
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
@@ -34,14 +35,19 @@ HERE aim table_aim(seen v, real u2, const int below)
     return a;
 }
 
-/* The cell of the slope. */
+/* The cell of the slope: one that was found, held to the side of `first` that is meant. */
+HERE whole table_within(table t, seen v, aim a, whole i)
+{
+    mask near = less(a.at, v.near);
+    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
+    return least_whole(most_whole(i, first), last);
+}
+
 HERE whole table_find(table t, seen v, aim a, const int below)
 {
     if (below)
         return law_find_below(t, v, a.left);
-    mask near = less(a.at, v.near);
-    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
-    return least_whole(most_whole(find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left), first), last);
+    return table_within(t, v, a, find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left));
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -118,7 +124,7 @@ typedef struct given {
     whole cell;
 } given;
 
-HERE given table_given(table t, real x, real y, real z)
+HERE given table_given_slope(real x, real y, real z)
 {
     given g;
     real across = root(x * x + y * y);
@@ -127,6 +133,13 @@ HERE given table_given(table t, real x, real y, real z)
     g.x = across * g.per;
     g.z = z * g.per;
     g.r = across / z;
+    g.cell = set_whole(0);
+    return g;
+}
+
+HERE given table_given(table t, real x, real y, real z)
+{
+    given g = table_given_slope(x, y, z);
     g.cell = find_knot(t, g.r);
     return g;
 }

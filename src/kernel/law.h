@@ -83,13 +83,13 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-HERE seen law_see_above(table t, real s, real c, real rho)
+HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     quad k = look(t, VNDF_KNOT, v.cell);
     v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
     quad tail = look(t, VNDF_TAIL, v.first);
@@ -229,13 +229,13 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c, real rho)
+HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     v.first = v.cell;
     mask last = same(v.cell, t.cells);
     whole next = pick_whole(last, v.cell, v.cell + 1);
@@ -253,16 +253,22 @@ HERE seen law_see_below(table t, real s, real c, real rho)
     return v;
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. Rounded sums need not fall from
+ * knot to knot: which knot is found depends on the order of the steps. */
+HERE whole law_step_below(table t, seen v, real left, whole i, int step)
+{
+    whole next = least_whole(i + step, set_whole(t.cells));
+    quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
+    real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+    return pick_whole(at_most(left, sum), next, i);
+}
+
 HERE whole law_find_below(table t, seen v, real left)
 {
     whole i = v.cell;
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
-        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        i = pick_whole(at_most(left, sum), next, i);
+        i = law_step_below(t, v, left, i, step);
         step = step / 2;
     }
     return i;

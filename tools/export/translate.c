@@ -154,6 +154,18 @@ static word after(const word *w)
     return word_solid(w->text + w->length);
 }
 
+/* Text of a comment, in which names have their prefix. */
+static void put_text(const writer *w, const char *from, const char *to)
+{
+    while (from < to) {
+        word next = word_at(from);
+        if (next.kind != WORD_NAME) /* comments in comments are none */
+            next.length = 1;
+        put_prefixed(w->t, w->to, &next);
+        from += next.length;
+    }
+}
+
 /* ---- expressions --------------------------------------------------------------------------------- */
 
 static void put_range(writer *w, range r);
@@ -652,7 +664,9 @@ static void put_between(writer *w)
         word next = word_at(w->at);
         if (next.kind == WORD_COMMENT) {
             put_indent(w);
-            fprintf(w->to, w->t->to->indents ? "# %.*s\n" : "/*%.*s*/\n", (int)next.length - 4, next.text + 2);
+            fputs(w->t->to->indents ? "#" : "/*", w->to);
+            put_text(w, next.text + 2, next.text + next.length - 2);
+            fputs(w->t->to->indents ? "\n" : "*/\n", w->to);
             lines = -1;
         } else if (next.kind == WORD_LINE && ++lines == 2) {
             fputs("\n", w->to);
@@ -670,7 +684,9 @@ static void put_line_end(writer *w)
     if (next.kind == WORD_SPACE)
         next = word_at(next.text + next.length);
     if (next.kind == WORD_COMMENT) {
-        fprintf(w->to, w->t->to->indents ? "  # %.*s" : " /*%.*s*/", (int)next.length - 4, next.text + 2);
+        fputs(w->t->to->indents ? "  #" : " /*", w->to);
+        put_text(w, next.text + 2, next.text + next.length - 2);
+        fputs(w->t->to->indents ? "" : "*/", w->to);
         next = word_at(next.text + next.length);
     }
     fputs("\n", w->to);
@@ -802,7 +818,8 @@ static void put_comment(writer *w, const part *p)
 {
     word comment = word_at(p->comment);
     if (!w->t->to->indents) {
-        fprintf(w->to, "%.*s\n", (int)comment.length, comment.text);
+        put_text(w, comment.text, comment.text + comment.length);
+        fputs("\n", w->to);
         return;
     }
     for (const char *at = comment.text + 2, *end = comment.text + comment.length - 2; at < end;) {
