@@ -24,14 +24,15 @@ HERE real affine_determinant(affine_map m)
     return determinant;
 }
 
-/* Entries up to 1e18, with a determinant that leaves floats room, and mean slopes up to 1e6. */
+/* Singular values from 1e-18, the determinant over the largest entry, to 1e18, and mean slopes up to 1e6. */
 HERE mask affine_is_valid(affine_map m)
 {
     real determinant = affine_determinant(m);
     real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
-    mask inside = both(at_most(set(1e-36f), determinant), at_most(determinant, set(1e36f)));
+    mask inside = both(at_most(largest * 1e-18f, determinant), at_most(determinant, set(1e36f)));
     mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
-    return both(both(inside, at_most(largest, set(1e18f))), level);
+    mask sized = both(at_most(set(1e-18f), largest), at_most(largest, set(1e18f)));
+    return both(both(inside, sized), level);
 }
 
 /* Not zero, infinite or NaN. */
