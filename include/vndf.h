@@ -122,7 +122,8 @@ VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
  * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
- * incidence. All members are zero for the closed forms.
+ * incidence. Slopes nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed
+ * forms.
  *
  * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
  * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
@@ -162,9 +163,9 @@ typedef struct vndf_info {
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
 /* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each of
- * the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells how
- * kernels are used. */
+ * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
+ * of the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells
+ * how kernels are used. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
@@ -192,7 +193,7 @@ typedef struct vndf_view {
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
  * the density Dv = D(wm) cos(theta_m), and u1 turns them from -x through +x. Straight from below, wi.x = wi.y = 0 >
- * wi.z, every normal is turned away: samples are horizontal normals with density 0. */
+ * wi.z, every normal is turned away: samples have density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). The normal has unit

@@ -123,10 +123,10 @@ typedef int vndf_progress(double done, const char *what, void *user);
 /* Zeroed options are the defaults.
  *
  * Size and moments are what accuracy costs. Bytes buy cells: with more of them the slope length is drawn closer to D.
- * Moments bound what cells cannot mend, the law of the slope length seen from one direction. Above the horizon the drawn
- * density is within 6.5e-2 of the visible one with 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D, direction
- * and roughness. Fewer moments take fewer bytes and less time. Below the horizon moments change little: the total
- * variation is some percent there (tv of vndf_certificate), and weights or densities keep estimators unbiased.
+ * Moments bound what cells cannot mend, the law of the slope length seen from one direction. Above the horizon the
+ * drawn density is within 6.5e-2 of the visible one with 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D,
+ * direction and roughness. Fewer moments take fewer bytes and less time. Below the horizon moments change little: the
+ * total variation is some percent there (tv of vndf_certificate), and weights or densities keep estimators unbiased.
  *
  * If max_bytes and max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of
  * 8192 bytes.
@@ -138,9 +138,9 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * A callback can only be sampled: a feature narrower than `finest` of its slope may escape completely, unless a break
  * is given there. The certificate says which case it was (vndf_certificate: hidden, finest).
  *
- * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the slope
- * there. `finest` is the width of the features that sampling has to find, and costs 280/finest evaluations. A formula
- * that cannot be bounded is refused; if finest is given it is sampled. */
+ * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the
+ * slope there. `finest` is the width of the features that sampling has to find, and costs 280/finest evaluations. A
+ * formula that cannot be bounded is refused; if finest is given it is sampled. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
     double max_tv; /* build the smallest table that reaches this total variation above the horizon, and 30 times it

@@ -1,5 +1,5 @@
-/* vndf_build: resolves the source, places knots as far as the size allows, takes as few as reach the target, and measures
- * the table. */
+/* vndf_build: resolves the source, places knots as far as the size allows, takes as few as reach the target, and
+ * measures the table. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +43,8 @@ static void note_memory(const builder *b)
 static size_t bytes_for(const builder *b, unsigned cells)
 {
     float zero[CELLS_LEAST + 2] = {0};
-    vndf_table_draft empty = {.cells = cells, .moments = b->asked.moments, .source = b->profile->description, .tool = TOOL};
+    vndf_table_draft empty = {
+        .cells = cells, .moments = b->asked.moments, .source = b->profile->description, .tool = TOOL};
     empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.m4 = zero;
     empty.b0 = empty.b1 = empty.area = empty.slope = zero;
     return vndf_table_encode(&empty, NULL, 0);
@@ -68,45 +69,51 @@ static unsigned knots_in(const builder *b, size_t bytes)
 /* The table on so many knots, measured. 0, and a note to the guard, if there is no memory; free it either way. */
 static int draft_with(const builder *b, unsigned knots, vndf_closeness closeness, vndf_draft *draft)
 {
-    int good = vndf_draft_from(draft, b->radial, knots, b->asked.moments) &&
-               vndf_certificate_measure(&draft->table.certificate, &draft->laws, &draft->sight, b->profile, closeness);
+    int good =
+        vndf_draft_from(draft, b->radial, knots, b->asked.moments) &&
+        vndf_certificate_measure(&draft->table.certificate, &draft->laws, &draft->sight, b->profile, closeness);
     if (!good)
         note_memory(b);
     return good;
 }
 
-static int reaches(const vndf_certificate *c, double tv)
+/* The total variations over those asked for, the larger of both. */
+static double excess_of(const vndf_certificate *c, double tv)
 {
-    return c->tv_above <= tv && c->tv <= BELOW * tv;
+    return fmax((double)c->tv_above, (double)c->tv / BELOW) / tv;
 }
 
-/* Whether so many knots reach the target, by a coarse look. */
-static int seems_enough(const builder *b, unsigned knots)
+static int reaches(const vndf_certificate *c, double tv)
+{
+    return !(tv > 0) || excess_of(c, tv) <= 1;
+}
+
+/* The same of so many knots by a coarse look. */
+static double seen_excess(const builder *b, unsigned knots)
 {
     const double margin = 0.97; /* a close look finds a little more */
     vndf_draft draft;
-    int good = draft_with(b, knots, VNDF_COARSELY, &draft) &&
-               reaches(&draft.table.certificate, margin * b->asked.max_tv);
+    int good = draft_with(b, vndf_radial_refine(b->radial, knots), VNDF_COARSELY, &draft);
+    double excess = good ? excess_of(&draft.table.certificate, margin * b->asked.max_tv) : 0;
     vndf_draft_free(&draft);
-    return good;
+    return excess;
 }
 
-static unsigned refine(const builder *b, unsigned knots)
-{
-    return vndf_radial_refine(b->radial, knots);
-}
-
-/* About as few knots as seem to reach the target, from `least` to `most`. */
+/* About as few knots as seem to reach the target, from `least` to `most`. The total variation falls as the square of
+ * their number, or faster. */
 static unsigned fewest_knots(const builder *b, unsigned least, unsigned most)
 {
+    const double step_least = 1.25, step_most = 2.5;
     unsigned enough = least, few = least;
-    while (enough < most && !seems_enough(b, refine(b, enough)) && !vndf_guard_stopped(b->profile->guard)) {
+    double excess;
+    while ((excess = seen_excess(b, enough)) > 1 && enough < most && !vndf_guard_stopped(b->profile->guard)) {
+        double next = enough * fmin(fmax(sqrt(excess), step_least), step_most);
         few = enough;
-        enough = enough + enough / 2 < most ? enough + enough / 2 : most;
+        enough = next < most ? (unsigned)next : most;
     }
-    while (enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
+    while (excess <= 1 && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
         unsigned middle = (few + enough) / 2;
-        if (seems_enough(b, refine(b, middle)))
+        if (seen_excess(b, middle) <= 1)
             enough = middle;
         else
             few = middle;
@@ -141,7 +148,7 @@ static vndf_distribution *build_from(const builder *b, unsigned knots, unsigned 
 {
     for (;;) {
         vndf_draft draft;
-        unsigned next = knots + knots / 16 + 1, used = refine(b, knots);
+        unsigned next = knots + knots / 16 + 1, used = vndf_radial_refine(b->radial, knots);
         vndf_guard_stage(b->profile->guard, 0.8, "certificate");
         int good = draft_with(b, used, VNDF_CLOSELY, &draft);
         if (!good || knots >= most || used < knots || reaches(&draft.table.certificate, b->asked.max_tv)) {
@@ -198,7 +205,8 @@ static vndf_status check_request(const vndf_source *source, const request *asked
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "max_tv is %g; it is a total variation, from 0 (none) to below 1", asked->max_tv);
     if (asked->moments < 2 || asked->moments > 4)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible", (int)asked->moments);
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible",
+                         (int)asked->moments);
     return VNDF_OK;
 }
 
@@ -249,12 +257,14 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
 }
 
 /* 1 if the table was measured; 0 if there is no memory. */
-static int certify(const vndf_distribution *distribution, const vndf_profile *profile, vndf_certificate *certificate)
+static int certify(const vndf_distribution *distribution, const vndf_profile *profile,
+                   vndf_certificate *certificate)
 {
     vndf_draft draft;
     memset(&draft, 0, sizeof draft);
-    int good = vndf_table_draft_of(distribution, &draft.table) && vndf_laws_from(&draft.laws, &draft.table) &&
-               vndf_sight_from(&draft.sight, profile, &draft.laws) &&
+    if (!vndf_table_draft_of(distribution, &draft.table))
+        return 0;
+    int good = vndf_laws_from(&draft.laws, &draft.table) && vndf_sight_from(&draft.sight, profile, &draft.laws) &&
                vndf_certificate_measure(certificate, &draft.laws, &draft.sight, profile, VNDF_CLOSELY);
     vndf_draft_free(&draft);
     return good;

@@ -63,8 +63,7 @@ static void add_part(vndf_points *points, const vndf_span *span, heap *h, double
     for (int i = 0; i < VNDF_GAUSS; i++) {
         double r = rule[i].r, mass = 2 * PI * rule[i].weight, dr = vndf_gauss_weight[i] * log_width * r;
         if (!narrow) {
-            push(points,
-                 (vndf_point){r, mass, vndf_span_place(span, r), dr * vndf_span_density(span, r)});
+            push(points, (vndf_point){r, mass, vndf_span_place(span, r), dr * vndf_span_density(span, r)});
             continue;
         }
         h->mass += mass;
@@ -118,10 +117,10 @@ void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vnd
 
 /* ---- numbers ---- */
 
-static const double INSIDE = 1.5e-7;    /* of the slope: a float into the cell, where P22 may jump beside the knot */
+static const double INSIDE = 1.5e-7; /* of the slope: a float into the cell, where P22 may jump beside the knot */
 static const double END_LEAST = 0.02, END_MOST = 300; /* of the mean: for poles, zeros and light tails */
 static const double MASS_LEAST = 1e-30, LEAST = 1e-36, MOST = 1e30;
-static const double NEAR_END = 4e-2;    /* 1 - xi where the limit of a tail is read */
+static const double NEAR_END = 4e-2; /* 1 - xi where the limit of a tail is read */
 
 static vndf_cell moments_of(const vndf_span *span, const vndf_point *point, size_t count)
 {
@@ -163,7 +162,8 @@ static void put_ends(const vndf_profile *profile, const vndf_span *span, double 
     double r = span->r, z0 = span->z, z1 = tail ? 0 : z0 - span->h;
     double far = tail ? 1 / (z0 * pow(NEAR_END, span->power)) - 1 : beside(span, end, 1);
     double mass1 = tail ? cell->m2 + (2 * cell->m1 + cell->m0 * r) * r : cell->m0 / (z1 * z1);
-    cell->g0 = clipped(end_at(profile, span, tail ? r * (1 + INSIDE) : beside(span, end, 0)), cell->m0 / (z0 * z0));
+    cell->g0 =
+        clipped(end_at(profile, span, tail ? r * (1 + INSIDE) : beside(span, end, 0)), cell->m0 / (z0 * z0));
     cell->g1 = clipped(end_at(profile, span, far), mass1);
 }
 
@@ -181,8 +181,8 @@ static void keep_positive(const vndf_span *span, double end, vndf_cell *cell)
     cell->m4 = cell->m4 > LEAST ? fmin(cell->m4, MOST) : 0;
 }
 
-vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end, const vndf_point *point,
-                            size_t count)
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end,
+                            const vndf_point *point, size_t count)
 {
     vndf_cell cell = moments_of(span, point, count);
     keep_positive(span, end, &cell);

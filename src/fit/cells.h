@@ -26,7 +26,7 @@ void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vnd
 void vndf_points_free(vndf_points *points);
 
 /* The numbers of a cell by its points. Where less than floats can hold is in a cell, it gets a little that is even. */
-vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end, const vndf_point *point,
-                            size_t count);
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end,
+                            const vndf_point *point, size_t count);
 
 #endif

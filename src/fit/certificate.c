@@ -250,8 +250,8 @@ static void take(vndf_certificate *c, const direction *at, int side, double scal
 
 /* ---- D, and its ends ---- */
 
-/* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence were,
- * over the points that hold all but LEFT_OUT of the mass on either side. */
+/* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence
+ * were, over the points that hold all but LEFT_OUT of the mass on either side. */
 static double ndf_error(const survey *s)
 {
     double before = 0, worst = 0;

@@ -60,8 +60,9 @@ void vndf_sight_free(vndf_sight *sight)
 static int allocate(vndf_table_draft *t)
 {
     size_t n = t->cells + 1;
-    float *block = calloc(11 * n, sizeof *block), **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
-                                                               &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
+    float *block = calloc(11 * n, sizeof *block),
+          **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
+                       &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
     for (int i = 0; block && i < 11; i++)
         *array[i] = block + (size_t)i * n;
     return block != NULL;
@@ -99,8 +100,10 @@ static ray ray_at(const vndf_point *p, double rho)
     return (ray){p->mass, k, y - 1, (y - 1) * ((y - 1) / y)};
 }
 
-/* What is seen from rho in `cell` and beyond; returns how many rays. Far out, where next to nothing is added, they end. */
-static size_t look(const vndf_sight *sight, unsigned cells, unsigned cell, double rho, const double *grazing, ray *out)
+/* What is seen from rho in `cell` and beyond; returns how many rays. Far out, where next to nothing is added, they
+ * end. */
+static size_t look(const vndf_sight *sight, unsigned cells, unsigned cell, double rho, const double *grazing,
+                   ray *out)
 {
     const double little = 1e-7;
     double seen = 0;
@@ -115,10 +118,11 @@ static size_t look(const vndf_sight *sight, unsigned cells, unsigned cell, doubl
     return n;
 }
 
-/* The shares with the least variance of k/k~, by Newton's method along the line of the right area. */
+/* The shares with the least variance of k/k~, by Newton's method along the line of the right area. Where that decides
+ * nothing, as for a needle, a small term prefers the first, which changes less with rho. */
 static shares best_shares(const ray *at, size_t count, shares before)
 {
-    const double least = 0.02;
+    const double least = 0.02, little = 1e-5, mostly = 0.9;
     double area = 0, near = 0, far = 0;
     for (size_t i = 0; i < count; i++) {
         area += at[i].mass * at[i].k;
@@ -129,7 +133,8 @@ static shares best_shares(const ray *at, size_t count, shares before)
         return before;
     double low = fmin(least, 0.5 * area / near), high = area / near, b0 = fmin(fmax(before.b0, low), 0.9 * high);
     for (int step = 0; step < 8 && high - low > 1e-4 * high; step++) {
-        double b1 = (area - b0 * near) / far, slope = 0, curve = 0;
+        double b1 = (area - b0 * near) / far, slope = little * near * (b0 * near / area - mostly);
+        double curve = little * near * near / area;
         for (size_t i = 0; i < count; i++) {
             double drawn = b0 * at[i].near + b1 * at[i].far, ratio = at[i].k / drawn;
             double change = at[i].near - near / far * at[i].far, part = at[i].mass * ratio * ratio * change;

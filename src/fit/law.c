@@ -133,8 +133,7 @@ static void fill(vndf_laws *laws, unsigned i)
     const vndf_table_draft *d = laws->draft;
     double r = d->knot[i], b0 = d->b0[i], b1 = d->b1[i];
     laws->cell[i] = cell_of(d, i);
-    laws->span[i] =
-        i < laws->cells ? vndf_span_between(r, d->knot[i + 1]) : vndf_span_of_tail(r, d->squarings);
+    laws->span[i] = i < laws->cells ? vndf_span_between(r, d->knot[i + 1]) : vndf_span_of_tail(r, d->squarings);
     laws->turn[i] = turn_of(d, i);
     laws->part[i] = fmin(vndf_drawn_below(&laws->span[i], &laws->cell[i], r, b0, b1).mass /
                              estimate(&laws->span[i], &laws->cell[i], r, 0, b0, b1),
@@ -150,8 +149,12 @@ void vndf_laws_read(vndf_laws *laws)
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft)
 {
     size_t n = draft->cells + 1;
-    vndf_laws made = {draft, draft->cells, malloc(n * sizeof *made.span), malloc(n * sizeof *made.cell),
-                      malloc(n * sizeof *made.turn), malloc(n * sizeof *made.part)};
+    vndf_laws made = {draft,
+                      draft->cells,
+                      malloc(n * sizeof *made.span),
+                      malloc(n * sizeof *made.cell),
+                      malloc(n * sizeof *made.turn),
+                      malloc(n * sizeof *made.part)};
     *laws = made;
     int good = made.span && made.cell && made.turn && made.part;
     if (good)

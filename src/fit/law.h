@@ -1,10 +1,10 @@
-/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run time
- * computes in float. The fit and the certificate ask here, and nobody states the law again.
+/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run
+ * time computes in float. The fit and the certificate ask here, and nobody states the law again.
  *
- * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a direction
- * (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the direction; a cell is
- * drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at both ends per unit of its
- * coordinate xi. Masses are those of the projected area: they add up to it. */
+ * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a
+ * direction (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the
+ * direction; a cell is drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at
+ * both ends per unit of its coordinate xi. Masses are those of the projected area: they add up to it. */
 #ifndef VNDF_FIT_LAW_H
 #define VNDF_FIT_LAW_H
 
@@ -67,8 +67,8 @@ typedef struct vndf_laws {
     unsigned cells; /* and a tail cell */
     vndf_span *span;
     vndf_cell *cell;
-    double *turn;  /* the slope of rho from which a knot is the switch */
-    double *part;  /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
+    double *turn; /* the slope of rho from which a knot is the switch */
+    double *part; /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
 } vndf_laws;
 
 /* Reads the numbers of the draft; again, after they were changed. 0 if there is no memory; free it either way. */
@@ -84,9 +84,9 @@ typedef struct vndf_law {
     const vndf_laws *laws;
     double rho, s, c; /* c >= 0 on either side */
     int below;
-    unsigned first;            /* above: the switch knot; below: the cell of rho */
+    unsigned first;             /* above: the switch knot; below: the cell of rho */
     vndf_weight near, far, end; /* above: before the switch, from it on, and where far is not used */
-    double xi, b0, b1;         /* below: of rho in its cell; the shares */
+    double xi, b0, b1;          /* below: of rho in its cell; the shares */
 } vndf_law;
 
 vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below);

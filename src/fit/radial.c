@@ -1,18 +1,20 @@
 /* A cell counts by what it adds to the total variation: of the directions above the horizon together with all other
- * cells, for whose laws f and R f stand; below it nearly alone, since those see little beyond rho, and rho cuts the cell. */
+ * cells, for whose laws f and R f stand; below it nearly alone, since those see little beyond rho, and rho cuts the
+ * cell. */
 #include "fit/radial.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 static const double PI = 3.14159265358979323846;
-static const double BELOW = 2.5e-3;         /* weight of an error below the horizon */
-static const double AREA = 0.3;   /* of an error of the area */
-static const double ENOUGH = 1e-9; /* no cell with a smaller error is cut */
+static const double BELOW = 2.5e-3;               /* weight of an error below the horizon */
+static const double AREA = 0.3;                   /* of an error of the area */
+static const double ENOUGH = 1e-9;                /* no cell with a smaller error is cut */
 static const double SHARE0 = 0.45, SHARE1 = 0.55; /* of the law below, about */
 static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p29;
 static const double RHO_MOST = 0x1p20; /* claims end there */
-static const double UNRESOLVED = 0.02; /* part of a cell's mass that strays from what is drawn: it holds features */
+static const double UNRESOLVED =
+    0.02; /* part of a cell's mass that strays from what is drawn: it holds features */
 
 /* ---- the error of a cell ---- */
 
@@ -85,7 +87,8 @@ static double area_miss(const vndf_profile *profile, const view *v)
     const double smaller = 0.02;
     int tail = v->span.power > 0;
     double x0 = v->span.x, x1 = tail ? 1 : x0 + v->span.h, x = (x0 + x1) / 2;
-    double a0 = v->from.area.below + x0, a1 = v->to.area.below + x1, d0 = 1 - v->from.area.turned - v->from.area.along;
+    double a0 = v->from.area.below + x0, a1 = v->to.area.below + x1,
+           d0 = 1 - v->from.area.turned - v->from.area.along;
     double d1 = 1 - v->to.area.turned - v->to.area.along, below = vndf_profile_below(profile, 1 - x, x).below;
     double miss = fabs((a0 + a1) / 2 + (x1 - x0) * (d0 - d1) / 8 - below - x);
     return miss / fmax(below, smaller * x);
@@ -162,16 +165,17 @@ static vndf_interval interval_of(vndf_radial *radial, vndf_knot from, vndf_knot 
 
 enum { OCTAVES = 4, JUMPS_MAX = 16 };
 static const double BESIDE = 1e-9, WIDELY = 1e-4; /* of a slope: just beyond a jump or a pole, and away from it */
-static const double NARROW = 1e-10;     /* of a slope: a panel that a jump or a pole made */
-static const double SAME = 1e-12;       /* of a slope: a panel begins at a break */
+static const double NARROW = 1e-10;               /* of a slope: a panel that a jump or a pole made */
+static const double SAME = 1e-12;                 /* of a slope: a panel begins at a break */
 static const double JUMP_LEAST = 1e-4, POLE_LEAST = 1.5;
-static const double JUMP_MASS = 1e-12;  /* of P r^2: what is worth a knot */
-static const double NOTHING = 1e-12;    /* of the mass: octaves with less need no knot */
+static const double JUMP_MASS = 1e-12; /* of P r^2: what is worth a knot */
+static const double NOTHING = 1e-12;   /* of the mass: octaves with less need no knot */
 
 /* A jump or a pole; a knot there has the side with more normals in one cell. */
 static int jumps_at(const vndf_profile *profile, double r, int *up)
 {
-    double before = vndf_profile_p22(profile, r * (1 - BESIDE)), after = vndf_profile_p22(profile, r * (1 + BESIDE));
+    double before = vndf_profile_p22(profile, r * (1 - BESIDE)),
+           after = vndf_profile_p22(profile, r * (1 + BESIDE));
     double around = fmax(vndf_profile_p22(profile, r * (1 - WIDELY)), vndf_profile_p22(profile, r * (1 + WIDELY)));
     double most = fmax(before, after);
     *up = before > after;
@@ -282,7 +286,8 @@ int vndf_radial_from(vndf_radial *radial, const vndf_profile *profile)
     add_octaves(radial);
     radial->count = radial->start;
     for (unsigned i = 0; i < radial->start; i++)
-        radial->interval[i] = interval_of(radial, radial->knot[i], i + 1 < radial->start ? radial->knot[i + 1] : OUTSIDE);
+        radial->interval[i] =
+            interval_of(radial, radial->knot[i], i + 1 < radial->start ? radial->knot[i + 1] : OUTSIDE);
     return !radial->points.starved;
 }
 

@@ -1,5 +1,5 @@
-/* Where the knots of a table stand. The worst cell is cut, again and again, so that the first so many knots are those of
- * a table of any size. */
+/* Where the knots of a table stand. The worst cell is cut, again and again, so that the first so many knots are those
+ * of a table of any size. */
 #ifndef VNDF_FIT_RADIAL_H
 #define VNDF_FIT_RADIAL_H
 
@@ -21,7 +21,7 @@ typedef struct vndf_interval {
 typedef struct vndf_radial {
     const vndf_profile *profile;
     unsigned squarings;
-    double last; /* the largest rho from which what is seen below the horizon counts */
+    double last;                        /* the largest rho from which what is seen below the horizon counts */
     vndf_knot knot[VNDF_CELLS_MAX + 1]; /* `start` ascending, from 0; then as they were added */
     unsigned start, count;
     vndf_interval interval[VNDF_CELLS_MAX + 1];

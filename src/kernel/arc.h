@@ -109,13 +109,23 @@ HERE bearing arc_step(arc k, real d, real goal)
     return a;
 }
 
-/* The azimuth that u1 stands for: from behind wi (0) on one side through that of wi (1/2) to behind it on the other. */
-HERE bearing arc_draw(arc k, real u1, const int below)
+/* The azimuth that u1 stands for: from behind wi (0) on one side through that of wi (1/2) to behind it on the other. v
+ * is the part of half the arc, the bearing that of v. */
+HERE real arc_half(real u1)
 {
-    real v = 2.0f * least(u1, 1.0f - u1);
-    bearing a = arc_step(k, arc_start(k, v, below), v * k.mass);
+    return 2.0f * least(u1, 1.0f - u1);
+}
+
+HERE bearing arc_side(bearing a, real u1)
+{
     a.aside = with_sign(a.aside, u1 - 0.5f);
     return a;
+}
+
+HERE bearing arc_draw(arc k, real u1, const int below)
+{
+    real v = arc_half(u1);
+    return arc_side(arc_step(k, arc_start(k, v, below), v * k.mass), u1);
 }
 
 /* The number u1 of a normal whose azimuth has this cosine and sine, both times a positive number. */

@@ -6,11 +6,12 @@
 
 #include "kernel/law.h"
 
-HERE seen table_see(table t, real s, real c, real rho, const int below)
+/* `cell` is that of rho. */
+HERE seen table_see(table t, real s, real c, real rho, whole cell, const int below)
 {
     if (below)
-        return law_see_below(t, s, c, rho);
-    return law_see_above(t, s, c, rho);
+        return law_see_below(t, s, c, rho, cell);
+    return law_see_above(t, s, c, rho, cell);
 }
 
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
@@ -34,14 +35,19 @@ HERE aim table_aim(seen v, real u2, const int below)
     return a;
 }
 
-/* The cell of the slope. */
+/* The cell of the slope: one that was found, held to the side of `first` that is meant. */
+HERE whole table_within(table t, seen v, aim a, whole i)
+{
+    mask near = less(a.at, v.near);
+    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
+    return least_whole(most_whole(i, first), last);
+}
+
 HERE whole table_find(table t, seen v, aim a, const int below)
 {
     if (below)
         return law_find_below(t, v, a.left);
-    mask near = less(a.at, v.near);
-    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
-    return least_whole(most_whole(find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left), first), last);
+    return table_within(t, v, a, find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left));
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -72,18 +78,20 @@ typedef struct drawn_length {
     real density; /* over x total */
 } drawn_length;
 
-HERE drawn_length table_length(table t, seen v, found f)
+HERE drawn_length table_length(table t, seen v, found f, const int below)
 {
     place in = law_invert(f.at, f.before);
     drawn_length d;
-    d.r = law_length(t, v, f.at, in);
+    d.r = law_length(t, v, f.at, in, below);
     d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
     return d;
 }
 
 HERE arc table_arc(seen v, slope_length r, const int below)
 {
-    return arc_of(size(v.c) * r.z, v.s * r.x, r.edge, below);
+    if (below)
+        return arc_of(-v.c * r.z, v.s * r.x, r.edge, below);
+    return arc_of(v.c * r.z, v.s * r.x, r.edge, below);
 }
 
 /* The normal in the frame of the direction: x towards it. */
@@ -116,7 +124,7 @@ typedef struct given {
     whole cell;
 } given;
 
-HERE given table_given(table t, real x, real y, real z)
+HERE given table_given_slope(real x, real y, real z)
 {
     given g;
     real across = root(x * x + y * y);
@@ -125,6 +133,13 @@ HERE given table_given(table t, real x, real y, real z)
     g.x = across * g.per;
     g.z = z * g.per;
     g.r = across / z;
+    g.cell = set_whole(0);
+    return g;
+}
+
+HERE given table_given(table t, real x, real y, real z)
+{
+    given g = table_given_slope(x, y, z);
     g.cell = find_knot(t, g.r);
     return g;
 }
@@ -157,7 +172,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.r, g.z);
     arc k = table_given_arc(v, g, below);
-    real x = pick(same(i, 0), at.x1 * in.over, g.x), per = g.per * g.per; /* the place is held away from the pole */
+    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x), per = g.per * g.per; /* held away from the pole */
     real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
     return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }

@@ -83,13 +83,13 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-HERE seen law_see_above(table t, real s, real c, real rho)
+HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     quad k = look(t, VNDF_KNOT, v.cell);
     v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
     quad tail = look(t, VNDF_TAIL, v.first);
@@ -229,13 +229,13 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c, real rho)
+HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     v.first = v.cell;
     mask last = same(v.cell, t.cells);
     whole next = pick_whole(last, v.cell, v.cell + 1);
@@ -253,16 +253,22 @@ HERE seen law_see_below(table t, real s, real c, real rho)
     return v;
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. Rounded sums need not fall from
+ * knot to knot: which knot is found depends on the order of the steps. */
+HERE whole law_step_below(table t, seen v, real left, whole i, int step)
+{
+    whole next = least_whole(i + step, set_whole(t.cells));
+    quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
+    real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
+    return pick_whole(at_most(left, sum), next, i);
+}
+
 HERE whole law_find_below(table t, seen v, real left)
 {
     whole i = v.cell;
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
-        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        i = pick_whole(at_most(left, sum), next, i);
+        i = law_step_below(t, v, left, i, step);
         step = step / 2;
     }
     return i;
@@ -309,11 +315,13 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-HERE slope_length law_length(table t, seen v, piece at, place in)
+HERE slope_length law_length(table t, seen v, piece at, place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
                 at.edge0 * in.rest + at.edge1 * in.over};
+    if (!below)
+        r.edge = v.s * r.x - v.c * r.z;
     if (t.squarings > 0 && any(at.last)) {
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
@@ -328,15 +336,17 @@ HERE slope_length law_length(table t, seen v, piece at, place in)
 /* The place of a slope r = x/z, x + z = 1, in its cell. */
 HERE place law_place(table t, piece at, real r, real z)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width;
-    if (t.squarings > 0 && any(at.last)) {
+    real over = (r - at.from) * (at.z0 * z) / at.width, rest = 1.0f - over;
+    if (any(at.last)) { /* there 1 - xi is what keeps its digits */
         real eta = z / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
-        over = pick(at.last, 1.0f - eta, over);
+        rest = pick(at.last, eta, rest);
+        over = t.squarings > 0 ? pick(at.last, 1.0f - eta, over) : over;
     }
     over = least(most(over, set(1e-6f)), set(0.9999999f));
-    place in = {over, 1.0f - over, set(0.0f), set(0.0f)};
+    rest = least(most(rest, set(1e-7f)), set(0.999999f));
+    place in = {over, rest, set(0.0f), set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
     return in;
 }

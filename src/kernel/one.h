@@ -86,10 +86,12 @@ HERE int any(mask m)
 
 HERE real pick(mask m, real yes, real no)
 {
-    __m128 a = _mm_and_ps(m, lane(yes)), b = _mm_andnot_ps(m, lane(no));
     if (__builtin_constant_p(yes) && yes == 0.0f)
-        return _mm_cvtss_f32(b);
-    return _mm_cvtss_f32(__builtin_constant_p(no) && no == 0.0f ? a : _mm_or_ps(a, b));
+        return _mm_cvtss_f32(_mm_andnot_ps(m, lane(no)));
+    if (__builtin_constant_p(no) && no == 0.0f)
+        return _mm_cvtss_f32(_mm_and_ps(m, lane(yes)));
+    __m128 other = lane(no);
+    return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
@@ -225,7 +227,7 @@ HERE table table_of(const vndf_distribution *d)
 /* Row i of a group. */
 HERE quad look(table t, int group, whole i)
 {
-    const float *row = t.numbers + 4 * (group * (t.cells + 1) + i);
+    const float *row = t.numbers + 4 * (size_t)group * ((size_t)t.cells + 1) + 4 * (size_t)(unsigned)i;
     quad q = {row[0], row[1], row[2], row[3]};
     return q;
 }

@@ -16,9 +16,9 @@ HERE drawn table_draw(table t, table_view view, real u1, real u2, const int belo
 {
     aim a = table_aim(view.v, u2, below);
     whole i = table_find(t, view.v, a, below);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, below));
+    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, below), below);
     arc k = table_arc(view.v, d.r, below);
-    return table_turned(view, table_normal(view.v, d, k, arc_draw(k, u1, below)));
+    return table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
 }
 
 HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below)
@@ -26,18 +26,18 @@ HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, cons
     aim a = table_aim(view.v, u2, below);
     whole i = table_find(t, view.v, a, below);
     found f = table_cell(t, view.v, a, i, below);
-    drawn_length d = table_length(t, view.v, f);
+    drawn_length d = table_length(t, view.v, f, below);
     arc k = table_arc(view.v, d.r, below);
     weighed s;
     s.weight = table_weight(t, view.v, i, f, law_invert(f.at, f.before), d.r, k, law_area(t, view.v), below);
-    s.n = table_turned(view, table_normal(view.v, d, k, arc_draw(k, u1, below)));
+    s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
     return s;
 }
 
 /* A normal of the unit problem in the frame of the direction. */
-HERE unit_normal table_unturned(table_view view, unit_normal n)
+HERE unit_normal table_unturned(real ex, real ey, unit_normal n)
 {
-    unit_normal m = {view.ex * n.x + view.ey * n.y, view.ex * n.y - view.ey * n.x, n.z, n.facing};
+    unit_normal m = {ex * n.x + ey * n.y, ex * n.y - ey * n.x, n.z, n.facing};
     return m;
 }
 
@@ -49,7 +49,7 @@ HERE real table_pdf(table t, table_view view, unit_normal n, real reach, const i
 
 HERE pair table_numbers(table t, table_view view, unit_normal n, const int below)
 {
-    unit_normal m = table_unturned(view, n);
+    unit_normal m = table_unturned(view.ex, view.ey, n);
     return table_invert(t, view.v, table_given(t, m.x, m.y, m.z), m.x, m.y, below);
 }
 
@@ -60,7 +60,7 @@ HERE any_slope table_slope(table t, table_view straight, real u2)
 {
     aim a = table_aim(straight.v, u2, 0);
     whole i = table_find(t, straight.v, a, 0);
-    drawn_length d = table_length(t, straight.v, table_cell(t, straight.v, a, i, 0));
+    drawn_length d = table_length(t, straight.v, table_cell(t, straight.v, a, i, 0), 0);
     any_slope r = {d.r.x, d.r.z, d.density * 0.159154943f};
     return r;
 }
@@ -105,12 +105,12 @@ HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, rea
 {
     aim a = table_aim(view.v, u2 * part, 0);
     whole i = table_find(t, view.v, a, 0);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, 0));
+    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, 0), 0);
     arc k = table_arc(view.v, d.r, 0);
     real arc_part = bounded_arc(k, bounded_cosine(alpha, slant, d.r.x, d.r.z));
     bounded_normal s;
     s.inside = part * arc_part;
-    s.n = table_turned(view, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
+    s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
     s.n.density = s.n.density / s.inside;
     return s;
 }

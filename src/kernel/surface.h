@@ -14,6 +14,34 @@ typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
 } affine_map;
 
+/* |det M|. Only matrices that turn or shear need all the digits of their products. */
+HERE real affine_determinant(affine_map m)
+{
+    real straight = m.xx * m.yy, across = size(m.xy * m.yx), determinant = size(straight);
+    mask sheared = less(set(0.0f), across);
+    if (any(sheared))
+        determinant = pick(sheared, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), determinant);
+    return determinant;
+}
+
+/* Entries up to 1e18, with a determinant that leaves floats room, and mean slopes up to 1e6. */
+HERE mask affine_is_valid(affine_map m)
+{
+    real determinant = affine_determinant(m);
+    real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
+    mask inside = both(at_most(set(1e-36f), determinant), at_most(determinant, set(1e36f)));
+    mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
+    return both(both(inside, at_most(largest, set(1e18f))), level);
+}
+
+/* Not zero, infinite or NaN. */
+HERE mask direction_is_valid(real x, real y, real z)
+{
+    real largest = most(most(size(x), size(y)), size(z)), end = set(3.40282347e38f);
+    mask finite = both(both(at_most(size(x), end), at_most(size(y), end)), at_most(size(z), end));
+    return both(finite, less(set(0.0f), largest));
+}
+
 /* A direction wi on a surface. */
 typedef struct frame {
     affine_map m;
@@ -48,10 +76,7 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
     f.uz = uz * l;
     f.grow = 1.0f / l;
     f.size = 1.0f / k / l;
-    f.determinant = size(m.xx * m.yy);
-    mask mixed = less(set(0.0f), size(m.xy * m.yx));
-    if (any(mixed))
-        f.determinant = pick(mixed, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), f.determinant);
+    f.determinant = affine_determinant(m);
     mask unseen = both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f)));
     f.rarest = pick(unseen, set(0.0f), set(1.17549435e-38f));
     return f;
@@ -75,13 +100,14 @@ HERE sampled frame_sampled(frame f, drawn n)
 {
     real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z, y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
     real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
-    real lack = 3e-7f * (size(a) + size(b) + size(c)) - (a + b + c);
+    real tiny = 1e-12f * (size(x) + size(y) + z) * (size(f.wx) + size(f.wy) + size(f.wz)); /* all terms may be 0 */
+    real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     mask away = less(set(0.0f), lack);
     if (any(away)) {
-        real turn_by = pick(away, lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f)), set(0.0f));
-        x = x + turn_by * f.wx;
-        y = y + turn_by * f.wy;
-        z = z + turn_by * up;
+        real turn_by = lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f));
+        x = pick(away, x + turn_by * f.wx, x); /* not by a turn of 0: that would make -0 of 0 */
+        y = pick(away, y + turn_by * f.wy, y);
+        z = pick(away, z + turn_by * up, z);
     }
     real square = (x * x + y * y) + z * z, reach = root(square), per = reach * (1.0f / square);
     sampled s = {x * per, y * per, z * per, frame_density(f, (n.density * reach) * (square / f.determinant))};
@@ -95,36 +121,66 @@ typedef struct unit_normal {
 
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
-    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z, per = 1.0f / (f.m.xx * f.m.yy - f.m.xy * f.m.yx);
-    unit_normal n = {(f.m.yy * a - f.m.xy * b) * per, (f.m.xx * b - f.m.yx * a) * per, z,
+    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z;
+    real per = 1.0f / difference_of_products(f.m.xx, f.m.yy, f.m.xy, f.m.yx);
+    unit_normal n = {difference_of_products(f.m.yy, a, f.m.xy, b) * per,
+                     difference_of_products(f.m.xx, b, f.m.yx, a) * per, z,
                      ((f.wx * x + f.wy * y) + f.wz * z) / f.grow};
     return n;
 }
 
+/* Smith's Lambda and G1 of a direction with this area, whose projection on the mean plane is `cosine`. */
+HERE real lambda_of(real area, real cosine)
+{
+    mask nothing = both(at_most(area, set(0.0f)), at_most(size(cosine), set(0.0f)));
+    real lambda = (area - cosine) / cosine, end = set(3.40282347e38f);
+    return pick(nothing, set(0.0f), least(most(lambda, -end), end));
+}
+
+HERE real g1_of(real area, real cosine)
+{
+    real part = least(cosine / most(area, cosine), set(1.0f));
+    return pick(less(set(0.0f), cosine), part, set(0.0f));
+}
+
 /* ---- a table on a surface ---- */
 
+/* The direction of (ux, uy), and the direction as the unit problem sees it (law.h). */
+typedef struct table_direction {
+    real ex, ey, s, c, rho;
+} table_direction;
+
+HERE table_direction table_direction_of(frame f)
+{
+    table_direction w;
+    real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
+    mask straight = less(across, 1e-15f * level);
+    across = most(across, 1e-15f * level);
+    real over = 1.0f / across, per = 1.0f / (across + level);
+    w.ex = pick(straight, set(1.0f), f.ux * over);
+    w.ey = pick(straight, set(0.0f), f.uy * over);
+    w.s = across * per;
+    w.c = f.uz * per;
+    w.rho = level * over;
+    return w;
+}
+
 typedef struct table_view {
-    real ex, ey; /* the direction of (ux, uy) */
+    real ex, ey;
     seen v;
 } table_view;
 
 /* `below` is known: w is below the horizon in all lanes, or in none. */
 HERE table_view table_view_of(table t, frame f, const int below)
 {
-    table_view view;
-    real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
-    mask straight = less(across, 1e-15f * level);
-    across = most(across, 1e-15f * level);
-    real over = 1.0f / across, per = 1.0f / (across + level);
-    view.ex = pick(straight, set(1.0f), f.ux * over);
-    view.ey = pick(straight, set(0.0f), f.uy * over);
-    view.v = table_see(t, across * per, f.uz * per, level * over, below);
+    table_direction w = table_direction_of(f);
+    table_view view = {w.ex, w.ey, table_see(t, w.s, w.c, w.rho, find_knot(t, w.rho), below)};
     return view;
 }
 
-HERE drawn table_turned(table_view view, drawn n)
+HERE drawn table_turned(real ex, real ey, drawn n)
 {
-    drawn turned = {view.ex * n.x - view.ey * n.y, view.ey * n.x + view.ex * n.y, n.z, n.density};
+    drawn turned = {ex * n.x - ey * n.y, ey * n.x + ex * n.y, n.z, n.density};
     return turned;
 }
 

@@ -4,9 +4,6 @@
 #include "sampler/sampler.h"
 #include "sampler/state.h"
 
-/* Entries of a matrix, in units of the distribution's slopes, are at most MOST; a mean slope is at most MEAN_MOST. */
-static const float MOST = 1e18f, MEAN_MOST = 1e6f;
-
 int vndf_map_of(const vndf_affine *affine, affine_map *m)
 {
     if (!affine || !affine->distribution)
@@ -18,10 +15,7 @@ int vndf_map_of(const vndf_affine *affine, affine_map *m)
     m->yy = affine->yy * unit;
     m->mean_x = affine->mean_x;
     m->mean_y = affine->mean_y;
-    float determinant = size(difference_of_products(m->xx, m->yy, m->xy, m->yx));
-    float largest = most(most(size(m->xx), size(m->xy)), most(size(m->yx), size(m->yy)));
-    return determinant >= 1e-36f && determinant <= 1e36f && largest <= MOST && size(m->mean_x) <= MEAN_MOST &&
-           size(m->mean_y) <= MEAN_MOST;
+    return any(affine_is_valid(*m)) != 0;
 }
 
 /* A plain surface is a diagonal matrix. */
@@ -34,11 +28,9 @@ static vndf_affine affine_of(const vndf_surface *s)
     return affine;
 }
 
-/* Not zero, infinite or NaN. */
 static int is_direction(vndf_vec3 w)
 {
-    float largest = most(most(size(w.x), size(w.y)), size(w.z));
-    return largest > 0.0f && size(w.x) <= FLT_MAX && size(w.y) <= FLT_MAX && size(w.z) <= FLT_MAX;
+    return any(direction_is_valid(w.x, w.y, w.z)) != 0;
 }
 
 /* ---- views ---- */
@@ -173,8 +165,9 @@ VNDF_INLINE float density(const vndf_view *view, unit_normal n)
     if (d->kind == VNDF_KIND_BECKMANN)
         return beckmann_density(s->of.beckmann, n.x, n.y, n.z, n.facing);
     float reach = frame_reach(s->f);
-    return vndf_is_below(s) ? table_pdf(table_of(d), s->of.table, table_unturned(s->of.table, n), reach, 1)
-                            : table_pdf(table_of(d), s->of.table, n, reach, 0);
+    if (!vndf_is_below(s))
+        return table_pdf(table_of(d), s->of.table, n, reach, 0);
+    return table_pdf(table_of(d), s->of.table, table_unturned(s->of.table.ex, s->of.table.ey, n), reach, 1);
 }
 
 VNDF_INLINE float pdf_of(const vndf_view *view, vndf_vec3 wm)
@@ -327,15 +320,12 @@ static look_at affine_look(const vndf_affine *affine, vndf_vec3 w)
 
 float vndf_lambda_of(float area, float cosine)
 {
-    if (!(area > 0.0f) && cosine == 0.0f)
-        return 0.0f;
-    float lambda = (area - cosine) / cosine;
-    return lambda > FLT_MAX ? FLT_MAX : lambda < -FLT_MAX ? -FLT_MAX : lambda;
+    return lambda_of(area, cosine);
 }
 
 float vndf_g1_of(float area, float cosine)
 {
-    return cosine > 0.0f ? least(cosine / most(area, cosine), 1.0f) : 0.0f;
+    return g1_of(area, cosine);
 }
 
 /* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1, is the smaller G1 times a factor that is 1/2 at least, since a

@@ -44,8 +44,8 @@ file(READ ${OUT}/rows.csv csv)
 split("${csv}" rows)
 list(LENGTH rows row_count)
 list(GET rows 0 head)
-expect("head of the CSV: ${head}" head STREQUAL "method,distribution,instructions,kind,memory,file_bytes,moments,wrong,ns,\
-ns_low,ns_high,shared_ns,latency_ns,ratio,tv,tv_theta,tv_below,max_weight,stratified,\
+expect("head of the CSV: ${head}" head STREQUAL "method,distribution,instructions,kind,memory,file_bytes,moments,wrong,\
+ns,ns_low,ns_high,shared_ns,latency_ns,ratio,tv,tv_theta,tv_below,max_weight,stratified,\
 efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85")
 list(REMOVE_AT rows 0)
 set(numbers "(,(-?[0-9.e+-]+|inf)?)+")

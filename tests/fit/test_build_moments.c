@@ -1,6 +1,6 @@
-/* The cells of a table hold the moments of D, whatever D is and however few they are: the integrals of f and of R f that
- * directions above the horizon are drawn from, to 1e-6. Tails just heavy enough, peaks, rings and jumps are the hard
- * ones. And knots stand as far apart as floats need. */
+/* The cells of a table hold the moments of D, whatever D is and however few they are: the integrals of f and of R f
+ * that directions above the horizon are drawn from, to 1e-6. Tails just heavy enough, peaks, rings and jumps are the
+ * hard ones. And knots stand as far apart as floats need. */
 #include <stdlib.h>
 
 #include "fit/profile/profile.h"
@@ -31,12 +31,13 @@ static int moments_hold(const vndf_table_draft *table, const vndf_profile *profi
     double f0 = 0, f1 = 0;
     int good = 1;
     for (unsigned i = 0; i <= table->cells; i++) {
-        double r = (double)table->knot[i], m0 = (double)table->m0[i], m1 = (double)table->m1[i], m2 = (double)table->m2[i];
+        double r = (double)table->knot[i], m0 = (double)table->m0[i], m1 = (double)table->m1[i],
+               m2 = (double)table->m2[i];
         f0 += m1 + r * m0;
         f1 += m2 + 2 * r * m1 + r * r * m0;
         good &= i == table->cells || TEST(table->knot[i + 1] - table->knot[i] > 2e-7f * table->knot[i]);
     }
-    return good & TEST_RELATIVE(f0, 1, 1e-6) & TEST_RELATIVE(f1, 2 * PI * profile->f1, 2e-6);
+    return good & TEST_NEAR(f0, 1, 1e-6) & TEST_RELATIVE(f1, 2 * PI * profile->f1, 2e-6);
 }
 
 static void test_moments(const vndf_source *source, const char *text, size_t bytes)

@@ -30,11 +30,18 @@ static const refusal refusals[] = {
 };
 
 static const char *const accepted[] = {
-    "r^-1.7*exp(-r)",          "(1+r*r)^-1.65",     "step(1-r)",
-    "exp(-((r-1)/0.02)^2)",    "step(r-1)*exp(-r)", "exp(-r*r)+1e4*exp(-1e4*r*r)",
-    "1e-30*exp(-r*r)",         "1e30*exp(-r*r)",    "exp(-((r-1)/1e-5)^2)",
+    "r^-1.7*exp(-r)",
+    "(1+r*r)^-1.65",
+    "step(1-r)",
+    "exp(-((r-1)/0.02)^2)",
+    "step(r-1)*exp(-r)",
+    "exp(-r*r)+1e4*exp(-1e4*r*r)",
+    "1e-30*exp(-r*r)",
+    "1e30*exp(-r*r)",
+    "exp(-((r-1)/1e-5)^2)",
     "exp(-((r-1.37)/5e-5)^2)", /* all mass in a narrow ring */
-    "abs(r-0.5)^-0.3*exp(-2*r)", "max(0,-log(abs(r-0.8)))", /* poles of little mass */
+    "abs(r-0.5)^-0.3*exp(-2*r)",
+    "max(0,-log(abs(r-0.8)))", /* poles of little mass */
 };
 
 /* The same without a table. */

@@ -1,7 +1,7 @@
-/* The certificate is true, and not by much too large. Given the slope length R a table draws the azimuth exactly, so the
- * density of one normal at R tells the drawn law of R: it is (visible density) times the law over the true one. From
- * vndf_pdf, areas and densities of the oracle (no code of the library) the total variation is summed over R, at angles
- * of incidence that the builder does not know. Needles, jumps and tails have certificates of their own kind. */
+/* The certificate is true, and not by much too large. Given the slope length R a table draws the azimuth exactly, so
+ * the density of one normal at R tells the drawn law of R: it is (visible density) times the law over the true one.
+ * From vndf_pdf, areas and densities of the oracle (no code of the library) the total variation is summed over R, at
+ * angles of incidence that the builder does not know. Needles, jumps and tails have certificates of their own kind. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -43,11 +43,13 @@ static double total_variation(const oracle *o, const vndf_distribution *table, d
     vndf_vec3 wi = oracle_direction(theta, 30);
     vndf_view view = vndf_view_from(&surface, wi);
     double s = hypot((double)wi.x, (double)wi.y), area = oracle_area(o, s, (double)wi.z), sum = 0;
-    double from = log(fmax(o->peak, 1e-6)), to = log(fmin(o->reach, 1e8)), cut = theta > 90 ? log(-(double)wi.z / s) : from;
+    double from = log(fmax(o->peak, 1e-6)), to = log(fmin(o->reach, 1e8)),
+           cut = theta > 90 ? log(-(double)wi.z / s) : from;
     int count = (int)test_amount(4000, 8000, 20000);
     from = fmax(from, cut);
     for (int i = 0; i < count && to > from; i++) {
-        double q = (i + 0.5) / count, u = from + (to - from) * q * (theta > 90 ? q : 1); /* close at the horizon of wi */
+        double q = (i + 0.5) / count,
+               u = from + (to - from) * q * (theta > 90 ? q : 1); /* close at the horizon of wi */
         laws at = laws_at(o, &view, wi, area, exp(u));
         sum += fabs(at.seen - at.drawn) * (to - from) / count * (theta > 90 ? 2 * q : 1) / 2;
     }
@@ -161,7 +163,8 @@ static void test_certify(void)
     vndf_certificate built, again = {0};
     vndf_source *source = oracle_source_of("exp(-r)*(1+0.5*cos(4*r))", NULL);
     vndf_distribution *table = vndf_build(source, NULL, &built, NULL);
-    TEST(table && vndf_certify(table, source, &again, NULL) == VNDF_OK && memcmp(&built, &again, sizeof built) == 0);
+    TEST(table && vndf_certify(table, source, &again, NULL) == VNDF_OK &&
+         memcmp(&built, &again, sizeof built) == 0);
     vndf_free(table);
     vndf_source_free(source);
 }

@@ -5,8 +5,9 @@
 #include "harness/test.h"
 #include "oracle/oracle.h"
 
-static const char *const SMOOTH[] = {"epd:0.6",   "beckmann", "ggx",   "student-t:1.8", "phong:200",
-                                     "gtr:3", "sgd:nickel/g", "abc:two-layer-gold", "exp(-r)"};
+static const char *const SMOOTH[] = {"epd:0.6",       "beckmann",           "ggx",
+                                     "student-t:1.8", "phong:200",          "gtr:3",
+                                     "sgd:nickel/g",  "abc:two-layer-gold", "exp(-r)"};
 
 static vndf_certificate claim_of(const char *name, size_t max_bytes, int moments)
 {

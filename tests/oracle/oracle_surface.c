@@ -6,16 +6,13 @@
 
 #include "harness/constants.h"
 
+/* The matrix times the scale is rounded to float: that is the surface, which matters where M is nearly singular. */
 oracle_surface oracle_surface_from(oracle_slopes of, const vndf_affine *shape)
 {
-    double scale = of.kind == ORACLE_KIND_TABLE ? of.table->scale : 1;
-    oracle_surface o = {of,
-                        scale * (double)shape->xx,
-                        scale * (double)shape->xy,
-                        scale * (double)shape->yx,
-                        scale * (double)shape->yy,
-                        (double)shape->mean_x,
-                        (double)shape->mean_y};
+    float scale = of.kind == ORACLE_KIND_TABLE ? (float)of.table->scale : 1;
+    const float m[4] = {scale * shape->xx, scale * shape->xy, scale * shape->yx, scale * shape->yy};
+    oracle_surface o = {of,           (double)m[0],          (double)m[1],         (double)m[2],
+                        (double)m[3], (double)shape->mean_x, (double)shape->mean_y};
     return o;
 }
 

@@ -114,7 +114,6 @@ class Refused(unittest.TestCase):
         for call, error in (
             (lambda: vndf.Source.rows(theta=[0.0, 1.0], p22=[1.0]), ValueError),
             (lambda: vndf.Source.rows(theta=[0.0, 1.0]), TypeError),
-            (lambda: vndf.build(vndf.Source.slope("exp(-r)"), certificate="none"), ValueError),
             (lambda: vndf.Material(vndf.ggx(), fresnel="mirror"), ValueError),
             (lambda: vndf.Material(vndf.ggx(), fresnel="conductor", eta=(1, 2), k=(1, 2, 3)), ValueError),
             (lambda: vndf.Mixture(), ValueError),

@@ -122,14 +122,15 @@ static double truth(const point *p, quantity q)
     }
 }
 
-/* Lobes that see next to nothing of what they see at grazing incidence have no digits. */
+/* Lobes that see next to nothing of what they see at grazing incidence have no digits, nor has P22 below 1e-30. */
 static int is_deep(const point *p)
 {
     double level[3] = {p->wi[0], p->wi[1], 0};
     for (int i = 0; i < p->s.of.count; i++)
         if (!(oracle_surface_area(&p->lobe[i], p->wi) > 1e-10 * oracle_surface_area(&p->lobe[i], level)))
             return 1;
-    return 0;
+    const oracle_surface *o = &p->lobe[0];
+    return !(oracle_surface_ndf(o, p->wm) * fabs(o->xx * o->yy - o->xy * o->yx) * pow(p->wm[2], 4) > 1e-30);
 }
 
 /* |got - want|/|want|, of Lambda over at least 1, beyond what one rounding of the inputs moves, a tenth of it below the

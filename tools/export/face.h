@@ -124,7 +124,7 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     /* only table */
     if (view.surface.distribution >= 0) {
         if (view.below)
-            n = table_unturned(view.seen_from, n);
+            n = table_unturned(view.seen_from.ex, view.seen_from.ey, n);
         density = table_pdf(view.t, view.seen_from, n, frame_reach(view.at), view.below);
     }
     /* end */

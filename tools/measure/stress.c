@@ -59,27 +59,26 @@ static void measure_sample(const vndf_affine_view *view, const stress_point *at,
 {
     float pdf = -1, u1 = -1, u2 = -1;
     vndf_vec3 wm = vndf_affine_sample(view, at->u1, at->u2, &pdf);
-    int straight_down =
-        at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0; /* every normal is turned away: density 0 */
-    int dense = straight_down ? pdf == 0 : is_density(pdf) && is_density(vndf_affine_pdf(view, wm));
+    int blind = at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0; /* from straight below no normal is visible */
+    int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_affine_pdf(view, wm));
     result->samples++;
     vndf_affine_invert(view, wm, &u1, &u2);
     stress_note(result, STRESS_UNIT, fabs(stress_length(wm) - 1) * 0x1p23, at);
     stress_note(result, STRESS_ABOVE, -(double)wm.z, at);
-    stress_note(result, STRESS_FACING, stress_turned_away(at->wi, wm), at);
+    stress_note(result, STRESS_FACING, blind ? 0 : stress_turned_away(at->wi, wm), at);
     stress_note(result, STRESS_POSITIVE, !dense, at);
     stress_note(result, STRESS_RETURNED, !(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1), at);
 }
 
 /* ---- directions ---------------------------------------------------------------------------------- */
 
-/* On the horizon itself Lambda is the largest float from above and from below. */
+/* On the horizon itself Lambda is the largest float of either sign. */
 static double lambda_error(vndf_vec3 wi, float lambda, float back)
 {
-    if (wi.z >= 0 && !(lambda >= 0))
-        return INFINITY;
     if (wi.z == 0)
-        return lambda == FLT_MAX && back == FLT_MAX ? 0 : INFINITY;
+        return fabsf(lambda) == FLT_MAX && fabsf(back) == FLT_MAX ? 0 : INFINITY;
+    if (wi.z > 0 && !(lambda >= 0))
+        return INFINITY;
     return fabs((double)lambda + 1 + (double)back) / (1 + fabs((double)lambda));
 }
 

@@ -61,8 +61,8 @@ typedef struct stress_result {
     stress_finding found[STRESS_COUNT];
 } stress_result;
 
-/* Every `every`-th view of the product (1: all, some 23000 of 80 samples each; a number prime to 12 and 21 does not favour
- * any direction), and `random` views of 16 samples. */
+/* Every `every`-th view of the product (1: all, some 23000 of 80 samples each; a number prime to 12 and 21 does not
+ * favour any direction), and `random` views of 16 samples. */
 stress_result stress_run(const vndf_distribution *distribution, size_t every, size_t random, uint64_t seed);
 
 /* Notes a number for a property; returns whether it is within the limit. */

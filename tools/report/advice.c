@@ -7,7 +7,8 @@
  *     the weights add at most 1% to the variance: nobody can see that;
  *     total variation is at most 1e-3 from above the horizon: without the weight the error stays below half a step
  *         of 8 bits; and 3e-2 from below it, where light has met the surface before;
- *     areas, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not mend them.
+ *     areas above the horizon, hence Lambda and G1, are within 1e-4: below 8 bits as well, and the weight does not
+ *         mend them.
  * No table keeps a limit that the largest breaks; there a table is good if it is within a quarter of the largest. */
 #include <string.h>
 
@@ -26,8 +27,7 @@ typedef struct verdict {
 
 static verdict judge(const report_table *t)
 {
-    const vndf_certificate *c = &t->info.certificate;
-    verdict v = {{t->worst.max_weight, t->worst.variance, t->tv_above, t->tv_below, (double)c->area_error}, {0}};
+    verdict v = {{t->worst.max_weight, t->worst.variance, t->tv_above, t->tv_below, t->area}, {0}};
     const double limit[LIMITS] = {most_weight, most_variance, most_above, most_below, most_area};
     for (int i = 0; i < LIMITS; i++)
         v.kept[i] = v.value[i] <= limit[i];

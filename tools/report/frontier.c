@@ -1,5 +1,6 @@
 /* The frontier: error against time. Every row of tools/bench/bench.h is a point; a curve for each instruction set and
- * number of moments joins the tables of this library over their sizes. Exact methods stand in a band of their own: a logarithm has no 0. */
+ * number of moments joins the tables of this library over their sizes. Exact methods stand in a band of their own: a
+ * logarithm has no 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -178,8 +179,9 @@ int report_write_frontier(html_page *page, const report *r)
     page_section(
         page, "frontier", "Error against time",
         "Every way of sampling visible normals that was measured here: further left is faster, further down "
-        "nearer to the reference. Curves join tables of 2, 4 and 8 KiB: of 4 moments the solid ones, of 3 the dashed, of "
-        "2 the dotted. Tables are exact with their weight; the weight mends the error shown. The band at the bottom holds methods that are exact but for the rounding of floats.");
+        "nearer to the reference. Curves join tables of 2, 4 and 8 KiB: solid ones 4 moments, dashed ones 3, dotted "
+        "ones 2. Tables are exact with their weight; the weight mends the error shown. The band at the bottom "
+        "holds methods that are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\">\n", page->html);
     chart_draw(page->html, &c);
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p></figure>\n", page->html);

@@ -41,8 +41,9 @@ typedef struct report_table {
     vndf_distribution *table;
     vndf_info info;
     report_error error[REPORT_ANGLES], worst;
-    double tv_above,
-        tv_below; /* the larger of the certificate's and that of the worst angle here, below: all angles */
+    /* The larger of the certificate's and that of the worst angle here; below: of all angles. */
+    double tv_above, tv_below;
+    double area; /* largest relative error of the area above the horizon, hence of Lambda and G1 */
     report_time time;
 } report_table;
 
@@ -93,8 +94,8 @@ double report_theta(size_t angle);
 vndf_status report_subject_begin(report_subject *subject, vndf_source *source, const char *name,
                                  const char *arguments, vndf_error *error);
 
-/* Builds and measures the tables, smallest first: two at least, and more as long as the next one is likely to end within
- * `seconds`. */
+/* Builds and measures the tables, smallest first: two at least, and more as long as the next one is likely to end
+ * within `seconds`. */
 vndf_status report_subject_build(report_subject *subject, double seconds, const report_watch *watch,
                                  vndf_error *error);
 void report_subject_free(report_subject *subject);

@@ -72,8 +72,11 @@ static void measure_angles(const report_subject *subject, const double areas[REP
             continue;
         t->error[a] = measure_error(subject->reference, &from, t->table);
         t->worst.tv = fmax(t->worst.tv, t->error[a].tv);
-        if (report_theta(a) <= 90)
+        if (report_theta(a) <= 90) {
+            double area = (double)vndf_projected_area(&(vndf_surface){t->table, 1, 1}, from.wi);
             t->tv_above = fmax(t->tv_above, t->error[a].tv);
+            t->area = fmax(t->area, fabs(area / areas[a] - 1));
+        }
         t->worst.variance = fmax(t->worst.variance, t->error[a].variance);
         t->worst.max_weight = fmax(t->worst.max_weight, t->error[a].max_weight);
     }

@@ -1,7 +1,7 @@
 /* Projected areas of a resolved profile. With y = R/rho, rho = c/s, and v = sqrt(y^2 - 1) the direction (s, 0, -c) sees
  *     2 integral_rho^inf P R (s R v/y - c acos(1/y)) dR = 2 c integral P R (v - atan v) dR
- * and the derivatives by -c and s are the integrals of acos(1/y) and R v/y. Beyond some octaves the kernels are series of
- * 1/y, and the integrals sums of moments. */
+ * and the derivatives by -c and s are the integrals of acos(1/y) and R v/y. Beyond some octaves the kernels are
+ * series of 1/y, and the integrals sums of moments. */
 #include <math.h>
 
 #include "fit/profile/profile.h"
@@ -51,7 +51,8 @@ static const double LOST = 0x1p-55;
 
 double vndf_profile_s(const vndf_profile *profile, double rho)
 {
-    const vndf_panel *p = &profile->panel[vndf_profile_panel(profile, rho)], *end = &profile->panel[profile->count];
+    const vndf_panel *p = &profile->panel[vndf_profile_panel(profile, rho)],
+                     *end = &profile->panel[profile->count];
     if (rho >= end->r)
         return profile->tail_m1 * end->r / rho; /* or a little more: no panel resolves it */
     double from = rho > p->r ? rho : p->r;
@@ -98,8 +99,8 @@ static void add_far(vndf_area *sum, const vndf_panel *p, double rho)
     sum->along += t1 - square * p->less / 2 - square * square * p->least / 8;
 }
 
-/* Whether the root of the kernel at rho shows in a panel: if it is nearer than this part of the panel's width, ten points
- * err by more than 1e-9. */
+/* Whether the root of the kernel at rho shows in a panel: if it is nearer than this part of the panel's width, ten
+ * points err by more than 1e-9. */
 static int is_near(const vndf_panel *p, double rho)
 {
     return p->r - rho < 0.3 * (p[1].r - p->r);
@@ -120,7 +121,6 @@ static void add_panel(vndf_area *sum, const vndf_profile *profile, size_t i, dou
         for (int k = 0; k < VNDF_GAUSS; k++)
             add_point(sum, point[k].r, rho, point[k].weight);
 }
-
 
 vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
 {

@@ -11,9 +11,3 @@ const double vndf_gauss_weight[VNDF_GAUSS] = {
 const double vndf_gauss_barycentric[VNDF_GAUSS] = {
     -0.10901071252451058, 0.3607713161652364, -0.6388981226524656, 0.8699308691932656, -1.0, 1.0,
     -0.8699308691932656,  0.6388981226524656, -0.3607713161652364, 0.10901071252451058};
-
-const double vndf_gauss_coarse_node[VNDF_GAUSS_COARSE] = {0.069431844202973714, 0.33000947820757187,
-                                                          0.66999052179242813, 0.93056815579702623};
-
-const double vndf_gauss_coarse_weight[VNDF_GAUSS_COARSE] = {0.17392742256872687, 0.32607257743127305,
-                                                            0.32607257743127305, 0.17392742256872687};

@@ -3,13 +3,11 @@
 #ifndef VNDF_FIT_PROFILE_GAUSS_H
 #define VNDF_FIT_PROFILE_GAUSS_H
 
-enum { VNDF_GAUSS = 10, VNDF_GAUSS_COARSE = 4 };
+enum { VNDF_GAUSS = 10 };
 
 extern const double vndf_gauss_node[VNDF_GAUSS], vndf_gauss_weight[VNDF_GAUSS];
 /* Barycentric weights w, up to a common factor: the polynomial through values f_i at the nodes is
  * sum w_i f_i/(x - x_i) over sum w_i/(x - x_i). */
 extern const double vndf_gauss_barycentric[VNDF_GAUSS];
-
-extern const double vndf_gauss_coarse_node[VNDF_GAUSS_COARSE], vndf_gauss_coarse_weight[VNDF_GAUSS_COARSE];
 
 #endif

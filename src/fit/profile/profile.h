@@ -16,12 +16,12 @@
 
 /* Integrals of P r^n dr: inside the panel, before its inner edge, and beyond it. */
 typedef struct vndf_panel {
-    double r;          /* inner edge */
-    double m0, m1;     /* of P r and of P r (r - inner edge) over the panel */
-    double f0;         /* of P r before the inner edge */
-    double t0, s;      /* of P r and of P r (r - inner edge) beyond it */
+    double r;           /* inner edge */
+    double m0, m1;      /* of P r and of P r (r - inner edge) over the panel */
+    double f0;          /* of P r before the inner edge */
+    double t0, s;       /* of P r and of P r (r - inner edge) beyond it */
     double less, least; /* of P and of P/r^2 beyond it: vndf_panels_points */
-    int jump;          /* narrowed to the limit: P jumps here, or has a pole */
+    int jump;           /* narrowed to the limit: P jumps here, or has a pole */
 } vndf_panel;
 
 /* A Gauss point: P r dr = weight. */

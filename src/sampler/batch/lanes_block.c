@@ -1,0 +1,717 @@
+/* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
+ *
+ * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from which
+ * a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block; and puts
+ * the results together again. Short loops, since a processor overlaps few iterations of a long one. */
+#ifndef VNDF_LANES
+#  define VNDF_LANES 4
+#endif
+#if defined(__GNUC__)
+
+#  include "kernel/lanes.h"
+
+#  include "kernel/beckmann.h"
+#  include "kernel/ggx.h"
+#  include "kernel/sample.h"
+#  include "sampler/batch/call.h"
+
+#  if VNDF_LANES == 4
+#    define LANES_ENTRY vndf_lanes_4
+#  elif VNDF_LANES == 8
+#    define LANES_ENTRY vndf_lanes_8
+#  else
+#    define LANES_ENTRY vndf_lanes_16
+#  endif
+
+enum { BLOCK = 128, GROUPS = BLOCK / LANES };
+
+/* Steps are not to be inlined into one large function: each has its own part of the stack. */
+#  define STEP static __attribute__((noinline))
+
+typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
+
+/* A block of a call: where its inputs lie, all of them readable up to the last lane. */
+typedef struct block {
+    const vndf_call *call;
+    table t;
+    int groups;
+    const float *read[VNDF_READS];
+} block;
+
+HERE real input(const block *b, int which, int g)
+{
+    return load(b->read[which] + g * LANES);
+}
+
+/* ---- frames ---- */
+
+/* What of frames is needed to the end: f without u, `grow` and `size`; the direction of (ux, uy) of a table. */
+typedef struct frames {
+    frame f[GROUPS];
+    real ex[GROUPS], ey[GROUPS];
+    mask valid[GROUPS];
+} frames;
+
+/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction; what is drawn with or
+ * given; results. */
+enum { S, C, RHO, GIVEN_A, GIVEN_B, GIVEN_C, GIVEN_D, SIDE_READS };
+enum { RESULT_A, RESULT_B, RESULT_C, RESULT_D, RESULT_E, SIDE_WRITES };
+
+typedef struct side {
+    row height, read[SIDE_READS], write[SIDE_WRITES];
+} side;
+
+/* A matrix in units of the distribution's slopes; the unit matrix for what is invalid. */
+HERE affine_map map_at(const block *b, int g, mask *valid)
+{
+    const float unit = b->call->distribution->unit;
+    real xx = input(b, VNDF_READ_XX, g), yy = input(b, VNDF_READ_YY, g), one = set(1.0f), zero = set(0.0f);
+    affine_map m = {xx * unit, input(b, VNDF_READ_XY, g) * unit, input(b, VNDF_READ_YX, g) * unit, yy * unit,
+                    input(b, VNDF_READ_MEAN_X, g), input(b, VNDF_READ_MEAN_Y, g)};
+    mask good = affine_is_valid(m);
+    if (b->call->diagonal)
+        good = both(good, both(less(zero, xx), less(zero, yy)));
+    affine_map made = {pick(good, m.xx, one), pick(good, m.xy, zero), pick(good, m.yx, zero),
+                       pick(good, m.yy, one), pick(good, m.mean_x, zero), pick(good, m.mean_y, zero)};
+    *valid = good;
+    return made;
+}
+
+/* The frame of a group of elements; that of a direction straight up for what is invalid. */
+HERE frame frame_at(const block *b, int g, mask *valid)
+{
+    affine_map m = map_at(b, g, valid);
+    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), z = input(b, VNDF_READ_WI_Z, g);
+    mask looks = direction_is_valid(x, y, z);
+    *valid = both(*valid, looks);
+    return frame_of(m, pick(looks, x, set(0.0f)), pick(looks, y, set(0.0f)), pick(looks, z, set(1.0f)));
+}
+
+/* Puts the direction of a frame at group g of a side. */
+HERE table_direction put_direction(side *s, int g, frame f)
+{
+    table_direction w = table_direction_of(f);
+    store(s->height + g * LANES, f.uz);
+    store(s->read[S] + g * LANES, w.s);
+    store(s->read[C] + g * LANES, w.c);
+    store(s->read[RHO] + g * LANES, w.rho);
+    return w;
+}
+
+/* ---- sides of the horizon ---- */
+
+HERE void find_knots(table t, int groups, const float *slopes, whole *i)
+{
+    for (int g = 0; g < groups; g++)
+        i[g] = begin_knot(t, load(slopes + g * LANES));
+    for (int step = t.stride / 2; step > 0; step /= 2)
+        for (int g = 0; g < groups; g++)
+            i[g] = step_knot(t, load(slopes + g * LANES), i[g], step);
+}
+
+HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
+{
+    whole cell[GROUPS];
+    find_knots(t, groups, s->read[RHO], cell);
+    for (int g = 0; g < groups; g++) {
+        const float *at = s->read[0] + g * LANES;
+        v[g] = table_see(t, load(at + S * BLOCK), load(at + C * BLOCK), load(at + RHO * BLOCK), cell[g], below);
+    }
+}
+
+/* Cells of samples. */
+HERE void find_cells(table t, int groups, const seen *v, const aim *a, whole *i, const int below)
+{
+    if (below) {
+        for (int g = 0; g < groups; g++)
+            i[g] = v[g].cell;
+        for (int step = t.highest; step > 0; step /= 2)
+            for (int g = 0; g < groups; g++)
+                i[g] = law_step_below(t, v[g], a[g].left, i[g], step);
+        return;
+    }
+    for (int g = 0; g < groups; g++)
+        i[g] = begin_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left);
+    for (int step = t.stride / 2; step > 0; step /= 2)
+        for (int g = 0; g < groups; g++)
+            i[g] = step_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left, i[g], step);
+    for (int g = 0; g < groups; g++)
+        i[g] = table_within(t, v[g], a[g], i[g]);
+}
+
+/* The azimuths of u1. */
+HERE void draw_azimuths(int groups, const arc *k, const float *u1, bearing *a, const int below)
+{
+    real start[GROUPS];
+    for (int g = 0; g < groups; g++)
+        start[g] = arc_start(k[g], arc_half(load(u1 + g * LANES)), below);
+    for (int g = 0; g < groups; g++) {
+        real u = load(u1 + g * LANES);
+        a[g] = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
+    }
+}
+
+/* Normals in the frames of their directions, with K, and their weights. */
+HERE void draw_side(table t, int groups, side *s, const int weigh, const int below)
+{
+    seen v[GROUPS];
+    aim a[GROUPS];
+    whole i[GROUPS];
+    found f[GROUPS];
+    drawn_length d[GROUPS];
+    arc k[GROUPS];
+    bearing turned[GROUPS];
+    see_side(t, groups, s, v, below);
+    for (int g = 0; g < groups; g++)
+        a[g] = table_aim(v[g], load(s->read[GIVEN_B] + g * LANES), below);
+    find_cells(t, groups, v, a, i, below);
+    for (int g = 0; g < groups; g++)
+        f[g] = table_cell(t, v[g], a[g], i[g], below);
+    for (int g = 0; g < groups; g++)
+        d[g] = table_length(t, v[g], f[g], below);
+    for (int g = 0; g < groups; g++)
+        k[g] = table_arc(v[g], d[g].r, below);
+    draw_azimuths(groups, k, s->read[GIVEN_A], turned, below);
+    for (int g = 0; g < groups; g++) {
+        drawn n = table_normal(v[g], d[g], k[g], turned[g]);
+        store(s->write[RESULT_A] + g * LANES, n.x);
+        store(s->write[RESULT_B] + g * LANES, n.y);
+        store(s->write[RESULT_C] + g * LANES, n.z);
+        store(s->write[RESULT_D] + g * LANES, n.density);
+    }
+    for (int g = 0; weigh && g < groups; g++) {
+        place in = law_invert(f[g].at, f[g].before);
+        real area = law_area(t, v[g]), weight = table_weight(t, v[g], i[g], f[g], in, d[g].r, k[g], area, below);
+        store(s->write[RESULT_E] + g * LANES, weight);
+    }
+}
+
+/* The given normals, with their cells. */
+HERE void place_given(table t, int groups, const side *s, given *n)
+{
+    row slope;
+    whole cell[GROUPS];
+    for (int g = 0; g < groups; g++) {
+        const float *at = s->read[0] + g * LANES;
+        n[g] = table_given_slope(load(at + GIVEN_A * BLOCK), load(at + GIVEN_B * BLOCK), load(at + GIVEN_C * BLOCK));
+        store(slope + g * LANES, n[g].r);
+    }
+    find_knots(t, groups, slope, cell);
+    for (int g = 0; g < groups; g++)
+        n[g].cell = cell[g];
+}
+
+HERE void density_side(table t, int groups, side *s, const int below)
+{
+    seen v[GROUPS];
+    given n[GROUPS];
+    see_side(t, groups, s, v, below);
+    place_given(t, groups, s, n);
+    for (int g = 0; g < groups; g++)
+        store(s->write[RESULT_A] + g * LANES, table_density(t, v[g], n[g], load(s->read[GIVEN_D] + g * LANES), below));
+}
+
+HERE void invert_side(table t, int groups, side *s, const int below)
+{
+    seen v[GROUPS];
+    given n[GROUPS];
+    see_side(t, groups, s, v, below);
+    place_given(t, groups, s, n);
+    for (int g = 0; g < groups; g++) {
+        real x = load(s->read[GIVEN_A] + g * LANES), y = load(s->read[GIVEN_B] + g * LANES);
+        pair u = table_invert(t, v[g], n[g], x, y, below);
+        store(s->write[RESULT_A] + g * LANES, u.a);
+        store(s->write[RESULT_B] + g * LANES, u.b);
+    }
+}
+
+HERE void area_side(table t, int groups, side *s, const int below)
+{
+    seen v[GROUPS];
+    see_side(t, groups, s, v, below);
+    for (int g = 0; g < groups; g++)
+        store(s->write[RESULT_A] + g * LANES, law_area(t, v[g]));
+}
+
+/* What a side does, above and below the horizon. */
+typedef void side_step(table t, int groups, side *s);
+
+STEP void draw_above(table t, int groups, side *s)
+{
+    draw_side(t, groups, s, 0, 0);
+}
+
+STEP void draw_below(table t, int groups, side *s)
+{
+    draw_side(t, groups, s, 0, 1);
+}
+
+STEP void weigh_above(table t, int groups, side *s)
+{
+    draw_side(t, groups, s, 1, 0);
+}
+
+STEP void weigh_below(table t, int groups, side *s)
+{
+    draw_side(t, groups, s, 1, 1);
+}
+
+STEP void density_above(table t, int groups, side *s)
+{
+    density_side(t, groups, s, 0);
+}
+
+STEP void density_below(table t, int groups, side *s)
+{
+    density_side(t, groups, s, 1);
+}
+
+STEP void invert_above(table t, int groups, side *s)
+{
+    invert_side(t, groups, s, 0);
+}
+
+STEP void invert_below(table t, int groups, side *s)
+{
+    invert_side(t, groups, s, 1);
+}
+
+STEP void area_above(table t, int groups, side *s)
+{
+    area_side(t, groups, s, 0);
+}
+
+STEP void area_below(table t, int groups, side *s)
+{
+    area_side(t, groups, s, 1);
+}
+
+/* A side_step on the elements of one side, `some` of a block, which are copied together and their results back. */
+STEP void take_some(table t, side *s, const uint8_t *some, int count, int reads, int writes, side_step *step)
+{
+    side own;
+    int groups = (count + LANES - 1) / LANES;
+    for (int r = 0; r < reads; r++)
+        for (int i = 0; i < groups * LANES; i++)
+            own.read[r][i] = s->read[r][some[i < count ? i : 0]];
+    step(t, groups, &own);
+    for (int w = 0; w < writes; w++)
+        for (int i = 0; i < count; i++)
+            s->write[w][some[i]] = own.write[w][i];
+}
+
+/* Each element by the step of its side. */
+HERE void take_sides(const block *b, side *s, int reads, int writes, side_step *above, side_step *below)
+{
+    uint8_t high[BLOCK], low[BLOCK];
+    int highs = 0, lows = 0, count = b->groups * LANES;
+    for (int i = 0; i < count; i++) {
+        int is_low = s->height[i] < 0.0f;
+        high[highs] = low[lows] = (uint8_t)i;
+        lows += is_low;
+        highs += !is_low;
+    }
+    if (lows == 0 || highs == 0) {
+        (lows == 0 ? above : below)(b->t, b->groups, s);
+        return;
+    }
+    take_some(b->t, s, high, highs, reads, writes, above);
+    take_some(b->t, s, low, lows, reads, writes, below);
+}
+
+/* ---- samples ---- */
+
+/* Of the numbers u1 and u2: in [0, 1], 0 for NaN. */
+HERE real unit_input(const block *b, int which, int g)
+{
+    return least(most(input(b, which, g), set(0.0f)), set(1.0f));
+}
+
+/* Keeps what a sample needs of its frame to the end. */
+HERE void keep_frame(frames *at, int g, frame f)
+{
+    at->f[g].m = f.m;
+    at->f[g].wx = f.wx;
+    at->f[g].wy = f.wy;
+    at->f[g].wz = f.wz;
+    at->f[g].determinant = f.determinant;
+    at->f[g].rarest = f.rarest;
+}
+
+/* Writes the samples of a group. */
+HERE void put_sample(const block *b, const frames *at, int g, drawn n, real weight, float *const to[VNDF_WRITES])
+{
+    sampled s = frame_sampled(at->f[g], n);
+    mask valid = at->valid[g];
+    real zero = set(0.0f);
+    store(to[0] + g * LANES, pick(valid, s.x, zero));
+    store(to[1] + g * LANES, pick(valid, s.y, zero));
+    store(to[2] + g * LANES, pick(valid, s.z, set(1.0f)));
+    if (b->call->write[3])
+        store(to[3] + g * LANES, pick(valid, s.pdf, zero));
+    if (b->call->write[4])
+        store(to[4] + g * LANES, pick(valid, weight, zero));
+}
+
+HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
+{
+    frames at;
+    side s;
+    const int weigh = b->call->write[4] != NULL;
+    for (int g = 0; g < b->groups; g++) {
+        frame f = frame_at(b, g, &at.valid[g]);
+        table_direction w = put_direction(&s, g, f);
+        keep_frame(&at, g, f);
+        at.ex[g] = w.ex;
+        at.ey[g] = w.ey;
+        store(s.read[GIVEN_A] + g * LANES, unit_input(b, VNDF_READ_A, g));
+        store(s.read[GIVEN_B] + g * LANES, unit_input(b, VNDF_READ_B, g));
+    }
+    if (weigh)
+        take_sides(b, &s, GIVEN_C, SIDE_WRITES, weigh_above, weigh_below);
+    else
+        take_sides(b, &s, GIVEN_C, RESULT_E, draw_above, draw_below);
+    for (int g = 0; g < b->groups; g++) {
+        const float *from = s.write[0] + g * LANES;
+        drawn n = {load(from), load(from + BLOCK), load(from + 2 * BLOCK), load(from + 3 * BLOCK)};
+        real weight = weigh ? load(s.write[RESULT_E] + g * LANES) : set(1.0f);
+        put_sample(b, &at, g, table_turned(at.ex[g], at.ey[g], n), weight, to);
+    }
+}
+
+HERE void sample_ggx(const block *b, float *const to[VNDF_WRITES])
+{
+    frames at;
+    ggx_view v[GROUPS];
+    for (int g = 0; g < b->groups; g++) {
+        frame f = frame_at(b, g, &at.valid[g]);
+        keep_frame(&at, g, f);
+        v[g] = ggx_see(f.ux, f.uy, f.uz);
+    }
+    for (int g = 0; g < b->groups; g++) {
+        drawn n = ggx_draw(v[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
+        put_sample(b, &at, g, n, set(1.0f), to);
+    }
+}
+
+HERE void sample_beckmann(const block *b, float *const to[VNDF_WRITES])
+{
+    frames at;
+    beckmann_view v[GROUPS];
+    drawn n[GROUPS];
+    for (int g = 0; g < b->groups; g++) {
+        frame f = frame_at(b, g, &at.valid[g]);
+        keep_frame(&at, g, f);
+        v[g] = beckmann_see(f.ux, f.uy, f.uz);
+    }
+    for (int g = 0; g < b->groups; g++)
+        n[g] = beckmann_draw(v[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
+    for (int g = 0; g < b->groups; g++)
+        put_sample(b, &at, g, n[g], set(1.0f), to);
+}
+
+/* ---- given normals ---- */
+
+/* The normal of a group in the unit problem, seen or not. */
+HERE unit_normal normal_at(const block *b, int g, frame f)
+{
+    return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
+}
+
+/* What of frames and normals a density needs to the end: f has `determinant` and `rarest` alone. */
+typedef struct densities {
+    frame f[GROUPS];
+    mask seen[GROUPS];
+} densities;
+
+/* Keeps the frame; the element is seen if it is valid and so is its normal. */
+HERE void keep_seen(const block *b, densities *at, int g, frame f, unit_normal n, mask valid)
+{
+    mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
+    at->f[g].determinant = f.determinant;
+    at->f[g].rarest = f.rarest;
+    at->seen[g] = both(valid, up);
+}
+
+HERE void put_density(const densities *at, int g, real density, float *to)
+{
+    store(to + g * LANES, pick(at->seen[g], frame_density(at->f[g], density), set(0.0f)));
+}
+
+HERE void density_table(const block *b, float *to)
+{
+    densities at;
+    side s;
+    for (int g = 0; g < b->groups; g++) {
+        mask valid;
+        frame f = frame_at(b, g, &valid);
+        unit_normal n = normal_at(b, g, f);
+        table_direction w = put_direction(&s, g, f);
+        keep_seen(b, &at, g, f, n, valid);
+        unit_normal unturned = table_unturned(w.ex, w.ey, n);
+        mask below = less(f.uz, set(0.0f));
+        store(s.read[GIVEN_A] + g * LANES, pick(below, unturned.x, n.x));
+        store(s.read[GIVEN_B] + g * LANES, pick(below, unturned.y, n.y));
+        store(s.read[GIVEN_C] + g * LANES, n.z);
+        store(s.read[GIVEN_D] + g * LANES, n.facing / frame_reach(f));
+    }
+    take_sides(b, &s, SIDE_READS, RESULT_B, density_above, density_below);
+    for (int g = 0; g < b->groups; g++)
+        put_density(&at, g, load(s.write[RESULT_A] + g * LANES) / at.f[g].determinant, to);
+}
+
+/* D times the determinant of given normals, D of a direction straight up if there is no other. */
+HERE void p22_table(table t, int groups, const side *s, real *p22)
+{
+    given n[GROUPS];
+    place_given(t, groups, s, n);
+    for (int g = 0; g < groups; g++)
+        p22[g] = table_p22(t, n[g]);
+}
+
+HERE void put_given(side *s, int g, unit_normal n)
+{
+    store(s->read[GIVEN_A] + g * LANES, n.x);
+    store(s->read[GIVEN_B] + g * LANES, n.y);
+    store(s->read[GIVEN_C] + g * LANES, n.z);
+}
+
+HERE void visible_table(const block *b, float *to)
+{
+    densities at;
+    side s;
+    real facing[GROUPS], reach[GROUPS], p22[GROUPS];
+    for (int g = 0; g < b->groups; g++) {
+        mask valid;
+        frame f = frame_at(b, g, &valid);
+        unit_normal n = normal_at(b, g, f);
+        put_direction(&s, g, f);
+        keep_seen(b, &at, g, f, n, valid);
+        put_given(&s, g, n);
+        facing[g] = n.facing;
+        reach[g] = frame_reach(f);
+    }
+    take_sides(b, &s, GIVEN_A, RESULT_B, area_above, area_below);
+    p22_table(b->t, b->groups, &s, p22);
+    for (int g = 0; g < b->groups; g++) {
+        real area = most(load(s.write[RESULT_A] + g * LANES) * reach[g], set(1e-37f));
+        put_density(&at, g, p22[g] / at.f[g].determinant * (facing[g] / area), to);
+    }
+}
+
+/* Of the closed forms, whose density is the visible one. */
+HERE void density_closed(const block *b, float *to, const vndf_kind kind)
+{
+    densities at;
+    for (int g = 0; g < b->groups; g++) {
+        mask valid;
+        frame f = frame_at(b, g, &valid);
+        unit_normal n = normal_at(b, g, f);
+        keep_seen(b, &at, g, f, n, valid);
+        real density = kind == VNDF_KIND_GGX
+                           ? ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing)
+                           : beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
+        put_density(&at, g, density / f.determinant, to);
+    }
+}
+
+/* The normal that an inverse is asked for, held above the horizon. */
+HERE unit_normal inverted_at(const block *b, int g, frame f)
+{
+    real z = most(input(b, VNDF_READ_C, g), set(0.0f));
+    return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), z);
+}
+
+HERE void put_numbers(int g, mask valid, pair u, float *const to[VNDF_WRITES])
+{
+    real zero = set(0.0f), one = set(1.0f);
+    store(to[0] + g * LANES, pick(valid, least(most(u.a, zero), one), zero));
+    store(to[1] + g * LANES, pick(valid, least(most(u.b, zero), one), zero));
+}
+
+HERE void invert_table(const block *b, float *const to[VNDF_WRITES])
+{
+    mask valid[GROUPS];
+    side s;
+    for (int g = 0; g < b->groups; g++) {
+        frame f = frame_at(b, g, &valid[g]);
+        table_direction w = put_direction(&s, g, f);
+        put_given(&s, g, table_unturned(w.ex, w.ey, inverted_at(b, g, f)));
+    }
+    take_sides(b, &s, GIVEN_D, RESULT_C, invert_above, invert_below);
+    for (int g = 0; g < b->groups; g++) {
+        pair u = {load(s.write[RESULT_A] + g * LANES), load(s.write[RESULT_B] + g * LANES)};
+        put_numbers(g, valid[g], u, to);
+    }
+}
+
+HERE void invert_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
+{
+    for (int g = 0; g < b->groups; g++) {
+        mask valid;
+        frame f = frame_at(b, g, &valid);
+        unit_normal n = inverted_at(b, g, f);
+        pair u = kind == VNDF_KIND_GGX ? ggx_invert(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z)
+                                       : beckmann_invert(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z);
+        put_numbers(g, valid, u, to);
+    }
+}
+
+/* ---- the distribution itself ---- */
+
+HERE void ndf(const block *b, float *to, const vndf_kind kind)
+{
+    side s;
+    mask valid[GROUPS];
+    real determinant[GROUPS], p22[GROUPS];
+    for (int g = 0; g < b->groups; g++) {
+        affine_map m = map_at(b, g, &valid[g]);
+        frame f = frame_of(m, set(0.0f), set(0.0f), set(1.0f));
+        unit_normal n = normal_at(b, g, f);
+        valid[g] = both(valid[g], at_most(set(0.0f), input(b, VNDF_READ_C, g)));
+        determinant[g] = f.determinant;
+        if (kind == VNDF_KIND_TABLE)
+            put_given(&s, g, n);
+        else
+            p22[g] = kind == VNDF_KIND_GGX ? ggx_p22(n.x, n.y, n.z) : beckmann_p22(n.x, n.y, n.z);
+    }
+    if (kind == VNDF_KIND_TABLE)
+        p22_table(b->t, b->groups, &s, p22);
+    for (int g = 0; g < b->groups; g++) {
+        real d = least(p22[g] / determinant[g], set(3.40282347e38f));
+        store(to + g * LANES, pick(valid[g], d, set(0.0f)));
+    }
+}
+
+/* Areas, and what masking makes of them. */
+HERE void areas(const block *b, float *to, const vndf_kind kind)
+{
+    side s;
+    mask valid[GROUPS];
+    real area[GROUPS], cosine[GROUPS], scale[GROUPS];
+    for (int g = 0; g < b->groups; g++) {
+        frame f = frame_at(b, g, &valid[g]);
+        cosine[g] = f.uz * f.size;
+        scale[g] = f.size;
+        if (kind == VNDF_KIND_TABLE) {
+            put_direction(&s, g, f);
+            area[g] = frame_reach(f);
+        } else
+            area[g] = kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz);
+    }
+    if (kind == VNDF_KIND_TABLE)
+        take_sides(b, &s, GIVEN_A, RESULT_B, area_above, area_below);
+    for (int g = 0; g < b->groups; g++) {
+        real all = area[g];
+        if (kind == VNDF_KIND_TABLE)
+            all = load(s.write[RESULT_A] + g * LANES) * all;
+        all = all * scale[g];
+        if (b->call->task == VNDF_TASK_LAMBDA)
+            all = lambda_of(all, cosine[g]);
+        else if (b->call->task == VNDF_TASK_G1)
+            all = g1_of(all, cosine[g]);
+        store(to + g * LANES, pick(valid[g], all, set(0.0f)));
+    }
+}
+
+/* ---- blocks ---- */
+
+STEP void block_of_table(const block *b, float *const to[VNDF_WRITES])
+{
+    switch (b->call->task) {
+    case VNDF_TASK_SAMPLE:
+        sample_table(b, to);
+        break;
+    case VNDF_TASK_PDF:
+        density_table(b, to[0]);
+        break;
+    case VNDF_TASK_VISIBLE:
+        visible_table(b, to[0]);
+        break;
+    case VNDF_TASK_INVERT:
+        invert_table(b, to);
+        break;
+    case VNDF_TASK_NDF:
+        ndf(b, to[0], VNDF_KIND_TABLE);
+        break;
+    default:
+        areas(b, to[0], VNDF_KIND_TABLE);
+    }
+}
+
+HERE void block_of_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
+{
+    switch (b->call->task) {
+    case VNDF_TASK_SAMPLE:
+        (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to);
+        break;
+    case VNDF_TASK_PDF:
+    case VNDF_TASK_VISIBLE:
+        density_closed(b, to[0], kind);
+        break;
+    case VNDF_TASK_INVERT:
+        invert_closed(b, to, kind);
+        break;
+    case VNDF_TASK_NDF:
+        ndf(b, to[0], kind);
+        break;
+    default:
+        areas(b, to[0], kind);
+    }
+}
+
+STEP void block_of_ggx(const block *b, float *const to[VNDF_WRITES])
+{
+    block_of_closed(b, to, VNDF_KIND_GGX);
+}
+
+STEP void block_of_beckmann(const block *b, float *const to[VNDF_WRITES])
+{
+    block_of_closed(b, to, VNDF_KIND_BECKMANN);
+}
+
+/* Copies for the last lanes of a call, and numbers that all elements share. */
+typedef struct copies {
+    row read[VNDF_READS], write[VNDF_WRITES];
+} copies;
+
+/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. */
+HERE void place_reads(block *b, size_t first, int count, copies *c)
+{
+    const vndf_call *call = b->call;
+    for (int r = 0; r < VNDF_READS; r++) {
+        const float *from = call->read[r];
+        int one = !from || (call->shared >> r & 1), whole_block = count == b->groups * LANES;
+        b->read[r] = !one && whole_block ? from + first : c->read[r];
+        if (one ? first > 0 : whole_block)
+            continue;
+        for (int i = 0; i < BLOCK; i++)
+            c->read[r][i] = one ? (from ? *from : 0.0f) : from[first + (size_t)(i < count ? i : count - 1)];
+    }
+}
+
+void LANES_ENTRY(const vndf_call *call)
+{
+    const vndf_kind kind = call->distribution->kind;
+    table_copies table_parts;
+    copies c;
+    block b;
+    b.call = call;
+    if (kind == VNDF_KIND_TABLE)
+        b.t = table_of(call->distribution, &table_parts, call->count);
+    for (size_t first = 0; first < call->count; first += BLOCK) {
+        int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
+        float *to[VNDF_WRITES];
+        b.groups = (count + LANES - 1) / LANES;
+        int in_place = count == b.groups * LANES;
+        place_reads(&b, first, count, &c);
+        for (int w = 0; w < VNDF_WRITES; w++)
+            to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
+        (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(&b, to);
+        for (int w = 0; !in_place && w < VNDF_WRITES; w++)
+            if (call->write[w])
+                memcpy(call->write[w] + first, c.write[w], (size_t)count * sizeof(float));
+    }
+}
+
+#endif
