@@ -40,7 +40,7 @@ HERE mask affine_is_valid(affine_map m)
 /* Not zero, infinite or NaN. */
 HERE mask direction_is_valid(real x, real y, real z)
 {
-    real largest = most(most(size(x), size(y)), size(z)), end = set(3.40282347e38f);
+    real largest = most(most(size(x), size(y)), size(z)), end = set(3.4028234e38f);
     mask finite = both(both(at_most(size(x), end), at_most(size(y), end)), at_most(size(z), end));
     return both(finite, less(set(0.0f), largest));
 }
@@ -93,7 +93,7 @@ typedef struct sampled {
 /* A density that a float can hold, not 0 where something is seen. */
 HERE real frame_density(frame f, real density)
 {
-    real held = least(most(density, f.rarest), set(3.40282347e38f));
+    real held = least(most(density, f.rarest), set(3.4028234e38f));
     return pick(less(set(0.0f), f.rarest), held, set(0.0f));
 }
 
@@ -136,7 +136,7 @@ HERE unit_normal frame_normal(frame f, real x, real y, real z)
 HERE real lambda_of(real area, real cosine)
 {
     mask nothing = both(at_most(area, set(0.0f)), at_most(size(cosine), set(0.0f)));
-    real lambda = (area - cosine) / cosine, end = set(3.40282347e38f);
+    real lambda = (area - cosine) / cosine, end = set(3.4028234e38f);
     return pick(nothing, set(0.0f), least(most(lambda, -end), end));
 }
 
