@@ -188,7 +188,7 @@ typedef struct vndf_view {
 
 /* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
  * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha
- * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-18, 1e18]. From an invalid view
+ * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-18, 1e15]. From an invalid view
  * vndf_sample returns (0, 0, 1) with density 0, and every other function returns 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
@@ -350,7 +350,8 @@ typedef vndf_view vndf_affine_view;
 
 /* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
  * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. Also invalid are a matrix with
- * a singular value, times the scale of the distribution, outside [1e-18, 1e18], and a mean slope above 1e6. The
+ * an entry above 1e15, or a determinant outside [1e-36, 1e36], of the matrix times the scale of the distribution,
+ * and a mean slope above 1e6. The
  * numbers u1 and u2 mean what they mean for vndf_sample, in the frame of the slopes u, seen from (M^T wi'_xy, wi'.z). */
 VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);

@@ -23,8 +23,9 @@ static vndf_status check_head(const vndf_frame *frame, const unsigned char *byte
     uint32_t version = vndf_read_u32(&r);
     *stated = vndf_read_u32(&r);
     if (version != frame->version)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "%s format version %u; this library reads version %u",
-                         frame->name, (unsigned)version, (unsigned)frame->version);
+        return vndf_fail(error, VNDF_ERROR_TABLE, "%s format version %u; this library reads version %u%s",
+                         frame->name, (unsigned)version, (unsigned)frame->version,
+                         version < frame->version ? ": build it again" : "");
     if (*stated < 64 || *stated > frame->most)
         return vndf_fail(error, VNDF_ERROR_TABLE, "the %s says that it has %u bytes; from 64 to %u are possible",
                          frame->name, (unsigned)*stated, (unsigned)frame->most);

@@ -254,7 +254,8 @@ HERE real beckmann_bounded_density(beckmann_bounds b, real x, real y, real z, re
 HERE bounded beckmann_draw_bounded(beckmann_bounds b, real u1, real u2)
 {
     beckmann_law v = b.view.law;
-    real x = most(least(beckmann_along(b.view, b.begin + b.span * u1).x, b.x1), b.x0);
+    real rim = 1e-6f * (b.x1 - b.x0); /* at x0 and x1 chords have no length */
+    real x = most(least(beckmann_along(b.view, b.begin + b.span * u1).x, b.x1 - rim), b.x0 + rim);
     beckmann_chord h = beckmann_chord_of(b, x);
     real u = 0.5f + h.side * (u2 - 0.5f), y = erf_quantile(h.before + u * h.part);
     mask far = less(set(0.0f), h.near);

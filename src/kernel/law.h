@@ -376,7 +376,8 @@ HERE real law_area_above(table t, seen v)
     quad k = look(t, VNDF_KNOT, v.cell), low = look(t, VNDF_LOW, v.cell), up = look(t, VNDF_LOW, next);
     real width = pick(last, k.b, k.c), a1 = pick(last, set(1.0f), up.c), d1 = width * pick(last, set(1.0f), up.d);
     real u = least((v.rho - k.a) * k.b * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.d;
-    return w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
+    real area = w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
+    return most(area, size(v.c)); /* no less than the plane */
 }
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its digits,

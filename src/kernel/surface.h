@@ -24,14 +24,15 @@ HERE real affine_determinant(affine_map m)
     return determinant;
 }
 
-/* Entries up to 1e18, with a determinant that leaves floats room, and mean slopes up to 1e6. */
+/* Entries up to 1e15, whose squares and cubes floats hold, with a determinant that leaves floats room, and mean slopes up to 1e6. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = affine_determinant(m);
-    real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
+    real determinant = affine_determinant(m), end = set(1e15f);
     mask inside = both(at_most(set(1e-36f), determinant), at_most(determinant, set(1e36f)));
+    mask first = both(at_most(size(m.xx), end), at_most(size(m.xy), end));
+    mask second = both(at_most(size(m.yx), end), at_most(size(m.yy), end));
     mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
-    return both(both(inside, at_most(largest, set(1e18f))), level);
+    return both(both(inside, level), both(first, second));
 }
 
 /* Not zero, infinite or NaN. */

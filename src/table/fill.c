@@ -21,22 +21,46 @@ static int in_range(double value, double least, double most)
     return value >= least && value <= most;
 }
 
+/* End densities over the mean of the cell; builders stay below 300. */
+static const double STEEPEST = 1e4;
+
+/* Whether moments and end densities of cell i are those of a density; the last cell has no end. */
+static int cell_valid(const vndf_table_draft *d, size_t i)
+{
+    double r = d->knot[i], z0 = 1 / (1 + r), m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], slack = 1.0001;
+    double mean0 = m0 / (z0 * z0), mean1 = m2 + r * (2 * m1 + r * m0);
+    if (i < d->cells) {
+        double gap = slack * ((double)d->knot[i + 1] - r), z1 = 1 / (1 + (double)d->knot[i + 1]);
+        mean1 = m0 / (z1 * z1);
+        if (m1 > gap * m0 || m2 > gap * m1)
+            return 0;
+    }
+    return in_range(d->g0[i], 0.0, STEEPEST * mean0) && in_range(d->g1[i], 0.0, STEEPEST * mean1);
+}
+
+/* Whether the cubic of the area beyond knot i stays above 0. */
+static int area_valid(const vndf_table_draft *d, size_t i)
+{
+    double z0 = 1 / (1 + (double)d->knot[i]), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0, width = z0 - z1;
+    double a0 = d->area[i], a1 = i < d->cells ? d->area[i + 1] : 1, s1 = i < d->cells ? d->slope[i + 1] : 1;
+    return in_range(a0, 1e-20, 1e20) && width * d->slope[i] >= -3 * a0 && width * s1 <= 3 * a1 &&
+           in_range(d->slope[i], -1e20, 1e20);
+}
+
 /* What is wrong with the numbers of one knot. */
 static const char *knot_invalid(const vndf_table_draft *d, size_t i)
 {
     const double most = 1e36;
     if (i < d->cells && !(d->knot[i + 1] > d->knot[i]))
         return "the knots do not ascend";
-    if (!in_range(d->g0[i], 0.0, most) || !in_range(d->g1[i], 0.0, most))
-        return "a density is out of range";
     if (!in_range(d->m0[i], 1e-37, most) || !in_range(d->m1[i], 1e-37, most) || !in_range(d->m2[i], 1e-37, most) ||
         (d->m4 && !in_range(d->m4[i], 0.0, most)))
         return "a moment is out of range";
+    if (!cell_valid(d, i))
+        return "a density does not belong to the moments of its cell";
     if (!in_range(d->b0[i], 0.0, 1e6) || !in_range(d->b1[i], 0.0, 1e6) || !(d->b0[i] + d->b1[i] > 1e-6f))
         return "a share is out of range";
-    if (!in_range(d->area[i], 1e-20, 1e20) || !in_range(d->slope[i], -1e20, 1e20))
-        return "an area is out of range";
-    return NULL;
+    return area_valid(d, i) ? NULL : "an area is out of range";
 }
 
 static const char *draft_invalid(const vndf_table_draft *d)

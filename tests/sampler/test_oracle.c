@@ -171,7 +171,7 @@ static void test_family(const subject *of, const oracle_slopes *slopes, family f
         }
     }
     for (int q = 0; q < QUANTITIES; q++)
-        if (!(TEST((double)missed[q] <= 1e-3 * (double)checked[q]) &
+        if (!(TEST((double)missed[q] <= 1 + 1e-3 * (double)checked[q]) &
               TEST(worst[q] < (of->shape.rough ? HUGE_VAL : 1e-2))) ||
             test_long()) {
             fprintf(stderr, "  %s, %s, %s: %lu of %lu beyond 1e-5, most %.3g\n", of->name, family_names[f],
