@@ -148,7 +148,7 @@ static void test_ndf(const char *name, unsigned long long seed)
         name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
         (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
         (unsigned long)found.extreme);
-    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 200 &&
+    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 50 &&
          found.densities < found.kept / 1000);
     TEST(found.kept > 2 * found.lost && found.extreme < found.kept / 20);
     oracle_ndf_close(&ndf);
