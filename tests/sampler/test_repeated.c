@@ -1,7 +1,7 @@
 /* The density that comes with a sample is that of vndf_pdf at the normal returned (promise 2): above the horizon within
  * 1e-5 for 99.9% of the samples and 1e-4 for 99.99%, below it 1e-4 and 1e-3, where roughness is at least 0.02 and no
- * lobe of D is narrower than a tenth of its slope; every fifth view is of a mixture. It notices a density that is formed
- * another way where a sample is drawn than where it is asked for, and digits lost on the way. */
+ * lobe of D is narrower than a tenth of its slope; every fifth view is of a mixture. It notices a density that is
+ * formed another way where a sample is drawn than where it is asked for, and digits lost on the way. */
 #include "sampler/seen.h"
 
 enum { ALPHAS = 4, MOST = 400000 };
