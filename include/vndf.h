@@ -352,7 +352,8 @@ typedef vndf_view vndf_affine_view;
  * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. Also invalid are a matrix with
  * an entry above 1e15, or a determinant outside [1e-36, 1e36], of the matrix times the scale of the distribution,
  * and a mean slope above 1e6. The
- * numbers u1 and u2 mean what they mean for vndf_sample, in the frame of the slopes u, seen from (M^T wi'_xy, wi'.z). */
+ * numbers u1 and u2 mean what they mean for vndf_sample, in the frame of the slopes u, seen from (M^T wi'_xy,
+ * wi'.z). */
 VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);
 VNDF_API float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm);
@@ -386,11 +387,11 @@ typedef struct vndf_mixture {
 
 /* Members are private. The first `count` elements of each array are filled. */
 typedef struct vndf_mixture_view {
-    int count;                                 /* 0 marks an invalid view */
-    int index[VNDF_MIXTURE_LOBES];             /* which lobe of the mixture it is */
-    float weight[VNDF_MIXTURE_LOBES];          /* over the sum of all */
-    float share[VNDF_MIXTURE_LOBES];           /* w_i A_i/A: how often lobe i is drawn */
-    float area, cosine;                        /* A(wi), and the projection of wi on the mean plane, of the whole */
+    int count;                        /* 0 marks an invalid view */
+    int index[VNDF_MIXTURE_LOBES];    /* which lobe of the mixture it is */
+    float weight[VNDF_MIXTURE_LOBES]; /* over the sum of all */
+    float share[VNDF_MIXTURE_LOBES];  /* w_i A_i/A: how often lobe i is drawn */
+    float area, cosine;               /* A(wi), and the projection of wi on the mean plane, of the whole */
     vndf_affine_view lobe[VNDF_MIXTURE_LOBES]; /* those of weight 0 are left out */
 } vndf_mixture_view;
 

@@ -29,13 +29,15 @@ typedef struct arc {
 HERE arc arc_of(real cz, real sx, real edge, const int below)
 {
     real sum = cz + sx, reach = root(most(edge, set(0.0f)) * sum), per = 1.0f / sum;
-    real cc = cz * per, e = edge * per, q = least(reach * per, set(1.0f)), q2 = least(most(e, set(0.0f)), set(1.0f));
+    real cc = cz * per, e = edge * per, q = least(reach * per, set(1.0f)),
+         q2 = least(most(e, set(0.0f)), set(1.0f));
     if (below) {
         q = most(q, set(1e-5f)); /* cubes of q occur */
         q2 = most(q2, set(1e-10f));
     }
     real g = arc_rest(q2), bend = 2.0f * q * (1.0f - q2 * g), rest = (q * q2) * (1.0f + g * (1.0f - q2));
-    arc k = {cc, most(-e, set(0.0f)), q, q2, least(cc, sx * per), 3.14159265f - bend, 3.14159265f * cc + rest, sum};
+    arc k = {cc, most(-e, set(0.0f)), q, q2, least(cc, sx * per), 3.14159265f - bend, 3.14159265f * cc + rest,
+             sum};
     if (below) {
         k.cc = -cc;
         k.p = set(0.0f);
@@ -67,8 +69,10 @@ HERE real arc_start(arc k, real v, const int below)
         real inverse = (1.43172f * v - 0.461627f * v2) + t * (0.628066f * v + 0.071245f * v2);
         return (2.0f * k.q * v) * arc_inverse_root(inverse);
     }
-    real v43 = arc_two_thirds(v2), inverse = (0.151813f * v43 - 0.050724f * v2) + t * (-0.122628f * v43 - 0.12813f * v2);
-    inverse = inverse + p * ((0.024493f * v2 - 0.118976f * v43) + p * (0.390562f + p * (0.280348f * p - 0.568917f)));
+    real v43 = arc_two_thirds(v2),
+         inverse = (0.151813f * v43 - 0.050724f * v2) + t * (-0.122628f * v43 - 0.12813f * v2);
+    inverse =
+        inverse + p * ((0.024493f * v2 - 0.118976f * v43) + p * (0.390562f + p * (0.280348f * p - 0.568917f)));
     inverse = inverse + k.q * (0.248745f * v + (0.285757f * v) * t);
     return v * arc_inverse_root(most(inverse, set(1e-36f)));
 }
@@ -82,7 +86,8 @@ typedef struct bearing {
 HERE real arc_sine(real d2)
 {
     real d4 = d2 * d2;
-    return (0.707106778f - 0.0294627649f * d2) + d4 * ((0.000368271161f - 2.18843126e-6f * d2) + d4 * 7.18680978e-9f);
+    return (0.707106778f - 0.0294627649f * d2) +
+           d4 * ((0.000368271161f - 2.18843126e-6f * d2) + d4 * 7.18680978e-9f);
 }
 
 /* sin d and 1 - cos d, 0 <= d <= pi, both with their digits where they are small. */

@@ -1,14 +1,15 @@
 /* Beckmann in the unit problem: w = (vx, vy, vz) is the stretched direction as in ggx.h, s and c its parts across and
- * along z; the slopes, P22 = exp(-x^2 - y^2)/pi weighted by (c - s x)+, x along w, are independent: y is normal, and x <
- * K = c/s has the distribution function F(x)/F(K) (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the
- * Distribution of Visible Normals", EGSR 2014). With d = K - x and the remainder N of erfc (math.h)
+ * along z; the slopes, P22 = exp(-x^2 - y^2)/pi weighted by (c - s x)+, x along w, are independent: y is normal, and x
+ * < K = c/s has the distribution function F(x)/F(K) (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using
+ * the Distribution of Visible Normals", EGSR 2014). With d = K - x and the remainder N of erfc (math.h)
  *
  *     (2 sqrt(pi)/s) F(x) = exp(-x^2) (N(|x|) + d)/(N(|x|) + |x|)                      x <= 0
  *                         = exp(-x^2) (N(x) - d)/(N(x) + x) + 2 sqrt(pi) K             x > 0                 (1)
  *
  * For K < 5/4 all is divided by exp(-K^2): then x^2 - K^2 = d (d - 2 K) keeps d's digits, and far below the horizon
  * nothing underflows; the law there is exp(-g) (1 + g), g = -2 K d. u1 is met by steps of Householder's method of order
- * four, F' = s d exp(-x^2)/sqrt(pi). A(w) = F(K), so K of the density is 2/sqrt(pi) exp(-x^2 - y^2) d/whole with whole =
+ * four, F' = s d exp(-x^2)/sqrt(pi). A(w) = F(K), so K of the density is 2/sqrt(pi) exp(-x^2 - y^2) d/whole with whole
+ * =
  * (2 sqrt(pi)/s) F(K), and no s is left. */
 #ifndef VNDF_KERNEL_BECKMANN_H
 #define VNDF_KERNEL_BECKMANN_H
@@ -131,10 +132,10 @@ HERE beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
     return p;
 }
 
-/* A start above the horizon, good for one step: 3e-8 of u are left where 4 u (1 - u) > exp(-8). z(u) is within 2% of the
- * quantile of exp(-x^2)/sqrt(pi), from a logarithm that is linear between powers of 2, p = p0 + ... + p4 z^4 with
- * coefficients that are quadratic in K, or in 4/K, and d = p^2 for K < 2, x = z - p beyond; fitted for the least largest
- * error after the step. */
+/* A start above the horizon, good for one step: 3e-8 of u are left where 4 u (1 - u) > exp(-8). z(u) is within 2% of
+ * the quantile of exp(-x^2)/sqrt(pi), from a logarithm that is linear between powers of 2, p = p0 + ... + p4 z^4 with
+ * coefficients that are quadratic in K, or in 4/K, and d = p^2 for K < 2, x = z - p beyond; fitted for the least
+ * largest error after the step. */
 HERE beckmann_place beckmann_first(beckmann_view v, real u)
 {
     real l = 127.0f - to_real(bits(erf_middle(u))) * 1.1920929e-7f;

@@ -6,14 +6,15 @@
  * a disc of slopes that holds the pole. A first coordinate is drawn, then a second one on the chord of the disc on its
  * line, both by inverting distribution functions: the density is that of visible normals over `inside`, the part of the
  * line that is in the disc, times a constant where the first law is cut or weighted too. Published bounds (Tokuyoshi &
- * Eto, "Bounded VNDF Sampling for Smith-GGX Reflections", SIGGRAPH Asia 2023) are for GGX and loose; this one is tight. */
+ * Eto, "Bounded VNDF Sampling for Smith-GGX Reflections", SIGGRAPH Asia 2023) are for GGX and loose; this one is
+ * tight. */
 #ifndef VNDF_KERNEL_BOUNDED_H
 #define VNDF_KERNEL_BOUNDED_H
 
 #include "kernel/beckmann.h"
 
-/* A drawn normal, its density that of bounded normals, and what that of visible normals is divided by: `inside` times the
- * constant, which for GGX of unequal roughness exceeds 1 in places. */
+/* A drawn normal, its density that of bounded normals, and what that of visible normals is divided by: `inside` times
+ * the constant, which for GGX of unequal roughness exceeds 1 in places. */
 typedef struct bounded {
     drawn n;
     real inside;
@@ -40,10 +41,10 @@ HERE ellipse ellipse_turned(real cosine, real sine, real exx, real exy, real eyy
  *     1 in front, where cos(psi) >= 0;      c^2/(c^2 + s^2 cos(psi)^2) in the wedge,
  *
  * with psi uniform in front, and tan(psi) = -tan(v)/c with v uniform in the wedge. In t = tan(g), with M0 and M1 the
- * stretched w and u, (1) is c |M1|^2 t^2 + 2 (c M0.M1 - s cos(psi)) t + c (|M0|^2 - 2) < 0. w is in the disc where |M0|^2
- * < 2, for all roughness up to sqrt(2): sin(g)^2 goes from 0 to that of the root. Otherwise psi is drawn between the
- * two tangents and sin(g)^2 between two roots. The front keeps more than the wedge: psi is drawn with the mass of the
- * wedge times its largest inside part, at psi = pi or at a side. */
+ * stretched w and u, (1) is c |M1|^2 t^2 + 2 (c M0.M1 - s cos(psi)) t + c (|M0|^2 - 2) < 0. w is in the disc where
+ * |M0|^2 < 2, for all roughness up to sqrt(2): sin(g)^2 goes from 0 to that of the root. Otherwise psi is drawn between
+ * the two tangents and sin(g)^2 between two roots. The front keeps more than the wedge: psi is drawn with the mass of
+ * the wedge times its largest inside part, at psi = pi or at a side. */
 typedef struct ggx_bounds {
     real cosine, sine, s, c;
     ellipse e;
@@ -53,8 +54,8 @@ typedef struct ggx_bounds {
         span; /* the part of psi in front; `inside` over that of the chord; of u1 */
 } ggx_bounds;
 
-/* Of an azimuth, cos(psi) and sin(psi): the middle and half the width of the chord times a = c |M1|^2, and a; sin(g)^2 and
- * cos(g)^2 at both ends; and what is inside of all that is visible. */
+/* Of an azimuth, cos(psi) and sin(psi): the middle and half the width of the chord times a = c |M1|^2, and a; sin(g)^2
+ * and cos(g)^2 at both ends; and what is inside of all that is visible. */
 typedef struct ggx_chord {
     real a, lean, root, sine0, cosine0, sine1, cosine1, inside;
 } ggx_chord;
@@ -179,11 +180,12 @@ HERE bounded ggx_draw_bounded(ggx_bounds b, real u1, real u2)
 
 /* ---- Beckmann ----
  *
- * Slopes (x, y), x along w: with h = s/c the disc is the ellipse E11 x^2 + 2 E12 x y + E22 y^2 + 2 h x < 1, of extent x0
- * < x < x1 and chords y = (-E12 x +- sqrt(det (x1 - x) (x - x0)))/E22. u1 moves x through the part of the law of x
+ * Slopes (x, y), x along w: with h = s/c the disc is the ellipse E11 x^2 + 2 E12 x y + E22 y^2 + 2 h x < 1, of extent
+ * x0 < x < x1 and chords y = (-E12 x +- sqrt(det (x1 - x) (x - x0)))/E22. u1 moves x through the part of the law of x
  * between x0 and x1, u2 moves y through the part of the normal law on the chord; `inside` is the product of both parts.
- * y is counted from the tail where the middle of the chord is, so that a chord far out keeps its digits. From 5 on, where
- * the normal law is nearly that, y^2 is drawn exponentially instead, and densities are relative to the near end. */
+ * y is counted from the tail where the middle of the chord is, so that a chord far out keeps its digits. From 5 on,
+ * where the normal law is nearly that, y^2 is drawn exponentially instead, and densities are relative to the near
+ * end. */
 typedef struct beckmann_bounds {
     beckmann_view view;
     ellipse e;

@@ -39,7 +39,8 @@ HERE aim table_aim(seen v, real u2, const int below)
 HERE whole table_within(table t, seen v, aim a, whole i)
 {
     mask near = less(a.at, v.near);
-    whole first = pick_whole(near, set_whole(0), v.first), last = pick_whole(near, v.first - 1, set_whole(t.cells));
+    whole first = pick_whole(near, set_whole(0), v.first),
+          last = pick_whole(near, v.first - 1, set_whole(t.cells));
     return least_whole(most_whole(i, first), last);
 }
 
@@ -103,7 +104,8 @@ HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
 }
 
 /* The visible density over the density as drawn, where the slope length is that of f at that place of the cell. */
-HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length r, arc k, real area, const int below)
+HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length r, arc k, real area,
+                       const int below)
 {
     piece all = law_cell_all(t, i);
     real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
@@ -112,8 +114,10 @@ HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length
         rest = rest * part;
         over = under - rest;
     }
-    real below_all = law_below(all, over, rest), f_mass = law_of_f(all, over, rest, r.x, r.z) / (below_all * below_all);
-    return f_mass * part * in.below / (f.at.mass * in.root) * (v.total / area) * (k.mass * k.sum) / (3.14159265f * r.z);
+    real below_all = law_below(all, over, rest),
+         f_mass = law_of_f(all, over, rest, r.x, r.z) / (below_all * below_all);
+    return f_mass * part * in.below / (f.at.mass * in.root) * (v.total / area) * (k.mass * k.sum) /
+           (3.14159265f * r.z);
 }
 
 /* ---- given normals ---- */
@@ -172,7 +176,8 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.r, g.z);
     arc k = table_given_arc(v, g, below);
-    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x), per = g.per * g.per; /* held away from the pole */
+    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x),
+         per = g.per * g.per; /* held away from the pole */
     real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
     return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }

@@ -8,7 +8,8 @@
  *     S + T cos(phi) = (S - T) + 2 T sin(pi u1)^2,     S - T = v (S^2 - u2 C^2)/(S + T),
  *
  * homogeneous in S and C: tan(theta/2) = s/(1 + c) = (1 - c)/s gives both without a root. Nothing cancels but where
- * another component dominates, from theta = 0 to 180 degrees. The length n of (1) is (w.n)/C, hence K = 1/(pi C n^2). */
+ * another component dominates, from theta = 0 to 180 degrees. The length n of (1) is (w.n)/C, hence K = 1/(pi C
+ * n^2). */
 #ifndef VNDF_KERNEL_GGX_H
 #define VNDF_KERNEL_GGX_H
 

@@ -1,5 +1,5 @@
-/* The types of the kernel as VNDF_LANES numbers side by side: 4, 8 or 16, by the vector extensions of GCC and Clang. The
- * same names as in one.h, the same operations in the same order: the same bits. Intrinsics stand only where the
+/* The types of the kernel as VNDF_LANES numbers side by side: 4, 8 or 16, by the vector extensions of GCC and Clang.
+ * The same names as in one.h, the same operations in the same order: the same bits. Intrinsics stand only where the
  * extensions have no word for an instruction.
  *
  * A table is read by rows of four numbers, one load a lane and a transposition. With 16 lanes, searches of small tables
@@ -141,24 +141,24 @@ HERE mask less_whole(whole a, whole b)
 
 HERE int any(mask m)
 {
-#if VNDF_KERNEL_X86 && VNDF_LANES == 8
+#  if VNDF_KERNEL_X86 && VNDF_LANES == 8
     return _mm256_movemask_ps((__m256)m);
-#elif VNDF_KERNEL_X86
+#  elif VNDF_KERNEL_X86
     return _mm_movemask_ps((__m128)m);
-#else
+#  else
     uint64_t half[2];
     memcpy(half, &m, sizeof half);
     return (half[0] | half[1]) != 0;
-#endif
+#  endif
 }
 
 HERE whole pick_whole(mask m, whole yes, whole no)
 {
-#if VNDF_KERNEL_X86 && VNDF_LANES == 8 /* one instruction for three */
+#  if VNDF_KERNEL_X86 && VNDF_LANES == 8 /* one instruction for three */
     return (whole)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, (__m256i)m);
-#else
+#  else
     return (m & yes) | (~m & no);
-#endif
+#  endif
 }
 
 HERE real pick(mask m, real yes, real no)
@@ -358,7 +358,8 @@ HERE real look_column(table t, int group, int n, whole i)
     r = _mm512_mask_blend_ps(odd, r, _mm512_permutex2var_ps(_mm512_load_ps(c + 32), at, _mm512_load_ps(c + 48)));
     if (t.cells > 64) {
         __m512 s = _mm512_permutex2var_ps(_mm512_load_ps(c + 64), at, _mm512_load_ps(c + 80));
-        s = _mm512_mask_blend_ps(odd, s, _mm512_permutex2var_ps(_mm512_load_ps(c + 96), at, _mm512_load_ps(c + 112)));
+        s = _mm512_mask_blend_ps(odd, s,
+                                 _mm512_permutex2var_ps(_mm512_load_ps(c + 96), at, _mm512_load_ps(c + 112)));
         r = _mm512_mask_blend_ps(_mm512_test_epi32_mask(at, _mm512_set1_epi32(64)), r, s);
     }
     return pick(same(i, t.cells), set(t.numbers[4 * (group * (t.cells + 1) + t.cells) + n]), (real)r);
@@ -489,7 +490,8 @@ HERE whole begin_sum(table t, real w1, real w0, real wq, real w4, real left)
     (void)c;
     for (int step = ANCHORS / 2; step > 0; step /= 2) {
         whole next = k + step;
-        quad tail = {look_anchor(t, 1, next), look_anchor(t, 2, next), look_anchor(t, 3, next), look_anchor(t, 4, next)};
+        quad tail = {look_anchor(t, 1, next), look_anchor(t, 2, next), look_anchor(t, 3, next),
+                     look_anchor(t, 4, next)};
         k = pick_whole(sum_reaches(t, w1, w0, wq, w4, tail, left), next, k);
     }
 #else

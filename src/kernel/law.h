@@ -11,15 +11,15 @@
  *     below  k~ = b_0 (y - 1) + b_1 (y - 1)^2/y, with shares that are a function of rho,
  *
  * and is exact in all else, so weights are within 6.5e-2, 4.7e-3 or 7.2e-4 of their mean above the horizon, for 2, 3
- * or 4 terms and any D (least-maximum fits: |k~ - k| <= e k for y >= 1). Cell by cell the law is the monotone rational quadratic
- * of Gregory & Delbourgo (IMA J. Numer. Anal. 2, 1982) through the mass and the densities at both ends. */
+ * or 4 terms and any D (least-maximum fits: |k~ - k| <= e k for y >= 1). Cell by cell the law is the monotone rational
+ * quadratic of Gregory & Delbourgo (IMA J. Numer. Anal. 2, 1982) through the mass and the densities at both ends. */
 #ifndef VNDF_KERNEL_LAW_H
 #define VNDF_KERNEL_LAW_H
 
 #include "kernel/arc.h"
 
 /* a_1, a_0, a_-1, a_-4, over pi, for 2, 3 and 4 terms. */
-static const float law_terms[12] = {0.297494729f, 0.702505271f, 0.0f, 0.0f,
+static const float law_terms[12] = {0.297494729f, 0.702505271f, 0.0f,         0.0f,
                                     0.319817399f, 0.473797580f, 0.206385021f, 0.0f,
                                     0.318081264f, 0.504334526f, 0.151012047f, 0.026572163f};
 
@@ -31,9 +31,9 @@ typedef struct weights {
 /* A direction as a table sees it. */
 typedef struct seen {
     real s, c, rho;
-    whole cell;        /* of rho */
-    whole first;       /* above: the knot where the law of k~ begins; below: `cell` */
-    weights w;         /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
+    whole cell;  /* of rho */
+    whole first; /* above: the knot where the law of k~ begins; below: `cell` */
+    weights w;   /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
     real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
 } seen;
 
@@ -117,8 +117,8 @@ HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
  * at the beginning. */
 typedef struct piece {
     real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
-    real from, x0, z0, x1, z1;  /* the slope where it begins */
-    real edge0, edge1, width;   /* edge: s x - |c| z */
+    real from, x0, z0, x1, z1;   /* the slope where it begins */
+    real edge0, edge1, width;    /* edge: s x - |c| z */
     mask last;
 } piece;
 
@@ -179,8 +179,7 @@ HERE piece law_cell_above(table t, seen v, weights w, whole i)
     w = law_weights_at(w, v.c, same(i, 0));
     real a = w.w1 * k.a, line = a + w.w0;
     real m = ((w.w1 * more.a + w.w4 * more.b) + (line + a) * l.d) + (line * k.a + w.wq) * l.c;
-    return law_cell_of(at, m, l.a * law_weight_at(t, w, at.x0, at.z0),
-                       l.b * law_weight_at(t, w, at.x1, at.z1));
+    return law_cell_of(at, m, l.a * law_weight_at(t, w, at.x0, at.z0), l.b * law_weight_at(t, w, at.x1, at.z1));
 }
 
 /* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
@@ -188,7 +187,8 @@ HERE piece law_cell_all(table t, whole i)
 {
     quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
     piece at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
-    real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = pick(at.last, at.x0, at.z0), z1 = pick(at.last, at.x1, at.z1);
+    real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = pick(at.last, at.x0, at.z0),
+         z1 = pick(at.last, at.x1, at.z1);
     return law_cell_of(at, pick(at.last, slope, m), l.a * (at.x0 * z0), l.b * (at.x1 * z1));
 }
 
@@ -223,7 +223,8 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     real at_knot = pick(last, one, (after.a - k.a) * after.b);
     real all = (w.w1 + w.w0) * m2 + w.w1 * k.a * l.d, third = 0.333333333f * l.b + 0.166666667f * l.a;
     real near = law_weight_below(w, x1, at_knot) * third, end = part * law_weight_below(w, x1, beyond);
-    real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a), factor = all / most(near, 1e-3f * all + 1e-36f);
+    real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a),
+         factor = all / most(near, 1e-3f * all + 1e-36f);
     w.wq = most(end * here * factor, set(1e-34f));
     w.w4 = end * l.b;
     return w;
@@ -305,7 +306,8 @@ HERE place law_invert(piece at, real m)
     real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
     real middle = at.e0 - q * at.sum, square = root(middle * middle + 4.0f * (q * p));
     mask rising = at_most(set(0.0f), middle + 2.0f * q);
-    place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square, set(0.0f)};
+    place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square,
+                set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
     return in;
 }
@@ -319,7 +321,7 @@ HERE slope_length law_length(table t, seen v, piece at, place in, const int belo
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
-                at.edge0 * in.rest + at.edge1 * in.over};
+                      at.edge0 * in.rest + at.edge1 * in.over};
     if (!below)
         r.edge = v.s * r.x - v.c * r.z;
     if (t.squarings > 0 && any(at.last)) {
@@ -381,8 +383,8 @@ HERE real law_area_above(table t, seen v)
     return most(area, size(v.c)); /* no less than the plane */
 }
 
-/* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its digits,
- * and the area that is drawn where it does not. */
+/* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
+ * digits, and the area that is drawn where it does not. */
 HERE real law_area(table t, seen v)
 {
     real above = law_area_above(t, v), sampled = v.s * v.total * 0.318309886f;

@@ -86,8 +86,8 @@ HERE real angle_of(real y, real x)
 
 /* ---- exponentials ---- */
 
-/* exp(x), |x| <= 87: 3.1e-9. Measured: 1e-7. k is the nearest whole number to x/log 2; log 2 is split so that k times its
- * first part is exact. */
+/* exp(x), |x| <= 87: 3.1e-9. Measured: 1e-7. k is the nearest whole number to x/log 2; log 2 is split so that k times
+ * its first part is exact. */
 HERE real exp_near(real x)
 {
     whole n = to_whole(x * 1.44269504f + 127.5f);
@@ -155,8 +155,8 @@ HERE real erf_middle(real u)
     return 4.0f * most(u, set(5.42101086e-20f)) * most(1.0f - u, set(1.49011612e-8f));
 }
 
-/* y with (1 + erf y)/2 = u, from w = -log(4 u (1 - u)) (Giles, "Approximating the erfinv function", GPU Computing Gems 2,
- * 2011): 9e-8 for w < 8, 1.1e-7 beyond, where y/((2 u - 1) sqrt(w)) is a polynomial in 1/sqrt(w). */
+/* y with (1 + erf y)/2 = u, from w = -log(4 u (1 - u)) (Giles, "Approximating the erfinv function", GPU Computing Gems
+ * 2, 2011): 9e-8 for w < 8, 1.1e-7 beyond, where y/((2 u - 1) sqrt(w)) is a polynomial in 1/sqrt(w). */
 HERE real erf_quantile(real u)
 {
     real w = -log_of(erf_middle(u)), q = least(w, set(8.0f)) - 4.0f, q2 = q * q, q4 = q2 * q2;

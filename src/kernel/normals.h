@@ -1,18 +1,20 @@
-/* Normals drawn without a look at what wi sees (Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
- * EGSR 2007), and those that it sees in V-cavities (Cook & Torrance 1981; Heitz & d'Eon, EGSR 2014), which are made of
- * them: a slope length from u2, an azimuth from u1.
+/* Normals drawn without a look at what wi sees (Walter et al., "Microfacet Models for Refraction through Rough
+ * Surfaces", EGSR 2007), and those that it sees in V-cavities (Cook & Torrance 1981; Heitz & d'Eon, EGSR 2014), which
+ * are made of them: a slope length from u2, an azimuth from u1.
  *
  * V-cavities: at a slope length R = x/z a normal sees wi by p + q cos a, a from the azimuth of wi, p = vz z, q = s x >=
  * 0, and its mirror twin by p - q cos a. Of the two one is taken by what it sees, so a has the density
  *
  *     1/pi where only the normal sees wi,     (1 + t cos a)/(2 pi) where both do, |t cos a| <= 1, t = q/p,
  *
- * and 0 elsewhere. With h = asin(min(1, 1/t))/pi and g = 1/2 + h - a/pi in [0, 2 h] the mass beyond a, of half a turn, is
+ * and 0 elsewhere. With h = asin(min(1, 1/t))/pi and g = 1/2 + h - a/pi in [0, 2 h] the mass beyond a, of half a turn,
+ * is
  *
  *     F(g) = g - (2 t/pi) sin(pi g/2) sin(pi (h - g/2)),      F' = 1 - t sin(pi (h - g)),                    (1)
  *
- * Kepler's equation at h = 1/2. The product of sines stands for a difference of cosines, without which t > 1e3 would lose
- * F. It is solved from two rational cells (Gregory & Delbourgo 1982) by two steps of Halley's method, or four; F is convex. */
+ * Kepler's equation at h = 1/2. The product of sines stands for a difference of cosines, without which t > 1e3 would
+ * lose F. It is solved from two rational cells (Gregory & Delbourgo 1982) by two steps of Halley's method, or four; F
+ * is convex. */
 #ifndef VNDF_KERNEL_NORMALS_H
 #define VNDF_KERNEL_NORMALS_H
 
@@ -116,8 +118,8 @@ HERE turn v_cavity_azimuth(real p, real q, real u1)
     return a;
 }
 
-/* What V-cavities draw a normal more often than all normals do: 2 f/(f + f'), f = up + level and f' = up - level what it
- * and its twin see of wi, not below 0. */
+/* What V-cavities draw a normal more often than all normals do: 2 f/(f + f'), f = up + level and f' = up - level what
+ * it and its twin see of wi, not below 0. */
 HERE real v_cavity_share(real level, real up)
 {
     real facing = most(up + level, set(0.0f));

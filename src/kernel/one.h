@@ -271,7 +271,8 @@ typedef struct weights_4 {
 /* Which of four sums are at least `left`, in the order of law_sum. */
 HERE unsigned sums_4(const float *columns, int stride, weights_4 w)
 {
-    __m128 a = _mm_add_ps(_mm_mul_ps(w.w1, _mm_loadu_ps(columns)), _mm_mul_ps(w.w0, _mm_loadu_ps(columns + stride)));
+    __m128 a =
+        _mm_add_ps(_mm_mul_ps(w.w1, _mm_loadu_ps(columns)), _mm_mul_ps(w.w0, _mm_loadu_ps(columns + stride)));
     __m128 b = _mm_add_ps(_mm_mul_ps(w.wq, _mm_loadu_ps(columns + 2 * stride)),
                           _mm_mul_ps(w.w4, _mm_loadu_ps(columns + 3 * stride)));
     return (unsigned)_mm_movemask_ps(_mm_cmpge_ps(_mm_add_ps(a, b), w.left));

@@ -67,10 +67,10 @@ HERE any_slope table_slope(table t, table_view straight, real u2)
 
 /* ---- bounded normals ----
  *
- * With the same roughness along and across, alpha, a normal at slope length alpha R and azimuth a reflects wi to above the
- * horizon where cos a > b = (alpha^2 R^2 - 1)/(2 alpha R tan(theta)): everywhere where b < -1, nowhere where b > 1, which
- * is where alpha R exceeds (1 + sin(theta))/cos(theta). So u2 is multiplied by the part of the law up to there, and the
- * arc is shortened. */
+ * With the same roughness along and across, alpha, a normal at slope length alpha R and azimuth a reflects wi to above
+ * the horizon where cos a > b = (alpha^2 R^2 - 1)/(2 alpha R tan(theta)): everywhere where b < -1, nowhere where b > 1,
+ * which is where alpha R exceeds (1 + sin(theta))/cos(theta). So u2 is multiplied by the part of the law up to there,
+ * and the arc is shortened. */
 
 /* The cosine b. s and c are those of the view: tan(theta) is slant = s/(alpha c). */
 HERE real bounded_cosine(real alpha, real slant, real x, real z)
@@ -82,7 +82,8 @@ HERE real bounded_cosine(real alpha, real slant, real x, real z)
 /* The part of half the arc that is not bounded away, from the azimuth of wi on. */
 HERE real bounded_arc(arc k, real b)
 {
-    real cosine = least(most(b, set(-1.0f)), set(1.0f)), sine = root(most((1.0f - cosine) * (1.0f + cosine), set(0.0f)));
+    real cosine = least(most(b, set(-1.0f)), set(1.0f)),
+         sine = root(most((1.0f - cosine) * (1.0f + cosine), set(0.0f)));
     real u = arc_invert(k, cosine, sine); /* from 1/2 towards wi to 1 behind it */
     return least(most(2.0f * (u - 0.5f), set(1e-6f)), set(1.0f));
 }
@@ -101,7 +102,8 @@ typedef struct bounded_normal {
     real inside; /* the part of the visible normals of its slope length, and of all lengths, that is kept */
 } bounded_normal;
 
-HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, real slant, real part, real u1, real u2)
+HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, real slant, real part, real u1,
+                                       real u2)
 {
     aim a = table_aim(view.v, u2 * part, 0);
     whole i = table_find(t, view.v, a, 0);
@@ -110,7 +112,8 @@ HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, rea
     real arc_part = bounded_arc(k, bounded_cosine(alpha, slant, d.r.x, d.r.z));
     bounded_normal s;
     s.inside = part * arc_part;
-    s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
+    s.n =
+        table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
     s.n.density = s.n.density / s.inside;
     return s;
 }

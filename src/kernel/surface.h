@@ -1,9 +1,9 @@
-/* Surfaces: slopes are M u + mean, where u are slopes of the unit problem (design: affine images of slopes, Dupuy et al.,
- * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013; Atanasov et al. 2022).
+/* Surfaces: slopes are M u + mean, where u are slopes of the unit problem (design: affine images of slopes, Dupuy et
+ * al., "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013; Atanasov et al. 2022).
  *
- * A normal of the unit problem, (x, y, z) with the slope -(x, y)/z, is the normal (M (x, y) - mean z, z) of the surface,
- * and wi . wm is w . (x, y, z) with w = (M^T wi_xy, wi_z - wi_xy . mean): the surface is seen from wi as the unit
- * problem is seen from w, and A(wi) = A(w). */
+ * A normal of the unit problem, (x, y, z) with the slope -(x, y)/z, is the normal (M (x, y) - mean z, z) of the
+ * surface, and wi . wm is w . (x, y, z) with w = (M^T wi_xy, wi_z - wi_xy . mean): the surface is seen from wi as the
+ * unit problem is seen from w, and A(wi) = A(w). */
 #ifndef VNDF_KERNEL_SURFACE_H
 #define VNDF_KERNEL_SURFACE_H
 
@@ -24,13 +24,14 @@ HERE real affine_determinant(affine_map m)
     return determinant;
 }
 
-/* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold; mean
- * slopes up to 1e6. */
+/* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold;
+ * mean slopes up to 1e6. */
 HERE mask affine_is_valid(affine_map m)
 {
     real determinant = affine_determinant(m), end = set(1e15f);
     real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
-    mask inside = both(at_most(most(largest * 1e-15f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
+    mask inside =
+        both(at_most(most(largest * 1e-15f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
     mask first = both(at_most(size(m.xx), end), at_most(size(m.xy), end));
     mask second = both(at_most(size(m.yx), end), at_most(size(m.yy), end));
     mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
@@ -48,13 +49,14 @@ HERE mask direction_is_valid(real x, real y, real z)
 /* A direction wi on a surface. */
 typedef struct frame {
     affine_map m;
-    real wx, wy, wz;   /* wi, times a power of two */
-    real ux, uy, uz;   /* w, times another one, which is 1 where the largest component is within [1/16, 16], or makes it
+    real wx, wy, wz; /* wi, times a power of two */
+    real ux, uy,
+        uz;    /* w, times another one, which is 1 where the largest component is within [1/16, 16], or makes it
                         * so */
-    real grow;         /* w = grow (ux, uy, uz) for wi as it was scaled, */
-    real size;         /* and `size` for wi as it was given */
-    real determinant;  /* |det M| */
-    real rarest;       /* the least density of a sample: 0 straight from below, where nothing is seen */
+    real grow; /* w = grow (ux, uy, uz) for wi as it was scaled, */
+    real size; /* and `size` for wi as it was given */
+    real determinant; /* |det M| */
+    real rarest;      /* the least density of a sample: 0 straight from below, where nothing is seen */
 } frame;
 
 HERE frame frame_of(affine_map m, real x, real y, real z)
@@ -68,7 +70,8 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
     f.wx = x * k;
     f.wy = y * k;
     f.wz = z * k;
-    real ux = m.xx * f.wx + m.yx * f.wy, uy = m.xy * f.wx + m.yy * f.wy, uz = f.wz - (f.wx * m.mean_x + f.wy * m.mean_y);
+    real ux = m.xx * f.wx + m.yx * f.wy, uy = m.xy * f.wx + m.yy * f.wy,
+         uz = f.wz - (f.wx * m.mean_x + f.wy * m.mean_y);
     real l = set(1.0f);
     largest = most(most(size(ux), size(uy)), size(uz));
     odd = either(less(largest, set(0.0625f)), less(set(16.0f), largest));
@@ -101,7 +104,8 @@ HERE real frame_density(frame f, real density)
  * density is that of where it went: wi . wm exceeds what three more roundings may take. */
 HERE sampled frame_sampled(frame f, drawn n)
 {
-    real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z, y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
+    real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z,
+         y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
     real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
     real tiny = 1e-12f * (size(x) + size(y) + z) * (size(f.wx) + size(f.wy) + size(f.wz)); /* all terms may be 0 */
     real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);

@@ -1,6 +1,6 @@
 /* exp, log and log1p from + - * / alone, so that random walks and compensation give the same bits with every C library.
- * Relative errors, measured by tests/core/test_elementary.c against long double: exp and log below 4e-16 (exp beyond 700
- * either way 1e-15), log1p below 8e-16.
+ * Relative errors, measured by tests/core/test_elementary.c against long double: exp and log below 4e-16 (exp beyond
+ * 700 either way 1e-15), log1p below 8e-16.
  *
  *   exp    x = k log 2 + r, |r| <= (log 2)/2: 1 + r + r^2 times a polynomial of degree 9 (error 1.6e-17),
  *          times 2^k.

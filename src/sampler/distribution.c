@@ -32,7 +32,8 @@ vndf_info vndf_distribution_info(const vndf_distribution *d)
         vndf_info nothing = {.source = "", .tool = ""};
         return nothing;
     }
-    vndf_info info = {d->source, d->tool, d->bytes, vndf_is_table(d) ? vndf_table_memory(d) : 0, (size_t)d->cells,
-                      d->moments, d->normalization, d->scale, d->certificate};
+    vndf_info info = {d->source,        d->tool,    d->bytes,         vndf_is_table(d) ? vndf_table_memory(d) : 0,
+                      (size_t)d->cells, d->moments, d->normalization, d->scale,
+                      d->certificate};
     return info;
 }

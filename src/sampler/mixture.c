@@ -1,6 +1,6 @@
-/* Mixtures of affine surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz & d'Eon
- * 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A; the density is the whole sum.
- * Shares are kept themselves, never as differences of running sums: that of a faint lobe has all its digits. */
+/* Mixtures of affine surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz &
+ * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A; the density is the whole
+ * sum. Shares are kept themselves, never as differences of running sums: that of a faint lobe has all its digits. */
 #include <float.h>
 
 #include "sampler/sampler.h"
@@ -31,7 +31,8 @@ static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_L
     return sum;
 }
 
-/* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone count. */
+/* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone
+ * count. */
 static void set_shares(vndf_mixture_view *view, vndf_vec3 wi)
 {
     float sum = 0.0f, total = 0.0f;

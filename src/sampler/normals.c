@@ -149,14 +149,16 @@ static float bounded_density(const vndf_view *view, unit_normal n)
     const vndf_state *s = vndf_state_of(view);
     quadric e = quadric_of(&s->f);
     if (view->distribution->kind == VNDF_KIND_GGX)
-        return ggx_bounded_density(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z, n.facing);
+        return ggx_bounded_density(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z,
+                                   n.facing);
     if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        return beckmann_bounded_density(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z,
-                                        n.facing);
+        return beckmann_bounded_density(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y,
+                                        n.z, n.facing);
     table t = table_of(view->distribution);
     table_bounds b = table_bounds_of(view);
     float whole_density = table_pdf(t, s->of.table, n, frame_reach(s->f), 0);
-    return b.isotropic ? whole_density / table_bounded_inside(t, s->of.table, b.alpha, b.slant, b.part, n) : whole_density;
+    return b.isotropic ? whole_density / table_bounded_inside(t, s->of.table, b.alpha, b.slant, b.part, n)
+                       : whole_density;
 }
 
 float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)

@@ -153,7 +153,8 @@ VNDF_INLINE float unit_area(const vndf_distribution *d, const vndf_state *s)
 {
     if (d->kind == VNDF_KIND_TABLE)
         return law_area(table_of(d), s->of.table.v) * frame_reach(s->f);
-    return d->kind == VNDF_KIND_GGX ? ggx_area(s->f.ux, s->f.uy, s->f.uz) : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
+    return d->kind == VNDF_KIND_GGX ? ggx_area(s->f.ux, s->f.uy, s->f.uz)
+                                    : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
 }
 
 VNDF_INLINE float density(const vndf_view *view, unit_normal n)

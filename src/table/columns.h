@@ -1,6 +1,6 @@
-/* Knots and the sums beyond them, each in a column, for searches that compare four numbers at once: R, then the four sums
- * of VNDF_TAIL. A search counts pivots, every eighth knot from the eighth on, then the knots of one block of eight.
- * Padding fails every comparison of a search. */
+/* Knots and the sums beyond them, each in a column, for searches that compare four numbers at once: R, then the four
+ * sums of VNDF_TAIL. A search counts pivots, every eighth knot from the eighth on, then the knots of one block of
+ * eight. Padding fails every comparison of a search. */
 #ifndef VNDF_TABLE_COLUMNS_H
 #define VNDF_TABLE_COLUMNS_H
 

@@ -15,7 +15,7 @@ enum { ARRAYS = 11 };
 /* The arrays of a draft in the order of the file. */
 static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
 {
-    float **const all[ARRAYS] = {&d->knot, &d->g0, &d->g1, &d->m0, &d->m1, &d->m2,
+    float **const all[ARRAYS] = {&d->knot, &d->g0, &d->g1, &d->m0,   &d->m1,   &d->m2,
                                  &d->m4,   &d->b0, &d->b1, &d->area, &d->slope};
     memcpy(array, all, sizeof all);
 }
@@ -125,7 +125,8 @@ static vndf_status read_table(vndf_reader *bytes, reading *r, vndf_error *error)
     if (!counts_valid(d))
         return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
     if (!allocate(r) || (!read_body(bytes, r) && !bytes->failed))
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)bytes->size);
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes",
+                         (unsigned long)bytes->size);
     const char *why = bytes->failed ? "its parts do not fill the file" : vndf_table_fill(r->table, d);
     return why ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why) : VNDF_OK;
 }

@@ -45,7 +45,8 @@ static int ends_valid(const vndf_table_draft *d, size_t i)
 /* Whether the cubic of the area beyond knot i stays above 0. */
 static int area_valid(const vndf_table_draft *d, size_t i)
 {
-    double z0 = 1 / (1 + (double)d->knot[i]), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0, width = z0 - z1;
+    double z0 = 1 / (1 + (double)d->knot[i]), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0,
+           width = z0 - z1;
     double a0 = d->area[i], a1 = i < d->cells ? d->area[i + 1] : 1, s1 = i < d->cells ? d->slope[i + 1] : 1;
     return in_range(a0, 1e-20, 1e20) && width * d->slope[i] >= -3 * a0 && width * s1 <= 3 * a1 &&
            in_range(d->slope[i], -1e20, 1e20);
@@ -77,8 +78,9 @@ static const char *draft_invalid(const vndf_table_draft *d)
             return why;
     }
     const vndf_certificate *c = &d->certificate;
-    const float claims[VNDF_CERTIFICATE_FLOATS] = {c->tv, c->tv_theta, c->tv_above, c->tv_above_theta, c->max_weight,
-        c->weight_bounded, c->area_error, c->consistency, c->ndf_error, c->hidden, c->finest, -c->horizon_power};
+    const float claims[VNDF_CERTIFICATE_FLOATS] = {
+        c->tv,         c->tv_theta,    c->tv_above,  c->tv_above_theta, c->max_weight, c->weight_bounded,
+        c->area_error, c->consistency, c->ndf_error, c->hidden,         c->finest,     -c->horizon_power};
     for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
         if (!in_range(claims[i], 0.0, HUGE_VAL))
             return "the certificate holds what is no measurement";
@@ -118,7 +120,8 @@ static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, doubl
 {
     double t1 = 0, t0 = 0, tq = 0, t4 = 0, n1 = 0, n2 = 0;
     for (size_t i = d->cells + 1; i-- > 0;) {
-        double r = d->knot[i], gap = i < d->cells ? d->knot[i + 1] - r : 0, m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i];
+        double r = d->knot[i], gap = i < d->cells ? d->knot[i + 1] - r : 0, m0 = d->m0[i], m1 = d->m1[i],
+               m2 = d->m2[i];
         n2 += gap * (2 * n1 + gap * tq) + m2;
         n1 += gap * tq + m1;
         tq += m0;
@@ -139,8 +142,8 @@ static void fill_columns(vndf_distribution *table)
     for (int c = 0; c < VNDF_COLUMNS; c++) {
         float *column = table->columns + c * size;
         for (int i = 0; i < size; i++)
-            column[i] = i > n ? (c ? -1.0f : 3e38f)
-                              : row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
+            column[i] =
+                i > n ? (c ? -1.0f : 3e38f) : row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
         for (int i = 0; i < pivots; i++) {
             int knot = (i + 1) * VNDF_COLUMN_STEP;
             pivot[c * pivots + i] = knot < size ? column[knot] : c ? -1.0f : 3e38f;
@@ -194,11 +197,26 @@ static float *column(const vndf_distribution *table, int group, int index)
 /* The draft of a table, in its own numbers. */
 static vndf_table_draft draft_within(const vndf_distribution *t)
 {
-    const vndf_table_draft draft = {(unsigned)t->cells, (unsigned)t->moments, (unsigned)t->squarings, 4,
-        column(t, VNDF_KNOT, 0), column(t, VNDF_LAW, 0), column(t, VNDF_LAW, 1), column(t, VNDF_LAW, 2),
-        column(t, VNDF_LAW, 3), column(t, VNDF_MORE, 0), t->moments == 4 ? column(t, VNDF_MORE, 1) : NULL,
-        column(t, VNDF_MORE, 2), column(t, VNDF_MORE, 3), column(t, VNDF_LOW, 2), column(t, VNDF_LOW, 3),
-        t->normalization, t->scale, t->certificate, t->source, t->tool};
+    const vndf_table_draft draft = {(unsigned)t->cells,
+                                    (unsigned)t->moments,
+                                    (unsigned)t->squarings,
+                                    4,
+                                    column(t, VNDF_KNOT, 0),
+                                    column(t, VNDF_LAW, 0),
+                                    column(t, VNDF_LAW, 1),
+                                    column(t, VNDF_LAW, 2),
+                                    column(t, VNDF_LAW, 3),
+                                    column(t, VNDF_MORE, 0),
+                                    t->moments == 4 ? column(t, VNDF_MORE, 1) : NULL,
+                                    column(t, VNDF_MORE, 2),
+                                    column(t, VNDF_MORE, 3),
+                                    column(t, VNDF_LOW, 2),
+                                    column(t, VNDF_LOW, 3),
+                                    t->normalization,
+                                    t->scale,
+                                    t->certificate,
+                                    t->source,
+                                    t->tool};
     return draft;
 }
 
@@ -212,7 +230,7 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 {
     size_t n = (size_t)table->cells + 1;
     *draft = draft_within(table);
-    float **const array[] = {&draft->knot, &draft->g0, &draft->g1, &draft->m0, &draft->m1, &draft->m2,
+    float **const array[] = {&draft->knot, &draft->g0, &draft->g1, &draft->m0,   &draft->m1,   &draft->m2,
                              &draft->m4,   &draft->b0, &draft->b1, &draft->area, &draft->slope};
     size_t arrays = sizeof array / sizeof *array;
     float *block = malloc(arrays * n * sizeof *block);

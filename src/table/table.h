@@ -19,9 +19,9 @@
 #include "vndf.h"
 
 enum {
-    VNDF_CELLS_MAX = 4095,   /* N */
-    VNDF_SQUARINGS_MAX = 5,  /* tails of P22 down to r^-3.04 */
-    VNDF_HEAD = 8            /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
+    VNDF_CELLS_MAX = 4095,  /* N */
+    VNDF_SQUARINGS_MAX = 5, /* tails of P22 down to r^-3.04 */
+    VNDF_HEAD = 8           /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
 };
 
 /* Groups of rows, one row for each knot 0 to N. */
@@ -43,7 +43,7 @@ struct vndf_distribution {
     float unit;                        /* scale, rounded: 1 for closed forms */
     float *numbers;
     size_t number_count;
-    float *columns; /* slopes and sums beyond them once more, each in a column (table/columns.h) */
+    float *columns;       /* slopes and sums beyond them once more, each in a column (table/columns.h) */
     double normalization; /* the source was multiplied by it */
     double scale;         /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
@@ -59,11 +59,12 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
 /* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has m4 if `moments` is 4. */
 typedef struct vndf_table_draft {
     unsigned cells, moments, squarings;
-    unsigned stride;    /* from number to number of an array; 0 for 1 */
-    float *knot;        /* R_i */
-    float *g0, *g1;     /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
+    unsigned stride; /* from number to number of an array; 0 for 1 */
+    float *knot;     /* R_i */
+    float *g0,
+        *g1; /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
     float *m0, *m1, *m2, *m4;
-    float *b0, *b1;     /* shares below the horizon at rho = R_i */
+    float *b0, *b1;      /* shares below the horizon at rho = R_i */
     float *area, *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
     double normalization, scale;
     vndf_certificate certificate;

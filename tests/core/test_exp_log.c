@@ -1,5 +1,5 @@
-/* The library's own exp, log and log1p have the relative errors that src/math/exp_log.h states, over their whole domains,
- * and a cosine and a sine in turns are within 1e-14; the oracle is the C library in long double. */
+/* The library's own exp, log and log1p have the relative errors that src/math/exp_log.h states, over their whole
+ * domains, and a cosine and a sine in turns are within 1e-14; the oracle is the C library in long double. */
 #include "math/exp_log.h"
 #include "math/turn.h"
 #include "harness/test.h"

@@ -1,7 +1,7 @@
 /* What scripts ask about kernels that another program runs, and whether they answer as the library does:
  *
- *     vndf_agreement make COUNT QUESTIONS TABLE...               writes questions, in turn about GGX, Beckmann, each table
- *     vndf_agreement check BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...   judges answers
+ *     vndf_agreement make COUNT QUESTIONS TABLE...               writes questions, in turn about GGX, Beckmann, each
+ *     table vndf_agreement check BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...   judges answers
  *
  * Roughness is 0.02 to 1 on both axes, directions are of the whole sphere. Of eight questions one is of a matrix that
  * turns, with a mean slope, one of numbers at the edges of the unit square, one of a hard direction: exactly along z,
@@ -127,18 +127,26 @@ static int is_refused(const exported_question *q, const float wm[3], float pdf)
     return !(fabs(square - 1) < 1e-6 && wm[2] >= 0 && (blind || (facing > -1.5e-7 && pdf > 0 && pdf <= FLT_MAX)));
 }
 
-/* What 99% and 99.9% of the answers but those at the edges of the unit square, the rims of the visible normals, may differ by: components of normals, shares of 1 + |Lambda| and G absolutely, the
- * others relatively. The last thousandth has the rim of the visible normals, where a rounding moves much. */
+/* What 99% and 99.9% of the answers but those at the edges of the unit square, the rims of the visible normals, may
+ * differ by: components of normals, shares of 1 + |Lambda| and G absolutely, the others relatively. The last thousandth
+ * has the rim of the visible normals, where a rounding moves much. */
 typedef struct limit {
     const char *name;
     int first, last, is_absolute;
     double most_of, nearly_all;
 } limit;
 static const limit LIMITS[] = {
-    {"normal", 0, 2, 1, 2e-6, 1e-5},   {"its density", 3, 3, 0, 2e-5, 3e-4}, {"pdf", 4, 4, 0, 5e-5, 1e-3},
-    {"visible", 5, 5, 0, 5e-5, 1e-3},  {"D", 6, 6, 0, 5e-5, 3e-4},           {"Lambda", 7, 7, 2, 1e-5, 3e-5},
-    {"G1, G2", 8, 9, 1, 1e-6, 3e-6},   {"area", 10, 10, 0, 1e-5, 3e-5},      {"mixed normal", 11, 13, 1, 5e-6, 3e-2},
-    {"its density", 14, 14, 0, 1e-4, 1e-2}, {"mixed pdf", 15, 15, 0, 1e-4, 1e-3},
+    {"normal", 0, 2, 1, 2e-6, 1e-5},
+    {"its density", 3, 3, 0, 2e-5, 3e-4},
+    {"pdf", 4, 4, 0, 5e-5, 1e-3},
+    {"visible", 5, 5, 0, 5e-5, 1e-3},
+    {"D", 6, 6, 0, 5e-5, 3e-4},
+    {"Lambda", 7, 7, 2, 1e-5, 3e-5},
+    {"G1, G2", 8, 9, 1, 1e-6, 3e-6},
+    {"area", 10, 10, 0, 1e-5, 3e-5},
+    {"mixed normal", 11, 13, 1, 5e-6, 3e-2},
+    {"its density", 14, 14, 0, 1e-4, 1e-2},
+    {"mixed pdf", 15, 15, 0, 1e-4, 1e-3},
 };
 enum { LIMITS_COUNT = sizeof LIMITS / sizeof LIMITS[0] };
 

@@ -2,8 +2,8 @@
 # that is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text
 # that is no longer found exactly once is an error too: the list has to follow the sources.
 #
-# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those that are
-# marked `always`; with ALL, all of them.
+# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those
+# that are marked `always`; with ALL, all of them.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)

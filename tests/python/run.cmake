@@ -1,5 +1,5 @@
-# Runs one test of the Python package with the library and the KERNEL of this build: PYTHON, NAME (test_NAME.py or layout),
-# SINGLES, VARIANT of Mitsuba.
+# Runs one test of the Python package with the library and the KERNEL of this build: PYTHON, NAME (test_NAME.py or
+# layout), SINGLES, VARIANT of Mitsuba.
 function(run)
     execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)

@@ -325,8 +325,8 @@ static void test_shipped(void)
     }
 }
 
-/* The furnace that is shipped vanishes: every pixel is 1, but for what 16 weights of a table differ by, and their mean is
- * 1 within 1e-5 measured. */
+/* The furnace that is shipped vanishes: every pixel is 1, but for what 16 weights of a table differ by, and their mean
+ * is 1 within 1e-5 measured. */
 static void test_furnace_vanishes(void)
 {
     scene s;

@@ -2,10 +2,10 @@
  *
  *     same_bits COUNT [TABLE...]
  *
- * Each of COUNT samples has a view of its own: directions of the whole sphere, roughness from 1e-6 to 10, corners of the
- * unit square. At every eighth all other functions of vndf.h are asked, at every fourth a material. A line has the hash
- * after so many samples, that number, and the distribution: one after PREFIX, so that a slow machine that takes fewer is
- * compared with a fast one, and one after COUNT. test_same_bits.cmake compares differently compiled copies. */
+ * Each of COUNT samples has a view of its own: directions of the whole sphere, roughness from 1e-6 to 10, corners of
+ * the unit square. At every eighth all other functions of vndf.h are asked, at every fourth a material. A line has the
+ * hash after so many samples, that number, and the distribution: one after PREFIX, so that a slow machine that takes
+ * fewer is compared with a fast one, and one after COUNT. test_same_bits.cmake compares differently compiled copies. */
 #include <stdlib.h>
 
 #include "harness/hash.h"

@@ -1,7 +1,8 @@
-/* Every batch call gives, to the bit, what the call for one element gives: surfaces, affine ones and mixtures, for every
- * instruction set, counts that fill no register, arrays without alignment, shared roughness, directions and weights,
- * matrices that are absent, results in the place of inputs, and inputs at the edge of what is valid or beyond. It notices
- * a lane that goes another way than one alone, and a block's end. With the argument avx2 or avx512 that set alone. */
+/* Every batch call gives, to the bit, what the call for one element gives: surfaces, affine ones and mixtures, for
+ * every instruction set, counts that fill no register, arrays without alignment, shared roughness, directions and
+ * weights, matrices that are absent, results in the place of inputs, and inputs at the edge of what is valid or beyond.
+ * It notices a lane that goes another way than one alone, and a block's end. With the argument avx2 or avx512 that set
+ * alone. */
 #include "sampler/seen.h"
 
 enum { MOST = 300 };

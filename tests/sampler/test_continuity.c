@@ -1,7 +1,7 @@
 /* The map from numbers to normals is continuous, and monotone in each number but for rounding, but at the seam behind
- * wi: of tables u1 turns the azimuth of the stretched normal and u2 moves its slope, of GGX they do so with the mirrored
- * direction, of Beckmann u1 moves the slope along wi and u2 that across. Steps of a number are halved towards the
- * largest change until they are 2^-23. It notices a jump where two cells, two sides or two formulas meet. */
+ * wi: of tables u1 turns the azimuth of the stretched normal and u2 moves its slope, of GGX they do so with the
+ * mirrored direction, of Beckmann u1 moves the slope along wi and u2 that across. Steps of a number are halved towards
+ * the largest change until they are 2^-23. It notices a jump where two cells, two sides or two formulas meet. */
 #include "sampler/seen.h"
 
 /* The normal in the stretched frame, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */

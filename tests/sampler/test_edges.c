@@ -1,8 +1,8 @@
 /* Whatever a renderer hands over on a bad day, a sample is a unit normal within 4 ulps, wm.z >= 0, that faces wi, and
  * its density is within [FLT_MIN, FLT_MAX]: directions straight up and down, grazing, with cosines of 1e-7, 0 and
  * denormals, below the horizon until 1e-10 of the area is left; numbers 0, 1 and beside them; roughness 1e-4 to 1e4,
- * matrices of condition 1e8, mean slopes of a thousand times the roughness, mixtures with weights 1e-30 to 1e30. What is
- * invalid has the one result that vndf.h states. Some 1.9 million samples in all. */
+ * matrices of condition 1e8, mean slopes of a thousand times the roughness, mixtures with weights 1e-30 to 1e30. What
+ * is invalid has the one result that vndf.h states. Some 1.9 million samples in all. */
 #include <float.h>
 
 #include "sampler/seen.h"

@@ -1,6 +1,7 @@
 /* What is promised of samples and densities holds where the caller has the processor flush denormals to zero and read
  * them as zero, as renderers do: for directions of length 1e-37 to 3e38, roughness from one end of its range to the
- * other, and numbers at their ends, by single calls and by batches of every instruction set, which give the same bits. */
+ * other, and numbers at their ends, by single calls and by batches of every instruction set, which give the same
+ * bits. */
 #include <float.h>
 
 #include "sampler/seen.h"

@@ -1,6 +1,6 @@
-/* Numbers, normal, numbers: vndf_invert gives numbers that vndf_sample turns into the same normal, within 1e-5 where its
- * slopes are over the roughness, or within what four steps of 2^-24 of the numbers do there; for mixtures it names the
- * lobe. It notices an inverse that is not that of the map, a wrong half turn, and a cell's neighbour. */
+/* Numbers, normal, numbers: vndf_invert gives numbers that vndf_sample turns into the same normal, within 1e-5 where
+ * its slopes are over the roughness, or within what four steps of 2^-24 of the numbers do there; for mixtures it names
+ * the lobe. It notices an inverse that is not that of the map, a wrong half turn, and a cell's neighbour. */
 #include "sampler/seen.h"
 
 /* Between unit normals over the roughness. */

@@ -1,6 +1,7 @@
 /* Given its slope R, the azimuth a of a table's sample solves Kepler's equation: c a + s R sin a is the part |2 u1 - 1|
- * of what it is at the end of the arc that is seen, within 3e-5 at worst and 2e-7 in the mean, above the horizon and below
- * it, but for what the rounding of the normal does to a short arc. It notices a start or a step of the solver that is too coarse. */
+ * of what it is at the end of the arc that is seen, within 3e-5 at worst and 2e-7 in the mean, above the horizon and
+ * below it, but for what the rounding of the normal does to a short arc. It notices a start or a step of the solver
+ * that is too coarse. */
 #include "sampler/seen.h"
 
 static double arc_of(double c, double k)

@@ -1,7 +1,8 @@
 /* Densities, D, areas, Lambda and G1 are what the numbers of the file define, by the oracle, which reads its bytes, in
- * double: within 1e-5, below the horizon 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart, matrices
- * of condition up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror - the
- * values at inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
+ * double: within 1e-5, below the horizon 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4,
+ * also 1e4 apart, matrices of condition up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning
+ * surfaces, a mirror - the values at inputs one rounding aside count. It notices a wrong formula, a wrong cell, and
+ * digits lost. */
 #include "oracle/oracle_surface.h"
 #include "sampler/seen.h"
 

@@ -1,7 +1,7 @@
 /* The density that comes with a sample is that of vndf_pdf at the normal returned (promise 2): above the horizon within
  * 1e-5 for 99.9% of the samples and 1e-4 for 99.99%, below it 1e-4 and 1e-3, where roughness is at least 0.02 and no
- * lobe of D is narrower than a tenth of its slope. It notices a density that is formed another way where a sample is
- * drawn than where it is asked for, and digits lost on the way. */
+ * lobe of D is narrower than a tenth of its slope; every fifth view is of a mixture. It notices a density that is
+ * formed another way where a sample is drawn than where it is asked for, and digits lost on the way. */
 #include "sampler/seen.h"
 
 enum { ALPHAS = 4, MOST = 400000 };
@@ -21,7 +21,8 @@ static size_t measure(const subject *of, int below, size_t samples, float *error
         float ax = alphas[i % ALPHAS], ay = i / ALPHAS % 2 ? ax : alphas[i / 8 % ALPHAS], pdf;
         vndf_vec3 wi = random_direction(state, 0), level = {wi.x, wi.y, 0};
         wi.z = below ? -wi.z : wi.z;
-        seen s = seen_surface(of->d, ax, ay, wi);
+        const vndf_mixture two = {2, {{seen_straight(of->d, ax, ay), 0.3f}, {seen_straight(of->d, 1, 1), 0.7f}}};
+        seen s = i % 5 == 4 ? seen_from(SEEN_MIXTURE, &two, wi) : seen_surface(of->d, ax, ay, wi);
         if (below && seen_area(&s, wi) < 1e-8f * seen_area(&s, level))
             continue;
         vndf_vec3 wm = seen_draw(&s, test_uniform(state), test_uniform(state), &pdf);

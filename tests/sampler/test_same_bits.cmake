@@ -59,7 +59,8 @@ endif()
 
 # run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty.
 function(run who count emulator parts)
-    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm RESULT_VARIABLE status ERROR_VARIABLE errors)
+    execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm
+        RESULT_VARIABLE status ERROR_VARIABLE errors)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "${who} cannot build the run time:\n${errors}")
     endif()

@@ -54,8 +54,8 @@ static void add_to(average *a, double value)
     a->squares += value * value;
 }
 
-/* How far the mean is from 0, beyond five standard errors and ten samples, since what is rare may not be met; the values
- * are differences from what is expected. */
+/* How far the mean is from 0, beyond five standard errors and ten samples, since what is rare may not be met; the
+ * values are differences from what is expected. */
 static double beyond(const average *a, double n)
 {
     double mean = a->sum / n;

@@ -1,7 +1,8 @@
-/* Above the horizon no weight is far from the mean, whatever D is: within 1e-2 with three moments, 1.5e-3 with four, and
- * what cells miss at jumps and needles; the variance is small, and the mean is 1: the area is right.  Random D of up to five lobes
- * - needles, rings, discs, tails, gaps - are built, and looked at from 60 directions. It notices a wrong power, a switch
- * at the wrong knot, and a cell whose law has the mass and not the shape. */
+/* Above the horizon no weight is far from the mean, whatever D is: within 1e-2 with three moments, 1.5e-3 with four,
+ * and what cells miss at jumps and needles; the variance is small, and the mean is 1: the area is right.  Random D of
+ * up to five lobes
+ * - needles, rings, discs, tails, gaps - are built, and looked at from 60 directions. It notices a wrong power, a
+ * switch at the wrong knot, and a cell whose law has the mass and not the shape. */
 #include "sampler/seen.h"
 #include "vndf_build.h"
 

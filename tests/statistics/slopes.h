@@ -14,7 +14,8 @@ typedef struct slope_frame {
     double s, c, x, y;                          /* the direction in it: (s, 0, c) after a turn by (x, y) */
 } slope_frame;
 
-/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; with `all`, of all normals. */
+/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; with `all`, of all
+ * normals. */
 slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi, int all);
 
 /* A function per steradian at the unit normal wm. */

@@ -1,6 +1,6 @@
-/* vndf_numbers gives the numbers that kernels of `vndf export` read: as many as it says, no more than there is room for,
- * the same each time: a head of 8, and five rows of four for each knot. What they say of the slopes is what the table
- * says: knots ascend, sums fall, and the mass is 1. */
+/* vndf_numbers gives the numbers that kernels of `vndf export` read: as many as it says, no more than there is room
+ * for, the same each time: a head of 8, and five rows of four for each knot. What they say of the slopes is what the
+ * table says: knots ascend, sums fall, and the mass is 1. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* A table that breaks one rule of format 4 is refused, whatever its checksum says, and the message names the rule: the
- * counts, the range of every number, knots that ascend, masses that add up to 1, parts that fill the file. Random damage
+ * counts, the range of every number, knots that ascend, masses that add up to 1, parts that fill the file. Random
+ * damage
  * (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"

@@ -114,8 +114,11 @@ static int read_only(const export_words *given, export_document *document, char 
         for (n = 0; calls[n] && strcmp(calls[n], call) != 0; n++)
             ;
         if (!calls[n] || count + 1 >= EXPORT_CALLS)
-            return complain(name, "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area and "
-                                  "mixture are known, each once", call), 0;
+            return complain(name,
+                            "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area and "
+                            "mixture are known, each once",
+                            call),
+                   0;
         document->only[count++] = call;
     }
     return 1;
@@ -233,8 +236,8 @@ static int run(const export_words *given, export_document *document)
 
 static int run_brdf(const export_words *given, brdf_words *brdf)
 {
-    const words *const others[] = {&given->language, &given->embed, &given->buffer, &given->prefix,
-                                   &given->lobes,    &given->notice, &given->only, &given->distribution};
+    const words *const others[] = {&given->language, &given->embed,  &given->buffer, &given->prefix,
+                                   &given->lobes,    &given->notice, &given->only,   &given->distribution};
     static const char *const names[] = {"--language", "--embed",  "--buffer", "--prefix",
                                         "--lobes",    "--notice", "--only",   "--distribution"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)

@@ -71,14 +71,16 @@ static const char head[] =
     "// that faces wi, and its density per steradian. vndf_pdf, vndf_visible and vndf_ndf answer for a given normal,\n"
     "// vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions; "
     "vndf_mixture is up to VNDF_LOBES surfaces.\n"
-    "// Directions are unit and may be below the surface; roughness is alpha. All of it is float: the density of a sample\n"
-    "// is, to 1e-5, that of a normal within one rounding of it; beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
+    "// Directions are unit and may be below the surface; roughness is alpha. "
+    "All of it is float: the density of a sample\n"
+    "// is, to 1e-5, that of a normal within one rounding of it; "
+    "beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
     "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static void put_head(FILE *to, const export_document *document)
 {
-    fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n", document->as.to->title,
-            VNDF_VERSION);
+    fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
+            document->as.to->title, VNDF_VERSION);
     translate_pattern(&document->as, to, head, "", 0);
     for (size_t i = 0; i < document->tables; i++)
         put_certificate(to, document, &document->table[i]);
@@ -119,7 +121,8 @@ static void put_number(FILE *to, float x)
 static void put_numbers(FILE *to, const export_document *document)
 {
     const language *as = document->as.to;
-    translate_pattern(&document->as, to, as->numbers ? as->numbers : as->array, "VNDF_NUMBERS", (long)document->count);
+    translate_pattern(&document->as, to, as->numbers ? as->numbers : as->array, "VNDF_NUMBERS",
+                      (long)document->count);
     for (size_t i = 0; i < document->count; i++) {
         fputs(i % 8 ? ", " : i ? ",\n    " : "\n    ", to);
         put_number(to, document->numbers[i]);
@@ -197,19 +200,25 @@ static void want(const translation *t, part_list *parts, const char *call)
 static int put_kernel(FILE *to, const export_document *document, const translation *t)
 {
     static const char *const outer[] = {"vndf_surface_of", NULL};
-    static const char *const inner[] = {"frame_of", "frame_sampled", "frame_normal", "frame_density", "frame_reach",
-                                        "ggx_see",  "ggx_draw",      "ggx_density",  "ggx_area",      "ggx_p22",
-                                        "beckmann_see", "beckmann_draw", "beckmann_density", "beckmann_area",
-                                        "beckmann_p22", "table_view_of", "table_draw", "table_pdf", "table_given",
-                                        "table_p22", "law_area", NULL};
+    static const char *const inner[] = {"frame_of",         "frame_sampled",
+                                        "frame_normal",     "frame_density",
+                                        "frame_reach",      "ggx_see",
+                                        "ggx_draw",         "ggx_density",
+                                        "ggx_area",         "ggx_p22",
+                                        "beckmann_see",     "beckmann_draw",
+                                        "beckmann_density", "beckmann_area",
+                                        "beckmann_p22",     "table_view_of",
+                                        "table_draw",       "table_pdf",
+                                        "table_given",      "table_p22",
+                                        "law_area",         NULL};
     char *text = whole_text(document);
     part_list *parts = malloc(sizeof *parts);
     if (text && parts) {
         parts_read(parts, text);
         for (const char *const *name = t->to->indents ? inner : outer; *name; name++)
             translation_want(t, parts, *name);
-        for (const char *const *call = document->only[0] ? document->only : document_calls(); !t->to->indents && *call;
-             call++)
+        for (const char *const *call = document->only[0] ? document->only : document_calls();
+             !t->to->indents && *call; call++)
             want(t, parts, *call);
         translate(t, to, parts);
     }

@@ -19,29 +19,41 @@ static const renamed common_calls[] = {{"set", "$1"},
                                        {"to_whole", "int($1)"},
                                        {NULL, NULL}};
 
-#define CALLS_OF_C {"root", "sqrtf($1)"}, {"size", "fabsf($1)"}, {"with_sign", "copysignf($1, $2)"}
-#define CASTS_OF_C {"to_real", "(float)($1)"}, {"to_whole", "(int)($1)"}
-#define BITS_OF_C {"bits", "vndf_bits($1)"}, {"of_bits", "vndf_of_bits($1)"}
-#define BITS_TEXT(how)                                                          \
-    how "int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n" \
-        "    return i;\n}\n\n" how                                              \
-        "float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n"
+#define CALLS_OF_C                              \
+  {"root", "sqrtf($1)"}, {"size", "fabsf($1)"}, \
+  {                                             \
+    "with_sign", "copysignf($1, $2)"            \
+  }
+#define CASTS_OF_C            \
+  {"to_real", "(float)($1)"}, \
+  {                           \
+    "to_whole", "(int)($1)"   \
+  }
+#define BITS_OF_C                 \
+  {"bits", "vndf_bits($1)"},      \
+  {                               \
+    "of_bits", "vndf_of_bits($1)" \
+  }
+#define BITS_TEXT(how)                                                        \
+  how "int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n" \
+      "    return i;\n}\n\n" how                                              \
+      "float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n"
 
 /* What stands before the kernel in Python; derivatives of bits are 0, those of roots at 0 too. */
 #define PYTHON_TEXT                                                                                       \
-    "import struct\n\nimport drjit as dr\nimport mitsuba as mi\n\n\n"                                     \
-    "class _Struct:\n    __slots__ = ()\n\n    def __init__(self, *values):\n"                            \
-    "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n" \
-    "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"           \
-    "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"                                           \
-    "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"                                            \
-    "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"                                             \
-    "def _bits(x):\n    if dr.is_jit_v(mi.Float):\n"                                                      \
-    "        return dr.reinterpret_array(mi.Int32, dr.detach(mi.Float(x)))\n"                             \
-    "    return struct.unpack(\"i\", struct.pack(\"f\", x))[0]\n\n\n"                                         \
-    "def _of_bits(i):\n    if dr.is_jit_v(mi.Float):\n"                                                   \
-    "        return dr.reinterpret_array(mi.Float, mi.Int32(i))\n"                                        \
-    "    return struct.unpack(\"f\", struct.pack(\"i\", i))[0]\n"
+  "import struct\n\nimport drjit as dr\nimport mitsuba as mi\n\n\n"                                       \
+  "class _Struct:\n    __slots__ = ()\n\n    def __init__(self, *values):\n"                              \
+  "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n" \
+  "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"            \
+  "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"                                            \
+  "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"                                             \
+  "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"                                              \
+  "def _bits(x):\n    if dr.is_jit_v(mi.Float):\n"                                                        \
+  "        return dr.reinterpret_array(mi.Int32, dr.detach(mi.Float(x)))\n"                               \
+  "    return struct.unpack(\"i\", struct.pack(\"f\", x))[0]\n\n\n"                                       \
+  "def _of_bits(i):\n    if dr.is_jit_v(mi.Float):\n"                                                     \
+  "        return dr.reinterpret_array(mi.Float, mi.Int32(i))\n"                                          \
+  "    return struct.unpack(\"f\", struct.pack(\"i\", i))[0]\n"
 
 static const language languages[] = {
     {.name = "c",
@@ -270,16 +282,17 @@ const char *language_call(const language *in, const char *name, size_t length)
 
 /* Of the eight and Python; those of C need not stand here. */
 static const char reserved[] =
-    " abstract active alignas and as asm assert async attribute auto await become binding buffer cast centroid class coherent "
-    "common compile constant crate debugger def del delete demote device discard elif enable except export "
-    "extern filter final finally fixed flat fn fragment friend from function fxgroup generic get global goto groupshared half "
-    "handle hook impl implements import in inline inout input interface invariant is kernel lambda layout length let line linear "
-    "local lowp macro match matrix mediump meta mod module move mut namespace new nil noexcept noinline "
-    "nointerpolation None nonlocal not null of operator or out output override package packed partition pass patch pipe pixelfragment point "
-    "precise precision priv private protected ptr pub public raise readonly ref regardless register require resource row_major "
-    "sample sampler self set shared smooth snorm std string subroutine super superp target technique template texture this "
-    "thread throw trait triangle try type typename uniform unless unorm use using var varying vec vector vertex virtual wgsl "
-    "where with writeonly xor yield ";
+    " abstract active alignas and as asm assert async attribute auto await become binding buffer cast centroid "
+    "class coherent common compile constant crate debugger def del delete demote device discard elif enable "
+    "except export extern filter final finally fixed flat fn fragment friend from function fxgroup generic get "
+    "global goto groupshared half handle hook impl implements import in inline inout input interface invariant "
+    "is kernel lambda layout length let line linear local lowp macro match matrix mediump meta mod module move "
+    "mut namespace new nil noexcept noinline nointerpolation None nonlocal not null of operator or out output "
+    "override package packed partition pass patch pipe pixelfragment point precise precision priv private "
+    "protected ptr pub public raise readonly ref regardless register require resource row_major sample sampler "
+    "self set shared smooth snorm std string subroutine super superp target technique template texture this "
+    "thread throw trait triangle try type typename uniform unless unorm use using var varying vec vector vertex "
+    "virtual wgsl where with writeonly xor yield ";
 
 int language_reserves(const char *name, size_t length)
 {

@@ -30,18 +30,18 @@ typedef struct language {
     const char *name, *title;
     struct_form structs;
     buffer_form buffer;
-    int typed_after;       /* x: f32, not float x */
-    int keeps_const;       /* of local values and parameters */
-    int made_by_call;      /* T(a, b), not {a, b} */
-    int vec3_is_ours;      /* a struct of three floats */
-    int guarded;           /* #ifndef around all, since files include one another */
-    int indents;           /* as Python does: no braces, no types */
-    const char *function;  /* before the type of a function */
-    const char *zero;      /* what a struct $ is before its members are set, where that must be said */
-    const char *begin;     /* after the first comment */
-    const char *constant;  /* declares the whole number $NAME, which is $N */
-    const char *array;     /* declares $N constant numbers $NAME, up to what opens them */
-    const char *numbers;   /* the same for a table's numbers, if they are declared otherwise */
+    int typed_after;      /* x: f32, not float x */
+    int keeps_const;      /* of local values and parameters */
+    int made_by_call;     /* T(a, b), not {a, b} */
+    int vec3_is_ours;     /* a struct of three floats */
+    int guarded;          /* #ifndef around all, since files include one another */
+    int indents;          /* as Python does: no braces, no types */
+    const char *function; /* before the type of a function */
+    const char *zero;     /* what a struct $ is before its members are set, where that must be said */
+    const char *begin;    /* after the first comment */
+    const char *constant; /* declares the whole number $NAME, which is $N */
+    const char *array;    /* declares $N constant numbers $NAME, up to what opens them */
+    const char *numbers;  /* the same for a table's numbers, if they are declared otherwise */
     const char *array_close;
     const char *pointer;        /* type of the pointer, for BUFFER_PARAMETER */
     const char *bound;          /* declares the buffer, for BUFFER_BOUND */

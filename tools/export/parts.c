@@ -116,7 +116,8 @@ void part_want(part_list *parts, part *p, int (*is_known)(const void *, const wo
         before = *next.text;
         if (word_is(&next, "fetch"))
             p->fetches = 1;
-        if (!of || of == p || (of->kind == PART_FUNCTION && *after(&next).text != '(') || is_known(language, &next))
+        if (!of || of == p || (of->kind == PART_FUNCTION && *after(&next).text != '(') ||
+            is_known(language, &next))
             continue;
         part_want(parts, of, is_known, language);
         p->fetches |= of->fetches;

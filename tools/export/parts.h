@@ -37,6 +37,7 @@ void parts_read(part_list *parts, const char *text);
 part *part_named(part_list *parts, const word *name);
 
 /* Marks a declaration and what it mentions, but for functions that `is_known` says the language has. */
-void part_want(part_list *parts, part *p, int (*is_known)(const void *language, const word *name), const void *language);
+void part_want(part_list *parts, part *p, int (*is_known)(const void *language, const word *name),
+               const void *language);
 
 #endif

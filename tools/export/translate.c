@@ -250,7 +250,8 @@ static void put_number(const writer *w, const word *number)
     if (hex && (memchr(number->text, 'p', number->length)))
         fprintf(w->to, w->t->to->indents ? "%.9g" : "%.9gf", strtod(number->text, NULL));
     else
-        fprintf(w->to, "%.*s", (int)number->length - (w->t->to->indents && !hex && number->text[number->length - 1] == 'f'),
+        fprintf(w->to, "%.*s",
+                (int)number->length - (w->t->to->indents && !hex && number->text[number->length - 1] == 'f'),
                 number->text);
 }
 
@@ -258,7 +259,8 @@ static void put_sign(const writer *w, const word *sign, const char *end)
 {
     int pair = sign->text + 1 < end && sign->text[1] == *sign->text;
     word next = word_solid(sign->text + 1);
-    if (w->t->to->indents && *sign->text == '/' && next.kind == WORD_NUMBER && !memchr(next.text, '.', next.length))
+    if (w->t->to->indents && *sign->text == '/' && next.kind == WORD_NUMBER &&
+        !memchr(next.text, '.', next.length))
         fputc('/', w->to); /* of whole numbers */
     if (!w->t->to->indents || !strchr("&|!", *sign->text) || (*sign->text == '!' && sign->text[1] == '='))
         fputc(*sign->text, w->to);
@@ -493,8 +495,9 @@ static int is_assigned(const writer *w, const char *at, const word *name)
                 word member = after(&then);
                 then = end ? word_solid(end) : after(&member);
             }
-            if (then.kind == WORD_SIGN && ((*then.text == '=' && then.text[1] != '=') ||
-                                           (strchr("+-*/", *then.text) && strchr("=+-", then.text[1]) && then.text[1])))
+            if (then.kind == WORD_SIGN &&
+                ((*then.text == '=' && then.text[1] != '=') ||
+                 (strchr("+-*/", *then.text) && strchr("=+-", then.text[1]) && then.text[1])))
                 return 1;
         }
         before = *next.text;
@@ -514,7 +517,8 @@ static void put_value(writer *w, const word *type, range r)
 {
     word first = word_solid(r.from);
     int made = word_is(&first, "{"), copied = w->t->to->indents && !made && !has_sign(r, "+-*/(") &&
-               first.kind == WORD_NAME && part_of(w, type, PART_STRUCT) && *after(&first).text != '(';
+                                              first.kind == WORD_NAME && part_of(w, type, PART_STRUCT) &&
+                                              *after(&first).text != '(';
     if (made) {
         put_made(w, type, (range){first.text + 1, words_end(first.text + 1, "")});
     } else {
@@ -533,7 +537,8 @@ static void put_declared(writer *w, const word *type, range r, int is_constant, 
     range value = {has_value ? word_solid(sign.text + 1).text : r.to, r.to};
     if (to->typed_after) {
         int fixed = has_value && (is_constant || !is_assigned(w, r.to, &name)) && !part_of(w, type, PART_STRUCT);
-        fputs(fixed ? "let " : "var ", w->to); /* structs are variables, since only those have elements at an index */
+        fputs(fixed ? "let " : "var ",
+              w->to); /* structs are variables, since only those have elements at an index */
         put_typed(w, type, &name);
     } else if (to->indents || !first) {
         put_name(w, &name);
@@ -806,7 +811,8 @@ static void put_array(writer *w, const part *p)
     const char *close = words_end(p->inner, "");
     size_t count = split((range){p->inner, close}, one, 256), n = 0;
     for (n = 0; n < p->name.length && n + 6 < sizeof name; n++)
-        name[5 + n] = p->name.text[n] >= 'a' && p->name.text[n] <= 'z' ? (char)(p->name.text[n] - 32) : p->name.text[n];
+        name[5 + n] =
+            p->name.text[n] >= 'a' && p->name.text[n] <= 'z' ? (char)(p->name.text[n] - 32) : p->name.text[n];
     memcpy(name, "VNDF_", 5);
     name[5 + n] = '\0';
     translate_pattern(w->t, w->to, w->t->to->array, name, (long)count);
@@ -839,7 +845,8 @@ static void put_comment(writer *w, const part *p)
 static void put_constant(writer *w, const part *p)
 {
     char name[64];
-    snprintf(name, sizeof name, "%s%.*s", has_prefix(&p->name, "VNDF_") ? "" : "VNDF_", (int)p->name.length, p->name.text);
+    snprintf(name, sizeof name, "%s%.*s", has_prefix(&p->name, "VNDF_") ? "" : "VNDF_", (int)p->name.length,
+             p->name.text);
     translate_pattern(w->t, w->to, w->t->to->constant, name, p->value);
 }
 

@@ -1,10 +1,10 @@
 /* Prints the text of the kernel in another language.
  *
  * The text is the part of C in which src/kernel is written. Of files there are comments, directives (which are left
- * out), `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float N[] = {...};` and `HERE type name(...) {...}`.
- * Of statements there are declarations of types of one word, assignments, if, for and return; structs are made as
- * `n v = {a, b};` with every member. What stands between brackets stays as it is, word by word, but for calls, names and
- * conditions: an operand of && and || in an if that is neither a comparison nor any(mask) is a whole number. */
+ * out), `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float N[] = {...};` and `HERE type name(...)
+ * {...}`. Of statements there are declarations of types of one word, assignments, if, for and return; structs are made
+ * as `n v = {a, b};` with every member. What stands between brackets stays as it is, word by word, but for calls, names
+ * and conditions: an operand of && and || in an if that is neither a comparison nor any(mask) is a whole number. */
 #ifndef TOOLS_EXPORT_TRANSLATE_H
 #define TOOLS_EXPORT_TRANSLATE_H
 
@@ -26,8 +26,8 @@ typedef struct translation {
  * two underscores in a row and those that begin with gl_. */
 int translation_prefix(translation *t, const char *name);
 
-/* Writes a text with the prefix for every vndf_ and VNDF_. In it $NAME is the name, which gets the prefix too, and $N the
- * number. */
+/* Writes a text with the prefix for every vndf_ and VNDF_. In it $NAME is the name, which gets the prefix too, and $N
+ * the number. */
 void translate_pattern(const translation *t, FILE *to, const char *pattern, const char *name, long n);
 
 /* Marks what is needed for a function; 0 if there is none of that name. */

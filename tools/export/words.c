@@ -101,6 +101,7 @@ void words_expect(int good, const char *at, const char *what)
 {
     if (good)
         return;
-    fprintf(stderr, "vndf export: the kernel's text has to have %s here: %.*s\n", what, (int)strcspn(at, "\n"), at);
+    fprintf(stderr, "vndf export: the kernel's text has to have %s here: %.*s\n", what, (int)strcspn(at, "\n"),
+            at);
     abort();
 }

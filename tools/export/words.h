@@ -36,8 +36,8 @@ int words_equal(const word *a, const word *b);
 /* The first place from `from` on, outside of brackets, of a sign among `stops`, or of a bracket that closes none. */
 const char *words_end(const char *from, const char *stops);
 
-/* Complains of the line and ends the program: the build translates the one text there is, so that what is wrong with it is
- * a fault of this program. */
+/* Complains of the line and ends the program: the build translates the one text there is, so that what is wrong with it
+ * is a fault of this program. */
 void words_expect(int good, const char *at, const char *what);
 
 #endif

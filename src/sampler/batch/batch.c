@@ -31,7 +31,9 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 static vndf_lanes *lanes_of(vndf_instructions limit)
 {
     vndf_instructions used = vndf_instructions_used(limit);
-    return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16 : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_lanes_8 : vndf_lanes_4;
+    return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16
+           : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_lanes_8
+                                            : vndf_lanes_4;
 }
 
 #else
@@ -63,8 +65,10 @@ static const unsigned DIRECTION = 1u << VNDF_READ_WI_X | 1u << VNDF_READ_WI_Y | 
 /* A call without what it reads and writes beside surfaces and directions. */
 static vndf_call affine_call(vndf_task task, const vndf_affine_batch *b)
 {
-    vndf_call call = {task, b->distribution, b->count, 0, 0,
-                      {b->xx, b->xy, b->yx, b->yy, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z}, {0}};
+    vndf_call call = {task,     b->distribution,
+                      b->count, 0,
+                      0,        {b->xx, b->xy, b->yx, b->yy, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z},
+                      {0}};
     call.shared = (b->shared & VNDF_SHARED_ALPHA ? SURFACE : 0) | (b->shared & VNDF_SHARED_WI ? DIRECTION : 0);
     return call;
 }
@@ -72,14 +76,15 @@ static vndf_call affine_call(vndf_task task, const vndf_affine_batch *b)
 /* Roughness is a diagonal matrix. */
 static vndf_call plain_call(vndf_task task, const vndf_batch *b)
 {
-    const vndf_affine_batch affine = {b->distribution, b->count, b->shared, b->limit, b->alpha_x, NULL, NULL,
-                                      b->alpha_y, NULL, NULL, b->wi_x, b->wi_y, b->wi_z};
+    const vndf_affine_batch affine = {b->distribution, b->count, b->shared, b->limit, b->alpha_x, NULL,   NULL,
+                                      b->alpha_y,      NULL,     NULL,      b->wi_x,  b->wi_y,    b->wi_z};
     vndf_call call = affine_call(task, &affine);
     call.diagonal = 1;
     return call;
 }
 
-static void run(vndf_call *call, vndf_instructions limit, const float *const given[3], float *const results[VNDF_WRITES])
+static void run(vndf_call *call, vndf_instructions limit, const float *const given[3],
+                float *const results[VNDF_WRITES])
 {
     for (int i = 0; i < 3; i++)
         call->read[VNDF_READ_A + i] = given[i];
@@ -124,7 +129,8 @@ void vndf_sample_weight_n(const vndf_batch *b, const float *u1, const float *u2,
     run_sample(plain_call(VNDF_TASK_SAMPLE, b), b->limit, u1, u2, wm, pdf, weight);
 }
 
-void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
+void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
+                          float *pdf)
 {
     run_sample(affine_call(VNDF_TASK_SAMPLE, b), b->limit, u1, u2, wm, pdf, NULL);
 }
@@ -213,8 +219,8 @@ static vndf_mixture_view view_at(const vndf_mixture_batch *b, size_t i)
     return vndf_mixture_view_from(&m, vndf_batch_mixture_direction(b, i));
 }
 
-void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
-                           int *lobe)
+void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
+                           float *pdf, int *lobe)
 {
     for (size_t i = 0; i < b->count; i++) {
         vndf_mixture_view view = view_at(b, i);
@@ -264,7 +270,8 @@ void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf
 }
 
 /* A function of mixtures and directions, for each element. */
-static void for_each_direction(const vndf_mixture_batch *b, float (*of)(const vndf_mixture *, vndf_vec3), float *to)
+static void for_each_direction(const vndf_mixture_batch *b, float (*of)(const vndf_mixture *, vndf_vec3),
+                               float *to)
 {
     for (size_t i = 0; i < b->count; i++) {
         vndf_mixture m = vndf_batch_mixture(b, i);

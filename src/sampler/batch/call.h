@@ -39,10 +39,10 @@ typedef struct vndf_call {
     vndf_task task;
     const vndf_distribution *distribution;
     size_t count;
-    int diagonal;                   /* roughness: xx and yy have to be above 0 */
-    unsigned shared;                /* bit i: read[i] points to one number for all */
-    const float *read[VNDF_READS];  /* NULL for zeros */
-    float *write[VNDF_WRITES];      /* NULL for what is not asked for */
+    int diagonal;                  /* roughness: xx and yy have to be above 0 */
+    unsigned shared;               /* bit i: read[i] points to one number for all */
+    const float *read[VNDF_READS]; /* NULL for zeros */
+    float *write[VNDF_WRITES];     /* NULL for what is not asked for */
 } vndf_call;
 
 /* Element i of what it writes equals, to the bit, the call for one element. The distribution is not NULL. */

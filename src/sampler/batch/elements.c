@@ -1,5 +1,5 @@
-/* Batches one element after the other, by the calls for one: single elements, mixtures, and all where the compiler has no
- * lanes. */
+/* Batches one element after the other, by the calls for one: single elements, mixtures, and all where the compiler has
+ * no lanes. */
 #include "sampler/batch/elements.h"
 #include "sampler/sampler.h"
 
@@ -24,8 +24,13 @@ static float number(const vndf_call *c, int which, size_t i)
 /* A roughness that is not above 0 is invalid: it has no distribution. */
 static vndf_affine surface_at(const vndf_call *c, size_t i)
 {
-    vndf_affine s = {c->distribution, number(c, VNDF_READ_XX, i), number(c, VNDF_READ_XY, i), number(c, VNDF_READ_YX, i),
-                     number(c, VNDF_READ_YY, i), number(c, VNDF_READ_MEAN_X, i), number(c, VNDF_READ_MEAN_Y, i)};
+    vndf_affine s = {c->distribution,
+                     number(c, VNDF_READ_XX, i),
+                     number(c, VNDF_READ_XY, i),
+                     number(c, VNDF_READ_YX, i),
+                     number(c, VNDF_READ_YY, i),
+                     number(c, VNDF_READ_MEAN_X, i),
+                     number(c, VNDF_READ_MEAN_Y, i)};
     if (c->diagonal && !(s.xx > 0.0f && s.yy > 0.0f))
         s.distribution = NULL;
     return s;
@@ -34,7 +39,8 @@ static vndf_affine surface_at(const vndf_call *c, size_t i)
 static void sample(const vndf_call *c, size_t i, const vndf_view *view)
 {
     float u1 = c->read[VNDF_READ_A][i], u2 = c->read[VNDF_READ_B][i], *pdf = c->write[3] ? &c->write[3][i] : NULL;
-    vndf_vec3 wm = c->write[4] ? vndf_sample_weight(view, u1, u2, pdf, &c->write[4][i]) : vndf_sample(view, u1, u2, pdf);
+    vndf_vec3 wm =
+        c->write[4] ? vndf_sample_weight(view, u1, u2, pdf, &c->write[4][i]) : vndf_sample(view, u1, u2, pdf);
     c->write[0][i] = wm.x;
     c->write[1][i] = wm.y;
     c->write[2][i] = wm.z;
@@ -43,7 +49,8 @@ static void sample(const vndf_call *c, size_t i, const vndf_view *view)
 static void one(const vndf_call *c, size_t i)
 {
     const vndf_affine surface = surface_at(c, i);
-    const vndf_vec3 wi = {number(c, VNDF_READ_WI_X, i), number(c, VNDF_READ_WI_Y, i), number(c, VNDF_READ_WI_Z, i)};
+    const vndf_vec3 wi = {number(c, VNDF_READ_WI_X, i), number(c, VNDF_READ_WI_Y, i),
+                          number(c, VNDF_READ_WI_Z, i)};
     const vndf_vec3 wm = {number(c, VNDF_READ_A, i), number(c, VNDF_READ_B, i), number(c, VNDF_READ_C, i)};
     vndf_view view;
     float *to = &c->write[0][i], numbers[2];
@@ -66,18 +73,10 @@ static void one(const vndf_call *c, size_t i)
         *to = numbers[0];
         c->write[1][i] = numbers[1];
         break;
-    case VNDF_TASK_NDF:
-        *to = vndf_affine_ndf(&surface, wm);
-        break;
-    case VNDF_TASK_AREA:
-        *to = vndf_affine_projected_area(&surface, wi);
-        break;
-    case VNDF_TASK_LAMBDA:
-        *to = vndf_affine_lambda(&surface, wi);
-        break;
-    case VNDF_TASK_G1:
-        *to = vndf_affine_g1(&surface, wi);
-        break;
+    case VNDF_TASK_NDF: *to = vndf_affine_ndf(&surface, wm); break;
+    case VNDF_TASK_AREA: *to = vndf_affine_projected_area(&surface, wi); break;
+    case VNDF_TASK_LAMBDA: *to = vndf_affine_lambda(&surface, wi); break;
+    case VNDF_TASK_G1: *to = vndf_affine_g1(&surface, wi); break;
     }
 }
 
@@ -96,8 +95,9 @@ vndf_mixture vndf_batch_mixture(const vndf_mixture_batch *b, size_t i)
     m.count = b->lobes;
     for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
-        vndf_affine s = {a->distribution, at(a->xx, i, shared), at(a->xy, i, shared), at(a->yx, i, shared),
-                         at(a->yy, i, shared), at(a->mean_x, i, shared), at(a->mean_y, i, shared)};
+        vndf_affine s = {a->distribution,         at(a->xx, i, shared), at(a->xy, i, shared),
+                         at(a->yx, i, shared),    at(a->yy, i, shared), at(a->mean_x, i, shared),
+                         at(a->mean_y, i, shared)};
         m.lobe[l].surface = s;
         m.lobe[l].weight = at(a->weight, i, one_weight);
     }

@@ -1,32 +1,32 @@
 /* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
  *
- * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from which
- * a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block; and puts
- * the results together again. Short loops, since a processor overlaps few iterations of a long one. */
+ * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from
+ * which a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block;
+ * and puts the results together again. Short loops, since a processor overlaps few iterations of a long one. */
 #ifndef VNDF_LANES
-#  define VNDF_LANES 4
+#define VNDF_LANES 4
 #endif
 #if defined(__GNUC__)
 
-#  include "kernel/lanes.h"
+#include "kernel/lanes.h"
 
-#  include "kernel/beckmann.h"
-#  include "kernel/ggx.h"
-#  include "kernel/sample.h"
-#  include "sampler/batch/call.h"
+#include "kernel/beckmann.h"
+#include "kernel/ggx.h"
+#include "kernel/sample.h"
+#include "sampler/batch/call.h"
 
-#  if VNDF_LANES == 4
-#    define LANES_ENTRY vndf_lanes_4
-#  elif VNDF_LANES == 8
-#    define LANES_ENTRY vndf_lanes_8
-#  else
-#    define LANES_ENTRY vndf_lanes_16
-#  endif
+#if VNDF_LANES == 4
+#  define LANES_ENTRY vndf_lanes_4
+#elif VNDF_LANES == 8
+#  define LANES_ENTRY vndf_lanes_8
+#else
+#  define LANES_ENTRY vndf_lanes_16
+#endif
 
 enum { BLOCK = 128, GROUPS = BLOCK / LANES };
 
 /* Steps are not to be inlined into one large function: each has its own part of the stack. */
-#  define STEP static __attribute__((noinline))
+#define STEP static __attribute__((noinline))
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
@@ -46,15 +46,15 @@ HERE real input(const block *b, int which, int g)
 
 /* ---- frames ---- */
 
-/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux, uy)
- * of a table. */
+/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux,
+ * uy) of a table. */
 typedef struct frames {
     frame f[GROUPS];
     real ex[GROUPS], ey[GROUPS];
 } frames;
 
-/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction; what is drawn with or
- * given; results. */
+/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction; what is drawn with
+ * or given; results. */
 enum { S, C, RHO, GIVEN_A, GIVEN_B, GIVEN_C, GIVEN_D, SIDE_READS };
 enum { RESULT_A, RESULT_B, RESULT_C, RESULT_D, RESULT_E, SIDE_WRITES };
 
@@ -68,13 +68,14 @@ HERE affine_map map_at(const block *b, int g)
     const float unit = b->call->distribution->unit;
     affine_map m = {input(b, VNDF_READ_XX, g) * unit, input(b, VNDF_READ_XY, g) * unit,
                     input(b, VNDF_READ_YX, g) * unit, input(b, VNDF_READ_YY, g) * unit,
-                    input(b, VNDF_READ_MEAN_X, g), input(b, VNDF_READ_MEAN_Y, g)};
+                    input(b, VNDF_READ_MEAN_X, g),    input(b, VNDF_READ_MEAN_Y, g)};
     return m;
 }
 
 HERE frame frame_at(const block *b, int g)
 {
-    return frame_of(map_at(b, g), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g), input(b, VNDF_READ_WI_Z, g));
+    return frame_of(map_at(b, g), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+                    input(b, VNDF_READ_WI_Z, g));
 }
 
 /* Puts the direction of a frame at group g of a side. */
@@ -183,7 +184,8 @@ HERE void place_given(table t, int groups, const side *s, given *n)
     whole cell[GROUPS];
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
-        n[g] = table_given_slope(load(at + GIVEN_A * BLOCK), load(at + GIVEN_B * BLOCK), load(at + GIVEN_C * BLOCK));
+        n[g] =
+            table_given_slope(load(at + GIVEN_A * BLOCK), load(at + GIVEN_B * BLOCK), load(at + GIVEN_C * BLOCK));
         store(slope + g * LANES, n[g].r);
     }
     find_knots(t, groups, slope, cell);
@@ -198,7 +200,8 @@ HERE void density_side(table t, int groups, side *s, const int below)
     see_side(t, groups, s, v, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++)
-        store(s->write[RESULT_A] + g * LANES, table_density(t, v[g], n[g], load(s->read[GIVEN_D] + g * LANES), below));
+        store(s->write[RESULT_A] + g * LANES,
+              table_density(t, v[g], n[g], load(s->read[GIVEN_D] + g * LANES), below));
 }
 
 HERE void invert_side(table t, int groups, side *s, const int below)
@@ -280,7 +283,8 @@ STEP void area_below(table t, int groups, side *s)
 HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, const int below)
 {
     int count = 0;
-#  if VNDF_LANES == 16 /* one instruction for sixteen copies: mixed batches take 15 ns for 19. Lanes end within the row */
+#if VNDF_LANES == \
+    16 /* one instruction for sixteen copies: mixed batches take 15 ns for 19. Lanes end within the row */
     (void)some;
     for (int g = 0; g < groups; g++) {
         mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
@@ -290,7 +294,7 @@ HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, co
         }
         count += __builtin_popcount(chosen);
     }
-#  else
+#else
     for (int i = 0; i < groups * LANES; i++) {
         some[count] = (uint8_t)i;
         count += (s->height[i] < 0.0f) == below;
@@ -298,14 +302,14 @@ HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, co
     for (int r = 0; r < reads; r++)
         for (int i = 0; i < count; i++)
             own->read[r][i] = s->read[r][some[i]];
-#  endif
+#endif
     return count;
 }
 
 /* Puts results back. */
 HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t *some, int count, const int below)
 {
-#  if VNDF_LANES == 16
+#if VNDF_LANES == 16
     (void)some;
     count = 0;
     for (int g = 0; g < groups; g++) {
@@ -317,13 +321,13 @@ HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t
         }
         count += __builtin_popcount(chosen);
     }
-#  else
+#else
     (void)groups;
     (void)below;
     for (int w = 0; w < writes; w++)
         for (int i = 0; i < count; i++)
             s->write[w][some[i]] = own->write[w][i];
-#  endif
+#endif
 }
 
 /* A side_step on the elements of one side of a block, which are put together for it. */
@@ -653,44 +657,24 @@ HERE void areas(const block *b, float *to, const vndf_kind kind)
 STEP void block_of_table(const block *b, float *const to[VNDF_WRITES])
 {
     switch (b->call->task) {
-    case VNDF_TASK_SAMPLE:
-        sample_table(b, to);
-        break;
-    case VNDF_TASK_PDF:
-        density_table(b, to[0]);
-        break;
-    case VNDF_TASK_VISIBLE:
-        visible_table(b, to[0]);
-        break;
-    case VNDF_TASK_INVERT:
-        invert_table(b, to);
-        break;
-    case VNDF_TASK_NDF:
-        ndf(b, to[0], VNDF_KIND_TABLE);
-        break;
-    default:
-        areas(b, to[0], VNDF_KIND_TABLE);
+    case VNDF_TASK_SAMPLE: sample_table(b, to); break;
+    case VNDF_TASK_PDF: density_table(b, to[0]); break;
+    case VNDF_TASK_VISIBLE: visible_table(b, to[0]); break;
+    case VNDF_TASK_INVERT: invert_table(b, to); break;
+    case VNDF_TASK_NDF: ndf(b, to[0], VNDF_KIND_TABLE); break;
+    default: areas(b, to[0], VNDF_KIND_TABLE);
     }
 }
 
 HERE void block_of_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
     switch (b->call->task) {
-    case VNDF_TASK_SAMPLE:
-        (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to);
-        break;
+    case VNDF_TASK_SAMPLE: (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to); break;
     case VNDF_TASK_PDF:
-    case VNDF_TASK_VISIBLE:
-        density_closed(b, to[0], kind);
-        break;
-    case VNDF_TASK_INVERT:
-        invert_closed(b, to, kind);
-        break;
-    case VNDF_TASK_NDF:
-        ndf(b, to[0], kind);
-        break;
-    default:
-        areas(b, to[0], kind);
+    case VNDF_TASK_VISIBLE: density_closed(b, to[0], kind); break;
+    case VNDF_TASK_INVERT: invert_closed(b, to, kind); break;
+    case VNDF_TASK_NDF: ndf(b, to[0], kind); break;
+    default: areas(b, to[0], kind);
     }
 }
 
@@ -789,7 +773,9 @@ void LANES_ENTRY(const vndf_call *call)
         set_valid(&b, &c);
         for (int w = 0; w < VNDF_WRITES; w++)
             to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
-        (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(&b, to);
+        (kind == VNDF_KIND_TABLE ? block_of_table
+         : kind == VNDF_KIND_GGX ? block_of_ggx
+                                 : block_of_beckmann)(&b, to);
         for (int w = 0; !in_place && w < VNDF_WRITES; w++)
             if (call->write[w])
                 memcpy(call->write[w] + first, c.write[w], (size_t)count * sizeof(float));
