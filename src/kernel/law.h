@@ -297,7 +297,7 @@ typedef struct place {
 HERE place law_invert(piece at, real m)
 {
     real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
-    real middle = at.e0 - q * at.sum, square = root(middle * middle + 4.0f * (q * p));
+    real middle = at.e0 - q * at.sum, square = root(middle * middle + (4.0f * q) * p);
     mask rising = at_most(set(0.0f), middle + 2.0f * q);
     place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square, set(0.0f)};
     in.below = law_below(at, in.over, in.rest);
