@@ -6,11 +6,11 @@
 
 #include "kernel/law.h"
 
-HERE seen table_see(table t, real s, real c, real rho, const int below)
+HERE seen table_see(table t, whole cell, real s, real c, real rho, const int below)
 {
     if (below)
-        return law_see_below(t, s, c, rho);
-    return law_see_above(t, s, c, rho);
+        return law_see_below(t, cell, s, c, rho);
+    return law_see_above(t, cell, s, c, rho);
 }
 
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
@@ -121,13 +121,13 @@ typedef struct given {
 HERE given table_given(table t, real x, real y, real z)
 {
     given g;
-    real across = root(x * x + y * y);
+    real square = x * x + y * y, across = root(square);
+    g.cell = find_knot(t, square, z * z);
     z = most(z, across * 1e-28f);
     g.per = 1.0f / (across + z);
     g.x = across * g.per;
     g.z = z * g.per;
     g.r = across / z;
-    g.cell = find_knot(t, g.r);
     return g;
 }
 

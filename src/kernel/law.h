@@ -39,14 +39,15 @@ typedef struct seen {
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
-/* The last knot at or below a slope. */
-HERE whole find_knot(table t, real slope)
+/* The last knot R with R^2 under <= square: slopes are looked up by squares of their two parts. */
+HERE whole find_knot(table t, real square, real under)
 {
     whole i = set_whole(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         whole next = least_whole(i + step, set_whole(t.cells));
-        i = pick_whole(at_most(look(t, VNDF_KNOT, next).a, slope), next, i);
+        real r = look(t, VNDF_KNOT, next).a;
+        i = pick_whole(at_most((r * r) * under, square), next, i);
         step = step / 2;
     }
     return i;
@@ -83,13 +84,14 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-HERE seen law_see_above(table t, real s, real c, real rho)
+/* `cell` is that of rho. */
+HERE seen law_see_above(table t, whole cell, real s, real c, real rho)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     quad k = look(t, VNDF_KNOT, v.cell);
     v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
     quad tail = look(t, VNDF_TAIL, v.first);
@@ -229,13 +231,13 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c, real rho)
+HERE seen law_see_below(table t, whole cell, real s, real c, real rho)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = find_knot(t, v.rho);
+    v.cell = cell;
     v.first = v.cell;
     mask last = same(v.cell, t.cells);
     whole next = pick_whole(last, v.cell, v.cell + 1);

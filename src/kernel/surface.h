@@ -113,12 +113,13 @@ HERE table_view table_view_of(table t, frame f, const int below)
 {
     table_view view;
     real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
+    whole cell = find_knot(t, level * level, square);
     mask straight = less(across, 1e-15f * level);
     across = most(across, 1e-15f * level);
     real over = 1.0f / across, per = 1.0f / (across + level);
     view.ex = pick(straight, set(1.0f), f.ux * over);
     view.ey = pick(straight, set(0.0f), f.uy * over);
-    view.v = table_see(t, across * per, f.uz * per, level * over, below);
+    view.v = table_see(t, cell, across * per, f.uz * per, level * over, below);
     return view;
 }
 
