@@ -329,12 +329,12 @@ HERE slope_length law_length(table t, seen v, piece at, place in, const int belo
     return r;
 }
 
-/* The place of a slope r = x/z, x + z = 1, in its cell. */
-HERE place law_place(table t, piece at, real r, real z)
+/* The place of the slope x/z in its cell; per = 1/(x + z). */
+HERE place law_place(table t, piece at, real x, real z, real per)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width;
+    real over = (x - at.from * z) * (per * (at.z0 / at.width));
     if (t.squarings > 0 && any(at.last)) {
-        real eta = z / at.z0;
+        real eta = z * per / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
         over = pick(at.last, 1.0f - eta, over);
