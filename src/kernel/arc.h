@@ -10,9 +10,9 @@
  *
  *     F(d) = p d + q (1 - cos d) + r (d - sin d) = u T.
  *
- * The start follows Kepler's equation where one of its terms is alone: d^-2 is a sum of theirs, right at both ends,
- * within 8% between. One step of Householder's of order three follows. |F(d)/T - u| is at most 2e-5, where the
- * eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_kepler.c). */
+ * The start follows Kepler's equation where one of its terms is alone: v^2/d^2 is a sum of theirs, with coefficients
+ * fitted for the least largest error, within 8% with that of its root. One step of Householder's of order three follows.
+ * |F(d)/T - u| is at most 2e-5 and 2e-7 in the mean (tests/sampler/test_kepler.c). */
 #ifndef VNDF_KERNEL_ARC_H
 #define VNDF_KERNEL_ARC_H
 
