@@ -209,7 +209,7 @@ static const language languages[] = {
                {"to_real", "_to_real($1)"},
                {"to_whole", "_to_whole($1)"},
                {"look", "_look($1, $2, $3)"},
-               {"find_knot", "_find_knot($1, $2)"}}},
+               {"find_knot", "_find_knot($1, $2, $3)"}}},
 };
 
 enum { LANGUAGES = sizeof languages / sizeof languages[0] };
