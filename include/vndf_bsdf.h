@@ -58,7 +58,7 @@
  *
  * Accuracy. The density that comes with a sample is, to 1e-5, that of a direction within one rounding (2^-23 in each
  * coordinate) of the one returned, and its weight is f |cos_o| over the density of such a direction: both for 99.9% of
- * the samples at any roughness from 1e-3 on, and the weight to 1e-6 beside vndf_bsdf_eval and vndf_bsdf_pdf of the very
+ * the samples at any roughness from 1e-3 on, and the weight to 5e-6 beside vndf_bsdf_eval and vndf_bsdf_pdf of the very
  * direction where normals are visible ones and the distribution is a closed form. A rounding of wo turns the facet
  * by 2^-23/(2 wi.wm) in reflection and by 2^-23 r/|r - 1| in transmission, and the density with it: the more, the
  * smoother the surface is, the flatter the light and the nearer r to 1. f is reciprocal to 1e-4.
@@ -111,7 +111,7 @@ typedef enum vndf_normals_drawn {
     VNDF_NORMALS_VISIBLE,
     /* Visible normals that reflect wi to above the horizon: no sample is lost. The weight is that of a visible
      * normal times the part of the visible normals that is left where wm is drawn; for GGX of anisotropic
-     * roughness up to 1.7 times that. */
+     * roughness up to 1.7 times that. Tables of anisotropic roughness draw visible normals instead. */
     VNDF_NORMALS_BOUNDED,
     VNDF_NORMALS_ALL,     /* D cos(theta_m), the way before visible normals: weights are unbounded */
     VNDF_NORMALS_V_CAVITY /* normals that wi sees in V-cavities; for V-cavity masking only */

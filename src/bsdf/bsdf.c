@@ -20,7 +20,7 @@ int vndf_bsdf_rough(vndf_bsdf *b, const vndf_material *material, const vndf_roug
     vndf_affine surface;
     if (!roughness)
         return vndf_bsdf_at(b, material, wi);
-    if (material->is.effects.shape > VNDF_SHAPE_ROTATED || !vndf_surface_of(material, roughness, &surface))
+    if (material->is.effects.shape > VNDF_SHAPE_ROTATED || !vndf_hit_surface_of(material, roughness, &surface))
         return nothing(b, material);
     return vndf_hit_surface(b, material, &surface, wi);
 }

@@ -121,7 +121,7 @@ int vndf_hit_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mix
     return complete(b, material);
 }
 
-int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf_affine *surface)
+int vndf_hit_surface_of(const vndf_material *material, const vndf_roughness *r, vndf_affine *surface)
 {
     float c = 1.0f, s = 0.0f;
     if (material->is.effects.shape == VNDF_SHAPE_ROTATED) {
@@ -131,7 +131,9 @@ int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf
         if (!(fabsf(off) < 1e-3f))
             return 0;
     }
-    *surface = (vndf_affine){
-        material->is.distribution, c * r->alpha_x, -s * r->alpha_y, s * r->alpha_x, c * r->alpha_y, 0.0f, 0.0f};
+    *surface =
+        (vndf_affine){.distribution = material->is.distribution, .xx = c * r->alpha_x, .yx = s * r->alpha_x};
+    surface->xy = 0.0f - s * r->alpha_y; /* not -0 */
+    surface->yy = c * r->alpha_y;
     return r->alpha_x > 0.0f && r->alpha_y > 0.0f;
 }

@@ -35,6 +35,6 @@ int vndf_hit_surface(vndf_bsdf *bsdf, const vndf_material *material, const vndf_
 int vndf_hit_mixture(vndf_bsdf *bsdf, const vndf_material *material, const vndf_mixture *mixture, vndf_vec3 wi);
 
 /* The surface of a roughness; 0 if it is none. */
-int vndf_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
+int vndf_hit_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
 
 #endif

@@ -94,7 +94,7 @@ static void set_surface(vndf_material *m)
     m->sin_rotation = (float)sine;
     const vndf_roughness r = {is->alpha_x, is->alpha_y, m->cos_rotation, m->sin_rotation};
     if (is->effects.shape <= VNDF_SHAPE_ROTATED)
-        vndf_surface_of(m, &r, &m->surface);
+        vndf_hit_surface_of(m, &r, &m->surface);
     else
         m->surface = is->affine;
     m->surface.distribution = is->distribution;

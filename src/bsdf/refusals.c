@@ -177,8 +177,8 @@ static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error 
     if (is_visible(a))
         return VNDF_OK;
     return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                     "%s is the matrix (%g %g; %g %g) with mean slope (%g, %g); times the scale of the distribution "
-                     "its entries must be within 1e15, its determinant within [1e-36, 1e36], the mean slope within 1e6",
+                     "%s is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "
+                     "scale of the distribution, must be within [1e-18, 1e15], the mean slope within 1e6",
                      name, (double)a->xx, (double)a->xy, (double)a->yx, (double)a->yy, (double)a->mean_x,
                      (double)a->mean_y);
 }

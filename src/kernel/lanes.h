@@ -23,6 +23,13 @@
 
 #define HERE VNDF_INLINE
 
+/* Before loops over lanes, which gcc -O2 would not unroll. */
+#if defined(__clang__)
+#  define LANES_UNROLLED _Pragma("clang loop unroll(full)")
+#else
+#  define LANES_UNROLLED _Pragma("GCC unroll 16")
+#endif
+
 enum { LANES = VNDF_LANES };
 
 typedef float real __attribute__((vector_size(4 * VNDF_LANES)));
@@ -171,6 +178,15 @@ HERE mask either(mask a, mask b)
     return (mask)(a | b);
 }
 
+HERE int all(mask m)
+{
+#if VNDF_LANES == 16
+    return m == 0xffff;
+#else
+    return !any(~m);
+#endif
+}
+
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. That is what the instructions of x86 do. */
 HERE real least(real a, real b)
 {
@@ -286,6 +302,7 @@ HERE quad transposed(const float *const row[LANES])
 #  endif
 #elif VNDF_LANES == 8
     __m256 r[4];
+    LANES_UNROLLED
     for (int l = 0; l < 4; l++)
         r[l] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[l])), _mm_loadu_ps(row[l + 4]), 1);
     __m256d e = (__m256d)_mm256_unpacklo_ps(r[0], r[1]), f = (__m256d)_mm256_unpackhi_ps(r[0], r[1]);
@@ -296,6 +313,7 @@ HERE quad transposed(const float *const row[LANES])
     q.d = (real)_mm256_unpackhi_pd(f, h);
 #else
     __m512 r[4];
+    LANES_UNROLLED
     for (int l = 0; l < 4; l++) {
         r[l] = _mm512_castps128_ps512(_mm_loadu_ps(row[l]));
         r[l] = _mm512_insertf32x4(r[l], _mm_loadu_ps(row[l + 4]), 1);
@@ -317,6 +335,7 @@ HERE quad look_rows(table t, int group, whole i)
     const float *first = t.numbers + 4 * (group * (t.cells + 1)), *row[LANES];
     int32_t at[LANES];
     memcpy(at, &i, sizeof at);
+    LANES_UNROLLED
     for (int l = 0; l < LANES; l++)
         row[l] = first + 4 * at[l];
     return transposed(row);
@@ -430,6 +449,7 @@ HERE whole begin_knot(table t, real square, real under)
     for (int step = ANCHORS / 2; step > 0; step /= 2)
         k = pick_whole(knot_reaches(look_anchor(t, 0, k + step), square, under), k + step, k);
 #else
+    LANES_UNROLLED
     for (int n = 1; n < ANCHORS; n++)
         k = k - knot_reaches(set(t.copies->anchor[0][n]), square, under);
 #endif
@@ -479,6 +499,7 @@ HERE whole begin_sum(table t, real w1, real w0, real wq, real w4, real left)
         k = pick_whole(sum_reaches(t, w1, w0, wq, w4, tail, left), next, k);
     }
 #else
+    LANES_UNROLLED
     for (int n = 1; n < ANCHORS; n++)
         k = k - sum_reaches(t, w1, w0, wq, w4,
                             quad_of(&c->anchor[1][n], &c->anchor[2][n], &c->anchor[3][n], &c->anchor[4][n]), left);

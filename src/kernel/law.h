@@ -344,7 +344,8 @@ HERE place law_place(table t, piece at, real x, real z, real per)
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
         rest = pick(at.last, eta, rest);
-        over = t.squarings > 0 ? pick(at.last, 1.0f - eta, over) : over;
+        if (t.squarings > 0)
+            over = pick(at.last, 1.0f - eta, over);
     }
     over = least(most(over, set(1e-6f)), set(0.9999999f));
     rest = least(most(rest, set(1e-7f)), set(0.999999f));

@@ -24,11 +24,13 @@ HERE real affine_determinant(affine_map m)
     return determinant;
 }
 
-/* Entries up to 1e15, whose squares and cubes floats hold, with a determinant that leaves floats room, and mean slopes up to 1e6. */
+/* Singular values from 1e-18, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold; mean
+ * slopes up to 1e6. */
 HERE mask affine_is_valid(affine_map m)
 {
     real determinant = affine_determinant(m), end = set(1e15f);
-    mask inside = both(at_most(set(1e-36f), determinant), at_most(determinant, set(1e36f)));
+    real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
+    mask inside = both(at_most(most(largest * 1e-18f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
     mask first = both(at_most(size(m.xx), end), at_most(size(m.xy), end));
     mask second = both(at_most(size(m.yx), end), at_most(size(m.yy), end));
     mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
@@ -38,7 +40,7 @@ HERE mask affine_is_valid(affine_map m)
 /* Not zero, infinite or NaN. */
 HERE mask direction_is_valid(real x, real y, real z)
 {
-    real largest = most(most(size(x), size(y)), size(z)), end = set(3.40282347e38f);
+    real largest = most(most(size(x), size(y)), size(z)), end = set(3.4028234e38f);
     mask finite = both(both(at_most(size(x), end), at_most(size(y), end)), at_most(size(z), end));
     return both(finite, less(set(0.0f), largest));
 }
@@ -91,7 +93,7 @@ typedef struct sampled {
 /* A density that a float can hold, not 0 where something is seen. */
 HERE real frame_density(frame f, real density)
 {
-    real held = least(most(density, f.rarest), set(3.40282347e38f));
+    real held = least(most(density, f.rarest), set(3.4028234e38f));
     return pick(less(set(0.0f), f.rarest), held, set(0.0f));
 }
 
@@ -134,7 +136,7 @@ HERE unit_normal frame_normal(frame f, real x, real y, real z)
 HERE real lambda_of(real area, real cosine)
 {
     mask nothing = both(at_most(area, set(0.0f)), at_most(size(cosine), set(0.0f)));
-    real lambda = (area - cosine) / cosine, end = set(3.40282347e38f);
+    real lambda = (area - cosine) / cosine, end = set(3.4028234e38f);
     return pick(nothing, set(0.0f), least(most(lambda, -end), end));
 }
 

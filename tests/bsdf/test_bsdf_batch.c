@@ -1,10 +1,8 @@
 /* A batch of a BSDF gives the bits of its calls for one - directions, facets, lobes, weights, values and densities -
- * and writes nothing past its end: for every set of effects that lanes know and some that they do not, with both
+ * and writes nothing past its end: for sets of effects whose normals are drawn in blocks and some others, with both
  * instruction sets and without, for batches of one to several blocks that end anywhere, shared or own directions and
- * roughness, wi on either side, and numbers that are hard or invalid. With the argument avx2 or avx512 that instruction
- * set alone. */
+ * roughness, wi on either side, and numbers that are hard or invalid. */
 #include "bsdf/bsdf_case.h"
-#include "sampler/batch_case.h"
 
 enum { COUNT = 600, SPARE = 32 };
 
@@ -160,8 +158,7 @@ static vndf_effects effects_of(size_t n)
     return e;
 }
 
-static void test_material(const oracle_ndf *ndf, size_t n, vndf_instructions only, unsigned long long *state,
-                          size_t lobes[4])
+static void test_material(const oracle_ndf *ndf, size_t n, unsigned long long *state, size_t lobes[4])
 {
     static const float alphas[] = {1e-3f, 0.03f, 0.1f, 0.4f, 0.5f, 1, 3};
     static const size_t counts[] = {1, 2, 7, 8, 16, 17, 255, 256, 257, 512, 575, 600};
@@ -183,7 +180,7 @@ static void test_material(const oracle_ndf *ndf, size_t n, vndf_instructions onl
     int own = test_uniform(state) < 0.5f, with_wm = test_uniform(state) < 0.7f;
     vndf_bsdf_batch b = {.material = &m, .shared = (unsigned)(4 * test_uniform(state))};
     b.count = counts[(size_t)(12 * test_uniform_double(state))];
-    b.limit = only == VNDF_INSTRUCTIONS_BEST ? limits[(size_t)(5 * test_uniform(state))] : only;
+    b.limit = limits[(size_t)(5 * test_uniform(state))];
     b.alpha_x = own ? in.alpha[0] : NULL;
     b.alpha_y = own ? in.alpha[1] : NULL;
     b.wi_x = in.wi[0];
@@ -194,20 +191,25 @@ static void test_material(const oracle_ndf *ndf, size_t n, vndf_instructions onl
     compare(&b, &in, &r, with_wm, lobes);
 }
 
-static void test_distribution(const vndf_distribution *d, const char *name, vndf_instructions only)
+static void test_ndf(const oracle_ndf *ndf)
 {
-    const oracle_ndf ndf = {.distribution = d};
-    unsigned long long state = 11 + strlen(name);
+    unsigned long long state = 11 + strlen(ndf->name);
     size_t lobes[4] = {0};
-    if (!d)
-        return;
     for (size_t n = 0; n < test_amount(64, 256, 2048); n++)
-        test_material(&ndf, n, only, &state, lobes);
+        test_material(ndf, n, &state, lobes);
     for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
         TEST(lobes[lobe] > 10);
 }
 
 int main(int arguments, char **argument)
 {
-    return batch_main(arguments, argument, test_distribution);
+    static const char *const names[] = {"ggx", "beckmann", "student-t-2.5-small", "student-t-2.5-large", "hazy"};
+    for (size_t i = 0; i < 5; i++) {
+        oracle_ndf ndf;
+        if (!oracle_wanted(arguments, argument, i, names[i]) || !TEST(oracle_ndf_open(&ndf, names[i])))
+            continue;
+        test_ndf(&ndf);
+        oracle_ndf_close(&ndf);
+    }
+    return test_done();
 }

@@ -33,7 +33,7 @@ foreach(form IN LISTS FORMS)
     endif()
     run("vndf export" ${VNDF} export ${tables} --language ${LANGUAGE} -o kernel.${form} ${how})
     run("questions" ${AGREEMENT} make ${QUESTIONS} questions ${tables})
-    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form} answers
+    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form}
         questions answers ${how})
     string(REGEX MATCH "${LANGUAGE} on [^\n]*" device "${errors}")
     run("agreement of ${form} ${LANGUAGE} with the library" ${AGREEMENT} check ROUNDED questions answers ${tables})

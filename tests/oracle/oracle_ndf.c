@@ -57,10 +57,8 @@ double oracle_ndf_visible(const oracle_ndf *ndf, const double alpha[2], const do
     return oracle_surface_drawn(&surface, wi, wm);
 }
 
-/* A table draws all normals as it draws those visible straight from above. */
+/* All normals are drawn with D itself. */
 double oracle_ndf_all(const oracle_ndf *ndf, const double alpha[2], const double wm[3])
 {
-    const double up[3] = {0, 0, 1};
-    oracle_surface surface = surface_of(ndf, alpha);
-    return oracle_surface_drawn(&surface, up, wm);
+    return oracle_ndf_density(ndf, alpha, wm) * wm[2];
 }

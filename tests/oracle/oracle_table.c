@@ -204,6 +204,7 @@ static double law_in(const oracle_table *t, size_t i, const double w[4], double 
 double oracle_table_p22(const oracle_table *t, double r)
 {
     const double f[4] = {0, 1, 0, 0}, rf[4] = {1, 0, 0, 0};
+    r = fmax(r, 1e-12); /* 0/0 */
     size_t i = cell_of(t, r);
     return i == t->cells ? law_in(t, i, rf, r) / (2 * PI * r * r) : law_in(t, i, f, r) / (2 * PI * r);
 }
@@ -358,5 +359,6 @@ double oracle_law_radius(const oracle_law *l, double r)
 double oracle_law_density(const oracle_law *l, double r, double azimuth)
 {
     double facing = l->c + l->s * r * cos(azimuth);
+    r = fmax(r, 1e-12); /* 0/0 */
     return facing > 0 ? oracle_law_radius(l, r) / r * facing / oracle_circle(l->c, l->s * r) : 0;
 }

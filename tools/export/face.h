@@ -24,7 +24,8 @@ typedef struct vndf_view {
     float unit_area; /* of the unit problem */
     /* only table */
     table t;
-    table_view seen_from;
+    float ex, ey; /* of a table_view: WebGL allows structs in structs no deeper */
+    seen v;
     int below;
     /* end */
 } vndf_view;
@@ -61,8 +62,11 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
         view.t = table_at(m.distribution);
-        view.seen_from = table_view_of(view.t, view.at, view.below);
-        view.unit_area = law_area(view.t, view.seen_from.v) * frame_reach(view.at);
+        const table_view seen_from = table_view_of(view.t, view.at, view.below);
+        view.ex = seen_from.ex;
+        view.ey = seen_from.ey;
+        view.v = seen_from.v;
+        view.unit_area = law_area(view.t, view.v) * frame_reach(view.at);
     }
     /* end */
     return view;
@@ -103,7 +107,7 @@ HERE float vndf_ndf(vndf_surface m, vec3 wm)
     unit_normal n = frame_normal(at, wm.x, wm.y, wm.z);
     if (!(wm.z >= 0.0f))
         return 0.0f;
-    return least(unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant, 3.40282347e38f);
+    return least(unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant, 3.4028234e38f);
 }
 
 /* The density with which vndf_sample draws wm. */
@@ -123,9 +127,10 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     /* end */
     /* only table */
     if (view.surface.distribution >= 0) {
+        const table_view seen_from = {view.ex, view.ey, view.v};
         if (view.below)
-            n = table_unturned(view.seen_from.ex, view.seen_from.ey, n);
-        density = table_pdf(view.t, view.seen_from, n, frame_reach(view.at), view.below);
+            n = table_unturned(view.ex, view.ey, n);
+        density = table_pdf(view.t, seen_from, n, frame_reach(view.at), view.below);
     }
     /* end */
     return frame_density(view.at, density / view.at.determinant);
@@ -165,8 +170,10 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
     /* end */
     /* only table */
-    if (view.surface.distribution >= 0)
-        n = table_draw(view.t, view.seen_from, u1, u2, view.below);
+    if (view.surface.distribution >= 0) {
+        const table_view seen_from = {view.ex, view.ey, view.v};
+        n = table_draw(view.t, seen_from, u1, u2, view.below);
+    }
     /* end */
     sampled s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};
@@ -175,23 +182,17 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 
 /* ---- masking ---- */
 
-/* Lambda(w) = A(w)/cos - 1, where cos is vndf_cosine. */
+/* Lambda(w) = A(w)/cos - 1, where cos is w.z less what the mean slope takes of it. */
 HERE float vndf_lambda(vndf_surface m, vec3 w)
 {
     vndf_view view = vndf_view_of(m, w);
-    float area = vndf_projected_area(view), cosine = view.at.uz * view.at.size;
-    if (cosine == 0.0f && area <= 0.0f)
-        return 0.0f;
-    return least(most((area - cosine) / cosine, -3.40282347e38f), 3.40282347e38f);
+    return lambda_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
 HERE float vndf_g1(vndf_surface m, vec3 w)
 {
     vndf_view view = vndf_view_of(m, w);
-    float area = vndf_projected_area(view), cosine = view.at.uz * view.at.size;
-    if (!(cosine > 0.0f))
-        return 0.0f;
-    return least(cosine / most(area, cosine), 1.0f);
+    return g1_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
 /* Masking and shadowing of two directions on the same side, height-correlated: 1/(1 + Lambda_i + Lambda_o). */
@@ -261,7 +262,7 @@ HERE float mixed_density(float sum)
 {
     if (!(sum > 0.0f))
         return 0.0f;
-    return least(most(sum, 1.17549435e-38f), 3.40282347e38f);
+    return least(most(sum, 1.17549435e-38f), 3.4028234e38f);
 }
 
 HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
@@ -279,7 +280,7 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
     float density = 0.0f;
     for (int i = 0; i < lobes.count; i++)
         density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
-    return least(density, 3.40282347e38f);
+    return least(density, 3.4028234e38f);
 }
 
 /* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
@@ -310,5 +311,5 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
     float density = 0.0f;
     for (int i = 0; i < lobes.count; i++)
         density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
-    return least(density, 3.40282347e38f);
+    return least(density, 3.4028234e38f);
 }

@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 """Runs a kernel that `vndf export` wrote (prefix vndf) on whatever runs its language here: for the tests of tests/export.
 
-    run_kernel.py LANGUAGE KERNEL answers QUESTIONS ANSWERS [--buffer RAW]
-    run_kernel.py LANGUAGE KERNEL draw SAMPLES SEED "QUESTION" [--buffer RAW] > NORMALS
+    run_kernel.py LANGUAGE KERNEL QUESTIONS ANSWERS [--buffer RAW]
 
 LANGUAGE is opencl, glsl, hlsl, wgsl or cuda. QUESTIONS are records of twelve floats, ANSWERS of sixteen: tests/export/
-exported.h says which. `draw` writes SAMPLES normals, x y z and the density of each, of the view that the first ten
-floats of a question say. --buffer says that the kernel fetches its numbers, from RAW.
+exported.h says which. --buffer says that the kernel fetches its numbers, from RAW.
 
 Needs numpy, and pyopencl for OpenCL, moderngl with EGL for GLSL, glslangValidator and wgpu for HLSL, wgpu for WGSL,
 nvcc and a GPU for CUDA. Exit status 77, and a line "SKIPPED: why" on stderr, where something is absent."""
@@ -18,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-QUESTION, ANSWER, DRAWN = 12, 16, 4
+QUESTION, ANSWER = 12, 16
 
 
 def skip(why):
@@ -36,7 +34,7 @@ def module(name):
 # ---- what is asked, in each language ---------------------------------------------------------------
 
 # A line is "type name = value", "name = value" or a call of put(index, value). WORD(...) of these fetch numbers.
-SURFACE = """
+ANSWERS = """
     vndf_surface surface
     surface.distribution = int(ask(0))
     surface.xx = ask(1)
@@ -47,8 +45,6 @@ SURFACE = """
     surface.mean_y = ask(6)
     vec3 wi = vec3(ask(7), ask(8), ask(9))
     vndf_view view = vndf_view_of(surface, wi)
-"""
-ANSWERS = SURFACE + """
     vndf_sampled drawn = vndf_sample(view, ask(10), ask(11))
     put(0, drawn.wm.x)
     put(1, drawn.wm.y)
@@ -79,16 +75,8 @@ ANSWERS = SURFACE + """
     put(14, mixed.pdf)
     put(15, vndf_mixture_pdf(lobes, mixed.wm))
 """
-DRAW = SURFACE + """
-    vndf_sampled drawn = vndf_sample(view, ask(10), ask(11))
-    put(0, drawn.wm.x)
-    put(1, drawn.wm.y)
-    put(2, drawn.wm.z)
-    put(3, drawn.pdf)
-"""
 FETCHING = ("view_of", "sample", "pdf", "visible", "ndf", "lambda", "g1", "g2", "mixture_view_of", "mixture_sample",
             "mixture_pdf")
-PUT = "result[OUT * i + {0}] = {1}"
 C_NAMES = {"vec3(": "(float3)(", "int(": "(int)("}
 NAMES = {
     "opencl": C_NAMES,
@@ -100,31 +88,29 @@ NAMES = {
 NAMES["opencl"]["vec3 "] = "float3 "
 
 
-def body(language, text, by_pointer):
-    """The statements of ANSWERS or DRAW. A draw asks all invocations for one view, each for its own numbers."""
-    whole = text is ANSWERS
+def body(language, by_pointer):
+    """The statements of ANSWERS."""
     lines = []
-    for line in text.split("\n"):
+    for line in ANSWERS.split("\n"):
         line = line.strip()
         if not line:
             continue
         if line.startswith("put("):
             index, value = line[4:-1].split(", ", 1)
-            line = PUT.format(index, value)
+            line = f"result[{ANSWER} * i + {index}] = {value}"
         elif language == "wgsl" and not line.split(" ")[0].startswith(("surface.", "mixture.")):
             kind, rest = line.split(" ", 1)
             name = rest.split(" ", 1)[0]
             line = f"var {name}: {kind.replace('vec3', 'vec3<f32>')}" + rest[len(name):]
         for index in range(QUESTION):
-            at = f"{QUESTION} * i + {index}" if whole else str(index) if index < 10 else f"10 + 2 * i + {index - 10}"
-            line = line.replace(f"ask({index})", f"asked[{at}]")
+            line = line.replace(f"ask({index})", f"asked[{QUESTION} * i + {index}]")
         for old, new in NAMES[language].items():
             line = line.replace(old, new)
         if by_pointer:
             for name in FETCHING:
                 line = line.replace(f" vndf_{name}(", f" vndf_{name}(numbers, ")
         lines.append("    " + line + ";")
-    return "\n".join(lines).replace("OUT", str(ANSWER if whole else DRAWN))
+    return "\n".join(lines)
 
 
 MAIN = {
@@ -203,11 +189,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>)
 }
 
 
-def source_of(language, kernel, text, fetches):
+def source_of(language, kernel, fetches):
     by_pointer = fetches and language in ("opencl", "cuda")
     qualifier = "__global const float *numbers, " if language == "opencl" else "const float *numbers, "
     main = MAIN[language].format(numbers=qualifier if by_pointer else "", given="n, " if by_pointer else "",
-                                 body=body(language, text, by_pointer))
+                                 body=body(language, by_pointer))
     return ("#version 430\n" if language == "glsl" else "") + kernel + main
 
 
@@ -362,37 +348,21 @@ def answers(device, questions, to):
     result[:count * ANSWER].tofile(to)
 
 
-def draw(device, samples, seed, question):
-    numpy = module("numpy")
-    random = numpy.random.Generator(numpy.random.Philox(seed))
-    chunk = 1 << 20
-    view = numpy.array(question[:10], "<f4")
-    result = numpy.zeros(chunk * DRAWN, "<f4")
-    for done in range(0, samples, chunk):
-        u = random.integers(0, 1 << 24, 2 * chunk).astype("<f4") * numpy.float32(2.0**-24)
-        device.run(numpy.concatenate([view, u]), result, chunk)
-        sys.stdout.buffer.write(result[:min(chunk, samples - done) * DRAWN].tobytes())
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("language", choices=sorted(DEVICES))
     parser.add_argument("kernel")
-    parser.add_argument("task", choices=["answers", "draw"])
-    parser.add_argument("words", nargs="+")
+    parser.add_argument("questions")
+    parser.add_argument("answers")
     parser.add_argument("--buffer")
     given = parser.parse_args()
     numpy = module("numpy")
     numbers = None if given.buffer is None else numpy.fromfile(given.buffer, "<f4")
     with open(given.kernel) as file:
         kernel = file.read()
-    source = source_of(given.language, kernel, ANSWERS if given.task == "answers" else DRAW, numbers is not None)
-    device = DEVICES[given.language](source, numbers)
+    device = DEVICES[given.language](source_of(given.language, kernel, numbers is not None), numbers)
     print(f"{given.language} on {device.name}", file=sys.stderr)
-    if given.task == "answers":
-        answers(device, *given.words)
-    else:
-        draw(device, int(given.words[0]), int(given.words[1]), [float(x) for x in given.words[2].split()])
+    answers(device, given.questions, given.answers)
 
 
 main()

@@ -290,6 +290,7 @@ static void put_range(writer *w, range r)
         } else if (next.kind == WORD_NUMBER) {
             put_number(w, &next);
         } else if (next.kind == WORD_SIGN) {
+            words_expect(*next.text != '?', r.from, "pick or if, not ?:,");
             put_sign(w, &next, r.to);
         } else if (next.kind == WORD_NAME && *after(&next).text == '(' && !member) {
             at = put_call(w, &next);

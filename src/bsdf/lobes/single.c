@@ -29,13 +29,13 @@ VNDF_INLINE vndf_vec3 mirror_at(const vndf_bsdf *b, vndf_vec3 wm, float facing)
     return vndf_vec3_of(twice * wm.x - b->wi.x, twice * wm.y - b->wi.y, twice * wm.z - b->wi.z);
 }
 
-/* Bounded normals reflect to above the horizon but for rounding, and are never lost. */
+/* Bounded normals reflect to above the horizon but for rounding, and are not lost to that. */
 VNDF_INLINE int goes_up(const vndf_bsdf *b, vndf_vec3 *wo, float *rise)
 {
     *rise = vndf_hit_cosine(&b->view, *wo);
     if (*rise > 0.0f)
         return 1;
-    if (b->material->is.effects.normals != VNDF_NORMALS_BOUNDED)
+    if (b->material->is.effects.normals != VNDF_NORMALS_BOUNDED || *rise < -2e-6f)
         return 0;
     wo->z = *rise = FLT_MIN;
     return 1;

@@ -30,12 +30,13 @@ enum { BLOCK = 128, GROUPS = BLOCK / LANES };
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
-/* A block of a call: where its inputs lie, all of them readable up to the last lane. */
+/* A block of a call: where its inputs lie, all of them readable up to the last lane, and valid; which elements are. */
 typedef struct block {
     const vndf_call *call;
     table t;
     int groups;
     const float *read[VNDF_READS];
+    mask valid[GROUPS];
 } block;
 
 HERE real input(const block *b, int which, int g)
@@ -45,11 +46,11 @@ HERE real input(const block *b, int which, int g)
 
 /* ---- frames ---- */
 
-/* What of frames is needed to the end: f without u, `grow` and `size`; the direction of (ux, uy) of a table. */
+/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux, uy)
+ * of a table. */
 typedef struct frames {
     frame f[GROUPS];
     real ex[GROUPS], ey[GROUPS];
-    mask valid[GROUPS];
 } frames;
 
 /* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction, and rho^2 as two
@@ -61,30 +62,19 @@ typedef struct side {
     row height, read[SIDE_READS], write[SIDE_WRITES];
 } side;
 
-/* A matrix in units of the distribution's slopes; the unit matrix for what is invalid. */
-HERE affine_map map_at(const block *b, int g, mask *valid)
+/* A matrix in units of the distribution's slopes. */
+HERE affine_map map_at(const block *b, int g)
 {
     const float unit = b->call->distribution->unit;
-    real xx = input(b, VNDF_READ_XX, g), yy = input(b, VNDF_READ_YY, g), one = set(1.0f), zero = set(0.0f);
-    affine_map m = {xx * unit, input(b, VNDF_READ_XY, g) * unit, input(b, VNDF_READ_YX, g) * unit, yy * unit,
+    affine_map m = {input(b, VNDF_READ_XX, g) * unit, input(b, VNDF_READ_XY, g) * unit,
+                    input(b, VNDF_READ_YX, g) * unit, input(b, VNDF_READ_YY, g) * unit,
                     input(b, VNDF_READ_MEAN_X, g), input(b, VNDF_READ_MEAN_Y, g)};
-    mask good = affine_is_valid(m);
-    if (b->call->diagonal)
-        good = both(good, both(less(zero, xx), less(zero, yy)));
-    affine_map made = {pick(good, m.xx, one), pick(good, m.xy, zero), pick(good, m.yx, zero),
-                       pick(good, m.yy, one), pick(good, m.mean_x, zero), pick(good, m.mean_y, zero)};
-    *valid = good;
-    return made;
+    return m;
 }
 
-/* The frame of a group of elements; that of a direction straight up for what is invalid. */
-HERE frame frame_at(const block *b, int g, mask *valid)
+HERE frame frame_at(const block *b, int g)
 {
-    affine_map m = map_at(b, g, valid);
-    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), z = input(b, VNDF_READ_WI_Z, g);
-    mask looks = direction_is_valid(x, y, z);
-    *valid = both(*valid, looks);
-    return frame_of(m, pick(looks, x, set(0.0f)), pick(looks, y, set(0.0f)), pick(looks, z, set(1.0f)));
+    return frame_of(map_at(b, g), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g), input(b, VNDF_READ_WI_Z, g));
 }
 
 /* Puts the direction of a frame at group g of a side. */
@@ -309,15 +299,25 @@ HERE void take_sides(const block *b, side *s, int reads, int writes, side_step *
 {
     uint8_t high[BLOCK], low[BLOCK];
     int highs = 0, lows = 0, count = b->groups * LANES;
+    real least_height = set(0.0f), most_height = set(-1.0f);
+    for (int g = 0; g < b->groups; g++) {
+        real height = load(s->height + g * LANES);
+        least_height = least(least_height, height);
+        most_height = most(most_height, height);
+    }
+    if (!any(less(least_height, set(0.0f)))) {
+        above(b->t, b->groups, s);
+        return;
+    }
+    if (!any(at_most(set(0.0f), most_height))) {
+        below(b->t, b->groups, s);
+        return;
+    }
     for (int i = 0; i < count; i++) {
         int is_low = s->height[i] < 0.0f;
         high[highs] = low[lows] = (uint8_t)i;
         lows += is_low;
         highs += !is_low;
-    }
-    if (lows == 0 || highs == 0) {
-        (lows == 0 ? above : below)(b->t, b->groups, s);
-        return;
     }
     take_some(b->t, s, high, highs, reads, writes, above);
     take_some(b->t, s, low, lows, reads, writes, below);
@@ -334,7 +334,6 @@ HERE real unit_input(const block *b, int which, int g)
 /* Keeps what a sample needs of its frame to the end. */
 HERE void keep_frame(frames *at, int g, frame f)
 {
-    at->f[g].m = f.m;
     at->f[g].wx = f.wx;
     at->f[g].wy = f.wy;
     at->f[g].wz = f.wz;
@@ -345,8 +344,10 @@ HERE void keep_frame(frames *at, int g, frame f)
 /* Writes the samples of a group. */
 HERE void put_sample(const block *b, const frames *at, int g, drawn n, real weight, float *const to[VNDF_WRITES])
 {
-    sampled s = frame_sampled(at->f[g], n);
-    mask valid = at->valid[g];
+    frame f = at->f[g];
+    f.m = map_at(b, g);
+    sampled s = frame_sampled(f, n);
+    mask valid = b->valid[g];
     real zero = set(0.0f);
     store(to[0] + g * LANES, pick(valid, s.x, zero));
     store(to[1] + g * LANES, pick(valid, s.y, zero));
@@ -363,7 +364,7 @@ HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
     side s;
     const int weigh = b->call->write[4] != NULL;
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, &at.valid[g]);
+        frame f = frame_at(b, g);
         table_direction w = put_direction(&s, g, f);
         keep_frame(&at, g, f);
         at.ex[g] = w.ex;
@@ -388,7 +389,7 @@ HERE void sample_ggx(const block *b, float *const to[VNDF_WRITES])
     frames at;
     ggx_view v[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, &at.valid[g]);
+        frame f = frame_at(b, g);
         keep_frame(&at, g, f);
         v[g] = ggx_see(f.ux, f.uy, f.uz);
     }
@@ -404,7 +405,7 @@ HERE void sample_beckmann(const block *b, float *const to[VNDF_WRITES])
     beckmann_view v[GROUPS];
     drawn n[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, &at.valid[g]);
+        frame f = frame_at(b, g);
         keep_frame(&at, g, f);
         v[g] = beckmann_see(f.ux, f.uy, f.uz);
     }
@@ -429,12 +430,12 @@ typedef struct densities {
 } densities;
 
 /* Keeps the frame; the element is seen if it is valid and so is its normal. */
-HERE void keep_seen(const block *b, densities *at, int g, frame f, unit_normal n, mask valid)
+HERE void keep_seen(const block *b, densities *at, int g, frame f, unit_normal n)
 {
     mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
     at->f[g].determinant = f.determinant;
     at->f[g].rarest = f.rarest;
-    at->seen[g] = both(valid, up);
+    at->seen[g] = both(b->valid[g], up);
 }
 
 HERE void put_density(const densities *at, int g, real density, float *to)
@@ -447,11 +448,10 @@ HERE void density_table(const block *b, float *to)
     densities at;
     side s;
     for (int g = 0; g < b->groups; g++) {
-        mask valid;
-        frame f = frame_at(b, g, &valid);
+        frame f = frame_at(b, g);
         unit_normal n = normal_at(b, g, f);
         table_direction w = put_direction(&s, g, f);
-        keep_seen(b, &at, g, f, n, valid);
+        keep_seen(b, &at, g, f, n);
         unit_normal unturned = table_unturned(w.ex, w.ey, n);
         mask below = less(f.uz, set(0.0f));
         store(s.read[GIVEN_A] + g * LANES, pick(below, unturned.x, n.x));
@@ -486,11 +486,10 @@ HERE void visible_table(const block *b, float *to)
     side s;
     real facing[GROUPS], reach[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        mask valid;
-        frame f = frame_at(b, g, &valid);
+        frame f = frame_at(b, g);
         unit_normal n = normal_at(b, g, f);
         put_direction(&s, g, f);
-        keep_seen(b, &at, g, f, n, valid);
+        keep_seen(b, &at, g, f, n);
         put_given(&s, g, n);
         facing[g] = n.facing;
         reach[g] = frame_reach(f);
@@ -508,10 +507,9 @@ HERE void density_closed(const block *b, float *to, const vndf_kind kind)
 {
     densities at;
     for (int g = 0; g < b->groups; g++) {
-        mask valid;
-        frame f = frame_at(b, g, &valid);
+        frame f = frame_at(b, g);
         unit_normal n = normal_at(b, g, f);
-        keep_seen(b, &at, g, f, n, valid);
+        keep_seen(b, &at, g, f, n);
         real density = kind == VNDF_KIND_GGX
                            ? ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing)
                            : beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
@@ -526,8 +524,9 @@ HERE unit_normal inverted_at(const block *b, int g, frame f)
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), z);
 }
 
-HERE void put_numbers(int g, mask valid, pair u, float *const to[VNDF_WRITES])
+HERE void put_numbers(const block *b, int g, pair u, float *const to[VNDF_WRITES])
 {
+    mask valid = b->valid[g];
     real zero = set(0.0f), one = set(1.0f);
     store(to[0] + g * LANES, pick(valid, least(most(u.a, zero), one), zero));
     store(to[1] + g * LANES, pick(valid, least(most(u.b, zero), one), zero));
@@ -535,29 +534,27 @@ HERE void put_numbers(int g, mask valid, pair u, float *const to[VNDF_WRITES])
 
 HERE void invert_table(const block *b, float *const to[VNDF_WRITES])
 {
-    mask valid[GROUPS];
     side s;
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, &valid[g]);
+        frame f = frame_at(b, g);
         table_direction w = put_direction(&s, g, f);
         put_given(&s, g, table_unturned(w.ex, w.ey, inverted_at(b, g, f)));
     }
     take_sides(b, &s, GIVEN_D, RESULT_C, invert_above, invert_below);
     for (int g = 0; g < b->groups; g++) {
         pair u = {load(s.write[RESULT_A] + g * LANES), load(s.write[RESULT_B] + g * LANES)};
-        put_numbers(g, valid[g], u, to);
+        put_numbers(b, g, u, to);
     }
 }
 
 HERE void invert_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
     for (int g = 0; g < b->groups; g++) {
-        mask valid;
-        frame f = frame_at(b, g, &valid);
+        frame f = frame_at(b, g);
         unit_normal n = inverted_at(b, g, f);
         pair u = kind == VNDF_KIND_GGX ? ggx_invert(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z)
                                        : beckmann_invert(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z);
-        put_numbers(g, valid, u, to);
+        put_numbers(b, g, u, to);
     }
 }
 
@@ -566,13 +563,12 @@ HERE void invert_closed(const block *b, float *const to[VNDF_WRITES], const vndf
 HERE void ndf(const block *b, float *to, const vndf_kind kind)
 {
     side s;
-    mask valid[GROUPS];
+    mask up[GROUPS];
     real determinant[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        affine_map m = map_at(b, g, &valid[g]);
-        frame f = frame_of(m, set(0.0f), set(0.0f), set(1.0f));
+        frame f = frame_of(map_at(b, g), set(0.0f), set(0.0f), set(1.0f));
         unit_normal n = normal_at(b, g, f);
-        valid[g] = both(valid[g], at_most(set(0.0f), input(b, VNDF_READ_C, g)));
+        up[g] = both(b->valid[g], at_most(set(0.0f), input(b, VNDF_READ_C, g)));
         determinant[g] = f.determinant;
         if (kind == VNDF_KIND_TABLE)
             put_given(&s, g, n);
@@ -583,7 +579,7 @@ HERE void ndf(const block *b, float *to, const vndf_kind kind)
         p22_table(b->t, b->groups, &s, p22);
     for (int g = 0; g < b->groups; g++) {
         real d = least(p22[g] / determinant[g], set(3.40282347e38f));
-        store(to + g * LANES, pick(valid[g], d, set(0.0f)));
+        store(to + g * LANES, pick(up[g], d, set(0.0f)));
     }
 }
 
@@ -591,10 +587,9 @@ HERE void ndf(const block *b, float *to, const vndf_kind kind)
 HERE void areas(const block *b, float *to, const vndf_kind kind)
 {
     side s;
-    mask valid[GROUPS];
     real area[GROUPS], cosine[GROUPS], scale[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, &valid[g]);
+        frame f = frame_at(b, g);
         cosine[g] = f.uz * f.size;
         scale[g] = f.size;
         if (kind == VNDF_KIND_TABLE) {
@@ -614,7 +609,7 @@ HERE void areas(const block *b, float *to, const vndf_kind kind)
             all = lambda_of(all, cosine[g]);
         else if (b->call->task == VNDF_TASK_G1)
             all = g1_of(all, cosine[g]);
-        store(to + g * LANES, pick(valid[g], all, set(0.0f)));
+        store(to + g * LANES, pick(b->valid[g], all, set(0.0f)));
     }
 }
 
@@ -674,9 +669,9 @@ STEP void block_of_beckmann(const block *b, float *const to[VNDF_WRITES])
     block_of_closed(b, to, VNDF_KIND_BECKMANN);
 }
 
-/* Copies for the last lanes of a call, and numbers that all elements share. */
+/* Copies for the last lanes of a call, numbers that all elements share, and what became valid. */
 typedef struct copies {
-    row read[VNDF_READS], write[VNDF_WRITES];
+    row read[VNDF_READS], write[VNDF_WRITES], valid[VNDF_READ_A];
 } copies;
 
 /* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. */
@@ -694,6 +689,53 @@ HERE void place_reads(block *b, size_t first, int count, copies *c)
     }
 }
 
+/* Elements whose matrix and direction are far from what is invalid. */
+HERE mask is_plain(const block *b, int g)
+{
+    affine_map m = map_at(b, g);
+    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), z = input(b, VNDF_READ_WI_Z, g);
+    real sum = (size(x) + size(y)) + size(z), means = size(m.mean_x) + size(m.mean_y);
+    real entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
+    mask plain = both(less(most(sum, entries + means), set(1e6f)), less(set(1e-9f), sum)), regular;
+    if (b->call->diagonal)
+        regular = less(set(1e-12f), least(m.xx, m.yy));
+    else
+        regular = less(set(1e-24f), affine_determinant(m));
+    return both(plain, regular);
+}
+
+/* Reads a group of elements from copies, where those that are invalid have the unit matrix and a direction straight up.
+ * Returns which were valid. */
+HERE mask make_valid(const block *b, int g, copies *c)
+{
+    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
+    mask valid = affine_is_valid(map_at(b, g));
+    if (b->call->diagonal)
+        valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
+    if (b->call->task != VNDF_TASK_NDF)
+        valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+                                               input(b, VNDF_READ_WI_Z, g)));
+    for (int r = 0; r < VNDF_READ_A; r++)
+        store(c->valid[r] + g * LANES, pick(valid, input(b, r, g), set(valid_one[r])));
+    return valid;
+}
+
+/* Sets which elements are valid; if some are not, the block reads from copies. */
+HERE void set_valid(block *b, copies *c)
+{
+    mask plain = less(set(0.0f), set(1.0f));
+    for (int g = 0; g < b->groups; g++) {
+        b->valid[g] = is_plain(b, g);
+        plain = both(plain, b->valid[g]);
+    }
+    if (all(plain))
+        return;
+    for (int g = 0; g < b->groups; g++)
+        b->valid[g] = make_valid(b, g, c);
+    for (int r = 0; r < VNDF_READ_A; r++)
+        b->read[r] = c->valid[r];
+}
+
 void LANES_ENTRY(const vndf_call *call)
 {
     const vndf_kind kind = call->distribution->kind;
@@ -709,6 +751,7 @@ void LANES_ENTRY(const vndf_call *call)
         b.groups = (count + LANES - 1) / LANES;
         int in_place = count == b.groups * LANES;
         place_reads(&b, first, count, &c);
+        set_valid(&b, &c);
         for (int w = 0; w < VNDF_WRITES; w++)
             to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
         (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(&b, to);

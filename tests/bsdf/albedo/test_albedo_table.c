@@ -110,7 +110,7 @@ static void test_mirror(const vndf_albedo *albedo)
     for (float alpha = 0; alpha <= 4; alpha += 0.01f) {
         float straight = vndf_albedo_directional(albedo, 1, alpha);
         TEST(straight <= before + 1e-4f);
-        TEST_NEAR((double)vndf_albedo_directional(albedo, 0, alpha), 1, 2e-5);
+        TEST_NEAR((double)vndf_albedo_directional(albedo, 0, alpha), 1, 1e-4);
         TEST(vndf_albedo_directional(albedo, -0.3f, alpha) == vndf_albedo_directional(albedo, 0.3f, alpha));
         TEST(vndf_albedo_split(albedo, 0.3f, alpha).transmitted == 0);
         before = straight;
@@ -161,7 +161,7 @@ static void test_bits(void)
     for (size_t i = 0; i < albedo->is.values; i++)
         hash = hash_float(hash, albedo->value[i]);
     hash = hash_float(hash, albedo->is.error);
-    if (!TEST(hash == 0x802FD3D83FE13E39ULL))
+    if (!TEST(hash == 0x668FCAE92E55F136ULL))
         fprintf(stderr, "  the hash is 0x%llX\n", hash);
     vndf_albedo_free(albedo);
 }
