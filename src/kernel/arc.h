@@ -11,8 +11,8 @@
  *     F(d) = p d + q (1 - cos d) + r (d - sin d) = u T.
  *
  * The start follows Kepler's equation where one of its terms is alone: v^2/d^2 is a sum of theirs, with coefficients
- * fitted for the least largest error, within 8% with that of its root. One step of Householder's of order three follows.
- * |F(d)/T - u| is at most 2e-5 and 2e-7 in the mean (tests/sampler/test_kepler.c). */
+ * fitted for the least largest error, within 8%. One step of Householder's of order three follows. |F(d)/T - u| is at
+ * most 2e-5, where the eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_kepler.c). */
 #ifndef VNDF_KERNEL_ARC_H
 #define VNDF_KERNEL_ARC_H
 
@@ -46,10 +46,11 @@ HERE arc arc_of(real cz, real sx, real edge, const int below)
     return k;
 }
 
-/* 1/sqrt(x) within 3.5%, from the bits of x > 0. */
+/* 1/sqrt(x) within 0.2%, from the bits of x > 0 and one step of Newton's. */
 HERE real arc_inverse_root(real x)
 {
-    return of_bits(0x5f37642f - bits(x) / 2);
+    real y = of_bits(0x5f375a86 - bits(x) / 2);
+    return y * (1.5f - 0.5f * x * (y * y));
 }
 
 /* x^(2/3) within 5%, x >= 0, from the bits of x. */

@@ -136,7 +136,7 @@ HERE unit_normal frame_normal(frame f, real x, real y, real z)
 HERE real lambda_of(real area, real cosine)
 {
     mask nothing = both(at_most(area, set(0.0f)), at_most(size(cosine), set(0.0f)));
-    real lambda = (area - cosine) / cosine, end = set(3.4028234e38f);
+    real lambda = (most(area, cosine) - cosine) / cosine, end = set(3.4028234e38f);
     return pick(nothing, set(0.0f), least(most(lambda, -end), end));
 }
 

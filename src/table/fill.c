@@ -24,17 +24,21 @@ static int in_range(double value, double least, double most)
 /* End densities over the mean of the cell; builders stay below 300. */
 static const double STEEPEST = 1e4;
 
-/* Whether moments and end densities of cell i are those of a density; the last cell has no end. */
-static int cell_valid(const vndf_table_draft *d, size_t i)
+/* Moments of a density in the cell, but for knots beside a needle, which are a few floats apart, and for numbers at the
+ * end of floats; the last cell has no end. */
+static int moments_valid(const vndf_table_draft *d, size_t i)
 {
-    double r = d->knot[i], z0 = 1 / (1 + r), m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], slack = 1.0001;
-    double mean0 = m0 / (z0 * z0), mean1 = m2 + r * (2 * m1 + r * m0);
-    if (i < d->cells) {
-        double gap = slack * ((double)d->knot[i + 1] - r), z1 = 1 / (1 + (double)d->knot[i + 1]);
-        mean1 = m0 / (z1 * z1);
-        if (m1 > gap * m0 || m2 > gap * m1)
-            return 0;
-    }
+    double m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], least = 1e-37, most = 1e36;
+    double gap = i < d->cells ? 8 * ((double)d->knot[i + 1] - d->knot[i]) : HUGE_VAL;
+    return in_range(m0, least, most) && in_range(m1, least, fmin(most, gap * m0 + 1e-35)) &&
+           in_range(m2, least, fmin(most, gap * m1 + 1e-35)) && (!d->m4 || in_range(d->m4[i], 0.0, most));
+}
+
+static int ends_valid(const vndf_table_draft *d, size_t i)
+{
+    double r = d->knot[i], z0 = 1 / (1 + r), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0;
+    double mean0 = d->m0[i] / (z0 * z0), tail = d->m2[i] + r * (2 * (double)d->m1[i] + r * d->m0[i]);
+    double mean1 = i < d->cells ? d->m0[i] / (z1 * z1) : tail;
     return in_range(d->g0[i], 0.0, STEEPEST * mean0) && in_range(d->g1[i], 0.0, STEEPEST * mean1);
 }
 
@@ -50,14 +54,12 @@ static int area_valid(const vndf_table_draft *d, size_t i)
 /* What is wrong with the numbers of one knot. */
 static const char *knot_invalid(const vndf_table_draft *d, size_t i)
 {
-    const double most = 1e36;
     if (i < d->cells && !(d->knot[i + 1] > d->knot[i]))
         return "the knots do not ascend";
-    if (!in_range(d->m0[i], 1e-37, most) || !in_range(d->m1[i], 1e-37, most) || !in_range(d->m2[i], 1e-37, most) ||
-        (d->m4 && !in_range(d->m4[i], 0.0, most)))
+    if (!moments_valid(d, i))
         return "a moment is out of range";
-    if (!cell_valid(d, i))
-        return "a density does not belong to the moments of its cell";
+    if (!ends_valid(d, i))
+        return "a density is out of range";
     if (!in_range(d->b0[i], 0.0, 1e6) || !in_range(d->b1[i], 0.0, 1e6) || !(d->b0[i] + d->b1[i] > 1e-6f))
         return "a share is out of range";
     return area_valid(d, i) ? NULL : "an area is out of range";

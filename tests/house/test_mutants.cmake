@@ -2,9 +2,8 @@
 # that is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text
 # that is no longer found exactly once is an error too: the list has to follow the sources.
 #
-# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those whose
-# mark matches MARK, `always` unless it is said: more_mutants plants those marked `often` as well, the long_mutants all;
-# with PARTS those alone whose number, modulo PARTS, is PART.
+# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those that are
+# marked `always`; with ALL, all of them.
 cmake_minimum_required(VERSION 3.16)
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)
@@ -30,28 +29,18 @@ function(member block name result)
     set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
 endfunction()
 
-if(NOT MARK)
-    set(MARK always)
-endif()
-if(NOT PARTS)
-    set(PARTS 1)
-    set(PART 0)
-endif()
 set(chosen "")
 set(checks "")
-set(number 0)
 foreach(block IN LISTS blocks)
     member("${block}" fails check)
-    math(EXPR part "${number} % ${PARTS}")
-    math(EXPR number "${number} + 1")
-    if(part EQUAL PART AND ("\n${block}\n" MATCHES "\n(${MARK})\n" OR MARK STREQUAL "."))
+    if(ALL OR "\n${block}\n" MATCHES "\nalways\n")
         list(APPEND chosen "${block}")
         list(APPEND checks "${check}")
     endif()
 endforeach()
 list(REMOVE_DUPLICATES checks)
 list(LENGTH chosen count)
-if(count LESS 6)
+if(count LESS 5)
     message(FATAL_ERROR "tests/house/mutants.txt: ${count} defects are read")
 endif()
 
@@ -70,7 +59,7 @@ if(NOT status EQUAL 0)
     message(FATAL_ERROR "the copy cannot be configured:\n${output}")
 endif()
 
-# "engine_surface 2" is the program test_engine_surface with the argument 2.
+# "walk_eval 0" is the program test_walk_eval with the argument 0.
 function(build_checks)
     list(TRANSFORM ARGN REPLACE "^([^ ]+).*$" "test_\\1" OUTPUT_VARIABLE targets)
     list(REMOVE_DUPLICATES targets)

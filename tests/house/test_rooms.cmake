@@ -7,24 +7,25 @@ cmake_minimum_required(VERSION 3.16)
 
 # ---- the order ----------------------------------------------------------------------------------
 
-set(rooms_src core simd math table sampler bsdf source fit)
+set(rooms_src core math table kernel sampler bsdf source fit)
 set(below_core "")
-set(below_simd core)
-set(below_math core simd)
-set(below_table core simd math)
-set(below_sampler core simd math table)
-set(below_bsdf core simd math table sampler)
-set(below_source core simd math)
-# The certificate is measured with the run time itself, hence the sampler.
-set(below_fit core simd math source table sampler)
-set(run_time core simd math table sampler bsdf)
+set(below_math core)
+set(below_table core)
+# The kernel knows of a table what it reads while it draws: its numbers.
+set(below_kernel core table)
+set(below_sampler core table kernel)
+set(below_bsdf core math table kernel sampler)
+set(below_source core math)
+# The certificate measures what the run time draws, hence the sampler.
+set(below_fit core math source table kernel sampler)
+set(run_time core math table kernel sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
 set(shared core/replace_file.h core/checksum.h)
 # What the build writes: the kernel of tools/export in C.
 set(written exported_kernel.h)
 
 set(subs_table family)
-set(subs_sampler tabulated all_normals analytic bounded batch affine)
+set(subs_sampler batch)
 set(subs_bsdf terms albedo lobes walk batch)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate family)
@@ -53,7 +54,7 @@ set(c_library assert complex ctype errno fenv float inttypes iso646 limits local
 # A file that is replaced keeps its mode and links and is flushed to the disk, which the C library has no calls for.
 set(system_core fcntl sys/stat unistd)
 # Lanes are the processor's own.
-set(system_simd immintrin)
+set(system_kernel emmintrin immintrin)
 
 set(most_files 20)
 

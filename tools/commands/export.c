@@ -57,7 +57,7 @@ static int read_language(const export_words *given, export_document *document)
     while (language_names()[count])
         count++;
     document->as.to = wanted ? language_named(wanted) : NULL;
-    if (document->as.to)
+    if (document->as.to && !document->as.to->indents)
         return 1;
     const char *hint = wanted ? nearest_word(wanted, language_names(), count) : NULL;
     if (!wanted)

@@ -193,14 +193,23 @@ static void want(const translation *t, part_list *parts, const char *call)
     translation_want(t, parts, name);
 }
 
+/* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
 static int put_kernel(FILE *to, const export_document *document, const translation *t)
 {
+    static const char *const outer[] = {"vndf_surface_of", NULL};
+    static const char *const inner[] = {"frame_of", "frame_sampled", "frame_normal", "frame_density", "frame_reach",
+                                        "ggx_see",  "ggx_draw",      "ggx_density",  "ggx_area",      "ggx_p22",
+                                        "beckmann_see", "beckmann_draw", "beckmann_density", "beckmann_area",
+                                        "beckmann_p22", "table_view_of", "table_draw", "table_pdf", "table_given",
+                                        "table_p22", "law_area", NULL};
     char *text = whole_text(document);
     part_list *parts = malloc(sizeof *parts);
     if (text && parts) {
         parts_read(parts, text);
-        translation_want(t, parts, "vndf_surface_of");
-        for (const char *const *call = document->only[0] ? document->only : document_calls(); *call; call++)
+        for (const char *const *name = t->to->indents ? inner : outer; *name; name++)
+            translation_want(t, parts, *name);
+        for (const char *const *call = document->only[0] ? document->only : document_calls(); !t->to->indents && *call;
+             call++)
             want(t, parts, *call);
         translate(t, to, parts);
     }
@@ -214,6 +223,10 @@ int document_write(const export_document *document, FILE *to)
 {
     translation as = document->as;
     as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
+    if (as.to->indents) {
+        fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n%s\n\n", VNDF_VERSION, as.to->begin);
+        return put_kernel(to, document, &as);
+    }
     put_head(to, document);
     if (as.to->guarded)
         translate_pattern(&as, to, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n", "", 0);

@@ -27,6 +27,22 @@ static const renamed common_calls[] = {{"set", "$1"},
         "    return i;\n}\n\n" how                                              \
         "float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n"
 
+/* What stands before the kernel in Python; derivatives of bits are 0, those of roots at 0 too. */
+#define PYTHON_TEXT                                                                                       \
+    "import struct\n\nimport drjit as dr\nimport mitsuba as mi\n\n\n"                                     \
+    "class _Struct:\n    __slots__ = ()\n\n    def __init__(self, *values):\n"                            \
+    "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n" \
+    "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"           \
+    "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"                                           \
+    "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"                                            \
+    "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"                                             \
+    "def _bits(x):\n    if dr.is_jit_v(mi.Float):\n"                                                      \
+    "        return dr.reinterpret_array(mi.Int32, dr.detach(mi.Float(x)))\n"                             \
+    "    return struct.unpack(\"i\", struct.pack(\"f\", x))[0]\n\n\n"                                         \
+    "def _of_bits(i):\n    if dr.is_jit_v(mi.Float):\n"                                                   \
+    "        return dr.reinterpret_array(mi.Float, mi.Int32(i))\n"                                        \
+    "    return struct.unpack(\"f\", struct.pack(\"i\", i))[0]\n"
+
 static const language languages[] = {
     {.name = "c",
      .title = "C99",
@@ -192,6 +208,7 @@ static const language languages[] = {
      .structs = STRUCT_CLASS,
      .made_by_call = 1,
      .indents = 1,
+     .begin = PYTHON_TEXT,
      .constant = "$NAME = $N\n",
      .array = "$NAME = (",
      .array_close = ")",
@@ -199,17 +216,20 @@ static const language languages[] = {
                {"either", "($1 | $2)"},
                {"pick", "dr.select($1, $2, $3)"},
                {"pick_whole", "dr.select($1, $2, $3)"},
-               {"least", "dr.select($1 < $2, $1, $2)"},
-               {"most", "dr.select($1 > $2, $1, $2)"},
+               {"least", "_least($1, $2)"},
+               {"most", "_most($1, $2)"},
+               {"least_whole", "_least($1, $2)"},
+               {"most_whole", "_most($1, $2)"},
                {"root", "_root($1)"},
-               {"size", "abs($1)"},
-               {"with_sign", "_with_sign($1, $2)"},
+               {"with_sign", "dr.copysign($1, $2)"},
                {"bits", "_bits($1)"},
                {"of_bits", "_of_bits($1)"},
-               {"to_real", "_to_real($1)"},
-               {"to_whole", "_to_whole($1)"},
-               {"look", "_look($1, $2, $3)"},
-               {"find_knot", "_find_knot($1, $2, $3)"}}},
+               {"to_real", "mi.Float($1)"},
+               {"to_whole", "mi.Int32($1)"},
+               {"exp_of", "dr.exp($1)"},
+               {"exp_near", "dr.exp($1)"},
+               {"log_of", "dr.log($1)"},
+               {"look", "$1.look($2, $3)"}}},
 };
 
 enum { LANGUAGES = sizeof languages / sizeof languages[0] };

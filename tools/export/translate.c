@@ -257,6 +257,9 @@ static void put_number(const writer *w, const word *number)
 static void put_sign(const writer *w, const word *sign, const char *end)
 {
     int pair = sign->text + 1 < end && sign->text[1] == *sign->text;
+    word next = word_solid(sign->text + 1);
+    if (w->t->to->indents && *sign->text == '/' && next.kind == WORD_NUMBER && !memchr(next.text, '.', next.length))
+        fputc('/', w->to); /* of whole numbers */
     if (!w->t->to->indents || !strchr("&|!", *sign->text) || (*sign->text == '!' && sign->text[1] == '='))
         fputc(*sign->text, w->to);
     else if (*sign->text == '!')

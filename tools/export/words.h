@@ -1,4 +1,4 @@
-/* The words of the kernel's text, which is a part of C (src/kernel/README or the head of translate.h says which). */
+/* The words of the kernel's text, which is a part of C (translate.h says which). */
 #ifndef TOOLS_EXPORT_WORDS_H
 #define TOOLS_EXPORT_WORDS_H
 

@@ -1,5 +1,7 @@
-/* Run by the build: writes the kernel in C, which takes numbers through a pointer, for `vndf bench`. */
+/* Run by the build: writes the kernel in C, which takes numbers through a pointer, for `vndf bench`; or in Python for
+ * tools/python, where the name of the file ends in .py. */
 #include <stdio.h>
+#include <string.h>
 
 #include "export/document.h"
 
@@ -7,9 +9,10 @@ int main(int argc, char **argv)
 {
     export_document document = {.lobes = 1, .count = 1, .kinds = EXPORT_ALL};
     FILE *to = argc == 2 ? fopen(argv[1], "w") : NULL;
-    document.as.to = language_named("c");
-    document.as.by_pointer = 1;
-    if (!to || !translation_prefix(&document.as, "exported") || !document_write(&document, to))
+    int python = argc == 2 && strlen(argv[1]) > 3 && strcmp(argv[1] + strlen(argv[1]) - 3, ".py") == 0;
+    document.as.to = language_named(python ? "python" : "c");
+    document.as.by_pointer = !python;
+    if (!to || !translation_prefix(&document.as, python ? "vndf" : "exported") || !document_write(&document, to))
         return 1;
     return fclose(to) != 0;
 }

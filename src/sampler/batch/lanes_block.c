@@ -280,47 +280,86 @@ STEP void area_below(table t, int groups, side *s)
     area_side(t, groups, s, 1);
 }
 
-/* A side_step on the elements of one side, `some` of a block, which are copied together and their results back. */
-STEP void take_some(table t, side *s, const uint8_t *some, int count, int reads, int writes, side_step *step)
+/* Puts those elements together that are below the horizon, or those that are not; returns how many. */
+HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, const int below)
 {
-    side own;
-    int groups = (count + LANES - 1) / LANES;
+    int count = 0;
+#  if VNDF_LANES == 16 /* one instruction for sixteen copies: mixed batches take 15 ns for 19. Lanes end within the row */
+    (void)some;
+    for (int g = 0; g < groups; g++) {
+        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
+        for (int r = 0; r < reads; r++) {
+            __m512 together = _mm512_maskz_compress_ps(chosen, (__m512)load(s->read[r] + g * LANES));
+            _mm512_storeu_ps(own->read[r] + count, together);
+        }
+        count += __builtin_popcount(chosen);
+    }
+#  else
+    for (int i = 0; i < groups * LANES; i++) {
+        some[count] = (uint8_t)i;
+        count += (s->height[i] < 0.0f) == below;
+    }
     for (int r = 0; r < reads; r++)
-        for (int i = 0; i < groups * LANES; i++)
-            own.read[r][i] = s->read[r][some[i < count ? i : 0]];
-    step(t, groups, &own);
+        for (int i = 0; i < count; i++)
+            own->read[r][i] = s->read[r][some[i]];
+#  endif
+    return count;
+}
+
+/* Puts results back. */
+HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t *some, int count, const int below)
+{
+#  if VNDF_LANES == 16
+    (void)some;
+    count = 0;
+    for (int g = 0; g < groups; g++) {
+        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
+        for (int w = 0; w < writes; w++) {
+            __m512 all_of = (__m512)load(s->write[w] + g * LANES);
+            store(s->write[w] + g * LANES,
+                  (real)_mm512_mask_expand_ps(all_of, chosen, _mm512_loadu_ps(own->write[w] + count)));
+        }
+        count += __builtin_popcount(chosen);
+    }
+#  else
+    (void)groups;
+    (void)below;
     for (int w = 0; w < writes; w++)
         for (int i = 0; i < count; i++)
-            s->write[w][some[i]] = own.write[w][i];
+            s->write[w][some[i]] = own->write[w][i];
+#  endif
+}
+
+/* A side_step on the elements of one side of a block, which are put together for it. */
+HERE void take_some(table t, side *s, int groups, int reads, int writes, side_step *step, const int below)
+{
+    side own;
+    uint8_t some[BLOCK];
+    int count = pack(s, groups, reads, &own, some, below), padded = (count + LANES - 1) / LANES;
+    for (int r = 0; r < reads; r++)
+        for (int i = count; i < padded * LANES; i++)
+            own.read[r][i] = own.read[r][0];
+    step(t, padded, &own);
+    unpack(s, groups, writes, &own, some, count, below);
 }
 
 /* Each element by the step of its side. */
 HERE void take_sides(const block *b, side *s, int reads, int writes, side_step *above, side_step *below)
 {
-    uint8_t high[BLOCK], low[BLOCK];
-    int highs = 0, lows = 0, count = b->groups * LANES;
     real least_height = set(0.0f), most_height = set(-1.0f);
     for (int g = 0; g < b->groups; g++) {
         real height = load(s->height + g * LANES);
         least_height = least(least_height, height);
         most_height = most(most_height, height);
     }
-    if (!any(less(least_height, set(0.0f)))) {
+    if (!any(less(least_height, set(0.0f))))
         above(b->t, b->groups, s);
-        return;
-    }
-    if (!any(at_most(set(0.0f), most_height))) {
+    else if (!any(at_most(set(0.0f), most_height)))
         below(b->t, b->groups, s);
-        return;
+    else {
+        take_some(b->t, s, b->groups, reads, writes, above, 0);
+        take_some(b->t, s, b->groups, reads, writes, below, 1);
     }
-    for (int i = 0; i < count; i++) {
-        int is_low = s->height[i] < 0.0f;
-        high[highs] = low[lows] = (uint8_t)i;
-        lows += is_low;
-        highs += !is_low;
-    }
-    take_some(b->t, s, high, highs, reads, writes, above);
-    take_some(b->t, s, low, lows, reads, writes, below);
 }
 
 /* ---- samples ---- */

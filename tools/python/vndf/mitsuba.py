@@ -8,7 +8,7 @@
 
 Parameters of both:
 
-distribution    a table file, or "ggx"
+distribution    a table file, "ggx" or "beckmann"
 alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
                 1e-4 counts as that
 rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
@@ -32,7 +32,7 @@ from typing import Any
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import Ggx, Law, Table
+from ._drjit import Beckmann, Ggx, Law, Table
 from .distribution import load
 
 _MOST_LOBES = 8
@@ -49,9 +49,8 @@ class _Lobe:
     def __init__(self, props: Any, suffix: str) -> None:
         name = str(props["distribution" + suffix])
         self.name = name
-        if name == "beckmann":
-            raise ValueError('distribution "beckmann": build a table of it (vndf build --family beckmann)')
-        self.law: Law = Ggx() if name == "ggx" else Table(load(str(mi.file_resolver().resolve(name))))
+        closed = {"ggx": Ggx, "beckmann": Beckmann}
+        self.law: Law = closed[name]() if name in closed else Table(load(str(mi.file_resolver().resolve(name))))
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
