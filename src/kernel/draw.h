@@ -128,10 +128,9 @@ typedef struct given {
 HERE given table_given_slope(real x, real y, real z)
 {
     given g;
-    real square = least(x * x + y * y, set(3.40282347e38f)); /* not infinite, which no end of the knots would exceed */
-    g.square = 0.9999996f * square; /* what is drawn at the end of a cell is found there: the next may have no mass */
+    g.square = least(x * x + y * y, set(3.4028234e38f)); /* not infinite, which no end of the knots would exceed */
     g.under = z * z;
-    g.across = root(square);
+    g.across = root(g.square);
     g.up = most(z, g.across * 1e-28f);
     g.per = 1.0f / (g.across + g.up);
     g.x = g.across * g.per;
