@@ -188,7 +188,7 @@ typedef struct vndf_view {
 
 /* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
  * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha
- * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-18, 1e15]. From an invalid view
+ * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15, 1e15]. From an invalid view
  * vndf_sample returns (0, 0, 1) with density 0, and every other function returns 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with

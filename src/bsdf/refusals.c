@@ -162,7 +162,7 @@ static vndf_status check_roughness(const vndf_description *is, vndf_error *error
     if (!(is->alpha_x > 0.0f && is->alpha_y > 0.0f && is_visible(&surface)))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
-                         "distribution within [1e-18, 1e15]",
+                         "distribution within [1e-15, 1e15]",
                          (double)is->alpha_x, (double)is->alpha_y);
     if (is->effects.shape == VNDF_SHAPE_ROTATED)
         return check_number("rotation", is->rotation, -1e4, 1e4, error);
@@ -178,7 +178,7 @@ static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error 
         return VNDF_OK;
     return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                      "%s is the matrix (%g %g; %g %g) with mean slope (%g, %g); its singular values, times the "
-                     "scale of the distribution, must be within [1e-18, 1e15], the mean slope within 1e6",
+                     "scale of the distribution, must be within [1e-15, 1e15], the mean slope within 1e6",
                      name, (double)a->xx, (double)a->xy, (double)a->yx, (double)a->yy, (double)a->mean_x,
                      (double)a->mean_y);
 }

@@ -282,6 +282,6 @@ static double spline(const vndf_laws *laws, double rho)
 
 double vndf_law_public_area(const vndf_law *law, double drawn)
 {
-    double above = spline(law->laws, law->rho), part = fmin(fmax((drawn / above - 0.02) / 0.08, 0), 1);
+    double above = spline(law->laws, law->rho), part = fmin(fmax((drawn / above - 4e-4) / 1.6e-3, 0), 1);
     return law->below ? drawn + part * (above - law->c - drawn) : above;
 }

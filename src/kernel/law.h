@@ -388,7 +388,7 @@ HERE real law_area_above(table t, seen v)
 HERE real law_area(table t, seen v)
 {
     real above = law_area_above(t, v), sampled = v.s * v.total * 0.318309886f;
-    real mixed = least(most((sampled / above - 0.02f) * 12.5f, set(0.0f)), set(1.0f));
+    real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
     real below = sampled + mixed * ((above - size(v.c)) - sampled);
     below = pick(less(set(2e-15f), v.s), below, set(0.0f)); /* straight from below nothing is seen */
     return pick(less(v.c, set(0.0f)), below, above);

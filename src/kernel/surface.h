@@ -24,13 +24,13 @@ HERE real affine_determinant(affine_map m)
     return determinant;
 }
 
-/* Singular values from 1e-18, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold; mean
+/* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold; mean
  * slopes up to 1e6. */
 HERE mask affine_is_valid(affine_map m)
 {
     real determinant = affine_determinant(m), end = set(1e15f);
     real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
-    mask inside = both(at_most(most(largest * 1e-18f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
+    mask inside = both(at_most(most(largest * 1e-15f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
     mask first = both(at_most(size(m.xx), end), at_most(size(m.xy), end));
     mask second = both(at_most(size(m.yx), end), at_most(size(m.yy), end));
     mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));

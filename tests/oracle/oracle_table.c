@@ -333,7 +333,7 @@ oracle_law oracle_law_from(const oracle_table *t, double s, double c)
     for (size_t i = l.first + 1; i <= t->cells; i++)
         sum += mass_below(&l, i);
     l.drawn = s / PI * (l.part_mass + sum);
-    double part = fmin(fmax((l.drawn / above - 0.02) / 0.08, 0), 1);
+    double part = fmin(fmax((l.drawn / above - 4e-4) / 1.6e-3, 0), 1);
     l.area = l.drawn + part * (above + c - l.drawn);
     return l;
 }

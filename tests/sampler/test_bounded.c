@@ -58,7 +58,7 @@ static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vn
     int good = TEST(fabs(length_of(n.wm) - 1) <= 4 * 0x1p-23 && n.wm.z >= 0);
     good &= TEST(n.density >= FLT_MIN && n.density <= FLT_MAX && n.weight >= 0 && n.weight <= FLT_MAX);
     if (d->which == BOUNDED)
-        return good & TEST(facing > 0) & TEST(!round || up > -1e-5) &
+        return good & TEST(facing > 0) & TEST(!round || up > -1e-4) /* arcs end within some 1e-5 of the border */ &
                TEST(fabs((double)n.weight * (double)n.density - visible) <= 1e-3 * visible + 1e-20);
     if (n.wm.z < 1e-3f || !(shape > 1e-20)) /* D grows beyond floats at the horizon */
         return good;

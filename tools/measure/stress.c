@@ -175,7 +175,7 @@ static void run_view(stress_point *at, random_stream *stream, size_t edged, stre
 static int is_valid(const vndf_affine *m)
 {
     float scale = (float)vndf_distribution_info(m->distribution).scale, x = m->xx * scale, y = m->yy * scale;
-    return x >= 1e-18f && x <= 1e15f && y >= 1e-18f && y <= 1e15f;
+    return x >= 1e-15f && x <= 1e15f && y >= 1e-15f && y <= 1e15f;
 }
 
 static void run_product(const vndf_distribution *distribution, size_t every, random_stream *stream,

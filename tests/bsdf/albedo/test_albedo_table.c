@@ -115,7 +115,7 @@ static void test_mirror(const vndf_albedo *albedo)
         TEST(vndf_albedo_split(albedo, 0.3f, alpha).transmitted == 0);
         before = straight;
     }
-    TEST_NEAR((double)vndf_albedo_directional(albedo, 0.7f, 0), 1, 1e-6);
+    TEST_NEAR((double)vndf_albedo_directional(albedo, 0.7f, 0), 1, 5e-6); /* areas are floats */
 }
 
 /* ---- the whole ----------------------------------------------------------------------------------- */
