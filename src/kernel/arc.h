@@ -10,9 +10,9 @@
  *
  *     F(d) = p d + q (1 - cos d) + r (d - sin d) = u T.
  *
- * The start follows Kepler's equation where one of its terms is alone: d^-2 is a sum of theirs, right at both ends,
- * within 8% between. One step of Householder's of order three follows. |F(d)/T - u| is at most 2e-5, where the
- * eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_kepler.c). */
+ * The start follows Kepler's equation where one of its terms is alone: v^2/d^2 is a sum of theirs, with coefficients
+ * fitted for the least largest error, within 8%. One step of Householder's of order three follows. |F(d)/T - u| is at
+ * most 2e-5, where the eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_kepler.c). */
 #ifndef VNDF_KERNEL_ARC_H
 #define VNDF_KERNEL_ARC_H
 
@@ -71,8 +71,8 @@ HERE real arc_start(arc k, real v, const int below)
     }
     real v43 = arc_two_thirds(v2),
          inverse = (0.151813f * v43 - 0.050724f * v2) + t * (-0.122628f * v43 - 0.12813f * v2);
-    inverse =
-        inverse + p * ((0.024493f * v2 - 0.118976f * v43) + p * (0.390562f + p * (0.280348f * p - 0.568917f)));
+    real p2 = p * p, straight = (0.390562f - 0.568917f * p) + p2 * 0.280348f;
+    inverse = (inverse + p * (0.024493f * v2 - 0.118976f * v43)) + p2 * straight;
     inverse = inverse + k.q * (0.248745f * v + (0.285757f * v) * t);
     return v * arc_inverse_root(most(inverse, set(1e-36f)));
 }
@@ -108,9 +108,9 @@ HERE bearing arc_step(arc k, real d, real goal)
     real p = k.q * sn - k.r * cs, q = k.q * cs + k.r * sn, fq = f * q, f12 = f1 * f1;
     real below = f1 * (f12 - fq) - (f * f * (p * 0.166666667f) - 1e-36f), step = f * (0.5f * fq - f12) / below;
     step = most(least(step, least(set(0.25f), k.length - d)), most(set(-0.25f), -d));
-    real s2 = step * step, ds = step - step * s2 * 0.166666667f, dc = s2 * (0.5f - s2 * 0.0416666667f);
-    real more = q * ds - p * dc;
-    bearing a = {p + more, q - (q * dc + p * ds), f1 + more};
+    real s2 = step * step, ds = 1.0f - s2 * 0.166666667f, dc = step * (0.5f - s2 * 0.0416666667f);
+    real more = step * (q * ds - p * dc);
+    bearing a = {p + more, q - step * (q * dc + p * ds), f1 + more};
     return a;
 }
 

@@ -124,19 +124,21 @@ HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length
 
 /* A normal (x, y, z) of the unit problem, in the frame of the direction, any length: its slope and cell. */
 typedef struct given {
-    real r, x, z, per; /* slope; x + z = 1; what made it so */
+    real square, under;         /* squares of the slope's two parts, by which its cell is found */
+    real across, up, per, x, z; /* slope = across/up; 1/(across + up), and both times that */
     whole cell;
 } given;
 
 HERE given table_given_slope(real x, real y, real z)
 {
     given g;
-    real across = root(x * x + y * y);
-    z = most(z, across * 1e-28f);
-    g.per = 1.0f / (across + z);
-    g.x = across * g.per;
-    g.z = z * g.per;
-    g.r = across / z;
+    g.square = least(x * x + y * y, set(3.4028234e38f)); /* not infinite, which no end of the knots would exceed */
+    g.under = z * z;
+    g.across = root(g.square);
+    g.up = most(z, g.across * 1e-28f);
+    g.per = 1.0f / (g.across + g.up);
+    g.x = g.across * g.per;
+    g.z = g.up * g.per;
     g.cell = set_whole(0);
     return g;
 }
@@ -144,7 +146,7 @@ HERE given table_given_slope(real x, real y, real z)
 HERE given table_given(table t, real x, real y, real z)
 {
     given g = table_given_slope(x, y, z);
-    g.cell = find_knot(t, g.r);
+    g.cell = find_knot(t, g.square, g.under);
     return g;
 }
 
@@ -163,7 +165,7 @@ HERE arc table_given_arc(seen v, given g, const int below)
 {
     real edge = v.s * g.x - size(v.c) * g.z;
     if (below)
-        edge = (g.r - v.rho) * (g.z * v.s);
+        edge = (g.across - v.rho * g.up) * (g.per * v.s);
     return arc_of(size(v.c) * g.z, v.s * g.x, edge, below);
 }
 
@@ -174,7 +176,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
     if (below)
         i = most_whole(i, v.cell);
     piece at = table_given_cell(t, v, i, below);
-    place in = law_place(t, at, g.r, g.z);
+    place in = law_place(t, at, g.across, g.up, g.per);
     arc k = table_given_arc(v, g, below);
     real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x),
          per = g.per * g.per; /* held away from the pole */
@@ -186,7 +188,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
 HERE real table_p22(table t, given g)
 {
     piece all = law_cell_all(t, g.cell);
-    place in = law_place(t, all, g.r, g.z);
+    place in = law_place(t, all, g.across, g.up, g.per);
     real per = g.per * g.per, density = law_of_f(all, in.over, in.rest, g.x, g.z);
     density = density / (in.below * in.below * law_width(t, all, in));
     real x = pick(same(g.cell, 0), all.x1 * in.over, g.x);
@@ -200,7 +202,7 @@ HERE pair table_invert(table t, seen v, given g, real x, real y, const int below
     if (below)
         i = most_whole(i, v.cell);
     piece at = table_given_cell(t, v, i, below);
-    place in = law_place(t, at, g.r, g.z);
+    place in = law_place(t, at, g.across, g.up, g.per);
     real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
     quad tail = look(t, VNDF_TAIL, i);
     real sum = before;

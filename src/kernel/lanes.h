@@ -419,9 +419,9 @@ HERE table table_of(const vndf_distribution *d, table_copies *copies, size_t cou
 
 /* ---- searches ----
  *
- * The last knot at or below a slope, and the last knot beyond which at least `left` of the law lies, by the sums of
- * law_sum: from the anchors and the last knot on in steps that are halved. Blocks take each step for all their elements
- * before the next, since a step waits for what it looks up. */
+ * The last knot R with R^2 under <= square, and the last knot beyond which at least `left` of the law lies, by the sums
+ * of law_sum: from the anchors and the last knot on in steps that are halved. Blocks take each step for all their
+ * elements before the next, since a step waits for what it looks up. */
 
 #define VNDF_KERNEL_FINDS 1
 
@@ -438,31 +438,37 @@ HERE real look_anchor(table t, int n, whole k)
 
 #endif
 
-HERE whole begin_knot(table t, real slope)
+HERE mask knot_reaches(real r, real square, real under)
+{
+    return at_most((r * r) * under, square);
+}
+
+HERE whole begin_knot(table t, real square, real under)
 {
     whole k = set_whole(0);
 #if VNDF_LANES > 4
     for (int step = ANCHORS / 2; step > 0; step /= 2)
-        k = pick_whole(at_most(look_anchor(t, 0, k + step), slope), k + step, k);
+        k = pick_whole(knot_reaches(look_anchor(t, 0, k + step), square, under), k + step, k);
 #else
     LANES_UNROLLED
     for (int n = 1; n < ANCHORS; n++)
-        k = k - at_most(set(t.copies->anchor[0][n]), slope);
+        k = k - knot_reaches(set(t.copies->anchor[0][n]), square, under);
 #endif
-    return pick_whole(at_most(set(t.numbers[4 * t.cells]), slope), set_whole(t.cells), k * t.stride);
+    mask last = knot_reaches(set(t.numbers[4 * t.cells]), square, under);
+    return pick_whole(last, set_whole(t.cells), k * t.stride);
 }
 
-HERE whole step_knot(table t, real slope, whole i, int step)
+HERE whole step_knot(table t, real square, real under, whole i, int step)
 {
     whole next = least_whole(i + step, set_whole(t.cells));
-    return pick_whole(at_most(look(t, VNDF_KNOT, next).a, slope), next, i);
+    return pick_whole(knot_reaches(look(t, VNDF_KNOT, next).a, square, under), next, i);
 }
 
-HERE whole find_knot(table t, real slope)
+HERE whole find_knot(table t, real square, real under)
 {
-    whole i = begin_knot(t, slope);
+    whole i = begin_knot(t, square, under);
     for (int step = t.stride / 2; step > 0; step /= 2)
-        i = step_knot(t, slope, i, step);
+        i = step_knot(t, square, under, i, step);
     return i;
 }
 

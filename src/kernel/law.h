@@ -39,14 +39,15 @@ typedef struct seen {
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
-/* The last knot at or below a slope. */
-HERE whole find_knot(table t, real slope)
+/* The last knot R with R^2 under <= square: slopes are looked up by squares of their two parts. */
+HERE whole find_knot(table t, real square, real under)
 {
     whole i = set_whole(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         whole next = least_whole(i + step, set_whole(t.cells));
-        i = pick_whole(at_most(look(t, VNDF_KNOT, next).a, slope), next, i);
+        real r = look(t, VNDF_KNOT, next).a;
+        i = pick_whole(at_most((r * r) * under, square), next, i);
         step = step / 2;
     }
     return i;
@@ -83,6 +84,7 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
+/* `cell` is that of rho. */
 HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
 {
     seen v;
@@ -304,7 +306,7 @@ typedef struct place {
 HERE place law_invert(piece at, real m)
 {
     real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
-    real middle = at.e0 - q * at.sum, square = root(middle * middle + 4.0f * (q * p));
+    real middle = at.e0 - q * at.sum, square = root(middle * middle + (4.0f * q) * p);
     mask rising = at_most(set(0.0f), middle + 2.0f * q);
     place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square,
                 set(0.0f)};
@@ -335,12 +337,12 @@ HERE slope_length law_length(table t, seen v, piece at, place in, const int belo
     return r;
 }
 
-/* The place of a slope r = x/z, x + z = 1, in its cell. */
-HERE place law_place(table t, piece at, real r, real z)
+/* The place of the slope x/z in its cell; per = 1/(x + z). */
+HERE place law_place(table t, piece at, real x, real z, real per)
 {
-    real over = (r - at.from) * (at.z0 * z) / at.width, rest = 1.0f - over;
+    real over = (x - at.from * z) * (per * (at.z0 / at.width)), rest = 1.0f - over;
     if (any(at.last)) { /* there 1 - xi is what keeps its digits */
-        real eta = z / at.z0;
+        real eta = z * per / at.z0;
         for (int n = 0; n < t.squarings; n++)
             eta = root(eta);
         rest = pick(at.last, eta, rest);

@@ -246,21 +246,22 @@ HERE __m128 spread(float x)
     return _mm_shuffle_ps(lane(x), lane(x), 0);
 }
 
-HERE unsigned at_most_4(const float *numbers, __m128 x)
+HERE unsigned at_most_4(const float *numbers, __m128 square, __m128 under)
 {
-    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_loadu_ps(numbers), x));
+    __m128 r = _mm_loadu_ps(numbers);
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_mul_ps(_mm_mul_ps(r, r), under), square));
 }
 
-/* The last knot at or below a slope (law.h has the same as a loop). */
-HERE whole find_knot(table t, real slope)
+/* The last knot R with R^2 under <= square (law.h has the same as a loop). */
+HERE whole find_knot(table t, real square, real under)
 {
     int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
     const float *pivot = t.columns + VNDF_COLUMNS * size_of;
-    __m128 x = spread(slope);
+    __m128 x = spread(square), y = spread(under);
     for (int i = 0; i < pivots; i += 4)
-        block += count_ones(at_most_4(pivot + i, x));
+        block += count_ones(at_most_4(pivot + i, x, y));
     const float *first = t.columns + VNDF_COLUMN_STEP * block + 1;
-    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, x) | at_most_4(first + 4, x) << 4);
+    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, x, y) | at_most_4(first + 4, x, y) << 4);
 }
 
 /* Weights of a law, four times each. */

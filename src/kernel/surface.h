@@ -155,12 +155,15 @@ HERE real g1_of(real area, real cosine)
 /* The direction of (ux, uy), and the direction as the unit problem sees it (law.h). */
 typedef struct table_direction {
     real ex, ey, s, c, rho;
+    real square, under; /* rho^2 as two parts, by which its cell is found */
 } table_direction;
 
 HERE table_direction table_direction_of(frame f)
 {
     table_direction w;
-    real square = f.ux * f.ux + f.uy * f.uy, across = root(square), level = size(f.uz);
+    w.square = f.uz * f.uz;
+    w.under = f.ux * f.ux + f.uy * f.uy;
+    real across = root(w.under), level = size(f.uz);
     mask straight = less(across, 1e-15f * level);
     across = most(across, 1e-15f * level);
     real over = 1.0f / across, per = 1.0f / (across + level);
@@ -181,7 +184,8 @@ typedef struct table_view {
 HERE table_view table_view_of(table t, frame f, const int below)
 {
     table_direction w = table_direction_of(f);
-    table_view view = {w.ex, w.ey, table_see(t, w.s, w.c, w.rho, find_knot(t, w.rho), below)};
+    whole cell = find_knot(t, w.square, w.under);
+    table_view view = {w.ex, w.ey, table_see(t, w.s, w.c, w.rho, cell, below)};
     return view;
 }
 

@@ -1,8 +1,8 @@
 /* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
  *
- * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from
- * which a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block;
- * and puts the results together again. Short loops, since a processor overlaps few iterations of a long one. */
+ * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from which
+ * a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block; and puts
+ * the results together again. Short loops, since a processor overlaps few iterations of a long one. */
 #ifndef VNDF_LANES
 #define VNDF_LANES 4
 #endif
@@ -46,16 +46,16 @@ HERE real input(const block *b, int which, int g)
 
 /* ---- frames ---- */
 
-/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux,
- * uy) of a table. */
+/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux, uy)
+ * of a table. */
 typedef struct frames {
     frame f[GROUPS];
     real ex[GROUPS], ey[GROUPS];
 } frames;
 
-/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction; what is drawn with
- * or given; results. */
-enum { S, C, RHO, GIVEN_A, GIVEN_B, GIVEN_C, GIVEN_D, SIDE_READS };
+/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction, and rho^2 as two
+ * parts; what is drawn with or given; results. */
+enum { S, C, RHO, SQUARE, UNDER, GIVEN_A, GIVEN_B, GIVEN_C, GIVEN_D, SIDE_READS };
 enum { RESULT_A, RESULT_B, RESULT_C, RESULT_D, RESULT_E, SIDE_WRITES };
 
 typedef struct side {
@@ -86,24 +86,27 @@ HERE table_direction put_direction(side *s, int g, frame f)
     store(s->read[S] + g * LANES, w.s);
     store(s->read[C] + g * LANES, w.c);
     store(s->read[RHO] + g * LANES, w.rho);
+    store(s->read[SQUARE] + g * LANES, w.square);
+    store(s->read[UNDER] + g * LANES, w.under);
     return w;
 }
 
 /* ---- sides of the horizon ---- */
 
-HERE void find_knots(table t, int groups, const float *slopes, whole *i)
+/* Cells of slopes, by their squares. */
+HERE void find_knots(table t, int groups, const float *square, const float *under, whole *i)
 {
     for (int g = 0; g < groups; g++)
-        i[g] = begin_knot(t, load(slopes + g * LANES));
+        i[g] = begin_knot(t, load(square + g * LANES), load(under + g * LANES));
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
-            i[g] = step_knot(t, load(slopes + g * LANES), i[g], step);
+            i[g] = step_knot(t, load(square + g * LANES), load(under + g * LANES), i[g], step);
 }
 
 HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
 {
     whole cell[GROUPS];
-    find_knots(t, groups, s->read[RHO], cell);
+    find_knots(t, groups, s->read[SQUARE], s->read[UNDER], cell);
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
         v[g] = table_see(t, load(at + S * BLOCK), load(at + C * BLOCK), load(at + RHO * BLOCK), cell[g], below);
@@ -180,15 +183,16 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
 /* The given normals, with their cells. */
 HERE void place_given(table t, int groups, const side *s, given *n)
 {
-    row slope;
+    row square, under;
     whole cell[GROUPS];
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
         n[g] =
             table_given_slope(load(at + GIVEN_A * BLOCK), load(at + GIVEN_B * BLOCK), load(at + GIVEN_C * BLOCK));
-        store(slope + g * LANES, n[g].r);
+        store(square + g * LANES, n[g].square);
+        store(under + g * LANES, n[g].under);
     }
-    find_knots(t, groups, slope, cell);
+    find_knots(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
         n[g].cell = cell[g];
 }
