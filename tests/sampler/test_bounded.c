@@ -50,7 +50,8 @@ static double density_at(const double wm[3], const void *of)
 /* ---- every sample ---- */
 
 /* What the weight is to be: visible normals over the density; of V-cavities D (wi.wm)/A(wi). Both are vndf_visible. */
-static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vndf_drawn_normal n, int round, int edge)
+static int is_good(const drawn *d, const vndf_surface *surface, vndf_vec3 wi, vndf_drawn_normal n, int round,
+                   int edge)
 {
     double facing = dot_of(wi, n.wm), up = 2 * facing * n.wm.z - wi.z,
            visible = (double)vndf_visible(&d->view, n.wm);
