@@ -142,12 +142,11 @@ static void test_ndf(const char *name, unsigned long long seed)
         if (effects.scattering == VNDF_SCATTERING_SINGLE && oracle_effects_sensible(&effects))
             test_set(&ndf, &effects, seed + i, &found);
     }
-    printf(
-        "%s: weight within %.2g (%lu and %lu above 1e-5), density within %.2g (%lu), length within %.2g; %lu samples, %lu "
-        "lost, %lu extreme\n",
-        name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
-        (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
-        (unsigned long)found.extreme);
+    printf("%s: weight within %.2g (%lu and %lu above 1e-5), density within %.2g (%lu), length within %.2g; "
+           "%lu samples, %lu lost, %lu extreme\n",
+           name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
+           (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
+           (unsigned long)found.extreme);
     TEST(found.weights < found.kept / 1000 && found.others < found.kept / 50 &&
          found.densities < found.kept / 1000);
     TEST(found.kept > 2 * found.lost && found.extreme < found.kept / 20);

@@ -1,8 +1,8 @@
 /* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
  *
- * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from which
- * a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block; and puts
- * the results together again. Short loops, since a processor overlaps few iterations of a long one. */
+ * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from
+ * which a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block;
+ * and puts the results together again. Short loops, since a processor overlaps few iterations of a long one. */
 #ifndef VNDF_LANES
 #define VNDF_LANES 4
 #endif
@@ -46,8 +46,8 @@ HERE real input(const block *b, int which, int g)
 
 /* ---- frames ---- */
 
-/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux, uy)
- * of a table. */
+/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux,
+ * uy) of a table. */
 typedef struct frames {
     frame f[GROUPS];
     real ex[GROUPS], ey[GROUPS];
