@@ -143,7 +143,7 @@ static const limit LIMITS[] = {
     {"D", 6, 6, 0, 5e-5, 3e-4},
     {"Lambda", 7, 7, 2, 1e-5, 3e-5},
     {"G1, G2", 8, 9, 1, 1e-6, 3e-6},
-    {"area", 10, 10, 0, 1e-5, 3e-5},
+    {"area", 10, 10, 0, 1e-4, 1e-3},
     {"mixed normal", 11, 13, 1, 5e-6, 3e-2},
     {"its density", 14, 14, 0, 1e-4, 1e-2},
     {"mixed pdf", 15, 15, 0, 1e-4, 1e-3},
