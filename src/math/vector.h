@@ -24,71 +24,9 @@ VNDF_INLINE vndf_vec3 vndf_vec3_of(float x, float y, float z)
     return v;
 }
 
-/* The same of one that an inline function hands on to one that is not. */
-VNDF_INLINE vndf_vec3 vndf_packed(vndf_vec3 v)
-{
-    return vndf_vec3_of(v.x, v.y, v.z);
-}
-
 VNDF_INLINE float vndf_dot(vndf_vec3 a, vndf_vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/* a . b where it may cancel: whether a normal faces a direction, and by how much. Products of floats are exact in
- * double, and Knuth's TwoSum gives the rounding of the first sum exactly: one rounding is left, however much
- * cancels. */
-VNDF_INLINE double vndf_exact_dot(vndf_vec3 a, vndf_vec3 b)
-{
-    double x = (double)a.x * b.x, y = (double)a.y * b.y, z = (double)a.z * b.z, level = x + y, back = level - x;
-    double lost = (x - (level - back)) + (y - back);
-    return (level + z) + lost;
-}
-
-VNDF_INLINE vndf_vec3 vndf_scale(vndf_vec3 v, float factor)
-{
-    vndf_vec3 r = {v.x * factor, v.y * factor, v.z * factor};
-    return r;
-}
-
-VNDF_INLINE float vndf_max_abs(vndf_vec3 v)
-{
-    float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z);
-    float m = x > y ? x : y;
-    return m > z ? m : z;
-}
-
-/* Squares between these neither overflow nor lose digits when they are added. */
-VNDF_INLINE int vndf_is_safe_square(float square)
-{
-    return square > 1e-30f && square < 1e30f;
-}
-
-/* v / |v| for a finite v that is not zero. Where squares overflow or vanish, v is scaled first: the reciprocal of
- * a denormal is infinite, and the reciprocal of a number near FLT_MAX is a denormal, which may count as 0. */
-VNDF_INLINE vndf_vec3 vndf_normalize(vndf_vec3 v)
-{
-    float square = vndf_dot(v, v);
-    if (!vndf_is_safe_square(square)) {
-        float largest = vndf_max_abs(v);
-        v = largest < 1e-30f ? vndf_scale(v, 0x1p100f) : largest > 1e30f ? vndf_scale(v, 0x1p-100f) : v;
-        v = vndf_scale(v, 1.0f / vndf_max_abs(v));
-        square = vndf_dot(v, v);
-    }
-    return vndf_scale(v, 1.0f / sqrtf(square));
-}
-
-/* sqrt(x^2 + y^2) without overflow or loss for any finite x, y. */
-VNDF_INLINE float vndf_length2(float x, float y)
-{
-    float square = x * x + y * y, ax = fabsf(x), ay = fabsf(y);
-    if (vndf_is_safe_square(square))
-        return sqrtf(square);
-    float big = ax > ay ? ax : ay;
-    if (!(big < HUGE_VALF))
-        return big;
-    float ratio = (ax > ay ? ay : ax) / big;
-    return big > 0.0f ? big * sqrtf(1.0f + ratio * ratio) : 0.0f;
 }
 
 /* A finite density: the largest float for infinity, 0 for the NaN of 0/0 or 0 times infinity. */
