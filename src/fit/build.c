@@ -45,7 +45,7 @@ static size_t bytes_for(const builder *b, unsigned cells)
     float zero[CELLS_LEAST + 2] = {0};
     vndf_table_draft empty = {
         .cells = cells, .moments = b->asked.moments, .source = b->profile->description, .tool = TOOL};
-    empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.m4 = zero;
+    empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.cubes = zero;
     empty.b0 = empty.b1 = empty.area = empty.slope = zero;
     return vndf_table_encode(&empty, NULL, 0);
 }

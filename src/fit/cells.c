@@ -130,8 +130,9 @@ static vndf_cell moments_of(const vndf_span *span, const vndf_point *point, size
         sum.m0 += m;
         sum.m1 += m * t;
         sum.m2 += m * t * t;
-        sum.m4 += m / (r * r * r);
+        sum.cube += m / (r * r * r);
     }
+    sum.cube = sum.m0 > 0 ? sum.cube / sum.m0 : 0;
     return sum;
 }
 
@@ -174,11 +175,11 @@ static void keep_positive(const vndf_span *span, double end, vndf_cell *cell)
     double third = span->r > 0 ? span->r * span->r * span->r : HUGE_VAL;
     if (cell->m0 < MASS_LEAST) {
         double m = MASS_LEAST;
-        *cell = (vndf_cell){0, 0, m, m * width / 2, m * width * width / 3, m / third};
+        *cell = (vndf_cell){0, 0, m, m * width / 2, m * width * width / 3, 1 / third};
     }
     cell->m1 = fmax(cell->m1, LEAST);
     cell->m2 = fmax(cell->m2, LEAST);
-    cell->m4 = cell->m4 > LEAST ? fmin(cell->m4, MOST) : 0;
+    cell->cube = cell->cube > LEAST ? fmin(fmin(cell->cube, 1 / third), MOST) : 0;
 }
 
 vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end,
@@ -188,7 +189,7 @@ vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, 
     keep_positive(span, end, &cell);
     if (span->r == 0) { /* no law reads these two; the first may be infinite */
         cell.m0 = 2 * cell.m1 / end;
-        cell.m4 = 0;
+        cell.cube = 0;
     }
     put_ends(profile, span, end, &cell);
     return cell;

@@ -61,8 +61,8 @@ static int allocate(vndf_table_draft *t)
 {
     size_t n = t->cells + 1;
     float *block = calloc(11 * n, sizeof *block),
-          **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
-                       &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
+          **array[] = {&t->knot,  &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
+                       &t->cubes, &t->b0, &t->b1, &t->area, &t->slope};
     for (int i = 0; block && i < 11; i++)
         *array[i] = block + (size_t)i * n;
     return block != NULL;
@@ -79,7 +79,21 @@ static void put_cell(vndf_draft *draft, const vndf_profile *profile, unsigned i)
     t->m0[i] = (float)cell.m0;
     t->m1[i] = (float)cell.m1;
     t->m2[i] = (float)cell.m2;
-    t->m4[i] = (float)cell.m4;
+    t->cubes[i] = (float)cell.cube;
+}
+
+/* Far out, where less than this lies beyond, f/R^4 counts for nothing: products with it would be denormal, and slow. */
+static const double FOURTH_LEAST = 1e-20;
+
+static void drop_far_cubes(vndf_table_draft *t)
+{
+    double beyond = 0;
+    for (unsigned i = t->cells; i > 0; i--) {
+        beyond += (double)t->cubes[i] * t->m0[i];
+        if (beyond > FOURTH_LEAST)
+            return;
+        t->cubes[i] = 0;
+    }
 }
 
 /* ---- shares below the horizon ---- */
@@ -203,6 +217,7 @@ static int fill(vndf_draft *draft, const vndf_profile *profile, const vndf_knot 
         return 0;
     for (unsigned i = 0; i <= t->cells; i++)
         put_cell(draft, profile, i);
+    drop_far_cubes(t);
     vndf_laws_read(&draft->laws);
     double *grazing = malloc((t->cells + 1) * sizeof *grazing);
     ray *room = malloc((draft->sight.points.count + 1) * sizeof *room);

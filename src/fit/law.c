@@ -50,18 +50,18 @@ static double end_z(const vndf_span *span)
 
 /* ---- one cell ---- */
 
-/* z^2 W. */
-static double flat(const vndf_weight *w, double x, double z)
+/* z^2 W, wq with what w4 adds in the mean of the cell. */
+static double flat(const vndf_weight *w, double wq, double x, double z)
 {
-    double sum = w->w1 * x * x + w->w0 * x * z + w->wq * z * z;
-    return w->w4 > 0 ? sum + w->w4 * (z * z) * (z / x) * (z / x) * (z / x) : sum;
+    return w->w1 * x * x + w->w0 * x * z + wq * z * z;
 }
 
 vndf_drawn vndf_drawn_by(const vndf_span *span, const vndf_cell *cell, const vndf_weight *w)
 {
-    double r = span->r, first = 2 * w->w1 * r + w->w0, none = (w->w1 * r + w->w0) * r + w->wq;
-    vndf_drawn drawn = {w->w1 * cell->m2 + first * cell->m1 + none * cell->m0 + w->w4 * cell->m4,
-                        cell->g0 * flat(w, span->x, span->z), cell->g1 * flat(w, end_x(span), end_z(span))};
+    double r = span->r, first = 2 * w->w1 * r + w->w0, wq = w->wq + w->w4 * cell->cube;
+    vndf_drawn drawn = {w->w1 * cell->m2 + first * cell->m1 + ((w->w1 * r + w->w0) * r + wq) * cell->m0,
+                        cell->g0 * flat(w, wq, span->x, span->z),
+                        cell->g1 * flat(w, wq, end_x(span), end_z(span))};
     return drawn;
 }
 
@@ -109,7 +109,7 @@ vndf_kernel vndf_kernel_of(unsigned moments)
 
 static vndf_cell cell_of(const vndf_table_draft *d, unsigned i)
 {
-    vndf_cell cell = {d->g0[i], d->g1[i], d->m0[i], d->m1[i], d->m2[i], d->moments > 3 ? d->m4[i] : 0};
+    vndf_cell cell = {d->g0[i], d->g1[i], d->m0[i], d->m1[i], d->m2[i], d->cubes && i > 0 ? d->cubes[i] : 0};
     return cell;
 }
 
@@ -199,13 +199,22 @@ unsigned vndf_laws_cell(const vndf_laws *laws, double r)
 
 /* ---- directions ---- */
 
+/* Rho as the run time rounds it (table.h). */
+static double rounded(double rho)
+{
+    int exponent;
+    double part = frexp(rho, &exponent), quarter = 4 * (exponent - 1 + 16) + floor(8 * part) - 4;
+    return vndf_rounded_rho((int)fmin(fmax(quarter, 0), VNDF_RHO_PARTS - 1));
+}
+
 static void weigh_above(vndf_law *law)
 {
     vndf_kernel k = vndf_kernel_of(law->laws->draft->moments);
     double c = law->c, s = law->s, rho = law->rho;
-    law->first = last_at_most(law->laws->turn, law->laws->cells + 1, rho);
+    law->first = last_at_most(law->laws->turn, law->laws->cells + 1, rounded(rho));
     law->near = (vndf_weight){0, c, 0, 0};
-    law->far = (vndf_weight){s * k.a1 / PI, c * k.a0 / PI, c * rho * k.aq / PI, c * pow(rho, 4) * k.a4 / PI};
+    law->far = (vndf_weight){s * k.a1 / PI, c * k.a0 / PI, c * rho * k.aq / PI,
+                             rho < 1e-3 ? 0 : c * pow(rho, 4) * k.a4 / PI};
     law->end = (vndf_weight){law->far.w1, c, 0, 0};
 }
 

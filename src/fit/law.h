@@ -26,7 +26,7 @@ double vndf_span_density(const vndf_span *span, double r);
 
 /* The numbers of one cell (table/table.h), in double. */
 typedef struct vndf_cell {
-    double g0, g1, m0, m1, m2, m4;
+    double g0, g1, m0, m1, m2, cube;
 } vndf_cell;
 
 /* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */

@@ -6,14 +6,6 @@
 
 #include "kernel/law.h"
 
-/* `cell` is that of rho. */
-HERE seen table_see(table t, real s, real c, real rho, whole cell, const int below)
-{
-    if (below)
-        return law_see_below(t, s, c, rho, cell);
-    return law_see_above(t, s, c, rho, cell);
-}
-
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
 typedef struct aim {
     weights w;
@@ -35,20 +27,12 @@ HERE aim table_aim(seen v, real u2, const int below)
     return a;
 }
 
-/* The cell of the slope: one that was found, held to the side of `first` that is meant. */
-HERE whole table_within(table t, seen v, aim a, whole i)
-{
-    mask near = less(a.at, v.near);
-    whole first = pick_whole(near, set_whole(0), v.first),
-          last = pick_whole(near, v.first - 1, set_whole(t.cells));
-    return least_whole(most_whole(i, first), last);
-}
-
+/* The cell of the slope. Where sums round, it may be on the other side of `first`, at whose knot it then ends. */
 HERE whole table_find(table t, seen v, aim a, const int below)
 {
     if (below)
         return law_find_below(t, v, a.left);
-    return table_within(t, v, a, find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left));
+    return find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -65,7 +49,7 @@ HERE found table_cell(table t, seen v, aim a, whole i, const int below)
         f.at = law_cell_below(t, v, i);
         quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
         real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        f.before = pick(at_most(to_real(i), to_real(v.cell)), a.at, sum - a.left);
+        f.before = pick(at_most(to_real(i), to_real(v.first)), a.at, sum - a.left);
         return f;
     }
     f.at = law_cell_above(t, v, a.w, i);
@@ -110,7 +94,7 @@ HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length
     piece all = law_cell_all(t, i);
     real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
     if (below) { /* from the place in what is seen of the cell to that in the cell */
-        part = pick(at_most(to_real(i), to_real(v.cell)), v.near, part);
+        part = pick(at_most(to_real(i), to_real(v.first)), v.near, part);
         rest = rest * part;
         over = under - rest;
     }
@@ -174,7 +158,7 @@ HERE real table_density(table t, seen v, given g, real facing, const int below)
 {
     whole i = g.cell;
     if (below)
-        i = most_whole(i, v.cell);
+        i = most_whole(i, v.first);
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.across, g.up, g.per);
     arc k = table_given_arc(v, g, below);
@@ -200,7 +184,7 @@ HERE pair table_invert(table t, seen v, given g, real x, real y, const int below
 {
     whole i = g.cell;
     if (below)
-        i = most_whole(i, v.cell);
+        i = most_whole(i, v.first);
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.across, g.up, g.per);
     real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
@@ -209,7 +193,7 @@ HERE pair table_invert(table t, seen v, given g, real x, real y, const int below
     if (below) {
         quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
         real beyond = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        sum = pick(at_most(to_real(i), to_real(v.cell)), before, (v.total - beyond) + before);
+        sum = pick(at_most(to_real(i), to_real(v.first)), before, (v.total - beyond) + before);
     } else {
         mask near = less(to_real(i), to_real(v.first));
         sum = pick(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);

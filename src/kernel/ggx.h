@@ -1,5 +1,5 @@
 /* GGX (Trowbridge-Reitz) in the unit problem: w = (vx, vy, vz) is the stretched direction, on either side of the
- * horizon, its largest component within [1, 2) but for roundings; roughness is 1. By spherical caps (Dupuy & Benyoub,
+ * horizon, its length within 1/100 and 100; roughness is 1. By spherical caps (Dupuy & Benyoub,
  * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) in half angles: a visible normal bisects w and a
  * direction that is uniform on the cap z >= -c. With (s, c) sine and cosine of theta, S and C of theta/2, v = 1 - u2
  * and phi = 2 pi u1 - pi

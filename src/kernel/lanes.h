@@ -281,6 +281,7 @@ typedef struct table_copies {
 typedef struct table {
     const float *numbers;
     const table_copies *copies;
+    const uint16_t *first;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
     int stride, copied;
 } table;
@@ -341,6 +342,17 @@ HERE quad look_rows(table t, int group, whole i)
     return transposed(row);
 }
 
+HERE whole look_first(table t, whole quarter)
+{
+    int32_t at[LANES];
+    memcpy(at, &quarter, sizeof at);
+    LANES_UNROLLED
+    for (int l = 0; l < LANES; l++)
+        at[l] = t.first[at[l]];
+    memcpy(&quarter, at, sizeof at);
+    return quarter;
+}
+
 #if VNDF_LANES == 16
 
 /* Where the columns of a group are copied; -1 if they are not: all numbers of a cell are read at once, best by rows. */
@@ -397,7 +409,8 @@ HERE quad look(table t, int group, whole i)
 /* A table, and its copies for a call with `count` elements. */
 HERE table table_of(const vndf_distribution *d, table_copies *copies, size_t count)
 {
-    table t = {d->numbers + VNDF_HEAD, copies, d->cells, d->moments, d->squarings, d->highest, d->steps, 1, 0};
+    table t = {d->numbers + VNDF_HEAD, copies,     d->first, d->cells, d->moments,
+               d->squarings,           d->highest, d->steps, 1,        0};
     while (ANCHORS * t.stride < t.cells)
         t.stride *= 2;
     for (int k = 0; k < ANCHORS; k++) {

@@ -31,8 +31,7 @@ typedef struct weights {
 /* A direction as a table sees it. */
 typedef struct seen {
     real s, c, rho;
-    whole cell;  /* of rho */
-    whole first; /* above: the knot where the law of k~ begins; below: `cell` */
+    whole first; /* above: the knot where the law of k~ begins; below: the cell of rho */
     weights w;   /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
     real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
 } seen;
@@ -84,21 +83,26 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-/* `cell` is that of rho. */
-HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
+/* The quarter of an octave that rho lies in (table/table.h). */
+HERE whole law_quarter(real rho)
+{
+    return least_whole(most_whole((bits(rho) >> 21) - VNDF_RHO_FIRST, set_whole(0)),
+                       set_whole(VNDF_RHO_PARTS - 1));
+}
+
+HERE seen law_see_above(table t, real s, real c, real rho)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = cell;
-    quad k = look(t, VNDF_KNOT, v.cell);
-    v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
+    v.first = look_first(t, law_quarter(rho));
     quad tail = look(t, VNDF_TAIL, v.first);
     real reach = least(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
+    mask low = less(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
-                 c * (square * square) * law_terms[n + 3]};
+                 pick(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
     v.w = law_weights_at(w, c, same(v.first, t.cells));
     v.near = c * most(1.0f - tail.b, set(0.0f));
     real far = law_sum(v.w, tail);
@@ -163,25 +167,21 @@ HERE real law_shape(piece at, real over, real rest)
     return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
 }
 
-/* w_1 x^2 + w_0 x z + w_q z^2 + w_4 z^5/x^3: the weight over z^2. */
-HERE real law_weight_at(table t, weights w, real x, real z)
+/* w_1 x^2 + w_0 x z + w_q z^2: the weight over z^2. */
+HERE real law_weight_at(weights w, real x, real z)
 {
-    real sum = x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
-    if (t.moments > 3) {
-        real y = z / most(x, set(1e-6f));
-        sum = sum + w.w4 * (y * y * y) * (z * z);
-    }
-    return sum;
+    return x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
 }
 
+/* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
 HERE piece law_cell_above(table t, seen v, weights w, whole i)
 {
     quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
     piece at = law_cell_at(t, v.s, v.c, i, k);
     w = law_weights_at(w, v.c, same(i, 0));
-    real a = w.w1 * k.a, line = a + w.w0;
-    real m = ((w.w1 * more.a + w.w4 * more.b) + (line + a) * l.d) + (line * k.a + w.wq) * l.c;
-    return law_cell_of(at, m, l.a * law_weight_at(t, w, at.x0, at.z0), l.b * law_weight_at(t, w, at.x1, at.z1));
+    w.wq = w.wq + w.w4 * more.b;
+    real a = w.w1 * k.a, line = a + w.w0, m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
+    return law_cell_of(at, m, l.a * law_weight_at(w, at.x0, at.z0), l.b * law_weight_at(w, at.x1, at.z1));
 }
 
 /* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
@@ -238,19 +238,18 @@ HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.cell = cell;
-    v.first = v.cell;
-    mask last = same(v.cell, t.cells);
-    whole next = pick_whole(last, v.cell, v.cell + 1);
-    quad k = look(t, VNDF_KNOT, v.cell), after = look(t, VNDF_KNOT, next);
-    quad more = look(t, VNDF_MORE, v.cell), shares = look(t, VNDF_MORE, next);
+    v.first = cell;
+    mask last = same(v.first, t.cells);
+    whole next = pick_whole(last, v.first, v.first + 1);
+    quad k = look(t, VNDF_KNOT, v.first), after = look(t, VNDF_KNOT, next);
+    quad more = look(t, VNDF_MORE, v.first), shares = look(t, VNDF_MORE, next);
     real beyond = most(after.a - v.rho, set(0.0f)), tail = least(s / k.b, set(1.0f));
     for (int n = 0; n < t.squarings; n++)
         tail = root(tail);
     v.near = least(most(pick(last, tail, s * (beyond * after.b) / k.c), set(1e-9f)), set(1.0f));
     real xi = 1.0f - v.near;
     weights w = {more.c + xi * (shares.c - more.c), more.d + xi * (shares.d - more.d), set(0.0f), set(0.0f)};
-    v.w = law_partial(w, v.rho, last, k, after, look(t, VNDF_LAW, v.cell), more.a, v.near);
+    v.w = law_partial(w, v.rho, last, k, after, look(t, VNDF_LAW, v.first), more.a, v.near);
     real rest = law_sum_below(v.w, after.a, beyond, look(t, VNDF_TAIL, next), look(t, VNDF_LOW, next));
     v.total = v.w.wq + pick(last, set(0.0f), rest);
     return v;
@@ -268,7 +267,7 @@ HERE whole law_step_below(table t, seen v, real left, whole i, int step)
 
 HERE whole law_find_below(table t, seen v, real left)
 {
-    whole i = v.cell;
+    whole i = v.first;
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         i = law_step_below(t, v, left, i, step);
@@ -285,7 +284,7 @@ HERE piece law_cell_below(table t, seen v, whole i)
     real m = b * more.a + (b * beyond + e) * l.d + beyond * e * l.c, start = beyond * at.z0;
     real end = pick(at.last, set(1.0f), k.c * (1.0f + k.a) + beyond * at.z1);
     real d0 = l.a * law_weight_below(v.w, at.x0, start), d1 = l.b * law_weight_below(v.w, at.x1, end);
-    mask partial = at_most(to_real(i), to_real(v.cell));
+    mask partial = at_most(to_real(i), to_real(v.first));
     at.from = pick(partial, v.rho, at.from);
     at.x0 = pick(partial, -v.c, at.x0);
     at.z0 = pick(partial, v.s, at.z0);
@@ -376,9 +375,10 @@ HERE real law_width(table t, piece at, place in)
 /* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). */
 HERE real law_area_above(table t, seen v)
 {
-    mask last = same(v.cell, t.cells);
-    whole next = pick_whole(last, v.cell, v.cell + 1);
-    quad k = look(t, VNDF_KNOT, v.cell), low = look(t, VNDF_LOW, v.cell), up = look(t, VNDF_LOW, next);
+    whole cell = find_knot(t, v.rho * v.rho, set(1.0f));
+    mask last = same(cell, t.cells);
+    whole next = pick_whole(last, cell, cell + 1);
+    quad k = look(t, VNDF_KNOT, cell), low = look(t, VNDF_LOW, cell), up = look(t, VNDF_LOW, next);
     real width = pick(last, k.b, k.c), a1 = pick(last, set(1.0f), up.c), d1 = width * pick(last, set(1.0f), up.d);
     real u = least((v.rho - k.a) * k.b * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.d;
     real area = w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));

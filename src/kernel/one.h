@@ -215,13 +215,21 @@ HERE whole most_whole(whole a, whole b)
 /* A table as the kernel reads it (table/table.h). */
 typedef struct table {
     const float *numbers, *columns;
+    const uint16_t *first;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
+    int column, pivots;                            /* table/columns.h */
 } table;
 
 HERE table table_of(const vndf_distribution *d)
 {
-    table t = {d->numbers + VNDF_HEAD, d->columns, d->cells, d->moments, d->squarings, d->highest, d->steps};
+    table t = {d->numbers + VNDF_HEAD, d->columns, d->first, d->cells,  d->moments,
+               d->squarings,           d->highest, d->steps, d->column, d->pivots};
     return t;
+}
+
+HERE whole look_first(table t, whole quarter)
+{
+    return t.first[quarter];
 }
 
 /* Row i of a group. */
@@ -255,10 +263,10 @@ HERE unsigned at_most_4(const float *numbers, __m128 square, __m128 under)
 /* The last knot R with R^2 under <= square (law.h has the same as a loop). */
 HERE whole find_knot(table t, real square, real under)
 {
-    int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
-    const float *pivot = t.columns + VNDF_COLUMNS * size_of;
+    int block = 0;
+    const float *pivot = t.columns + VNDF_COLUMNS * t.column;
     __m128 x = spread(square), y = spread(under);
-    for (int i = 0; i < pivots; i += 4)
+    for (int i = 0; i < t.pivots; i += 4)
         block += count_ones(at_most_4(pivot + i, x, y));
     const float *first = t.columns + VNDF_COLUMN_STEP * block + 1;
     return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, x, y) | at_most_4(first + 4, x, y) << 4);
@@ -282,13 +290,13 @@ HERE unsigned sums_4(const float *columns, int stride, weights_4 w)
 /* The last knot beyond which at least `left` of the law lies. */
 HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
-    int size_of = vndf_column_size(t.cells), pivots = vndf_pivot_count(t.cells), block = 0;
-    const float *pivot = t.columns + VNDF_COLUMNS * size_of + pivots;
+    int block = 0;
+    const float *pivot = t.columns + VNDF_COLUMNS * t.column + t.pivots;
     weights_4 w = {spread(w1), spread(w0), spread(wq), spread(w4), spread(left)};
-    for (int i = 0; i < pivots; i += 4)
-        block += count_ones(sums_4(pivot + i, pivots, w));
-    const float *first = t.columns + size_of + VNDF_COLUMN_STEP * block + 1;
-    return VNDF_COLUMN_STEP * block + count_ones(sums_4(first, size_of, w) | sums_4(first + 4, size_of, w) << 4);
+    for (int i = 0; i < t.pivots; i += 4)
+        block += count_ones(sums_4(pivot + i, t.pivots, w));
+    const float *first = t.columns + t.column + VNDF_COLUMN_STEP * block + 1;
+    return VNDF_COLUMN_STEP * block + count_ones(sums_4(first, t.column, w) | sums_4(first + 4, t.column, w) << 4);
 }
 
 #  define VNDF_KERNEL_FINDS 1

@@ -17,74 +17,76 @@ typedef struct affine_map {
 /* |det M|. Only matrices that turn or shear need all the digits of their products. */
 HERE real affine_determinant(affine_map m)
 {
-    real straight = m.xx * m.yy, across = size(m.xy * m.yx), determinant = size(straight);
-    mask sheared = less(set(0.0f), across);
+    real determinant = size(m.xx * m.yy);
+    mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
     if (any(sheared))
         determinant = pick(sheared, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), determinant);
     return determinant;
 }
 
 /* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold;
- * mean slopes up to 1e6. */
+ * mean slopes up to 1e6. NaN fails all comparisons. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = affine_determinant(m), end = set(1e15f);
-    real largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
-    mask inside =
-        both(at_most(most(largest * 1e-15f, set(1e-36f)), determinant), at_most(determinant, set(1e36f)));
-    mask first = both(at_most(size(m.xx), end), at_most(size(m.xy), end));
-    mask second = both(at_most(size(m.yx), end), at_most(size(m.yy), end));
-    mask level = both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f)));
-    return both(both(inside, level), both(first, second));
+    real determinant = affine_determinant(m), means = size(m.mean_x) + size(m.mean_y);
+    real entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
+    mask large = at_most(most(entries * 4e-16f, set(1e-36f)), determinant);
+    mask small = both(at_most(entries, set(2e15f)), at_most(means, set(2e6f)));
+    return both(both(large, small), at_most(determinant, set(1e36f)));
 }
 
 /* Not zero, infinite or NaN. */
 HERE mask direction_is_valid(real x, real y, real z)
 {
-    real largest = most(most(size(x), size(y)), size(z)), end = set(3.4028234e38f);
-    mask finite = both(both(at_most(size(x), end), at_most(size(y), end)), at_most(size(z), end));
-    return both(finite, less(set(0.0f), largest));
+    real nothing = ((x - x) + (y - y)) + (z - z); /* NaN of what is infinite */
+    return both(less(set(0.0f), (size(x) + size(y)) + size(z)), at_most(nothing, set(0.0f)));
 }
 
-/* A direction wi on a surface. */
+/* A direction wi on a surface. Scales are powers of two, 1 for ordinary directions. */
 typedef struct frame {
     affine_map m;
-    real wx, wy, wz; /* wi, times a power of two */
-    real ux, uy,
-        uz;    /* w, times another one, which is 1 where the largest component is within [1/16, 16], or makes it
-                        * so */
-    real grow; /* w = grow (ux, uy, uz) for wi as it was scaled, */
-    real size; /* and `size` for wi as it was given */
+    real wx, wy, wz;  /* wi, scaled */
+    real ux, uy, uz;  /* w, scaled: its length is within 1/100 to 100 */
+    real scale;       /* (ux, uy, uz) is this times w of the scaled wi */
+    real size;        /* w of wi as it was given is this times (ux, uy, uz) */
     real determinant; /* |det M| */
-    real rarest;      /* the least density of a sample: 0 straight from below, where nothing is seen */
+    real densest;     /* the largest density: 0 straight from below, where nothing is seen */
 } frame;
+
+/* Brings wi, then w, to about 1, where squares of w, `square`, are far from it. */
+HERE frame frame_scaled(frame f, mask odd)
+{
+    real largest = most(most(size(f.wx), size(f.wy)), size(f.wz)),
+         k = pick(odd, inverse_scale(largest), set(1.0f));
+    f.wx = f.wx * k;
+    f.wy = f.wy * k;
+    f.wz = f.wz * k;
+    f.ux = f.m.xx * f.wx + f.m.yx * f.wy;
+    f.uy = f.m.xy * f.wx + f.m.yy * f.wy;
+    f.uz = f.wz - (f.wx * f.m.mean_x + f.wy * f.m.mean_y);
+    largest = most(most(size(f.ux), size(f.uy)), size(f.uz));
+    f.scale = pick(odd, inverse_scale(largest), set(1.0f));
+    f.ux = f.ux * f.scale;
+    f.uy = f.uy * f.scale;
+    f.uz = f.uz * f.scale;
+    f.size = 1.0f / k / f.scale;
+    return f;
+}
 
 HERE frame frame_of(affine_map m, real x, real y, real z)
 {
-    real largest = most(most(size(x), size(y)), size(z)), k = set(1.0f);
-    mask odd = either(less(largest, set(1e-9f)), less(set(1e9f), largest));
+    real ux = m.xx * x + m.yx * y, uy = m.xy * x + m.yy * y, uz = z - (x * m.mean_x + y * m.mean_y);
+    real one = set(1.0f);
+    frame f = {m, x, y, z, ux, uy, uz, one, one, affine_determinant(m), set(3.4028234e38f)};
+    real under = ux * ux + uy * uy, square = under + uz * uz;
+    mask odd = either(less(square, set(1e-4f)), less(set(1e4f), square));
     if (any(odd))
-        k = pick(odd, inverse_scale(largest), k);
-    frame f;
-    f.m = m;
-    f.wx = x * k;
-    f.wy = y * k;
-    f.wz = z * k;
-    real ux = m.xx * f.wx + m.yx * f.wy, uy = m.xy * f.wx + m.yy * f.wy,
-         uz = f.wz - (f.wx * m.mean_x + f.wy * m.mean_y);
-    real l = set(1.0f);
-    largest = most(most(size(ux), size(uy)), size(uz));
-    odd = either(less(largest, set(0.0625f)), less(set(16.0f), largest));
-    if (any(odd))
-        l = pick(odd, inverse_scale(largest), l);
-    f.ux = ux * l;
-    f.uy = uy * l;
-    f.uz = uz * l;
-    f.grow = 1.0f / l;
-    f.size = 1.0f / k / l;
-    f.determinant = affine_determinant(m);
-    mask unseen = both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f)));
-    f.rarest = pick(unseen, set(0.0f), set(1.17549435e-38f));
+        f = frame_scaled(f, odd);
+    mask upright = at_most(under, set(0.0f));
+    if (any(upright)) {
+        upright = both(both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f))), upright);
+        f.densest = pick(upright, set(0.0f), f.densest);
+    }
     return f;
 }
 
@@ -96,8 +98,7 @@ typedef struct sampled {
 /* A density that a float can hold, not 0 where something is seen. */
 HERE real frame_density(frame f, real density)
 {
-    real held = least(most(density, f.rarest), set(3.4028234e38f));
-    return pick(less(set(0.0f), f.rarest), held, set(0.0f));
+    return least(most(density, set(1.17549435e-38f)), f.densest);
 }
 
 /* The real normal of one of the unit problem. Where rounding turns it away from wi it is turned back, by wi, and the
@@ -107,7 +108,7 @@ HERE sampled frame_sampled(frame f, drawn n)
     real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z,
          y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
     real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
-    real tiny = 1e-12f * (size(x) + size(y) + z) * (size(f.wx) + size(f.wy) + size(f.wz)); /* all terms may be 0 */
+    real tiny = 1e-12f * most(most(size(x), size(y)), z); /* all terms may be 0 */
     real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     mask away = less(set(0.0f), lack);
     if (any(away)) {
@@ -128,11 +129,17 @@ typedef struct unit_normal {
 
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
-    real a = x + f.m.mean_x * z, b = y + f.m.mean_y * z;
-    real per = 1.0f / difference_of_products(f.m.xx, f.m.yy, f.m.xy, f.m.yx);
-    unit_normal n = {difference_of_products(f.m.yy, a, f.m.xy, b) * per,
-                     difference_of_products(f.m.xx, b, f.m.yx, a) * per, z,
-                     ((f.wx * x + f.wy * y) + f.wz * z) / f.grow};
+    affine_map m = f.m;
+    real a = x + m.mean_x * z, b = y + m.mean_y * z, determinant = m.xx * m.yy;
+    real along = m.yy * a, aside = m.xx * b;
+    mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
+    if (any(sheared)) { /* which takes all the digits of products */
+        determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), determinant);
+        along = pick(sheared, difference_of_products(m.yy, a, m.xy, b), along);
+        aside = pick(sheared, difference_of_products(m.xx, b, m.yx, a), aside);
+    }
+    real per = 1.0f / determinant;
+    unit_normal n = {along * per, aside * per, z, ((f.wx * x + f.wy * y) + f.wz * z) * f.scale};
     return n;
 }
 
@@ -164,11 +171,15 @@ HERE table_direction table_direction_of(frame f)
     w.square = f.uz * f.uz;
     w.under = f.ux * f.ux + f.uy * f.uy;
     real across = root(w.under), level = size(f.uz);
-    mask straight = less(across, 1e-15f * level);
+    mask straight = at_most(across, 1e-15f * level);
     across = most(across, 1e-15f * level);
     real over = 1.0f / across, per = 1.0f / (across + level);
-    w.ex = pick(straight, set(1.0f), f.ux * over);
-    w.ey = pick(straight, set(0.0f), f.uy * over);
+    w.ex = f.ux * over;
+    w.ey = f.uy * over;
+    if (any(straight)) {
+        w.ex = pick(straight, set(1.0f), w.ex);
+        w.ey = pick(straight, set(0.0f), w.ey);
+    }
     w.s = across * per;
     w.c = f.uz * per;
     w.rho = level * over;
@@ -184,8 +195,13 @@ typedef struct table_view {
 HERE table_view table_view_of(table t, frame f, const int below)
 {
     table_direction w = table_direction_of(f);
-    whole cell = find_knot(t, w.square, w.under);
-    table_view view = {w.ex, w.ey, table_see(t, w.s, w.c, w.rho, cell, below)};
+    table_view view;
+    view.ex = w.ex;
+    view.ey = w.ey;
+    if (below)
+        view.v = law_see_below(t, w.s, w.c, w.rho, find_knot(t, w.square, w.under));
+    else
+        view.v = law_see_above(t, w.s, w.c, w.rho);
     return view;
 }
 

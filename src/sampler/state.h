@@ -41,10 +41,7 @@ VNDF_INLINE int vndf_is_below(const vndf_state *s)
 /* u in [0, 1]; NaN becomes 0. */
 VNDF_INLINE float vndf_clamp_unit(float u)
 {
-    return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
+    return least(most(u, 0.0f), 1.0f);
 }
-
-/* The surface in units of its distribution; 0 if it is invalid. */
-int vndf_map_of(const vndf_affine *affine, affine_map *m);
 
 #endif

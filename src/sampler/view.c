@@ -4,22 +4,26 @@
 #include "sampler/sampler.h"
 #include "sampler/state.h"
 
-int vndf_map_of(const vndf_affine *affine, affine_map *m)
+/* The surface in units of its distribution. */
+VNDF_INLINE affine_map map_of(const vndf_affine *affine)
+{
+    float unit = affine->distribution->unit;
+    affine_map m = {affine->xx * unit, affine->xy * unit, affine->yx * unit,
+                    affine->yy * unit, affine->mean_x,    affine->mean_y};
+    return m;
+}
+
+/* A surface that is valid, in those units; 0 if it is not. */
+static int valid_map_of(const vndf_affine *affine, affine_map *m)
 {
     if (!affine || !affine->distribution)
         return 0;
-    float unit = affine->distribution->unit;
-    m->xx = affine->xx * unit;
-    m->xy = affine->xy * unit;
-    m->yx = affine->yx * unit;
-    m->yy = affine->yy * unit;
-    m->mean_x = affine->mean_x;
-    m->mean_y = affine->mean_y;
+    *m = map_of(affine);
     return any(affine_is_valid(*m)) != 0;
 }
 
 /* A plain surface is a diagonal matrix. */
-static vndf_affine affine_of(const vndf_surface *s)
+VNDF_INLINE vndf_affine affine_of(const vndf_surface *s)
 {
     vndf_affine none = {0};
     if (!s || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
@@ -28,7 +32,7 @@ static vndf_affine affine_of(const vndf_surface *s)
     return affine;
 }
 
-static int is_direction(vndf_vec3 w)
+VNDF_INLINE int is_direction(vndf_vec3 w)
 {
     return any(direction_is_valid(w.x, w.y, w.z)) != 0;
 }
@@ -49,12 +53,14 @@ VNDF_INLINE void see(vndf_state *s, const vndf_distribution *d, const affine_map
 VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi)
 {
     vndf_view view;
-    affine_map m;
     view.distribution = NULL;
-    if (!vndf_map_of(affine, &m) || !is_direction(wi))
+    view.wi = wi;
+    if (!affine || !affine->distribution)
+        return view;
+    affine_map m = map_of(affine);
+    if (!any(both(affine_is_valid(m), direction_is_valid(wi.x, wi.y, wi.z))))
         return view;
     view.distribution = affine->distribution;
-    view.wi = wi;
     see((vndf_state *)(void *)view.numbers, affine->distribution, &m, wi);
     return view;
 }
@@ -257,7 +263,7 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
 float vndf_affine_ndf(const vndf_affine *affine, vndf_vec3 wm)
 {
     affine_map m;
-    if (!vndf_map_of(affine, &m) || !(wm.z >= 0.0f))
+    if (!valid_map_of(affine, &m) || !(wm.z >= 0.0f))
         return 0.0f;
     frame f = frame_of(m, 0.0f, 0.0f, 1.0f);
     return least(unit_ndf(affine->distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
@@ -316,7 +322,7 @@ static look_at affine_look(const vndf_affine *affine, vndf_vec3 w)
 {
     const look_at nothing = {0.0f, 0.0f};
     affine_map m;
-    return vndf_map_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
+    return valid_map_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
 }
 
 float vndf_lambda_of(float area, float cosine)

@@ -11,7 +11,7 @@ enum { VNDF_COLUMNS = 5, VNDF_COLUMN_STEP = 8 };
 /* Floats of a column, and of the pivots of a column: multiples of four. */
 VNDF_INLINE int vndf_column_size(int cells)
 {
-    return (cells / VNDF_COLUMN_STEP + 2) * VNDF_COLUMN_STEP;
+    return cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 4;
 }
 
 VNDF_INLINE int vndf_pivot_count(int cells)

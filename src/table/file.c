@@ -15,8 +15,8 @@ enum { ARRAYS = 11 };
 /* The arrays of a draft in the order of the file. */
 static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
 {
-    float **const all[ARRAYS] = {&d->knot, &d->g0, &d->g1, &d->m0,   &d->m1,   &d->m2,
-                                 &d->m4,   &d->b0, &d->b1, &d->area, &d->slope};
+    float **const all[ARRAYS] = {&d->knot,  &d->g0, &d->g1, &d->m0,   &d->m1,   &d->m2,
+                                 &d->cubes, &d->b0, &d->b1, &d->area, &d->slope};
     memcpy(array, all, sizeof all);
 }
 
@@ -44,7 +44,7 @@ static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, siz
     vndf_write_text(&w, d.source);
     vndf_write_text(&w, d.tool);
     for (int i = 0; i < ARRAYS; i++)
-        if (array[i] != &d.m4 || d.moments == 4)
+        if (array[i] != &d.cubes || d.moments == 4)
             write_floats(&w, *array[i], (size_t)d.cells + 1, d.stride ? d.stride : 1);
     vndf_frame_end(&w);
     return w.at;
@@ -88,7 +88,7 @@ static int allocate(reading *r)
     if (!r->block || !r->table)
         return 0;
     for (int i = 0; i < ARRAYS; i++)
-        *array[i] = array[i] != &r->draft.m4 || r->draft.moments == 4 ? r->block + (size_t)i * n : NULL;
+        *array[i] = array[i] != &r->draft.cubes || r->draft.moments == 4 ? r->block + (size_t)i * n : NULL;
     r->table->number_count = count;
     r->table->numbers = malloc(count * sizeof(float));
     r->table->columns = malloc(vndf_table_columns(r->draft.cells) * sizeof(float));

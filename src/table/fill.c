@@ -31,7 +31,8 @@ static int moments_valid(const vndf_table_draft *d, size_t i)
     double m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], least = 1e-37, most = 1e36;
     double gap = i < d->cells ? 8 * ((double)d->knot[i + 1] - d->knot[i]) : HUGE_VAL;
     return in_range(m0, least, most) && in_range(m1, least, fmin(most, gap * m0 + 1e-35)) &&
-           in_range(m2, least, fmin(most, gap * m1 + 1e-35)) && (!d->m4 || in_range(d->m4[i], 0.0, most));
+           in_range(m2, least, fmin(most, gap * m1 + 1e-35)) &&
+           (!d->cubes || in_range(d->cubes[i], 0.0, i ? fmin(most, 1.0001 * pow(d->knot[i], -3)) : most));
 }
 
 static int ends_valid(const vndf_table_draft *d, size_t i)
@@ -87,13 +88,13 @@ static const char *draft_invalid(const vndf_table_draft *d)
     return NULL;
 }
 
-/* The rho from which on the law of k~ begins at the knot after i. */
-static double turn_after(const vndf_table_draft *d, size_t i)
+/* The rho from which on the law of k~ begins at knot i. */
+static double turn_at(const vndf_table_draft *d, size_t i)
 {
-    if (i == d->cells)
-        return 1e30;
-    double a = d->knot[i], b = d->knot[i + 1], turn = i ? fmax(NEAR * a, sqrt(a * b)) : NEAR_FIRST * b;
-    return turn < b ? turn : b;
+    if (i == 0)
+        return 0.0;
+    double a = d->knot[i - 1], b = d->knot[i];
+    return fmin(i > 1 ? fmax(NEAR * a, sqrt(a * b)) : NEAR_FIRST * b, b);
 }
 
 static void put(float *to, double a, double b, double c, double d)
@@ -110,9 +111,9 @@ static void fill_cell(vndf_distribution *table, const vndf_table_draft *d, size_
     double r = d->knot[i], z = 1 / (1 + r), h = ldexp(z, (int)d->squarings);
     if (i < d->cells)
         h = (d->knot[i + 1] - r) * z / (1 + (double)d->knot[i + 1]);
-    put(row(table, VNDF_KNOT, i), r, z, h, turn_after(d, i));
+    put(row(table, VNDF_KNOT, i), r, z, h, turn_at(d, i));
     put(row(table, VNDF_LAW, i), d->g0[i], d->g1[i], d->m0[i], d->m1[i]);
-    put(row(table, VNDF_MORE, i), d->m2[i], d->m4 ? d->m4[i] : 0.0, d->b0[i], d->b1[i]);
+    put(row(table, VNDF_MORE, i), d->m2[i], d->cubes ? d->cubes[i] : 0.0, d->b0[i], d->b1[i]);
 }
 
 /* Sums beyond each knot, from the last one; *mass becomes that of all. */
@@ -127,7 +128,7 @@ static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, doubl
         tq += m0;
         t0 += m1 + r * m0;
         t1 += m2 + r * (2 * m1 + r * m0);
-        t4 += d->m4 ? d->m4[i] : 0.0;
+        t4 += d->cubes && i > 0 ? d->cubes[i] * m0 : 0.0;
         put(row(table, VNDF_TAIL, i), t1, t0, tq, t4);
         put(row(table, VNDF_LOW, i), n1, n2, d->area[i], d->slope[i]);
     }
@@ -139,6 +140,8 @@ static void fill_columns(vndf_distribution *table)
 {
     int n = table->cells, size = vndf_column_size(n), pivots = vndf_pivot_count(n);
     float *pivot = table->columns + VNDF_COLUMNS * size;
+    table->column = size;
+    table->pivots = pivots;
     for (int c = 0; c < VNDF_COLUMNS; c++) {
         float *column = table->columns + c * size;
         for (int i = 0; i < size; i++)
@@ -148,6 +151,16 @@ static void fill_columns(vndf_distribution *table)
             int knot = (i + 1) * VNDF_COLUMN_STEP;
             pivot[c * pivots + i] = knot < size ? column[knot] : c ? -1.0f : 3e38f;
         }
+    }
+}
+
+static void fill_first(vndf_distribution *table)
+{
+    int knot = 0;
+    for (int i = 0; i < VNDF_RHO_PARTS; i++) {
+        while (knot < table->cells && row(table, VNDF_KNOT, (size_t)knot + 1)[3] <= vndf_rounded_rho(i))
+            knot++;
+        table->first[i] = (uint16_t)knot;
     }
 }
 
@@ -185,6 +198,7 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
         if (!(row(table, VNDF_KNOT, i)[2] > 1e-30f))
             return "two knots coincide";
     fill_columns(table);
+    fill_first(table);
     return NULL;
 }
 
@@ -230,8 +244,8 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 {
     size_t n = (size_t)table->cells + 1;
     *draft = draft_within(table);
-    float **const array[] = {&draft->knot, &draft->g0, &draft->g1, &draft->m0,   &draft->m1,   &draft->m2,
-                             &draft->m4,   &draft->b0, &draft->b1, &draft->area, &draft->slope};
+    float **const array[] = {&draft->knot,  &draft->g0, &draft->g1, &draft->m0,   &draft->m1,   &draft->m2,
+                             &draft->cubes, &draft->b0, &draft->b1, &draft->area, &draft->slope};
     size_t arrays = sizeof array / sizeof *array;
     float *block = malloc(arrays * n * sizeof *block);
     if (!block)

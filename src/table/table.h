@@ -24,11 +24,25 @@ enum {
     VNDF_HEAD = 8           /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
 };
 
+/* Where the law of k~ begins is looked up by rho, rounded to the middle of a quarter of an octave from 2^-16 to 2^16.
+ * Quarter i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
+enum { VNDF_RHO_PARTS = 128, VNDF_RHO_FIRST = (127 - 16) * 4 };
+
+/* The rounded rho of a part; more than all turns in the last. */
+VNDF_INLINE float vndf_rounded_rho(int i)
+{
+    union {
+        int32_t bits;
+        float rho;
+    } middle = {((VNDF_RHO_FIRST + i) << 21) + (1 << 20)};
+    return i < VNDF_RHO_PARTS - 1 ? middle.rho : 3e38f;
+}
+
 /* Groups of rows, one row for each knot 0 to N. */
 enum {
-    VNDF_KNOT, /* R, z, h, and the rho from which on the law of k~ begins at the next knot */
+    VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
     VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end; moments 0 and 1 */
-    VNDF_MORE, /* moment 2; integral f/R^4; shares of the two terms below the horizon at this knot */
+    VNDF_MORE, /* moment 2; mean of R^-3 in f/R; shares of the two terms below the horizon at this knot */
     VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4 */
     VNDF_LOW,  /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
     VNDF_GROUPS
@@ -43,9 +57,11 @@ struct vndf_distribution {
     float unit;                        /* scale, rounded: 1 for closed forms */
     float *numbers;
     size_t number_count;
-    float *columns;       /* slopes and sums beyond them once more, each in a column (table/columns.h) */
-    double normalization; /* the source was multiplied by it */
-    double scale;         /* canonical slope 1 is this slope of the source */
+    float *columns;                 /* slopes and sums beyond them once more, each in a column (table/columns.h) */
+    int32_t column, pivots;         /* vndf_column_size, vndf_pivot_count */
+    uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of an octave of rho */
+    double normalization;           /* the source was multiplied by it */
+    double scale;                   /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool; /* owned by tables */
     size_t bytes;              /* of the file */
@@ -56,14 +72,15 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
     return d->kind == VNDF_KIND_TABLE;
 }
 
-/* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has m4 if `moments` is 4. */
+/* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has `cubes` if `moments` is 4. */
 typedef struct vndf_table_draft {
     unsigned cells, moments, squarings;
     unsigned stride; /* from number to number of an array; 0 for 1 */
     float *knot;     /* R_i */
     float *g0,
         *g1; /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
-    float *m0, *m1, *m2, *m4;
+    float *m0, *m1, *m2;
+    float *cubes;        /* mean of R^-3 in f/R of the cell; no law reads the first */
     float *b0, *b1;      /* shares below the horizon at rho = R_i */
     float *area, *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
     double normalization, scale;

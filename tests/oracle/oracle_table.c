@@ -70,7 +70,7 @@ static uint32_t checksum(const unsigned char *bytes, size_t size)
 static int take_arrays(oracle_table *t, reader *r)
 {
     double **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
-                        &t->m4,   &t->b0, &t->b1, &t->area, &t->slope};
+                        &t->cube, &t->b0, &t->b1, &t->area, &t->slope};
     size_t count = t->cells + 1;
     t->numbers = calloc(11 * count, sizeof *t->numbers);
     if (!t->numbers)
@@ -172,10 +172,10 @@ static place place_in(const oracle_table *t, size_t i, double r)
     return p;
 }
 
-/* z^2 W at slope x/z, W = w1 R^2 + w0 R + wq + w4 R^-3. */
-static double weigh(const double w[4], double x, double z)
+/* z^2 W in cell i at slope x/z, W = w1 R^2 + w0 R + wq + w4 <R^-3>, the mean in f/R of the cell. */
+static double weigh(const oracle_table *t, size_t i, const double w[4], double x, double z)
 {
-    return w[0] * x * x + w[1] * x * z + w[2] * z * z + (w[3] > 0 ? w[3] * pow(z, 5) / pow(x, 3) : 0);
+    return w[0] * x * x + w[1] * x * z + (w[2] + w[3] * t->cube[i]) * z * z;
 }
 
 static double end_of(const oracle_table *t, size_t i, const double w[4], int right)
@@ -183,14 +183,14 @@ static double end_of(const oracle_table *t, size_t i, const double w[4], int rig
     double r = t->knot[right ? i + 1 : i];
     if (right && i == t->cells)
         return t->g1[i] * w[0];
-    return (right ? t->g1 : t->g0)[i] * weigh(w, r / (1 + r), 1 / (1 + r));
+    return (right ? t->g1 : t->g0)[i] * weigh(t, i, w, r / (1 + r), 1 / (1 + r));
 }
 
 static double mass_of(const oracle_table *t, size_t i, const double w[4])
 {
     double r = t->knot[i];
-    return w[0] * t->m2[i] + (2 * w[0] * r + w[1]) * t->m1[i] + ((w[0] * r + w[1]) * r + w[2]) * t->m0[i] +
-           w[3] * t->m4[i];
+    return w[0] * t->m2[i] + (2 * w[0] * r + w[1]) * t->m1[i] +
+           ((w[0] * r + w[1]) * r + w[2] + w[3] * t->cube[i]) * t->m0[i];
 }
 
 /* The law W f/R in cell i, at slope r, per slope. */
@@ -243,6 +243,13 @@ static double turn(const oracle_table *t, size_t j)
     return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(before / 0.8, sqrt(before * here)));
 }
 
+/* Rho in the middle of its quarter of an octave, from 2^-16 on; infinite from the last one below 2^16. */
+static double rounded(double rho)
+{
+    double octave = floor(log2(fmax(rho, 0x1p-16))), part = floor(4 * (fmax(rho, 0x1p-16) / exp2(octave) - 1));
+    return octave + part / 4 >= 15.75 ? HUGE_VAL : exp2(octave) * (1 + (part + 0.5) / 4);
+}
+
 static void look_above(oracle_law *l)
 {
     static const double powers[3][4] = {{.934604, 2.206989, 0, 0},
@@ -251,12 +258,12 @@ static void look_above(oracle_law *l)
     const oracle_table *t = l->t;
     const double *a = powers[t->moments - 2], flat[4] = {0, l->c, 0, 0};
     l->first = 0;
-    while (l->first < t->cells && turn(t, l->first + 1) <= l->rho)
+    while (l->first < t->cells && turn(t, l->first + 1) <= rounded(l->rho))
         l->first++;
     l->w1 = l->s * a[0] / PI;
     l->w0 = l->c * a[1] / PI;
     l->wq = l->s > 0 ? l->c * l->rho * a[2] / PI : 0;
-    l->w4 = l->s > 0 ? l->c * pow(l->rho, 4) * a[3] / PI : 0;
+    l->w4 = l->s > 0 && l->rho >= 1e-3 ? l->c * pow(l->rho, 4) * a[3] / PI : 0;
     for (size_t i = 0; i < l->first; i++)
         l->near += mass_of(t, i, flat);
 }

@@ -15,8 +15,8 @@
 typedef struct oracle_table {
     double normalization, scale, certificate[12];
     size_t cells, moments, squarings;
-    double *knot, *g0, *g1, *m0, *m1, *m2, *m4, *b0, *b1, *area,
-        *slope;      /* cells + 1 each; of m4 zeros if moments < 4 */
+    double *knot, *g0, *g1, *m0, *m1, *m2, *cube, *b0, *b1, *area,
+        *slope;      /* cells + 1 each; of cube zeros if moments < 4 */
     double *numbers; /* where all of them are */
 } oracle_table;
 

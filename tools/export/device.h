@@ -61,6 +61,24 @@ HERE whole most_whole(whole a, whole b)
     return b;
 }
 
+enum { VNDF_RHO_PARTS = 128, VNDF_RHO_FIRST = 444 };
+
+/* Where the law begins for a quarter of an octave of rho: the last knot with a turn below the middle of it. */
+HERE whole look_first(table t, whole quarter)
+{
+    const real rho = of_bits(((VNDF_RHO_FIRST + quarter) << 21) + 1048576);
+    int first = 0, step = t.highest;
+    if (quarter == VNDF_RHO_PARTS - 1)
+        return t.cells;
+    for (int n = 0; n < t.steps; n++) {
+        const whole next = least_whole(first + step, t.cells);
+        if (look(t, VNDF_KNOT, next).d <= rho)
+            first = next;
+        step = step / 2;
+    }
+    return first;
+}
+
 /* |x| with the sign of y. */
 HERE real with_sign(real x, real y)
 {

@@ -106,10 +106,15 @@ HERE void find_knots(table t, int groups, const float *square, const float *unde
 HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
 {
     whole cell[GROUPS];
-    find_knots(t, groups, s->read[SQUARE], s->read[UNDER], cell);
+    if (below)
+        find_knots(t, groups, s->read[SQUARE], s->read[UNDER], cell);
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
-        v[g] = table_see(t, load(at + S * BLOCK), load(at + C * BLOCK), load(at + RHO * BLOCK), cell[g], below);
+        real height = load(at + C * BLOCK), across = load(at + S * BLOCK), rho = load(at + RHO * BLOCK);
+        if (below)
+            v[g] = law_see_below(t, across, height, rho, cell[g]);
+        else
+            v[g] = law_see_above(t, across, height, rho);
     }
 }
 
@@ -118,7 +123,7 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, whole *i,
 {
     if (below) {
         for (int g = 0; g < groups; g++)
-            i[g] = v[g].cell;
+            i[g] = v[g].first;
         for (int step = t.highest; step > 0; step /= 2)
             for (int g = 0; g < groups; g++)
                 i[g] = law_step_below(t, v[g], a[g].left, i[g], step);
@@ -129,8 +134,6 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, whole *i,
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
             i[g] = step_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left, i[g], step);
-    for (int g = 0; g < groups; g++)
-        i[g] = table_within(t, v[g], a[g], i[g]);
 }
 
 /* The azimuths of u1. */
@@ -381,7 +384,7 @@ HERE void keep_frame(frames *at, int g, frame f)
     at->f[g].wy = f.wy;
     at->f[g].wz = f.wz;
     at->f[g].determinant = f.determinant;
-    at->f[g].rarest = f.rarest;
+    at->f[g].densest = f.densest;
 }
 
 /* Writes the samples of a group. */
@@ -477,7 +480,7 @@ HERE void keep_seen(const block *b, densities *at, int g, frame f, unit_normal n
 {
     mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
     at->f[g].determinant = f.determinant;
-    at->f[g].rarest = f.rarest;
+    at->f[g].densest = f.densest;
     at->seen[g] = both(b->valid[g], up);
 }
 
