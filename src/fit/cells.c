@@ -77,15 +77,10 @@ static void add_part(vndf_points *points, const vndf_span *span, heap *h, double
 static void add_cut_part(vndf_points *points, const vndf_profile *profile, const vndf_span *span, heap *h,
                          double from, double to)
 {
-    double u0 = log(from), du = log(to / from), r[VNDF_GAUSS], p22[VNDF_GAUSS];
     vndf_profile_point rule[VNDF_GAUSS];
     if (!(to > from))
         return;
-    for (int i = 0; i < VNDF_GAUSS; i++)
-        r[i] = exp(u0 + du * vndf_gauss_node[i]);
-    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
-    for (int i = 0; i < VNDF_GAUSS; i++)
-        rule[i] = (vndf_profile_point){r[i], vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i]};
+    vndf_profile_rule(profile, from, to, rule);
     add_part(points, span, h, from, to, 0, rule);
 }
 

@@ -37,20 +37,11 @@ typedef struct survey {
 
 /* ---- one direction ---- */
 
-/* Far out as a series. */
-static double kernel_at(double y)
-{
-    double v2 = (y - 1) * (y + 1), v = sqrt(v2), u = 1 / y;
-    if (y > 32)
-        return y - PI / 2 + u / 2 * (1 + u * u / 12);
-    return v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 / 7)) : v - atan(v);
-}
-
 static void fill_kernels(survey *s, double rho)
 {
     const vndf_point *point = s->sight->points.at;
     for (size_t i = 0; i < s->sight->points.count; i++)
-        s->kernel[i] = point[i].r > rho ? kernel_at(point[i].r / rho) : 0;
+        s->kernel[i] = point[i].r > rho ? vndf_profile_kernel(point[i].r / rho) : 0;
 }
 
 /* What the points see: the area, but for a rho between slopes that count as one. */
@@ -289,7 +280,7 @@ static double horizon_power(const vndf_profile *profile)
 static int is_bounded(const vndf_profile *profile)
 {
     double first = profile->panel[0].r;
-    return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
+    return !(power_between(profile, 4 * first, 16 * first) >= 7e-3) && !(horizon_power(profile) < 0.0);
 }
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_laws *laws, const vndf_sight *sight,

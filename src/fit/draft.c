@@ -95,9 +95,8 @@ typedef struct shares {
 
 static ray ray_at(const vndf_point *p, double rho)
 {
-    double y = p->r / rho, v2 = (y - 1) * (y + 1), v = sqrt(v2);
-    double k = v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 / 7)) : v - atan(v);
-    return (ray){p->mass, k, y - 1, (y - 1) * ((y - 1) / y)};
+    double y = p->r / rho;
+    return (ray){p->mass, vndf_profile_kernel(y), y - 1, (y - 1) * ((y - 1) / y)};
 }
 
 /* What is seen from rho in `cell` and beyond; returns how many rays. Far out, where next to nothing is added, they
