@@ -124,11 +124,11 @@ static double error_of(const view *v, double last)
  * cell does not resolve. */
 static double unresolved(const view *v)
 {
-    const double part = 0.02;
+    const double part = 0.02, nothing = 1e-20;
     const vndf_weight near = {0, 1, 0, 0};
     vndf_drawn drawn = vndf_drawn_by(&v->cell, &near);
     double all = 2 * miss_by(v, 0, 1), sum = 0;
-    for (size_t i = 0; i < v->count && all > fmax(2 * part * drawn.mass, ENOUGH); i++) {
+    for (size_t i = 0; i < v->count && all > fmax(2 * part * drawn.mass, nothing); i++) {
         const vndf_point *p = &v->point[i];
         sum += fabs(p->mass - vndf_drawn_part(&drawn, p->xi, p->width));
         if (sum > all / 2)
