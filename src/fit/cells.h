@@ -20,9 +20,9 @@ typedef struct vndf_points {
     int starved; /* there was no memory for some */
 } vndf_points;
 
-/* The cell from a slope to another, which may be infinite, and its numbers by its points. These replace those of *points
- * from `first` on: ten for each panel or part of one, but one for panels that together are narrower than the grain, or
- * hold next to nothing. Where less than floats can hold is in a cell, it gets a little that is even. */
+/* The cell from a slope to another, which may be infinite, and its numbers by its points. These replace those of
+ * *points from `first` on: ten for each panel or part of one, but one for panels that together are narrower than the
+ * grain, or hold next to nothing. Where less than floats can hold is in a cell, it gets a little that is even. */
 vndf_cell vndf_cell_measure(const vndf_profile *profile, double from, double end, unsigned squarings,
                             vndf_points *points, size_t first);
 
