@@ -17,108 +17,31 @@ static const double TV_DEFAULT = 1e-3;
 static const double BELOW = 30; /* times the total variation above the horizon may be reached below it */
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
-/* What a table is asked to be. */
-typedef struct request {
-    size_t least_bytes; /* a smaller table is not looked for */
-    size_t max_bytes;
-    double max_tv; /* 0: the best that fits */
-    unsigned moments;
-} request;
-
 /* A build at work. */
 typedef struct builder {
     const vndf_profile *profile;
-    request asked;
-    vndf_radial *radial;
-    size_t base, per_knot; /* bytes */
+    vndf_knots *knots;
+    size_t least_bytes, max_bytes; /* a smaller table than the first is not looked for */
+    double max_tv;                 /* 0: the best that fits */
+    unsigned moments;
 } builder;
 
-static void note_memory(const builder *b)
-{
-    b->profile->guard->starved = 1;
-}
-
-/* ---- sizes ---- */
+/* ---- tables ---- */
 
 static size_t bytes_for(const builder *b, unsigned cells)
 {
     float zero[CELLS_LEAST + 2] = {0};
     vndf_table_draft empty = {
-        .cells = cells, .moments = b->asked.moments, .source = b->profile->description, .tool = TOOL};
+        .cells = cells, .moments = b->moments, .source = b->profile->description, .tool = TOOL};
     empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.cubes = zero;
     empty.b0 = empty.b1 = empty.area = empty.slope = zero;
     return vndf_table_encode(&empty, NULL, 0);
 }
 
-static void measure_bytes(builder *b)
-{
-    size_t two = bytes_for(b, CELLS_LEAST);
-    b->per_knot = bytes_for(b, CELLS_LEAST + 1) - two;
-    b->base = two - (CELLS_LEAST + 1) * b->per_knot;
-}
-
-/* The largest number of knots that fits, or 0. */
-static unsigned knots_in(const builder *b, size_t bytes)
-{
-    size_t room = bytes > b->base ? bytes - b->base : 0, knots = room / b->per_knot;
-    return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
-}
-
-/* ---- tables ---- */
-
-/* The table on so many knots, measured. 0, and a note to the guard, if there is no memory; free it either way. */
-static int draft_with(const builder *b, unsigned knots, vndf_closeness closeness, vndf_draft *draft)
-{
-    int good =
-        vndf_draft_from(draft, b->radial, knots, b->asked.moments) &&
-        vndf_certificate_measure(&draft->table.certificate, &draft->laws, &draft->sight, b->profile, closeness);
-    if (!good)
-        note_memory(b);
-    return good;
-}
-
 /* The total variations over those asked for, the larger of both. */
 static double excess_of(const vndf_certificate *c, double tv)
 {
-    return fmax((double)c->tv_above, (double)c->tv / BELOW) / tv;
-}
-
-static int reaches(const vndf_certificate *c, double tv)
-{
-    return !(tv > 0) || excess_of(c, tv) <= 1;
-}
-
-/* The same of so many knots by a coarse look. */
-static double seen_excess(const builder *b, unsigned knots)
-{
-    const double margin = 0.97; /* a close look finds a little more */
-    vndf_draft draft;
-    int good = draft_with(b, vndf_radial_refine(b->radial, knots), VNDF_COARSELY, &draft);
-    double excess = good ? excess_of(&draft.table.certificate, margin * b->asked.max_tv) : 0;
-    vndf_draft_free(&draft);
-    return excess;
-}
-
-/* About as few knots as seem to reach the target, from `least` to `most`. The total variation falls as the square of
- * their number, or faster. */
-static unsigned fewest_knots(const builder *b, unsigned least, unsigned most)
-{
-    const double step_least = 1.25, step_most = 2.5;
-    unsigned enough = least, few = least;
-    double excess;
-    while ((excess = seen_excess(b, enough)) > 1 && enough < most && !vndf_guard_stopped(b->profile->guard)) {
-        double next = enough * fmin(fmax(sqrt(excess), step_least), step_most);
-        few = enough;
-        enough = next < most ? (unsigned)next : most;
-    }
-    while (excess <= 1 && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
-        unsigned middle = (few + enough) / 2;
-        if (seen_excess(b, middle) <= 1)
-            enough = middle;
-        else
-            few = middle;
-    }
-    return enough;
+    return tv > 0 ? fmax((double)c->tv_above, (double)c->tv / BELOW) / tv : 0;
 }
 
 /* The table as it would be read back from its file: certificate and texts included. */
@@ -128,146 +51,154 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
     draft->table.tool = TOOL;
     size_t size = vndf_table_encode(&draft->table, NULL, 0);
     unsigned char *bytes = malloc(size);
-    vndf_distribution *table = NULL;
     vndf_error inner = {VNDF_ERROR_MEMORY, ""};
+    vndf_distribution *table = NULL;
     if (bytes) {
         vndf_table_encode(&draft->table, bytes, size);
         table = vndf_load_memory(bytes, size, &inner);
     }
     free(bytes);
     if (!table && inner.status == VNDF_ERROR_MEMORY)
-        note_memory(b);
+        b->profile->guard->starved = 1;
     else if (!table)
         vndf_fail(why, VNDF_ERROR_DISTRIBUTION, "the distribution cannot be held in a table of floats: %s",
                   inner.message);
     return table;
 }
 
-/* The table on so many knots, more if a close look asks for them, `most` at last. */
-static vndf_distribution *build_from(const builder *b, unsigned knots, unsigned most, vndf_error *error)
+/* Measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
+static double try_knots(const builder *b, unsigned knots, vndf_draft *draft)
 {
-    for (;;) {
-        vndf_draft draft;
-        unsigned next = knots + knots / 16 + 1, used = vndf_radial_refine(b->radial, knots);
-        vndf_guard_stage(b->profile->guard, 0.8, "certificate");
-        int good = draft_with(b, used, VNDF_CLOSELY, &draft);
-        if (!good || knots >= most || used < knots || reaches(&draft.table.certificate, b->asked.max_tv)) {
-            vndf_distribution *table = good ? finish(b, &draft, error) : NULL;
-            vndf_draft_free(&draft);
-            return table;
-        }
-        vndf_draft_free(&draft);
-        knots = next < most ? next : most;
-    }
+    vndf_draft_free(draft);
+    unsigned there = vndf_knots_refine(b->knots, knots);
+    int good = vndf_draft_from(draft, b->knots, there < knots ? there : knots, b->moments) &&
+               vndf_certificate_measure(&draft->table.certificate, draft, b->profile);
+    b->profile->guard->starved |= !good;
+    return good ? excess_of(&draft->table.certificate, b->max_tv) : 0;
 }
 
-static vndf_distribution *cut_table(const builder *b, vndf_error *error)
+/* About as few knots as reach the target, from `least` to `most`: the total variation falls as the square of their
+ * number, or hardly at all where the moments limit it. Then the number is halved between what is enough and what is
+ * not. */
+static void search(const builder *b, unsigned least, unsigned most, vndf_draft *draft)
 {
-    unsigned most = knots_in(b, b->asked.max_bytes), few = knots_in(b, b->asked.least_bytes);
-    unsigned least = b->radial->start > CELLS_LEAST ? b->radial->start : CELLS_LEAST + 1;
+    const double step_least = 1.25, step_most = 2.5;
+    unsigned few = least, enough = least;
+    double excess = try_knots(b, least, draft), before = HUGE_VAL;
+    while (excess > 1 && enough < most && b->knots->count >= enough) {
+        double next =
+            excess * enough > before * few ? most : enough * fmin(fmax(sqrt(excess), step_least), step_most);
+        few = enough;
+        before = excess;
+        enough = next < most ? (unsigned)next : most;
+        excess = try_knots(b, enough, draft);
+    }
+    int reached = excess <= 1;
+    while (reached && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
+        unsigned middle = (few + enough) / 2;
+        excess = try_knots(b, middle, draft);
+        *(excess <= 1 ? &enough : &few) = middle;
+    }
+    if (reached && excess > 1)
+        try_knots(b, enough, draft);
+}
+
+/* The largest number of knots that fits into bytes. */
+static unsigned knots_in(const builder *b, size_t bytes)
+{
+    size_t two = bytes_for(b, CELLS_LEAST), each = bytes_for(b, CELLS_LEAST + 1) - two;
+    size_t base = two - (CELLS_LEAST + 1) * each, knots = bytes > base ? (bytes - base) / each : 0;
+    return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
+}
+
+static vndf_distribution *make_table(const builder *b, vndf_error *error)
+{
+    unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes);
+    unsigned least = b->knots->start > CELLS_LEAST ? b->knots->start : CELLS_LEAST + 1;
     if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
-                  (unsigned long)b->asked.max_bytes, (unsigned long)(b->base + least * b->per_knot));
+                  (unsigned long)b->max_bytes, (unsigned long)bytes_for(b, least - 1));
         return NULL;
     }
-    unsigned first = b->asked.max_tv > 0 ? fewest_knots(b, few > least ? few : least, most) : most;
-    return build_from(b, first, most, error);
-}
-
-static vndf_distribution *build_within(const vndf_profile *profile, const request *asked, vndf_error *error)
-{
-    builder b = {.profile = profile, .asked = *asked, .radial = malloc(sizeof *b.radial)};
-    vndf_distribution *table = NULL;
-    measure_bytes(&b);
-    vndf_guard_stage(profile->guard, 0.5, "knots");
-    if (b.radial && vndf_radial_from(b.radial, profile))
-        table = cut_table(&b, error);
-    else
-        note_memory(&b);
-    if (b.radial)
-        vndf_radial_free(b.radial);
-    free(b.radial);
+    vndf_draft draft;
+    memset(&draft, 0, sizeof draft);
+    search(b, !(b->max_tv > 0) ? most : few > least ? few : least, most, &draft);
+    vndf_distribution *table = vndf_guard_stopped(b->profile->guard) ? NULL : finish(b, &draft, error);
+    vndf_draft_free(&draft);
     return table;
 }
 
 /* ---- the call ---- */
 
-static vndf_status check_request(const vndf_source *source, const request *asked, vndf_error *error)
+static vndf_status check_request(const vndf_source *source, const builder *b, vndf_error *error)
 {
-    size_t max_bytes = asked->max_bytes;
     if (!source)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no source: NULL was given");
-    if (max_bytes < BYTES_LEAST || max_bytes > BYTES_MOST)
+    if (b->max_bytes < BYTES_LEAST || b->max_bytes > BYTES_MOST)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible",
-                         (unsigned long)max_bytes, BYTES_LEAST, BYTES_MOST);
-    if (!(asked->max_tv >= 0.0 && asked->max_tv < 1.0))
+                         (unsigned long)b->max_bytes, BYTES_LEAST, BYTES_MOST);
+    if (!(b->max_tv >= 0.0 && b->max_tv < 1.0))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", asked->max_tv);
-    if (asked->moments < 2 || asked->moments > 4)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible",
-                         (int)asked->moments);
+                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", b->max_tv);
+    if (b->moments < 2 || b->moments > 4)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible", (int)b->moments);
     return VNDF_OK;
 }
 
-/* The target was the caller's: a table that misses it is not what was asked for. */
-static vndf_distribution *check_target(vndf_distribution *table, double max_tv, vndf_error *error)
+static vndf_status target_missed(const vndf_distribution *table, double max_tv, vndf_error *error)
 {
-    if (!table || reaches(&table->certificate, max_tv))
-        return table;
     const vndf_certificate *c = &table->certificate;
     int above = c->tv_above > max_tv;
-    vndf_fail(error, VNDF_ERROR_TARGET,
-              "a total variation of %g%s cannot be met within the size: %lu bytes reach %.3g at %g degrees",
-              above ? max_tv : BELOW * max_tv, above ? "" : " below the horizon", (unsigned long)table->bytes,
-              (double)(above ? c->tv_above : c->tv), (double)(above ? c->tv_above_theta : c->tv_theta));
-    vndf_free(table);
-    return NULL;
+    return vndf_fail(error, VNDF_ERROR_TARGET,
+                     "a total variation of %g%s cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+                     above ? max_tv : BELOW * max_tv, above ? "" : " below the horizon",
+                     (unsigned long)table->bytes, (double)(above ? c->tv_above : c->tv),
+                     (double)(above ? c->tv_above_theta : c->tv_theta));
 }
 
 vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                               vndf_certificate *certificate, vndf_error *error)
 {
-    vndf_build_options none = {0}, given = options ? *options : none;
-    request asked = {0, given.max_bytes ? given.max_bytes : BYTES_DEFAULT, given.max_tv,
-                     (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
+    const vndf_build_options none = {0}, given = options ? *options : none;
     vndf_resolution resolution = {given.breaks, given.break_count, given.finest};
-    if (check_request(source, &asked, error) != VNDF_OK || vndf_resolution_check(&resolution, error) != VNDF_OK)
+    builder b = {.max_bytes = given.max_bytes ? given.max_bytes : BYTES_DEFAULT,
+                 .max_tv = given.max_tv,
+                 .moments = (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
+    if (check_request(source, &b, error) != VNDF_OK || vndf_resolution_check(&resolution, error) != VNDF_OK)
         return NULL;
     if (!given.max_bytes && !(given.max_tv > 0.0)) {
-        asked.max_tv = TV_DEFAULT;
-        asked.least_bytes = BYTES_ENOUGH;
+        b.max_tv = TV_DEFAULT;
+        b.least_bytes = BYTES_ENOUGH;
     }
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
     if (!profile)
         return NULL;
-    vndf_distribution *table = build_within(profile, &asked, error);
-    if (vndf_guard_status(&guard, error) != VNDF_OK) {
+    vndf_distribution *table = NULL;
+    vndf_status status = VNDF_OK;
+    b.profile = profile;
+    b.knots = calloc(1, sizeof *b.knots);
+    vndf_guard_stage(&guard, 0.5, "knots and certificate");
+    if (b.knots && vndf_knots_from(b.knots, profile))
+        table = make_table(&b, error);
+    else
+        guard.starved = 1;
+    if (vndf_guard_stopped(&guard))
+        status = vndf_guard_status(&guard, error);
+    else if (table && given.max_tv > 0.0 && excess_of(&table->certificate, given.max_tv) > 1)
+        status = target_missed(table, given.max_tv, error);
+    if (status != VNDF_OK) {
         vndf_free(table);
         table = NULL;
     }
-    if (given.max_tv > 0.0)
-        table = check_target(table, given.max_tv, error);
     if (table && certificate)
         *certificate = table->certificate;
+    free(b.knots ? b.knots->points.at : NULL);
+    free(b.knots);
     vndf_profile_free(profile);
     return table;
-}
-
-/* 1 if the table was measured; 0 if there is no memory. */
-static int certify(const vndf_distribution *distribution, const vndf_profile *profile,
-                   vndf_certificate *certificate)
-{
-    vndf_draft draft;
-    memset(&draft, 0, sizeof draft);
-    if (!vndf_table_draft_of(distribution, &draft.table))
-        return 0;
-    int good = vndf_laws_from(&draft.laws, &draft.table) && vndf_sight_from(&draft.sight, profile, &draft.laws) &&
-               vndf_certificate_measure(certificate, &draft.laws, &draft.sight, profile, VNDF_CLOSELY);
-    vndf_draft_free(&draft);
-    return good;
 }
 
 vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
@@ -287,18 +218,19 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_fail(error, inner.status, "%s", inner.message);
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
-    if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6)) {
-        vndf_status other =
+    vndf_status status = VNDF_OK;
+    vndf_draft draft;
+    memset(&draft, 0, sizeof draft);
+    if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))
+        status =
             vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                       "the table is of another distribution: scale %.9g and normalization %.9g, "
                       "the source has %.9g and %.9g",
                       distribution->scale, distribution->normalization, profile->scale, profile->normalization);
-        vndf_profile_free(profile);
-        return other;
-    }
-    int done = certify(distribution, profile, certificate);
-    vndf_profile_free(profile);
-    if (!done)
+    else if (!vndf_draft_of(&draft, distribution, profile) ||
+             !vndf_certificate_measure(certificate, &draft, profile))
         guard.starved = 1;
-    return vndf_guard_status(&guard, error);
+    vndf_draft_free(&draft);
+    vndf_profile_free(profile);
+    return status == VNDF_OK ? vndf_guard_status(&guard, error) : status;
 }

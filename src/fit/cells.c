@@ -12,107 +12,71 @@ static void push(vndf_points *points, vndf_point point)
     if (points->count == points->capacity) {
         size_t capacity = points->capacity ? 2 * points->capacity : 1024;
         vndf_point *at = realloc(points->at, capacity * sizeof *at);
-        if (!at) {
-            points->starved = 1;
+        points->starved |= !at;
+        if (!at)
             return;
-        }
         points->at = at;
         points->capacity = capacity;
     }
     points->at[points->count++] = point;
 }
 
-void vndf_points_free(vndf_points *points)
-{
-    free(points->at);
-    *points = (vndf_points){NULL, 0, 0, 0};
-}
-
-/* Panels that are too narrow to be told apart, or hold next to nothing, while they are gathered. */
+/* Panels that become one point, while they are gathered. */
 typedef struct heap {
     double from, to, mass, first; /* first: integral of f R dR */
 } heap;
 
-static void end_heap(vndf_points *points, const vndf_span *span, heap *h)
+static void end_heap(vndf_points *points, const vndf_cell *cell, heap *h)
 {
-    double r = h->mass > 0 ? h->first / h->mass : h->from;
-    double xi0 = vndf_span_place(span, h->from), xi1 = vndf_span_place(span, h->to);
+    double xi0 = vndf_cell_place(cell, h->from), xi1 = vndf_cell_place(cell, h->to);
     if (h->to > h->from)
-        push(points, (vndf_point){r, h->mass, (xi0 + xi1) / 2, xi1 - xi0});
+        push(points,
+             (vndf_point){h->mass > 0 ? h->first / h->mass : h->from, h->mass, (xi0 + xi1) / 2, xi1 - xi0});
     *h = (heap){0, 0, 0, 0};
 }
 
-/* Of the mass, and of that at grazing incidence: for no direction that is claimed does a part so small count. */
-static const double LITTLE = 1e-10, LITTLE_GRAZING = 1e-14;
-
-static int is_little(const vndf_profile *profile, const vndf_panel *p)
-{
-    return p->m0 < LITTLE * profile->f0 && p->m0 * p[1].r < LITTLE_GRAZING * profile->f1;
-}
-
 /* Adds what lies between two slopes, in one panel, whose points these are. */
-static void add_part(vndf_points *points, const vndf_span *span, heap *h, double from, double to, int little,
-                     const vndf_profile_point *rule)
+static void add_part(vndf_points *points, const vndf_profile *profile, const vndf_cell *cell, heap *h, double from,
+                     double to, const vndf_profile_point *rule)
 {
-    int narrow = to - from < VNDF_GRAIN * to || little;
-    double log_width = log(to / from);
-    if (!narrow || (!little && to - h->from >= VNDF_GRAIN * to))
-        end_heap(points, span, h);
-    if (narrow && h->to == 0)
-        h->from = from;
-    for (int i = 0; i < VNDF_GAUSS; i++) {
-        double r = rule[i].r, mass = 2 * PI * rule[i].weight, dr = vndf_gauss_weight[i] * log_width * r;
-        if (!narrow) {
-            push(points, (vndf_point){r, mass, vndf_span_place(span, r), dr * vndf_span_density(span, r)});
-            continue;
-        }
-        h->mass += mass;
-        h->first += mass * r;
-    }
-    if (narrow)
+    /* of the mass, and of that at grazing incidence: for no direction that is claimed does a part so small count */
+    const double few = 1e-10, few_grazing = 1e-14;
+    double mass = 0, log_width = log(to / from);
+    for (int i = 0; i < VNDF_GAUSS; i++)
+        mass += rule[i].weight;
+    int little = mass < few * profile->f0 && mass * to < few_grazing * profile->f1;
+    int gathered = little || to - from < VNDF_GRAIN * to;
+    if (!gathered || (!little && to - h->from >= VNDF_GRAIN * to))
+        end_heap(points, cell, h);
+    if (gathered) {
+        h->from = h->to == 0 ? from : h->from;
         h->to = to;
+    }
+    for (int i = 0; i < VNDF_GAUSS; i++) {
+        double r = rule[i].r, m = 2 * PI * rule[i].weight, dr = vndf_gauss_weight[i] * log_width * r;
+        if (!gathered)
+            push(points, (vndf_point){r, m, vndf_cell_place(cell, r), dr * vndf_cell_density(cell, r)});
+        h->mass += gathered ? m : 0;
+        h->first += gathered ? m * r : 0;
+    }
 }
 
-/* The same for a panel that a knot cuts. */
-static void add_cut_part(vndf_points *points, const vndf_profile *profile, const vndf_span *span, heap *h,
-                         double from, double to)
-{
-    double u0 = log(from), du = log(to / from), r[VNDF_GAUSS], p22[VNDF_GAUSS];
-    vndf_profile_point rule[VNDF_GAUSS];
-    if (!(to > from))
-        return;
-    for (int i = 0; i < VNDF_GAUSS; i++)
-        r[i] = exp(u0 + du * vndf_gauss_node[i]);
-    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
-    for (int i = 0; i < VNDF_GAUSS; i++)
-        rule[i] = (vndf_profile_point){r[i], vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i]};
-    add_part(points, span, h, from, to, 0, rule);
-}
-
-/* What lies beyond the panels, at one place. */
-static void add_rest(vndf_points *points, const vndf_profile *profile, const vndf_span *span)
-{
-    double end = profile->panel[profile->count].r, m0 = profile->tail_m0, m1 = profile->tail_m1 + end * m0;
-    double before = vndf_span_place(span, end);
-    if (m0 > 0)
-        push(points, (vndf_point){m1 / m0, 2 * PI * m0, (1 + before) / 2, 1 - before});
-}
-
-void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vndf_span *span, double end)
+static void add_points(vndf_points *points, const vndf_profile *profile, const vndf_cell *cell, double end)
 {
     const vndf_panel *p = profile->panel;
-    size_t count = profile->count;
+    double last = p[profile->count].r, m0 = profile->tail_m0, before = vndf_cell_place(cell, last);
     heap h = {0, 0, 0, 0};
-    for (size_t i = vndf_profile_panel(profile, span->r); i < count && p[i].r < end; i++) {
-        double from = fmax(p[i].r, span->r), to = fmin(p[i + 1].r, end);
-        if (from == p[i].r && to == p[i + 1].r)
-            add_part(points, span, &h, from, to, is_little(profile, &p[i]), profile->point + i * VNDF_GAUSS);
-        else
-            add_cut_part(points, profile, span, &h, from, to);
+    for (size_t i = vndf_profile_panel(profile, cell->r); i < profile->count && p[i].r < end; i++) {
+        double from = fmax(p[i].r, cell->r), to = fmin(p[i + 1].r, end);
+        vndf_profile_point cut[VNDF_GAUSS], *rule = profile->point + i * VNDF_GAUSS;
+        if (from > p[i].r || to < p[i + 1].r)
+            vndf_profile_rule(profile, from, to, rule = cut);
+        if (to > from)
+            add_part(points, profile, cell, &h, from, to, rule);
     }
-    end_heap(points, span, &h);
-    if (end == HUGE_VAL)
-        add_rest(points, profile, span);
+    end_heap(points, cell, &h);
+    if (end == HUGE_VAL && m0 > 0) /* what lies beyond the panels, at one place */
+        push(points, (vndf_point){profile->tail_m1 / m0 + last, 2 * PI * m0, (1 + before) / 2, 1 - before});
 }
 
 /* ---- numbers ---- */
@@ -122,75 +86,55 @@ static const double END_LEAST = 0.02, END_MOST = 300; /* of the mean: for poles,
 static const double MASS_LEAST = 1e-30, LEAST = 1e-36, MOST = 1e30;
 static const double NEAR_END = 4e-2; /* 1 - xi where the limit of a tail is read */
 
-static vndf_cell moments_of(const vndf_span *span, const vndf_point *point, size_t count)
+/* 2 pi P22 h/z^4 at a slope, where d xi/dR = z^2/h, within bounds about the mean. */
+static double end_at(const vndf_profile *profile, const vndf_cell *cell, double r, double mean)
 {
-    vndf_cell sum = {0, 0, 0, 0, 0, 0};
-    for (size_t i = 0; i < count; i++) {
-        double r = point[i].r, t = r - span->r, m = point[i].mass / r;
-        sum.m0 += m;
-        sum.m1 += m * t;
-        sum.m2 += m * t * t;
-        sum.cube += m / (r * r * r);
-    }
-    sum.cube = sum.m0 > 0 ? sum.cube / sum.m0 : 0;
-    return sum;
-}
-
-/* 2 pi P22 h/z^4 at a slope, where d xi/dR = z^2/h. */
-static double end_at(const vndf_profile *profile, const vndf_span *span, double r)
-{
-    double z = 1 / (1 + r);
-    return 2 * PI * vndf_profile_p22(profile, r) / (z * z * vndf_span_density(span, r));
-}
-
-static double clipped(double value, double mean)
-{
+    double z = 1 / (1 + r), value = 2 * PI * vndf_profile_p22(profile, r) / (z * z * vndf_cell_density(cell, r));
     return fmin(fmax(value, END_LEAST * mean), END_MOST * mean);
 }
 
-/* Where D is known beside a knot: inside the cell, since P22 may jump there. */
-static double beside(const vndf_span *span, double end, int outer)
+static void put_ends(const vndf_profile *profile, double end, vndf_cell *c)
 {
-    double width = end - span->r, step = fmin(INSIDE * (outer ? end : span->r), width / 32);
-    if (outer)
-        return end - step;
-    return span->r > 0 ? span->r + step : 1e-6 * width;
-}
-
-static void put_ends(const vndf_profile *profile, const vndf_span *span, double end, vndf_cell *cell)
-{
-    int tail = end == HUGE_VAL;
-    double r = span->r, z0 = span->z, z1 = tail ? 0 : z0 - span->h;
-    double far = tail ? 1 / (z0 * pow(NEAR_END, span->power)) - 1 : beside(span, end, 1);
-    double mass1 = tail ? cell->m2 + (2 * cell->m1 + cell->m0 * r) * r : cell->m0 / (z1 * z1);
-    cell->g0 =
-        clipped(end_at(profile, span, tail ? r * (1 + INSIDE) : beside(span, end, 0)), cell->m0 / (z0 * z0));
-    cell->g1 = clipped(end_at(profile, span, far), mass1);
-}
-
-/* Raises the moments to those of an even density that floats can hold. */
-static void keep_positive(const vndf_span *span, double end, vndf_cell *cell)
-{
-    double width = end < HUGE_VAL ? end - span->r : span->r;
-    double third = span->r > 0 ? span->r * span->r * span->r : HUGE_VAL;
-    if (cell->m0 < MASS_LEAST) {
-        double m = MASS_LEAST;
-        *cell = (vndf_cell){0, 0, m, m * width / 2, m * width * width / 3, 1 / third};
+    double r = c->r, mean0 = c->m0 / (c->z * c->z), width = end - r;
+    if (end == HUGE_VAL) {
+        double far = 1 / (c->z * pow(NEAR_END, c->power)) - 1;
+        c->g0 = end_at(profile, c, r * (1 + INSIDE), mean0);
+        c->g1 = end_at(profile, c, far, c->m2 + (2 * c->m1 + c->m0 * r) * r);
+        return;
     }
-    cell->m1 = fmax(cell->m1, LEAST);
-    cell->m2 = fmax(cell->m2, LEAST);
-    cell->cube = cell->cube > LEAST ? fmin(fmin(cell->cube, 1 / third), MOST) : 0;
+    double z1 = c->z - c->h, first = r > 0 ? fmin(INSIDE * r, width / 32) : 1e-6 * width;
+    c->g0 = end_at(profile, c, r + first, mean0);
+    c->g1 = end_at(profile, c, end - fmin(INSIDE * end, width / 32), c->m0 / (z1 * z1));
 }
 
-vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end,
-                            const vndf_point *point, size_t count)
+vndf_cell vndf_cell_measure(const vndf_profile *profile, double from, double end, unsigned squarings,
+                            vndf_points *points, size_t first)
 {
-    vndf_cell cell = moments_of(span, point, count);
-    keep_positive(span, end, &cell);
-    if (span->r == 0) { /* no law reads these two; the first may be infinite */
-        cell.m0 = 2 * cell.m1 / end;
-        cell.cube = 0;
+    vndf_cell c = vndf_cell_between(from, end, squarings);
+    points->count = first;
+    add_points(points, profile, &c, end);
+    for (size_t i = first; i < points->count; i++) {
+        double r = points->at[i].r, t = r - from, m = points->at[i].mass / r;
+        c.m0 += m;
+        c.m1 += m * t;
+        c.m2 += m * t * t;
+        c.cube += m / (r * r * r);
     }
-    put_ends(profile, span, end, &cell);
-    return cell;
+    c.cube = c.m0 > 0 ? c.cube / c.m0 : 0;
+    if (c.m0 < MASS_LEAST) { /* an even density that floats can hold */
+        double width = end < HUGE_VAL ? end - from : from;
+        c.m0 = MASS_LEAST;
+        c.m1 = c.m0 * width / 2;
+        c.m2 = c.m0 * width * width / 3;
+        c.cube = 1 / (from * from * from);
+    }
+    c.m1 = fmax(c.m1, LEAST);
+    c.m2 = fmax(c.m2, LEAST);
+    c.cube = c.cube > LEAST ? fmin(fmin(c.cube, 1 / (from * from * from)), MOST) : 0;
+    if (from == 0) { /* no law reads these two; the first may be infinite */
+        c.m0 = 2 * c.m1 / end;
+        c.cube = 0;
+    }
+    put_ends(profile, end, &c);
+    return c;
 }

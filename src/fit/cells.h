@@ -6,7 +6,7 @@
 #include "fit/profile/profile.h"
 
 /* Slopes nearer than this part of themselves count as one: normals of floats hardly tell them apart. No cell that is
- * wider has to stay whole (fit/radial.c). */
+ * wider has to stay whole (fit/knots.c). */
 #define VNDF_GRAIN 0x1p-21
 
 /* f dR = mass; the part of its cell that the point stands for, by xi. */
@@ -20,13 +20,10 @@ typedef struct vndf_points {
     int starved; /* there was no memory for some */
 } vndf_points;
 
-/* Adds the points of a cell, from the slope span->r to `end`, which may be infinite: ten for each panel or part of one,
- * but one for panels that together are narrower than the grain. */
-void vndf_points_add(vndf_points *points, const vndf_profile *profile, const vndf_span *span, double end);
-void vndf_points_free(vndf_points *points);
-
-/* The numbers of a cell by its points. Where less than floats can hold is in a cell, it gets a little that is even. */
-vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_span *span, double end,
-                            const vndf_point *point, size_t count);
+/* The cell from a slope to another, which may be infinite, and its numbers by its points. These replace those of
+ * *points from `first` on: ten for each panel or part of one, but one for panels that together are narrower than the
+ * grain, or hold next to nothing. Where less than floats can hold is in a cell, it gets a little that is even. */
+vndf_cell vndf_cell_measure(const vndf_profile *profile, double from, double end, unsigned squarings,
+                            vndf_points *points, size_t first);
 
 #endif

@@ -7,210 +7,139 @@
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
 static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p20;
-enum { DIRECTIONS_MOST = 640, CANDIDATES = 512 };
+enum { DIRECTIONS_MOST = 320, CELLS_MOST = 80, CANDIDATES = 512 };
 
-/* What one direction shows. */
-typedef struct finding {
-    double tv, weight, area_error, consistency;
-} finding;
+/* What one direction shows on one side. */
+enum { TV, WEIGHT, AREA_ERROR, CONSISTENCY, FIGURES };
 
 typedef struct direction {
-    double rho;
-    finding side[2]; /* above, below */
+    double rho, side[2][FIGURES]; /* above, below */
 } direction;
 
-/* A point of which true/drawn is large. */
-typedef struct candidate {
-    double ratio, mass;
-} candidate;
+/* A part of what is seen, and the ratio in which it is drawn too rarely. */
+typedef struct part {
+    double ratio, seen;
+} part;
 
 typedef struct survey {
-    const vndf_laws *laws;
-    const vndf_sight *sight;
+    const vndf_draft *draft;
     const vndf_profile *profile;
     double *kernel; /* of the points, seen from below: sqrt(y^2 - 1) - acos(1/y), 0 where y < 1 */
     direction at[DIRECTIONS_MOST];
     int count;
-    candidate candidate[CANDIDATES]; /* of the direction at hand */
+    part candidate
+        [CANDIDATES]; /* of the direction at hand: parts that may be left out, and those drawn too rarely */
     int candidates;
 } survey;
 
 /* ---- one direction ---- */
 
-/* Far out as a series. */
-static double kernel_at(double y)
-{
-    double v2 = (y - 1) * (y + 1), v = sqrt(v2), u = 1 / y;
-    if (y > 32)
-        return y - PI / 2 + u / 2 * (1 + u * u / 12);
-    return v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 / 7)) : v - atan(v);
-}
-
-static void fill_kernels(survey *s, double rho)
-{
-    const vndf_point *point = s->sight->points.at;
-    for (size_t i = 0; i < s->sight->points.count; i++)
-        s->kernel[i] = point[i].r > rho ? kernel_at(point[i].r / rho) : 0;
-}
-
-/* What the points see: the area, but for a rho between slopes that count as one. */
-static double seen_area(const survey *s, const vndf_law *law)
-{
-    const vndf_point *point = s->sight->points.at;
-    double sum = 0, add = law->below ? 0 : PI;
-    for (size_t i = s->sight->first[law->below ? law->first : 0]; i < s->sight->points.count; i++)
-        sum += point[i].mass * (s->kernel[i] + add);
-    return sum * law->c / PI;
-}
-
-/* Sums over the points of a direction. */
-typedef struct sums {
-    double miss, weight; /* weight: the largest of a point that holds more than may be left out */
-} sums;
-
-static void note(survey *s, sums *sum, double seen, double drawn)
-{
-    double ratio = drawn > 0 ? seen / drawn : HUGE_VAL;
-    sum->miss += fabs(seen - drawn);
-    if (seen > LEFT_OUT)
-        sum->weight = fmax(sum->weight, ratio);
-    else if (ratio > 1 && seen > 0 && s->candidates < CANDIDATES)
-        s->candidate[s->candidates++] = (candidate){ratio, seen};
-}
-
 static int by_ratio(const void *a, const void *b)
 {
-    double x = ((const candidate *)a)->ratio, y = ((const candidate *)b)->ratio;
+    double x = ((const part *)a)->ratio, y = ((const part *)b)->ratio;
     return (x < y) - (x > y);
 }
 
-/* The largest ratio beyond which no more than LEFT_OUT lies. */
-static double largest_weight(survey *s, const sums *sum)
+/* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
+static double largest_weight(survey *s, double least)
 {
-    double mass = 0;
+    double sum = 0;
     int n = 0;
     for (int i = 0; i < s->candidates; i++)
-        if (s->candidate[i].ratio > sum->weight)
+        if (s->candidate[i].ratio > least)
             s->candidate[n++] = s->candidate[i];
     qsort(s->candidate, (size_t)n, sizeof *s->candidate, by_ratio);
     for (int i = 0; i < n; i++) {
-        mass += s->candidate[i].mass;
-        if (mass > LEFT_OUT)
+        sum += s->candidate[i].seen;
+        if (sum > LEFT_OUT)
             return s->candidate[i].ratio;
     }
-    return sum->weight;
+    return least;
 }
 
-/* Adds a cell; `seen` and `drawn` turn kernels and densities into parts of what is seen and drawn. */
-static void add_cell(survey *s, sums *sum, const vndf_law *law, unsigned i, double seen, double drawn)
+/* Compares what is drawn with what is seen, point by point. `area` is what the points see, which is the area but for a
+ * rho between slopes that count as one. */
+static void compare(survey *s, const vndf_law *law, double area, double drawn_area, double *figure)
 {
-    const vndf_sight *sight = s->sight;
-    vndf_drawn cell = vndf_law_cell(law, i);
-    int partial = law->below && i == law->first;
-    double xi = partial ? law->xi : 0, per = 1 / (1 - xi), add = law->below ? 0 : PI;
-    for (size_t n = sight->first[i]; n < sight->first[i + 1]; n++) {
-        const vndf_point *p = &sight->points.at[n];
-        double place = (p->xi - xi) * per, width = p->width * per;
-        double part = place + width / 2 > 0 ? vndf_drawn_part(&cell, place, width) : 0;
-        note(s, sum, p->mass * (s->kernel[n] + add) * seen, part * drawn);
-    }
-}
-
-/* The part of the drawn mass that sums of floats miss or add. */
-static double rounding_of(const vndf_law *law, double area)
-{
-    float sum = 0;
-    for (unsigned i = law->laws->cells + 1; i-- > (law->below ? law->first : 0);)
-        sum += (float)vndf_law_cell(law, i).mass;
-    return fabs(sum / area - 1);
-}
-
-/* Whether rho is not among slopes that count as one: the area may be anything between those of its neighbours. */
-static int resolves(const vndf_laws *laws, double rho)
-{
-    unsigned i = vndf_laws_cell(laws, rho);
-    return i == laws->cells || laws->span[i + 1].r - laws->span[i].r > 2 * VNDF_GRAIN * rho;
-}
-
-static finding look(survey *s, double rho, int below, double area)
-{
-    vndf_law law = vndf_law_of(s->laws, rho, below);
-    double drawn = vndf_law_area(&law);
-    double miss = resolves(s->laws, rho) ? fabs(vndf_law_public_area(&law, drawn) / area - 1) : 0;
-    finding found = {0, 1, miss, rounding_of(&law, drawn)};
-    sums sum = {0, 1};
-    double seen = seen_area(s, &law);
+    const vndf_draft *d = s->draft;
+    double miss = 0, weight = 1, add = law->below ? 0 : PI, seen_per = law->c / (PI * area);
     s->candidates = 0;
-    if (!(seen > 0))
-        return found;
-    for (unsigned i = below ? law.first : 0; i <= s->laws->cells; i++)
-        add_cell(s, &sum, &law, i, law.c / (PI * seen), 1 / drawn);
-    found.tv = fmin(sum.miss / 2, 1);
-    found.weight = largest_weight(s, &sum);
-    return found;
+    for (unsigned i = law->below ? law->first : 0; i <= d->table.cells; i++) {
+        vndf_drawn cell = vndf_law_cell(law, i);
+        double xi = law->below && i == law->first ? law->xi : 0, per = 1 / (1 - xi);
+        for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
+            const vndf_point *p = &d->points.at[n];
+            double place = (p->xi - xi) * per, width = p->width * per;
+            double drawn = place + width / 2 > 0 ? vndf_drawn_part(&cell, place, width) / drawn_area : 0;
+            double seen = p->mass * (s->kernel[n] + add) * seen_per;
+            miss += fabs(seen - drawn);
+            if (seen > LEFT_OUT && seen > weight * drawn)
+                weight = drawn > 0 ? seen / drawn : HUGE_VAL;
+            else if (seen > weight * drawn && s->candidates < CANDIDATES)
+                s->candidate[s->candidates++] = (part){drawn > 0 ? seen / drawn : HUGE_VAL, seen};
+        }
+    }
+    figure[TV] = fmin(miss / 2, 1);
+    figure[WEIGHT] = largest_weight(s, weight);
 }
 
-static int is_claimed(const survey *s, double rho, double below)
+/* One side. Where rho is among slopes that count as one, the area may be anything between those of its neighbours. */
+static void look(survey *s, double rho, int below, double area, double *figure)
 {
-    double length = hypot(1 / (1 + rho), rho / (1 + rho));
-    return below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * length;
+    const vndf_draft *d = s->draft;
+    vndf_law law = vndf_law_of(&d->laws, rho, below);
+    unsigned cell = vndf_laws_cell(&d->laws, rho), first = below ? law.first : 0;
+    double drawn = 0, seen = 0, add = below ? 0 : PI;
+    float rounded = 0;
+    for (unsigned i = d->table.cells + 1; i-- > first;) {
+        double mass = vndf_law_cell(&law, i).mass;
+        drawn += mass;
+        rounded += (float)mass;
+    }
+    for (size_t i = d->first[first]; i < d->points.count; i++)
+        seen += d->points.at[i].mass * (s->kernel[i] + add);
+    figure[CONSISTENCY] = fabs(rounded / drawn - 1);
+    if (cell == d->table.cells || d->laws.cell[cell + 1].r - d->laws.cell[cell].r > 2 * VNDF_GRAIN * rho)
+        figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / area - 1);
+    if (seen > 0)
+        compare(s, &law, seen * law.c / PI, drawn, figure);
 }
 
 /* Looks from rho above and below the horizon, and keeps directions ascending. */
 static void add_direction(survey *s, double rho)
 {
-    const finding none = {0, 1, 0, 0};
+    const vndf_draft *d = s->draft;
+    int i = 0;
     rho = fmin(fmax(rho, RHO_LEAST), RHO_MOST);
-    int i = s->count;
-    for (int k = 0; k < i; k++)
-        if (s->at[k].rho == rho)
-            return;
-    if (i == DIRECTIONS_MOST || !vndf_guard_spend(s->profile->guard, 6 * (double)s->sight->points.count))
+    while (i < s->count && s->at[i].rho < rho)
+        i++;
+    if ((i < s->count && s->at[i].rho == rho) || s->count == DIRECTIONS_MOST ||
+        !vndf_guard_spend(s->profile->guard, 6 * (double)d->points.count))
         return;
-    fill_kernels(s, rho);
+    for (size_t k = 0; k < d->points.count; k++) {
+        double y = d->points.at[k].r / rho;
+        s->kernel[k] = y > 1 ? vndf_profile_kernel(y) : 0;
+    }
+    direction made = {rho, {{0, 1, 0, 0}, {0, 1, 0, 0}}};
     double c = rho / (1 + rho), below = vndf_profile_below(s->profile, 1 / (1 + rho), c).below;
-    direction made = {rho, {look(s, rho, 0, below + c), none}};
-    if (is_claimed(s, rho, below))
-        made.side[1] = look(s, rho, 1, below);
-    for (; i > 0 && s->at[i - 1].rho > rho; i--)
-        s->at[i] = s->at[i - 1];
+    look(s, rho, 0, below + c, made.side[0]);
+    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(1 / (1 + rho), c))
+        look(s, rho, 1, below, made.side[1]);
+    memmove(s->at + i + 1, s->at + i, (size_t)(s->count - i) * sizeof *s->at);
     s->at[i] = made;
     s->count++;
 }
 
 /* ---- all directions ---- */
 
-/* Angles of incidence at alpha 1, degrees. */
-static const double ANGLES[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
-
-/* Every so many cells there is one direction at a knot, just before the next knot is the switch, and between. */
-static void add_cells(survey *s, int most)
-{
-    const vndf_laws *laws = s->laws;
-    unsigned step = laws->cells / (unsigned)most + 1;
-    for (unsigned i = 0; i <= laws->cells; i += step) {
-        const vndf_span *span = &laws->span[i];
-        double end = i < laws->cells ? laws->span[i + 1].r : 4 * span->r;
-        add_direction(s, fmax(span->r * (1 + 1e-6), 1e-2 * end));
-        add_direction(s, (span->r + end) / 2);
-    }
-}
-
-typedef enum order { BY_TV, BY_WEIGHT } order;
-
-static double size_of(const direction *at, int side, order by)
-{
-    return by == BY_TV ? at->side[side].tv : at->side[side].weight - 1;
-}
-
-/* Adds directions on both sides of the one with the largest value, and again. */
-static void add_peak(survey *s, int side, order by)
+/* Adds directions on both sides of the one with the largest figure, and again. */
+static void add_peak(survey *s, int side, int figure)
 {
     enum { STEPS = 4 };
     for (int step = 0; step < STEPS; step++) {
         int best = 0;
         for (int i = 1; i < s->count; i++)
-            best = size_of(&s->at[i], side, by) > size_of(&s->at[best], side, by) ? i : best;
+            best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
         double rho = s->at[best].rho, before = best > 0 ? s->at[best - 1].rho : rho;
         double after = best + 1 < s->count ? s->at[best + 1].rho : rho;
         add_direction(s, sqrt(before * rho));
@@ -218,51 +147,57 @@ static void add_peak(survey *s, int side, order by)
     }
 }
 
-static void look_around(survey *s, vndf_closeness closeness)
+/* Some angles of incidence at alpha 1; of every so many cells the left knot and the middle; and the neighbourhood of
+ * what is worst. */
+static void look_around(survey *s)
 {
-    int close = closeness == VNDF_CLOSELY;
-    for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i++)
-        add_direction(s, 1 / (tan(ANGLES[i] * PI / 180) * s->profile->scale));
-    add_cells(s, close ? 250 : 24);
-    for (int side = 0; side < 2; side++) {
-        add_peak(s, side, BY_TV);
-        if (close)
-            add_peak(s, side, BY_WEIGHT);
+    static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
+    const vndf_laws *laws = &s->draft->laws;
+    for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
+        add_direction(s, 1 / (tan(degrees[i] * PI / 180) * s->profile->scale));
+    for (unsigned i = 0; i <= laws->cells; i += laws->cells / CELLS_MOST + 1) {
+        double r = laws->cell[i].r, end = i < laws->cells ? laws->cell[i + 1].r : 4 * r;
+        add_direction(s, fmax(r * (1 + 1e-6), 1e-2 * end));
+        add_direction(s, (r + end) / 2);
+    }
+    for (int figure = TV; figure <= AREA_ERROR; figure++) {
+        add_peak(s, 0, figure);
+        add_peak(s, 1, figure);
     }
 }
 
 static void take(vndf_certificate *c, const direction *at, int side, double scale)
 {
-    const finding *f = &at->side[side];
+    const double *f = at->side[side];
     double angle = atan2(1, at->rho * scale) * 180 / PI, theta = side ? 180 - angle : angle;
-    if (f->tv > c->tv) {
-        c->tv = (float)f->tv;
+    if (f[TV] > c->tv) {
+        c->tv = (float)f[TV];
         c->tv_theta = (float)theta;
     }
-    if (!side && f->tv > c->tv_above) {
-        c->tv_above = (float)f->tv;
+    if (!side && f[TV] > c->tv_above) {
+        c->tv_above = (float)f[TV];
         c->tv_above_theta = (float)theta;
     }
-    c->max_weight = fmaxf(c->max_weight, (float)f->weight);
-    c->area_error = fmaxf(c->area_error, (float)f->area_error);
-    c->consistency = fmaxf(c->consistency, (float)f->consistency);
+    c->max_weight = fmaxf(c->max_weight, (float)f[WEIGHT]);
+    c->area_error = fmaxf(c->area_error, (float)f[AREA_ERROR]);
+    c->consistency = fmaxf(c->consistency, (float)f[CONSISTENCY]);
 }
 
 /* ---- D, and its ends ---- */
 
 /* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence
  * were, over the points that hold all but LEFT_OUT of the mass on either side. */
-static double ndf_error(const survey *s)
+static double ndf_error(const vndf_draft *d)
 {
     double before = 0, worst = 0;
-    for (unsigned i = 0; i <= s->laws->cells; i++) {
-        const vndf_span *span = &s->laws->span[i];
-        int tail = i == s->laws->cells;
+    for (unsigned i = 0; i <= d->table.cells; i++) {
+        const vndf_cell *c = &d->laws.cell[i];
+        int tail = i == d->table.cells;
         const vndf_weight all = {tail, !tail, 0, 0};
-        vndf_drawn cell = vndf_drawn_by(span, &s->laws->cell[i], &all);
-        for (size_t n = s->sight->first[i]; n < s->sight->first[i + 1]; n++) {
-            const vndf_point *p = &s->sight->points.at[n];
-            double width = p->width / (vndf_span_density(span, p->r) * p->r); /* of log R */
+        vndf_drawn cell = vndf_drawn_by(c, &all);
+        for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
+            const vndf_point *p = &d->points.at[n];
+            double width = p->width / (vndf_cell_density(c, p->r) * p->r); /* of log R */
             double drawn = vndf_drawn_part(&cell, p->xi, p->width) / (tail ? p->r : 1);
             before += p->mass;
             if (before > LEFT_OUT / 2 && before < 1 - LEFT_OUT / 2 && p->mass > LEFT_OUT * width)
@@ -278,43 +213,30 @@ static double power_between(const vndf_profile *profile, double r0, double r1)
     return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
 }
 
-/* The p with D = P22/cos^4 ~ cos^p towards the horizon. */
-static double horizon_power(const vndf_profile *profile)
-{
-    double end = profile->panel[profile->count].r, power = power_between(profile, end / 16, end / 4) - 4;
-    return power < -4e-3 ? power : 0.0;
-}
-
-/* D may be unbounded at the pole or at the horizon; a cell is bounded. */
-static int is_bounded(const vndf_profile *profile)
-{
-    double first = profile->panel[0].r;
-    return power_between(profile, 4 * first, 16 * first) < 7e-3 && !(horizon_power(profile) < 0.0);
-}
-
-int vndf_certificate_measure(vndf_certificate *c, const vndf_laws *laws, const vndf_sight *sight,
-                             const vndf_profile *profile, vndf_closeness closeness)
+int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
 {
     survey *s = calloc(1, sizeof *s);
-    double *kernel = s ? malloc((sight->points.count + 1) * sizeof *kernel) : NULL;
-    if (kernel) {
-        s->laws = laws;
-        s->sight = sight;
+    double *kernel = malloc((draft->points.count + 1) * sizeof *kernel);
+    if (s && kernel) {
+        double first = profile->panel[0].r, end = profile->panel[profile->count].r;
+        s->draft = draft;
         s->profile = profile;
         s->kernel = kernel;
-        look_around(s, closeness);
+        look_around(s);
         memset(c, 0, sizeof *c);
         c->max_weight = 1;
-        for (int i = 0; i < s->count; i++)
-            for (int side = 0; side < 2; side++)
-                take(c, &s->at[i], side, profile->scale);
-        c->ndf_error = (float)ndf_error(s);
-        c->horizon_power = (float)horizon_power(profile);
-        c->weight_bounded = (float)is_bounded(profile);
+        for (int i = 0; i < 2 * s->count; i++)
+            take(c, &s->at[i / 2], i % 2, profile->scale);
+        c->ndf_error = (float)ndf_error(draft);
+        /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
+        double power = power_between(profile, end / 16, end / 4) - 4;
+        c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
+        c->weight_bounded = !(power < -4e-3) && !(power_between(profile, 4 * first, 16 * first) >= 7e-3);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }
+    int good = s && kernel;
     free(kernel);
     free(s);
-    return kernel != NULL;
+    return good;
 }

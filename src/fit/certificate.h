@@ -6,12 +6,7 @@
 
 #include "fit/draft.h"
 
-/* How many directions are looked at: a few dozen, which find the total variations to a few per cent; or some hundreds,
- * about every knot. */
-typedef enum vndf_closeness { VNDF_COARSELY, VNDF_CLOSELY } vndf_closeness;
-
 /* 0 if there is no memory. */
-int vndf_certificate_measure(vndf_certificate *certificate, const vndf_laws *laws, const vndf_sight *sight,
-                             const vndf_profile *profile, vndf_closeness closeness);
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_draft *draft, const vndf_profile *profile);
 
 #endif

@@ -2,28 +2,23 @@
 #ifndef VNDF_FIT_DRAFT_H
 #define VNDF_FIT_DRAFT_H
 
-#include "fit/radial.h"
+#include "fit/knots.h"
 
-/* The points of all cells of a table. */
-typedef struct vndf_sight {
-    vndf_points points;
-    size_t *first; /* of a cell; first[cells + 1] is the end */
-} vndf_sight;
-
-/* 0 if there is no memory; free it either way. */
-int vndf_sight_from(vndf_sight *sight, const vndf_profile *profile, const vndf_laws *laws);
-void vndf_sight_free(vndf_sight *sight);
-
-/* A table and what it was made from. */
+/* A table, its laws, and the points of the profile in its cells: those of cell i from first[i] to first[i + 1]. */
 typedef struct vndf_draft {
     vndf_table_draft table;
     vndf_laws laws;
-    vndf_sight sight;
+    vndf_points points;
+    size_t *first;
 } vndf_draft;
 
 /* The table on the first `count` knots, complete but for its certificate and texts; 0 if there is no memory. Free it
  * either way. */
-int vndf_draft_from(vndf_draft *draft, const vndf_radial *radial, unsigned count, unsigned moments);
+int vndf_draft_from(vndf_draft *draft, const vndf_knots *knots, unsigned count, unsigned moments);
+
+/* The same of a table that was loaded, beside a profile. */
+int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_profile *profile);
+
 void vndf_draft_free(vndf_draft *draft);
 
 #endif

@@ -8,26 +8,22 @@
 #ifndef VNDF_FIT_LAW_H
 #define VNDF_FIT_LAW_H
 
-#include "core/inline.h"
 #include "table/table.h"
 
-/* Where a cell lies. x grows by h from its left knot; in the tail cell z falls as (1 - xi)^power, to 0. */
-typedef struct vndf_span {
+/* Where a cell lies, and its numbers. x grows by h from its left knot; in the tail cell z falls as (1 - xi)^power,
+ * to 0. */
+typedef struct vndf_cell {
     double r, x, z, h;
     double power; /* 0: not the tail */
-} vndf_span;
-
-vndf_span vndf_span_between(double r0, double r1);
-vndf_span vndf_span_of_tail(double r0, unsigned squarings);
-
-/* xi of a slope in the cell, and d xi/dR. */
-double vndf_span_place(const vndf_span *span, double r);
-double vndf_span_density(const vndf_span *span, double r);
-
-/* The numbers of one cell (table/table.h), in double. */
-typedef struct vndf_cell {
     double g0, g1, m0, m1, m2, cube;
 } vndf_cell;
+
+/* Without its numbers. An infinite end is that of a tail. */
+vndf_cell vndf_cell_between(double r, double end, unsigned squarings);
+
+/* xi of a slope in the cell, and d xi/dR. */
+double vndf_cell_place(const vndf_cell *cell, double r);
+double vndf_cell_density(const vndf_cell *cell, double r);
 
 /* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
 typedef struct vndf_weight {
@@ -39,40 +35,22 @@ typedef struct vndf_drawn {
     double mass, d0, d1;
 } vndf_drawn;
 
-vndf_drawn vndf_drawn_by(const vndf_span *span, const vndf_cell *cell, const vndf_weight *weight);
+vndf_drawn vndf_drawn_by(const vndf_cell *cell, const vndf_weight *weight);
 
 /* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
-vndf_drawn vndf_drawn_below(const vndf_span *span, const vndf_cell *cell, double rho, double b0, double b1);
-
-/* The density that is drawn at xi; 0 in an empty cell. */
-VNDF_INLINE double vndf_drawn_density(const vndf_drawn *d, double xi)
-{
-    double eta = 1 - xi, w = xi * eta, under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
-    double part = under > 0 ? d->mass / under : 0;
-    return (d->d1 * xi * xi + 2 * d->mass * w + d->d0 * eta * eta) * part * part;
-}
+vndf_drawn vndf_drawn_below(const vndf_cell *cell, double rho, double b0, double b1);
 
 /* The mass that is drawn over `width` about xi, for a point of a rule: by the density; of a wide part exactly. */
 double vndf_drawn_part(const vndf_drawn *drawn, double xi, double width);
-
-/* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments. */
-typedef struct vndf_kernel {
-    double a1, a0, aq, a4;
-} vndf_kernel;
-vndf_kernel vndf_kernel_of(unsigned moments);
 
 /* A table as laws read it; the draft must stay. */
 typedef struct vndf_laws {
     const vndf_table_draft *draft;
     unsigned cells; /* and a tail cell */
-    vndf_span *span;
     vndf_cell *cell;
-    double *turn; /* the slope of rho from which a knot is the switch */
-    double *part; /* of the cell that rho lies in: true over estimated mass where rho is its left knot */
 } vndf_laws;
 
-/* Reads the numbers of the draft; again, after they were changed. 0 if there is no memory; free it either way. */
-void vndf_laws_read(vndf_laws *laws);
+/* 0 if there is no memory; free it either way. */
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
 void vndf_laws_free(vndf_laws *laws);
 
@@ -94,9 +72,6 @@ vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below);
 /* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
  * is 0 at rho: (xi - law.xi)/(1 - law.xi). */
 vndf_drawn vndf_law_cell(const vndf_law *law, unsigned cell);
-
-/* The drawn area. */
-double vndf_law_area(const vndf_law *law);
 
 /* The area that the run time gives out: above the horizon a spline of the numbers; below it that less c, or the drawn
  * area where the two are close. */

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#include "fit/profile/gauss.h"
+#include "fit/profile/profile.h"
 #include "vndf_build.h"
 
 /* A formula with a needle at a, of width s and height k; in what variable a and s are. */

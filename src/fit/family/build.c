@@ -1,34 +1,47 @@
-/* vndf_build_family: chooses the map, places knots on cheap sums, measures between them by quadrature, places more
- * where that finds more, and builds a table at each. */
+/* vndf_build_family: places knots along a parameter so that the distances between the family and the mixtures of
+ * neighbouring knots are about the same and the largest is small, then builds a table at each.
+ *
+ * P22 is tabulated at slopes that are even in log r, where sums converge fast: families are smooth there, and features
+ * that are no wider than a slope step are refused or resolved when tables are built. The distance between two knots
+ * grows as the square of the way between them: its root is shared out evenly, again and again, as de Boor shares out
+ * knots of splines ("Good approximation by splines with variable knots", 1973). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
-#include "fit/family/distance.h"
-#include "fit/family/knots.h"
 #include "fit/family/pattern.h"
 #include "table/family/family.h"
 
+enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
+enum { SLOPES_TO_E = 24, OCTAVES = 100, SLOPES_MOST = SLOPES_TO_E * 139 };
 static const double DISTANCE_DEFAULT = 1e-3;
 static const double MAP_GAIN = 0.75; /* 1/p has to make the largest distance smaller by this */
-static const double MARGIN = 0.97;   /* knots are placed for a little less than they must reach */
-enum { PROBES = VNDF_FAMILY_PROBES, TRIALS = 8, MAP_KNOTS = 9 };
+static const double EVEN = 1.03;     /* largest over mean distance: good enough */
+static const double LITTLE_MASS = 1e-9, LITTLE_GRAZING = 1e-5; /* of the sums, before and beyond the slopes */
+static const double PLACED = 0.1;                              /* of the progress */
 
-/* Parts of the progress. */
-static const double PLACED = 0.02, MEASURED = 0.2;
+/* Knots, the distances between them, and the largest. */
+typedef struct spread {
+    double knot[KNOTS_MOST], distance[KNOTS_MOST], worst, grazing;
+} spread;
+
+/* P22 at some parameter: shares of the slopes, and of the normals that are visible at grazing incidence. */
+typedef struct shares {
+    double slope[SLOPES_MOST], grazing; /* grazing: the mean slope */
+} shares;
 
 typedef struct builder {
     const char *pattern;
     vndf_family_options options;
-    vndf_knots_plan plan;
-    vndf_member low, middle, high;
+    double low, high;
+    int reciprocal;    /* mixtures are linear in 1/p */
+    size_t first, end; /* slopes that count */
+    shares left, right, own;
     size_t count;
-    double knot[VNDF_LIMIT_FAMILY_KNOTS];
-    float distance[VNDF_LIMIT_FAMILY_KNOTS];
-    double worst, grazing;
-    double begin, end; /* of the stage at hand, as parts of all the work */
+    spread spread, trial;
+    double begin, width; /* of the stage at hand, as parts of all the work */
     char stage[48];
 } builder;
 
@@ -39,22 +52,13 @@ static int show(double done, const char *what, void *user)
     builder *b = user;
     char text[128];
     snprintf(text, sizeof text, "%s%s%s", b->stage, what ? ": " : "", what ? what : "");
-    return b->options.progress
-               ? b->options.progress(b->begin + (b->end - b->begin) * done, text, b->options.progress_user)
-               : 0;
+    return b->options.progress ? b->options.progress(b->begin + b->width * done, text, b->options.progress_user)
+                               : 0;
 }
 
-static vndf_status interrupted(const builder *b, vndf_error *error)
+static vndf_status show_all(builder *b, double done, vndf_error *error)
 {
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT, "interrupted (%s)", b->stage);
-}
-
-static vndf_status enter(builder *b, double begin, double end, const char *stage, vndf_error *error)
-{
-    b->begin = begin;
-    b->end = end;
-    snprintf(b->stage, sizeof b->stage, "%s", stage);
-    return show(0, NULL, b) ? interrupted(b, error) : VNDF_OK;
+    return show(done, NULL, b) ? vndf_fail(error, VNDF_ERROR_ARGUMENT, "interrupted (%s)", b->stage) : VNDF_OK;
 }
 
 static vndf_status no_memory(vndf_error *error)
@@ -64,176 +68,258 @@ static vndf_status no_memory(vndf_error *error)
 
 /* ---- distances ---- */
 
-static vndf_status measure_probe(builder *b, const vndf_member *low, const vndf_member *high, int probe,
-                                 vndf_distances *found, vndf_error *error)
+static double slope_at(size_t i)
 {
-    vndf_member member = {0, NULL, NULL};
-    double p = vndf_knots_between(low->p, high->p, (double)probe / (PROBES + 1), b->plan.reciprocal);
-    double t = vndf_family_weight(low->p, high->p, p, b->plan.reciprocal);
-    vndf_status status = vndf_member_open(&member, b->pattern, p, error);
-    if (status == VNDF_OK && !vndf_distance_at(low, high, &member, t, found))
-        status = no_memory(error);
-    vndf_member_close(&member);
-    return status;
+    return exp2(-OCTAVES) * exp((double)i / SLOPES_TO_E);
 }
 
-static vndf_status measure_interval(builder *b, const vndf_member *low, const vndf_member *high, size_t index,
-                                    vndf_error *error)
+static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *error)
 {
-    double slopes = 0;
-    for (int probe = 1; probe <= PROBES; probe++) {
-        vndf_distances found;
-        vndf_status status = measure_probe(b, low, high, probe, &found, error);
-        if (status != VNDF_OK)
-            return status;
-        slopes = fmax(slopes, found.slopes);
-        b->grazing = fmax(b->grazing, found.grazing);
-        if (show((double)(index * PROBES + (size_t)probe) / (double)((b->count - 1) * PROBES), NULL, b))
-            return interrupted(b, error);
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_source *source = vndf_pattern_source(b->pattern, p, &inner);
+    double sum = 0, along = 0;
+    if (!source)
+        return vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
+    for (size_t i = b->first; i < b->end; i++) {
+        double r = slope_at(i), value = vndf_source_p22(source, r) * r * r;
+        to->slope[i] = value > 0 && value < HUGE_VAL ? value : 0;
+        sum += to->slope[i];
+        along += to->slope[i] * r;
     }
-    b->worst = fmax(b->worst, slopes);
-    b->distance[index] = (float)fmin(slopes, 1);
+    for (size_t i = b->first; sum > 0 && i < b->end; i++)
+        to->slope[i] /= sum;
+    to->grazing = sum > 0 ? along / sum : 1;
+    vndf_source_free(source);
     return VNDF_OK;
 }
 
-/* Between all knots. */
-static vndf_status measure(builder *b, vndf_error *error)
+/* Leaves out slopes where next to nothing of some members lies. */
+static vndf_status choose_slopes(builder *b, vndf_error *error)
 {
-    vndf_member low = {0, NULL, NULL}, high = {0, NULL, NULL};
-    vndf_status status = enter(b, PLACED, MEASURED, "distances between knots", error);
-    b->worst = b->grazing = 0;
-    if (status == VNDF_OK)
-        status = vndf_member_open(&low, b->pattern, b->knot[0], error);
-    for (size_t i = 0; i + 1 < b->count && status == VNDF_OK; i++) {
-        status = vndf_member_open(&high, b->pattern, b->knot[i + 1], error);
-        if (status == VNDF_OK)
-            status = measure_interval(b, &low, &high, i, error);
-        vndf_member_close(&low);
-        low = high;
-        high = (vndf_member){0, NULL, NULL};
+    double middle = b->low > 0 ? sqrt(b->low) * sqrt(b->high) : 0.5 * (b->low + b->high);
+    double member[3] = {b->low, vndf_pattern_number(middle), b->high};
+    size_t first = SLOPES_MOST, end = 0;
+    b->end = SLOPES_MOST;
+    for (int k = 0; k < 3; k++) {
+        vndf_status status = tabulate(b, member[k], &b->own, error);
+        size_t i = 0, n = SLOPES_MOST;
+        if (status != VNDF_OK)
+            return status;
+        for (double sum = b->own.slope[0]; sum < LITTLE_MASS && i + 1 < n; sum += b->own.slope[i])
+            i++;
+        for (double sum = 0; sum < LITTLE_GRAZING * b->own.grazing && n > i + 1; n--)
+            sum += b->own.slope[n - 1] * slope_at(n - 1);
+        first = i < first ? i : first;
+        end = n > end ? n : end;
     }
-    vndf_member_close(&low);
+    b->first = first;
+    b->end = end < SLOPES_MOST ? end + 1 : end;
+    return VNDF_OK;
+}
+
+/* The parameter at which the weight of the upper of two knots is t. */
+static double between(double low, double high, double t, int reciprocal)
+{
+    return reciprocal ? low * high / (high - t * (high - low)) : low + t * (high - low);
+}
+
+/* The largest distance at the probes between two knots, which are tabulated. */
+static vndf_status measure_between(builder *b, double low, double high, double *slopes, double *grazing,
+                                   vndf_error *error)
+{
+    *slopes = 0;
+    for (int k = 1; k <= PROBES; k++) {
+        double p = between(low, high, (double)k / (PROBES + 1), b->reciprocal), sum = 0, along = 0;
+        double t = vndf_family_weight(low, high, p, b->reciprocal);
+        vndf_status status = tabulate(b, p, &b->own, error);
+        if (status != VNDF_OK)
+            return status;
+        double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
+        for (size_t i = b->first; i < b->end; i++) {
+            double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
+            sum += fabs(mixed - own);
+            along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
+        }
+        *slopes = fmax(*slopes, sum / 2);
+        *grazing = fmax(*grazing, along / 2);
+    }
+    return VNDF_OK;
+}
+
+static vndf_status measure(builder *b, spread *s, vndf_error *error)
+{
+    vndf_status status = tabulate(b, s->knot[0], &b->right, error);
+    s->worst = s->grazing = 0;
+    for (size_t i = 0; i + 1 < b->count && status == VNDF_OK; i++) {
+        b->left = b->right;
+        status = tabulate(b, s->knot[i + 1], &b->right, error);
+        if (status == VNDF_OK)
+            status = measure_between(b, s->knot[i], s->knot[i + 1], &s->distance[i], &s->grazing, error);
+        if (status == VNDF_OK)
+            status = show_all(b, 0, error);
+        s->worst = fmax(s->worst, s->distance[i]);
+    }
     return status;
 }
 
 /* ---- knots ---- */
 
+/* Moves knots to where the sum of roots, spread evenly between the old ones, reaches its parts; along log p, or along p
+ * where that begins at 0 or below. At first all roots are the same. */
+static void share_out(const builder *b, const spread *old, spread *s)
+{
+    double whole = 0, before = 0;
+    size_t i = 0, n = b->count;
+    for (size_t k = 0; k + 1 < n; k++)
+        whole += sqrt(old->distance[k]);
+    s->knot[0] = b->low;
+    s->knot[n - 1] = b->high;
+    for (size_t k = 1; k + 1 < n; k++) {
+        double target = whole * (double)k / (double)(n - 1);
+        while (i + 2 < n && before + sqrt(old->distance[i]) < target)
+            before += sqrt(old->distance[i++]);
+        double from = old->knot[i], to = old->knot[i + 1], root = sqrt(old->distance[i]);
+        double part = root > 0 ? fmin((target - before) / root, 1) : 0.5;
+        s->knot[k] = vndf_pattern_number(b->low > 0 ? from * pow(to / from, part) : from + (to - from) * part);
+    }
+}
+
+static int ascends(const builder *b, const spread *s)
+{
+    for (size_t i = 0; i + 1 < b->count; i++)
+        if (!((float)s->knot[i] < (float)s->knot[i + 1]))
+            return 0;
+    return 1;
+}
+
+/* Places b->count knots for the least distance. */
+static vndf_status spread_knots(builder *b, vndf_error *error)
+{
+    double n = (double)(b->count - 1), mean = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        double part = (double)i / n, p = b->low + (b->high - b->low) * part;
+        b->trial.knot[i] = i == 0 ? b->low
+                           : i + 1 == b->count
+                               ? b->high
+                               : vndf_pattern_number(b->low > 0 ? b->low * pow(b->high / b->low, part) : p);
+    }
+    b->spread.worst = HUGE_VAL;
+    for (int sweep = 0; sweep < SWEEPS && ascends(b, &b->trial); sweep++) {
+        spread *s = &b->trial;
+        vndf_status status = measure(b, s, error);
+        if (status != VNDF_OK)
+            return status;
+        mean = 0;
+        for (size_t i = 0; i + 1 < b->count; i++)
+            mean += s->distance[i] / n;
+        if (s->worst < b->spread.worst)
+            b->spread = *s;
+        if (s->worst <= EVEN * mean)
+            break;
+        spread old = *s;
+        share_out(b, &old, s);
+    }
+    if (b->spread.worst < HUGE_VAL)
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                     "parameters from %.7g to %.7g are too close for %lu knots of seven digits", b->low, b->high,
+                     (unsigned long)b->count);
+}
+
 static vndf_status choose_map(builder *b, vndf_error *error)
 {
-    double linear, reciprocal;
-    vndf_status status = vndf_knots_spread(&b->plan, MAP_KNOTS, b->knot, &linear, error);
-    if (status != VNDF_OK || !(b->plan.low > 0))
+    b->count = MAP_KNOTS;
+    vndf_status status = b->low > 0 ? spread_knots(b, error) : VNDF_OK;
+    double linear = b->spread.worst;
+    if (status != VNDF_OK || !(b->low > 0))
         return status;
-    b->plan.reciprocal = 1;
-    status = vndf_knots_spread(&b->plan, MAP_KNOTS, b->knot, &reciprocal, error);
-    b->plan.reciprocal = reciprocal < MAP_GAIN * linear;
+    b->reciprocal = 1;
+    status = spread_knots(b, error);
+    b->reciprocal = b->spread.worst < MAP_GAIN * linear;
     return status;
 }
 
-static vndf_status too_many(const builder *b, double worst, vndf_error *error)
-{
-    return vndf_fail(error, VNDF_ERROR_TARGET,
-                     "a distance of %g between family and mixture cannot be met: %lu knots reach %.3g",
-                     b->options.max_distance, (unsigned long)b->count, worst);
-}
-
-/* The next number of knots to try: the distance falls as the square of their number. */
-static size_t more_knots(size_t count, double worst, double target)
-{
-    double more = 1 + ceil((double)(count - 1) * sqrt(worst / target));
-    return more < VNDF_LIMIT_FAMILY_KNOTS ? (size_t)fmax(more, (double)(count + 1)) : VNDF_LIMIT_FAMILY_KNOTS;
-}
-
-/* Fewest knots whose cheap distance is at most `target`, from b->count knots on. */
-static vndf_status place_for(builder *b, double target, vndf_error *error)
-{
-    double worst;
-    for (;;) {
-        vndf_status status = vndf_knots_spread(&b->plan, b->count, b->knot, &worst, error);
-        if (status != VNDF_OK || worst <= target)
-            return status;
-        if (b->count == VNDF_LIMIT_FAMILY_KNOTS)
-            return too_many(b, worst, error);
-        b->count = more_knots(b->count, worst, target);
-    }
-}
-
-/* The estimate may be one or two knots too many. */
-static vndf_status drop_knots(builder *b, double target, vndf_error *error)
-{
-    double fewer[VNDF_LIMIT_FAMILY_KNOTS], worst = 0;
-    while (b->count > 2) {
-        vndf_status status = vndf_knots_spread(&b->plan, b->count - 1, fewer, &worst, error);
-        if (status != VNDF_OK || worst > target)
-            return status;
-        memcpy(b->knot, fewer, (--b->count) * sizeof *fewer);
-    }
-    return VNDF_OK;
-}
-
+/* As few knots as reach the distance, which falls as the square of their number: an estimate from below, then one by
+ * one downwards. */
 static vndf_status reach_distance(builder *b, vndf_error *error)
 {
-    double target = MARGIN * b->options.max_distance;
-    b->count = 2;
-    for (int trial = 0; trial < TRIALS; trial++) {
-        vndf_status status = place_for(b, target, error);
-        if (status == VNDF_OK && trial == 0)
-            status = drop_knots(b, target, error);
-        if (status == VNDF_OK)
-            status = measure(b, error);
-        if (status != VNDF_OK || b->worst <= b->options.max_distance)
+    double target = b->options.max_distance;
+    size_t few = 1;
+    spread reached;
+    for (b->count = 2;;) {
+        vndf_status status = spread_knots(b, error);
+        if (status != VNDF_OK)
             return status;
-        target *= MARGIN * b->options.max_distance / b->worst;
-        if (b->count < VNDF_LIMIT_FAMILY_KNOTS)
-            b->count++;
+        if (b->spread.worst <= target)
+            break;
+        if (b->count == KNOTS_MOST)
+            return vndf_fail(error, VNDF_ERROR_TARGET,
+                             "a distance of %g between family and mixture cannot be met: %lu knots reach %.3g",
+                             target, (unsigned long)b->count, b->spread.worst);
+        few = b->count;
+        double more = 1 + ceil((double)(few - 1) * sqrt(b->spread.worst / target));
+        b->count = (size_t)fmin(fmax(more, (double)(few + 1)), KNOTS_MOST);
     }
-    return too_many(b, b->worst, error);
+    for (reached = b->spread; b->count > few + 1; reached = b->spread) {
+        b->count--;
+        vndf_status status = spread_knots(b, error);
+        if (status != VNDF_OK)
+            return status;
+        if (b->spread.worst > target) {
+            b->count++;
+            break;
+        }
+    }
+    b->spread = reached;
+    return VNDF_OK;
 }
 
 static vndf_status place(builder *b, vndf_error *error)
 {
-    vndf_status status = enter(b, 0, PLACED, "placing knots", error);
-    if (status == VNDF_OK && !vndf_knots_plan_from(&b->plan, b->pattern, &b->low, &b->middle, &b->high))
-        status = no_memory(error);
+    b->width = PLACED;
+    snprintf(b->stage, sizeof b->stage, "placing knots");
+    vndf_status status = show_all(b, 0, error);
+    if (status == VNDF_OK)
+        status = choose_slopes(b, error);
     if (status == VNDF_OK)
         status = choose_map(b, error);
     if (status != VNDF_OK || !b->options.knots)
         return status == VNDF_OK ? reach_distance(b, error) : status;
     b->count = b->options.knots;
-    status = vndf_knots_spread(&b->plan, b->count, b->knot, &b->worst, error);
-    return status == VNDF_OK ? measure(b, error) : status;
+    return spread_knots(b, error);
 }
 
 /* ---- tables ---- */
 
 static vndf_status build_table(builder *b, vndf_family *family, size_t index, vndf_error *error)
 {
-    char stage[48];
-    double width = (1 - MEASURED) / (double)b->count, begin = MEASURED + width * (double)index;
     vndf_build_options options = {
         .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
     vndf_error inner = {VNDF_OK, ""};
-    snprintf(stage, sizeof stage, "table %lu of %lu", (unsigned long)index + 1, (unsigned long)b->count);
-    vndf_status status = enter(b, begin, begin + width, stage, error);
+    b->width = (1 - PLACED) / (double)b->count;
+    b->begin = PLACED + b->width * (double)index;
+    snprintf(b->stage, sizeof b->stage, "table %lu of %lu", (unsigned long)index + 1, (unsigned long)b->count);
+    vndf_status status = show_all(b, 0, error);
     if (status != VNDF_OK)
         return status;
-    vndf_source *source = vndf_pattern_source(b->pattern, b->knot[index], &inner);
-    family->parameter[index] = (float)b->knot[index];
-    family->distance[index] = index + 1 < b->count ? b->distance[index] : 0.0f;
+    double p = b->spread.knot[index];
+    vndf_source *source = vndf_pattern_source(b->pattern, p, &inner);
+    family->parameter[index] = (float)p;
+    family->distance[index] = index + 1 < b->count ? (float)fmin(b->spread.distance[index], 1) : 0.0f;
     family->distribution[index] = source ? vndf_build(source, &options, NULL, &inner) : NULL;
     vndf_source_free(source);
     return family->distribution[index]
                ? VNDF_OK
-               : vndf_fail(error, inner.status, "at the parameter %.7g: %s", b->knot[index], inner.message);
+               : vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
 }
 
-static vndf_status finish(builder *b, vndf_family *family, vndf_error *error)
+static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
 {
     static const char tool[] = "vndf " VNDF_VERSION;
     family->owns = 1;
-    family->reciprocal = b->plan.reciprocal;
-    family->grazing = (float)fmin(b->grazing, 1);
-    family->source = vndf_pattern_describe(b->pattern, b->plan.low, b->plan.high, error);
+    family->reciprocal = b->reciprocal;
+    family->grazing = (float)fmin(b->spread.grazing, 1);
+    family->source = vndf_pattern_describe(b->pattern, b->low, b->high, error);
     family->tool = malloc(sizeof tool);
     if (!family->source || !family->tool)
         return no_memory(error);
@@ -263,9 +349,9 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
                          "parameters from %.7g to %.7g: the first must be below the second, as floats, and both "
                          "between -1e30 and 1e30",
                          low, high);
-    if (options->knots == 1 || options->knots > VNDF_LIMIT_FAMILY_KNOTS)
+    if (options->knots == 1 || options->knots > KNOTS_MOST)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "knots is %lu; from 2 to %d is possible",
-                         (unsigned long)options->knots, VNDF_LIMIT_FAMILY_KNOTS);
+                         (unsigned long)options->knots, KNOTS_MOST);
     if (!(options->max_distance >= 0.0 && options->max_distance < 1.0))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "max_distance is %g; it is a total variation, from 0 (none) to below 1",
@@ -275,51 +361,32 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
     return VNDF_OK;
 }
 
-static vndf_status open_members(builder *b, double low, double high, vndf_error *error)
-{
-    double middle = low > 0 ? exp(0.5 * (log(low) + log(high))) : 0.5 * (low + high);
-    vndf_status status = vndf_member_open(&b->low, b->pattern, vndf_pattern_number(low), error);
-    if (status == VNDF_OK)
-        status = vndf_member_open(&b->high, b->pattern, vndf_pattern_number(high), error);
-    if (status == VNDF_OK)
-        status = vndf_member_open(&b->middle, b->pattern, vndf_pattern_number(middle), error);
-    return status;
-}
-
-static vndf_family *build(builder *b, double low, double high, vndf_error *error)
-{
-    vndf_status status = open_members(b, low, high, error);
-    if (status == VNDF_OK)
-        status = place(b, error);
-    vndf_family *family = status == VNDF_OK ? vndf_family_allocate(b->count) : NULL;
-    if (status == VNDF_OK && !family)
-        no_memory(error);
-    if (family && finish(b, family, error) == VNDF_OK)
-        return family;
-    vndf_family_free(family);
-    return NULL;
-}
-
 vndf_family *vndf_build_family(const char *specification, double low, double high,
                                const vndf_family_options *options, vndf_error *error)
 {
-    vndf_family_options none = {0}, given = options ? *options : none;
-    if (check(specification, low, high, &given, error) != VNDF_OK)
+    const vndf_family_options none = {0};
+    options = options ? options : &none;
+    if (check(specification, low, high, options, error) != VNDF_OK)
         return NULL;
-    if (!given.knots && !(given.max_distance > 0.0))
-        given.max_distance = DISTANCE_DEFAULT;
     builder *b = calloc(1, sizeof *b);
     if (!b) {
         no_memory(error);
         return NULL;
     }
     b->pattern = specification;
-    b->options = given;
-    vndf_family *family = build(b, low, high, error);
-    vndf_knots_plan_free(&b->plan);
-    vndf_member_close(&b->low);
-    vndf_member_close(&b->middle);
-    vndf_member_close(&b->high);
+    b->options = *options;
+    if (!options->knots && !(options->max_distance > 0.0))
+        b->options.max_distance = DISTANCE_DEFAULT;
+    b->low = vndf_pattern_number(low);
+    b->high = vndf_pattern_number(high);
+    vndf_family *family = NULL;
+    vndf_status status = place(b, error);
+    if (status == VNDF_OK && !(family = vndf_family_allocate(b->count)))
+        no_memory(error);
+    if (family && fill(b, family, error) != VNDF_OK) {
+        vndf_family_free(family);
+        family = NULL;
+    }
     free(b);
     return family;
 }

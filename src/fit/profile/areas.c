@@ -8,9 +8,6 @@
 
 static const double HALF_PI = 1.57079632679489661923;
 
-/* v - atan v: at this v the series has a relative error of 1e-11, the difference of 1e-13. */
-static const double SERIES_MOST = 0.05;
-
 /* y from which on three terms are enough: they err by 1e-9. */
 static const double FAR = 16;
 
@@ -29,23 +26,6 @@ size_t vndf_profile_panel(const vndf_profile *profile, double r)
     return low;
 }
 
-vndf_moments vndf_profile_part(const vndf_profile *profile, double a, double b)
-{
-    double u0 = log(a), du = log(b / a), r[VNDF_GAUSS], p22[VNDF_GAUSS];
-    vndf_moments sum = {0.0, 0.0};
-    if (!(b > a))
-        return sum;
-    for (int i = 0; i < VNDF_GAUSS; i++)
-        r[i] = exp(u0 + du * vndf_gauss_node[i]);
-    vndf_profile_p22_many(profile, r, VNDF_GAUSS, p22);
-    for (int i = 0; i < VNDF_GAUSS; i++) {
-        double w = vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i];
-        sum.m0 += w;
-        sum.m1 += w * (r[i] - a);
-    }
-    return sum;
-}
-
 /* Less than this part of a sum changes no bit of it. */
 static const double LOST = 0x1p-55;
 
@@ -57,17 +37,33 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
         return profile->tail_m1 * end->r / rho; /* or a little more: no panel resolves it */
     double from = rho > p->r ? rho : p->r;
     double inside = p[1].s + p[1].t0 * (p[1].r - from);
-    if (!(p->m0 * (p[1].r - p->r) < LOST * inside))
-        inside += vndf_profile_part(profile, from, p[1].r).m1;
+    vndf_profile_point point[VNDF_GAUSS];
+    if (!(p->m0 * (p[1].r - p->r) < LOST * inside)) {
+        vndf_profile_rule(profile, from, p[1].r, point);
+        for (int i = 0; i < VNDF_GAUSS; i++)
+            inside += point[i].weight * (point[i].r - from);
+    }
     return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
+}
+
+/* v - atan v, as a series for v^2 = y^2 - 1 near 0, with a relative error of 1e-11. */
+static double lens_of(double v, double v2, double angle)
+{
+    return v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 * (1.0 / 7 - v2 / 9))) : v - angle;
+}
+
+double vndf_profile_kernel(double y)
+{
+    const double far = 32; /* as a series of 1/y from there on */
+    double v2 = (y - 1) * (y + 1), v = sqrt(v2), u = 1 / y;
+    return y > far ? y - HALF_PI + u / 2 * (1 + u * u / 12) : lens_of(v, v2, atan(v));
 }
 
 /* Adds P r dr = weight at r: the three integrals over rho, 1 and 1. */
 static void add_point(vndf_area *sum, double r, double rho, double weight)
 {
     double y = r / rho, v2 = (y - 1.0) * (y + 1.0), v = sqrt(v2), angle = atan(v);
-    double lens = v < SERIES_MOST ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 * (1.0 / 7 - v2 / 9))) : v - angle;
-    sum->below += weight * rho * lens;
+    sum->below += weight * rho * lens_of(v, v2, angle);
     sum->turned += weight * angle;
     sum->along += weight * rho * v;
 }
@@ -138,11 +134,6 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
     sum.turned *= 2;
     sum.along *= 2;
     return sum;
-}
-
-double vndf_profile_area(const vndf_profile *profile, double s, double c)
-{
-    return vndf_profile_below(profile, s, fabs(c)).below + (c > 0 ? c : 0);
 }
 
 double vndf_profile_claimed(const vndf_profile *profile)

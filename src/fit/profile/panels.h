@@ -1,4 +1,5 @@
-/* Makes panels and sums over them; inside of panels.c, settle.c and profile.c. */
+/* Makes the panels of a profile, and looks between their points; inside of panels.c, proof.c and profile.c. Until a
+ * profile is complete its scale is 1: slopes are those of the source. */
 #ifndef VNDF_FIT_PROFILE_PANELS_H
 #define VNDF_FIT_PROFILE_PANELS_H
 
@@ -10,37 +11,41 @@ enum { VNDF_OCTAVES = 100 };
 /* An exponent this close to the limit of integrable ones counts as the limit. */
 static const double VNDF_POWER_MARGIN = 1e-6;
 
+/* Where panels are cut: a jump in the middle would add half to either rule, and look smooth. */
+static const double VNDF_UNEVEN = 0.43;
+
+/* The cost of a bound (vndf_reach), over the cost of a value. */
+static const double VNDF_REACH_OPERATIONS = 12;
+
 /* Whether the guard or the limit of panels stops the work. */
 int vndf_profile_stopped(const vndf_profile *profile);
 
 /* The largest P r^2 at a few thousand slopes, to see what is negligible. */
-double vndf_panels_peak(vndf_profile *profile);
+double vndf_panels_peak(const vndf_profile *profile);
 
-/* What passes know of those before, since all look at the same slopes: the largest P22 r^2 of the source; and whether
- * one panel was enough between two edges. Zeroed before the first pass but for the peak; free `simple` after the
- * last. */
-typedef struct vndf_known {
-    double peak;
-    unsigned char *simple; /* edge i and the next */
-    size_t count;          /* edges */
-} vndf_known;
-
-/* Makes the panels, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile, vndf_known *known);
+/* Makes the panels with their points, unless something stops it. `peak`: of P r^2. */
+void vndf_panels_fill(vndf_profile *profile, double peak);
 
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);
 
-/* The Gauss points of all panels, for integrals with other kernels; 0 if there is no memory. */
-int vndf_panels_points(vndf_profile *profile);
-
 /* -d log P / d log r between two slopes; infinite if P vanishes there. */
-double vndf_panels_exponent(vndf_profile *profile, double r0, double r1);
+double vndf_panels_exponent(const vndf_profile *profile, double r0, double r1);
 
-/* The slope with half of the mass on either side. */
-double vndf_panels_median(vndf_profile *profile);
+/* What panels missed. */
+typedef struct vndf_proof {
+    double hidden;       /* bound on what panels missed, of the mass or of the area at grazing incidence */
+    double worst, where; /* largest bound of one place, as such a part, and its slope */
+    int proven;          /* the bound and the miss that was found are small enough */
+    double *edge;        /* slopes about features that panels missed, ascending; owned */
+    size_t edge_count;
+} vndf_proof;
 
-/* Integrates until two passes agree, and says what is wrong if P22 is no microsurface's (settle.c). */
-vndf_status vndf_profile_settle(vndf_profile *profile, vndf_error *error);
+/* By bounds, for a source that has them (proof.c). 0 if there is no memory or the build must end; free it either
+ * way. */
+int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile);
+/* By values at most half of `width` times their slope apart, which meet a feature of that width. Narrower features are
+ * not excluded; `proven` then means that no more was found. */
+int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width);
 
 #endif

@@ -1,50 +1,70 @@
-/* What no point has met: panels are made, bounds look between the points, and where they find more, panels are made
- * anew with edges there. See profile.h. */
-#include "fit/profile/panels.h"
-
+/* From a source to its profile, or to the reason why it is no microsurface: panels are made, a proof looks between
+ * their points, and where it finds more, panels are made anew with edges there. Then slopes and values are brought to
+ * canonical scale. The public oracle is a profile without a table. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/profile/proof.h"
 #include "core/error.h"
-#include "math/ascending.h"
+#include "fit/profile/panels.h"
 
-static const double NARROW = 1.01; /* ratio of the ends of a panel that was cut for a feature */
+static const double PI = 3.14159265358979323846;
+static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
+static const double POLE_LOST = 1e-6;    /* part of the mass that may lie below the first panel, */
+static const double TAIL_LOST = 2e-3;    /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double FINEST = 1e-3;       /* the default width of features that samples find */
 
 static vndf_status no_memory(vndf_error *error)
 {
     return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
 }
 
-static int add_edges(vndf_profile *profile, const double *more, size_t more_count)
+/* ---- what a microsurface must be ---- */
+
+static vndf_status check_values(const vndf_profile *profile, double peak, vndf_error *error)
 {
-    size_t count = profile->edge_count + more_count;
-    double *edge = realloc(profile->edge, (count + 1) * sizeof *edge);
-    if (!edge)
-        return 0;
-    profile->edge = edge;
-    memcpy(edge + profile->edge_count, more, more_count * sizeof *edge);
-    qsort(edge, count, sizeof *edge, vndf_ascending);
-    profile->edge_count = count;
-    return 1;
+    if (vndf_guard_stopped(profile->guard))
+        return vndf_guard_status(profile->guard, error);
+    if (peak > 0.0 && peak < LEAST_PEAK)
+        return vndf_fail(
+            error, VNDF_ERROR_DISTRIBUTION,
+            "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor", peak);
+    if (profile->rough)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is too rough: not resolved by %d panels; the last one began at slope %g",
+                         VNDF_LIMIT_BUILD_PANELS, profile->count ? profile->panel[profile->count - 1].r : 0.0);
+    if (!(profile->f0 > 0.0))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
+    return VNDF_OK;
 }
 
-/* The ends of panels that were cut more than by default: the next passes look where one pass met a feature by
- * chance. */
-static int keep_edges(vndf_profile *profile)
+/* Checks that both ends are integrable, and that little lies beyond the panels. */
+static vndf_status check_ends(const vndf_profile *profile, vndf_error *error)
 {
+    double tail = vndf_panels_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
+    double pole = vndf_panels_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
     const vndf_panel *p = profile->panel;
-    double *edge = malloc(2 * profile->count * sizeof *edge);
-    size_t count = 0;
-    for (size_t i = 0; edge && i < profile->count; i++)
-        if (p[i + 1].r < p[i].r * NARROW) {
-            edge[count++] = p[i].r * profile->scale;
-            edge[count++] = p[i + 1].r * profile->scale;
-        }
-    int good = edge && add_edges(profile, edge, count);
-    free(edge);
-    return good;
+    size_t n = profile->count;
+    if (pole < HUGE_VAL && pole >= 2.0 - VNDF_POWER_MARGIN)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "infinite projected area at the pole: P22 rises as r^-%.4g for r -> 0, must rise slower "
+                         "than r^-2",
+                         pole);
+    if (pole < HUGE_VAL && pole > 0.0 && p[1].f0 / (exp2(2.0 - pole) - 1.0) > POLE_LOST * profile->f0)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "P22 rises as r^-%.4g for r -> 0: too much of its mass lies below slope 1e-30", pole);
+    if (tail <= 3.0 + VNDF_POWER_MARGIN)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "infinite projected area: P22 falls as r^%.4g for large r, must fall faster than r^-3 "
+                         "(D slower than 1/cos(theta_m) towards 90 degrees)",
+                         0.0 - tail);
+    if (tail < HUGE_VAL && profile->tail_m1 + p[n].r * profile->tail_m0 > TAIL_LOST * profile->f1)
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "the tail is too heavy: P22 falls as r^-%.6g, so that over 0.2%% of the projected area "
+                         "at grazing incidence lies beyond slope 1e30, where no single-precision normal can lie",
+                         tail);
+    return VNDF_OK;
 }
 
 static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
@@ -59,61 +79,119 @@ static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
                      proof->where, proof->hidden, proof->worst);
 }
 
-static const double FINEST = 1e-3; /* the default width of features that samples find */
+/* ---- panels until nothing hides ---- */
+
+static vndf_status measure(vndf_profile *profile, vndf_error *error)
+{
+    profile->normalization = profile->scale = 1.0;
+    profile->f0 = 0.0;
+    double peak = vndf_panels_peak(profile);
+    if (peak >= LEAST_PEAK)
+        profile->normalization = 1.0 / peak;
+    vndf_panels_fill(profile, peak);
+    if (!vndf_profile_stopped(profile))
+        vndf_panels_sum(profile);
+    vndf_status status = check_values(profile, peak, error);
+    return status == VNDF_OK ? check_ends(profile, error) : status;
+}
+
+static int add_edges(vndf_profile *profile, const double *more, size_t count)
+{
+    double *edge = realloc(profile->edge, (profile->edge_count + count + 1) * sizeof *edge);
+    if (!edge)
+        return 0;
+    profile->edge = edge;
+    memcpy(edge + profile->edge_count, more, count * sizeof *edge);
+    profile->edge_count += count;
+    return 1;
+}
 
 /* Tries the proof; without one, samples. 0 if there is no memory. */
 static int look_between(vndf_profile *profile, vndf_proof *proof)
 {
+    int bounded = profile->source->reach != NULL;
     profile->finest = 0.0;
-    int good = profile->source->reach ? vndf_proof_from(proof, profile) : 1;
-    if (profile->source->reach && (proof->proven || proof->edge_count || profile->sampled == 0.0))
-        return good;
+    if (bounded && !vndf_proof_from(proof, profile))
+        return 0;
+    if (bounded && (proof->proven || proof->edge_count || profile->sampled == 0.0))
+        return 1;
+    free(proof->edge);
     profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
-    if (profile->source->reach)
-        vndf_proof_free(proof);
-    return good && vndf_proof_by_samples(proof, profile, profile->finest);
+    return vndf_proof_by_samples(proof, profile, profile->finest);
 }
 
-/* 1 if panels must be made anew, with more edges; else *status is the answer. */
-static int look_closer(vndf_profile *profile, int last, vndf_status *status, vndf_error *error)
-{
-    vndf_proof proof = {0};
-    int good = look_between(profile, &proof), again = 0;
-    profile->hidden = fmin(proof.hidden, 1.0);
-    if (vndf_guard_stopped(profile->guard))
-        *status = vndf_guard_status(profile->guard, error);
-    else if (!good || (proof.edge_count && !add_edges(profile, proof.edge, proof.edge_count)))
-        *status = no_memory(error);
-    else if (proof.edge_count && !last)
-        again = 1;
-    else if (!proof.proven && (*status == VNDF_OK || !(profile->f0 > 0.0)))
-        *status = unproven(&proof, error);
-    vndf_proof_free(&proof);
-    return again;
-}
-
-/* Looks at points first, then between them, until it finds nothing more. */
-static vndf_status make(vndf_profile *profile, vndf_error *error)
+/* What the panels found wrong is told only if nothing hides from them. */
+static vndf_status look(vndf_profile *profile, vndf_error *error)
 {
     enum { LOOKS = 12 };
-    for (int i = 0;; i++) {
-        profile->normalization = profile->scale = 1.0;
-        profile->floor = 0.0;
-        profile->unsettled = 0;
-        vndf_status status = vndf_profile_settle(profile, error);
+    for (int i = 1;; i++) {
+        vndf_proof proof = {0};
+        vndf_status status = measure(profile, error);
         if (vndf_profile_stopped(profile) || profile->count == 0)
             return status;
-        if (!vndf_panels_points(profile))
+        int good = look_between(profile, &proof) && add_edges(profile, proof.edge, proof.edge_count);
+        free(proof.edge);
+        profile->hidden = fmin(proof.hidden, 1.0);
+        if (vndf_guard_stopped(profile->guard))
+            return vndf_guard_status(profile->guard, error);
+        if (!good)
             return no_memory(error);
-        int again = look_closer(profile, i + 1 == LOOKS, &status, error);
-        if (!again && (!profile->unsettled || i + 1 == LOOKS))
-            return status;
-        if (!again && !keep_edges(profile))
-            return no_memory(error);
+        if (proof.edge_count && i < LOOKS)
+            continue;
+        return proof.proven || (status != VNDF_OK && profile->f0 > 0.0) ? status : unproven(&proof, error);
     }
 }
 
-/* Adds panels that are narrower the nearer they are to a break, where a feature may have any width. */
+/* ---- canonical scale ---- */
+
+/* The slope with half of the mass on either side. */
+static double median_of(const vndf_profile *profile)
+{
+    size_t i = 0;
+    while (i + 1 < profile->count && profile->panel[i + 1].f0 < profile->f0 / 2)
+        i++;
+    const vndf_panel *p = &profile->panel[i];
+    double low = p->r, high = p[1].r;
+    for (int step = 0; step < 30; step++) {
+        vndf_profile_point point[VNDF_GAUSS];
+        double middle = sqrt(low * high), mass = p->f0;
+        vndf_profile_rule(profile, p->r, middle, point);
+        for (int k = 0; k < VNDF_GAUSS; k++)
+            mass += point[k].weight;
+        if (mass < profile->f0 / 2)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static vndf_status make_canonical(vndf_profile *profile, vndf_error *error)
+{
+    double mass = 2 * PI * profile->f0, scale = median_of(profile);
+    if (vndf_guard_stopped(profile->guard))
+        return vndf_guard_status(profile->guard, error);
+    if (!(scale > 1e-17 && scale < 1e17))
+        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
+                         "the median slope is %g; from 1e-17 to 1e17 can be tabulated", scale);
+    profile->scale = scale;
+    profile->normalization /= mass;
+    for (size_t i = 0; i <= profile->count; i++) {
+        profile->panel[i].r /= scale;
+        profile->panel[i].m0 /= mass;
+        profile->panel[i].m1 /= mass * scale;
+    }
+    for (size_t i = 0; i < profile->count * VNDF_GAUSS; i++) {
+        profile->point[i].r /= scale;
+        profile->point[i].weight /= mass;
+    }
+    vndf_panels_sum(profile);
+    return vndf_guard_status(profile->guard, error);
+}
+
+/* ---- the whole ---- */
+
+/* Adds edges that are closer the nearer they are to a break, where a feature may have any width. */
 static int add_break(vndf_profile *profile, double r)
 {
     enum { SHELLS = 20 };
@@ -126,33 +204,32 @@ static int add_break(vndf_profile *profile, double r)
     return add_edges(profile, edge, 2 * SHELLS + 1);
 }
 
-/* 0 if there is no memory. */
-static int take_resolution(vndf_profile *profile, const vndf_resolution *resolution, vndf_error *error)
+static vndf_status make(vndf_profile *profile, const vndf_resolution *given, vndf_error *error)
 {
-    vndf_resolution none = {NULL, 0, 0.0}, given = resolution ? *resolution : none;
-    profile->sampled = given.finest;
-    profile->description = vndf_resolution_describe(&given, profile->source->description, error);
-    int good = profile->description != NULL;
-    for (size_t i = 0; good && i < given.break_count; i++)
-        good = add_break(profile, given.breaks[i]);
-    if (profile->description && !good)
-        no_memory(error);
-    return good;
+    profile->sampled = given->finest;
+    profile->description = vndf_resolution_describe(given, profile->source->description, error);
+    if (!profile->description)
+        return VNDF_ERROR_MEMORY;
+    for (size_t i = 0; i < given->break_count; i++)
+        if (!add_break(profile, given->breaks[i]))
+            return no_memory(error);
+    vndf_status status = look(profile, error);
+    return status == VNDF_OK ? make_canonical(profile, error) : status;
 }
 
 vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
                                 vndf_error *error)
 {
-    vndf_profile *profile = source ? calloc(1, sizeof *profile) : NULL;
+    const vndf_resolution none = {NULL, 0, 0.0};
+    vndf_profile *profile = calloc(1, sizeof *profile);
+    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* panels that fail may precede some that succeed */
     if (!profile) {
-        vndf_fail(error, source ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
-                  source ? "no memory to resolve the distribution" : "no source: NULL was given");
+        no_memory(error);
         return NULL;
     }
     profile->source = source;
     profile->guard = guard;
-    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* a pass that fails may precede one that succeeds */
-    if (take_resolution(profile, resolution, &inner) && make(profile, &inner) == VNDF_OK)
+    if (make(profile, resolution ? resolution : &none, &inner) == VNDF_OK)
         return profile;
     vndf_fail(error, inner.status, "%s", inner.message);
     vndf_profile_free(profile);
@@ -168,4 +245,51 @@ void vndf_profile_free(vndf_profile *profile)
     free(profile->edge);
     free(profile->description);
     free(profile);
+}
+
+/* ---- the public oracle ---- */
+
+struct vndf_reference {
+    vndf_profile *profile;
+};
+
+vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error)
+{
+    vndf_guard guard = vndf_guard_from(NULL, NULL);
+    if (!source) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a source is needed");
+        return NULL;
+    }
+    vndf_profile *profile = vndf_profile_from(source, NULL, &guard, error);
+    if (!profile)
+        return NULL;
+    profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
+    vndf_reference *reference = malloc(sizeof *reference);
+    if (reference)
+        reference->profile = profile;
+    else {
+        vndf_profile_free(profile);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for the reference of a distribution");
+    }
+    return reference;
+}
+
+double vndf_reference_p22(const vndf_reference *reference, double r)
+{
+    return reference ? reference->profile->normalization * vndf_source_p22(reference->profile->source, r) : 0.0;
+}
+
+double vndf_reference_area(const vndf_reference *reference, double theta)
+{
+    if (!reference)
+        return 0.0;
+    double s = sin(theta) * reference->profile->scale, c = cos(theta);
+    return vndf_profile_below(reference->profile, s, fabs(c)).below + fmax(c, 0.0);
+}
+
+void vndf_reference_free(vndf_reference *reference)
+{
+    if (reference)
+        vndf_profile_free(reference->profile);
+    free(reference);
 }

@@ -1,7 +1,7 @@
 /* Where the knots of a table stand. The worst cell is cut, again and again, so that the first so many knots are those
  * of a table of any size. */
-#ifndef VNDF_FIT_RADIAL_H
-#define VNDF_FIT_RADIAL_H
+#ifndef VNDF_FIT_KNOTS_H
+#define VNDF_FIT_KNOTS_H
 
 #include "fit/cells.h"
 
@@ -18,7 +18,7 @@ typedef struct vndf_interval {
     float cut; /* 0: it cannot be cut */
 } vndf_interval;
 
-typedef struct vndf_radial {
+typedef struct vndf_knots {
     const vndf_profile *profile;
     unsigned squarings;
     double last;                        /* the largest rho from which what is seen below the horizon counts */
@@ -26,16 +26,12 @@ typedef struct vndf_radial {
     unsigned start, count;
     vndf_interval interval[VNDF_CELLS_MAX + 1];
     vndf_points points; /* of the cell at hand */
-} vndf_radial;
+} vndf_knots;
 
-/* 0 if there is no memory; free it either way. */
-int vndf_radial_from(vndf_radial *radial, const vndf_profile *profile);
-void vndf_radial_free(vndf_radial *radial);
+/* 0 if there is no memory; free knots->points.at either way. */
+int vndf_knots_from(vndf_knots *knots, const vndf_profile *profile);
 
 /* Adds knots until there are `count`, or no cell can be cut; returns how many there are. */
-unsigned vndf_radial_refine(vndf_radial *radial, unsigned count);
-
-/* The first `count` knots, ascending. */
-void vndf_radial_knots(const vndf_radial *radial, unsigned count, vndf_knot *knot);
+unsigned vndf_knots_refine(vndf_knots *knots, unsigned count);
 
 #endif
