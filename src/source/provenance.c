@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "source/formula/expression.h"
-#include "source/number.h"
 #include "source/resolution.h"
 #include "source/source.h"
 #include "source/words.h"

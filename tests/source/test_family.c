@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "source/family/family.h"
-#include "source/family/materials.h"
 #include "source/provenance.h"
 #include "source/source.h"
 
@@ -312,8 +311,8 @@ static size_t compare_table(const char *path, int channels, size_t index)
         if (line[0] == '#' || fields < (channels ? 4 : 3))
             continue;
         snprintf(name, sizeof name, channels ? "sgd:%s/%s" : "abc:%s", material, channel);
-        const vndf_material *found = vndf_material_find(name, strlen(name));
-        TEST(found == &vndf_materials[index] && found->parameter[0] == a && found->parameter[1] == b);
+        const vndf_material_fit *found = vndf_material_fit_find(name, strlen(name));
+        TEST(found == &vndf_material_fits[index] && found->parameter[0] == a && found->parameter[1] == b);
         index++;
     }
     fclose(file);

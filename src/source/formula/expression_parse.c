@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/number.h"
 #include "source/words.h"
 
 typedef struct parser {

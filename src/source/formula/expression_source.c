@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "source/formula/expression_bound.h"
-#include "source/number.h"
 #include "source/source.h"
 #include "source/words.h"
 
