@@ -36,8 +36,8 @@ void vndf_words_free(vndf_words *words);
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
 
-/* Whether the text is the word; and how many letters (of at most 64) are to be inserted, dropped or replaced for it to
- * become the word. */
+/* Whether the text is the word; and how many letters (of at most 64) are to be inserted, dropped, replaced or
+ * exchanged with the next for it to become the word, small or capital. */
 int vndf_is_word(const char *text, size_t size, const char *word);
 size_t vndf_word_distance(const char *text, size_t size, const char *word);
 

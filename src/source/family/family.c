@@ -255,7 +255,7 @@ static vndf_status compile(lobe *l, vndf_error *error)
 {
     static const char *const variables[] = {"r"};
     const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = {{"a", l->parameter[0]}, {"b", l->parameter[1]}};
-    vndf_names names = {variables, 1, parameters, VNDF_FAMILY_PARAMETERS};
+    vndf_names names = {variables, 1, parameters, l->form->count};
     return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
 }
 

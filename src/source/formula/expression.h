@@ -69,31 +69,30 @@ typedef struct vndf_names {
 } vndf_names;
 
 /* Compiles text; parameters become constants. VNDF_ERROR_SYNTAX with the column (from 1) and what would
- * be right; VNDF_ERROR_ARGUMENT for a bad parameter. On failure *expression needs no freeing. */
+ * be right; VNDF_ERROR_ARGUMENT for a parameter that is bad or not used. On failure *expression needs no freeing. */
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error);
 void vndf_expression_free(vndf_expression *expression);
 
-/* Runs the first count instructions and returns the value on top of the stack; *below, if not NULL,
- * receives the one under it (0 if there is none). All instructions: the value of the formula. */
-double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables,
-                           double *below);
+/* The values of variable i at up to VNDF_SOURCE_MANY points: variables[i]. */
+typedef double vndf_points[VNDF_SOURCE_MANY];
 
-/* The values of the formula at up to VNDF_SOURCE_MANY points, the same bits; variables[i] are the values of variable
- * i there. An instruction is looked at once for all. */
-void vndf_expression_run_many(const vndf_expression *expression, double (*variables)[VNDF_SOURCE_MANY],
-                              size_t count, double *values);
+/* Runs the first `length` instructions at `count` points: values[] receives what is on top of the stack, and below[],
+ * unless NULL, what is under it (0 if there is nothing). All instructions: the values of the formula. An instruction
+ * is looked at once for all points; a point alone gets the same bits. */
+void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_points *variables, size_t count,
+                         double *values, double *below);
 
-/* The function of this name, NULL if there is none; the names of all, separated by blanks. */
+/* The function of this name, NULL if there is none; the name of the i-th, NULL past the last. */
 const vndf_function *vndf_function_find(const char *name, size_t size);
-const char *vndf_function_names(void);
+const char *vndf_function_name(size_t index);
 
 /* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
  * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
- * the breaks of the inner calls. variables(r) fills the variables. A search that becomes too long ends and keeps
+ * the breaks of the inner calls. `variables` fills the variables at slopes. A search that becomes too long ends and keeps
  * the breaks found so far. Writes at most `limit` of them to breaks and their number to *count; returns 0 if there
  * is no memory. */
-typedef void vndf_variables_of_slope(double r, double *variables);
+typedef void vndf_variables_of_slope(const double *r, size_t count, vndf_points *variables);
 int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
                            size_t limit, size_t *count);
 
