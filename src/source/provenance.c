@@ -1,7 +1,5 @@
 /* Reads provenance back, and lets programs bring words of their own. Descriptions come from table files, so they are
  * not trusted: every word is checked. */
-#include "source/provenance.h"
-
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
  * formulas that stand for families. */
 #include "harness/test.h"
 
-#include "source/formula/expression_bound.h"
+#include "source/formula/expression.h"
 #include "source/family/family.h"
 
 /* clang-format off */

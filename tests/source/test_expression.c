@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "source/formula/expression.h"
-#include "source/provenance.h"
 #include "source/source.h"
 #include "source/words.h"
 

@@ -1,6 +1,6 @@
 /* The curve through the rows of a measured distribution, as csv.h says: Steffen's monotone cubic (slopes by eq. 11
- * inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and Astrophysics 239 (1990). Its first derivative
- * is continuous, it never leaves the range of two neighbours, and it is exact for straight lines. */
+ * inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and Astrophysics 239 (1990). Its first
+ * derivative is continuous, it never leaves the range of two neighbours, and it is exact for straight lines. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -118,8 +118,8 @@ static double value_at(const curve *c, double x)
     return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
 }
 
-/* The value at the distance d before the last point, in the last piece, whose last value is 0. The values near it keep
- * all their digits, which those of value_at lose with x. */
+/* The value at the distance d before the last point, in the last piece, whose last value is 0. The values near it
+ * keep all their digits, which those of value_at lose with x. */
 static double value_before_end(const curve *c, double d)
 {
     size_t i = c->count - 2;
@@ -136,8 +136,8 @@ static double cosine4(double r)
     return c2 * c2;
 }
 
-/* Between the abscissas of the angle of the slope r and of 90 degrees: asinh a - asinh b for a^2 - b^2 that is known
- * with all its digits. */
+/* Between the abscissas of the angle of the slope r and of 90 degrees: asinh a - asinh b for a^2 - b^2 that is
+ * known with all its digits. */
 static double distance_to_grazing(double scale, double r)
 {
     double a = RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
@@ -157,8 +157,8 @@ static double p22(const vndf_source *self, double r)
     return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
 }
 
-/* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of rows,
- * where the rows say nothing more about the curve. */
+/* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
+ * rows, where the rows say nothing more about the curve. */
 static double stray_of(const many_rows *rows, double u0, double f0, double u1, double f1)
 {
     double slope = (f1 - f0) / (u1 - u0), from = u0, off = 0.0, sum = 0.0, margin = 1e-9 * (u1 - u0) + 1e-13;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/formula/expression_bound.h"
+#include "source/formula/expression.h"
 #include "source/source.h"
 #include "source/words.h"
 

@@ -148,10 +148,10 @@ static const char *known_name(const vndf_names *n, size_t i)
     return i == 0 ? "pi" : vndf_function_name(i - 1);
 }
 
-static void add_name(char *list, size_t size, const char *name, const char *separator)
+static void add_name(char *list, size_t size, const char *separator, const char *name)
 {
     size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s", name, separator);
+    snprintf(list + used, size - used, "%s%s", used ? separator : "", name);
 }
 
 static int unknown_name(parser *p, size_t size)
@@ -166,12 +166,13 @@ static int unknown_name(parser *p, size_t size)
             snprintf(hint, sizeof hint, "did you mean '%s'? ", name);
         }
         if (i > p->names->variable_count + p->names->parameter_count)
-            add_name(functions, sizeof functions, name, " ");
+            add_name(functions, sizeof functions, " ", name);
         else
-            add_name(known, sizeof known, name, ", ");
+            add_name(known, sizeof known, ", ", name);
     }
-    vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unknown name '%s'; %sknown are %sand with parentheses %s",
-              p->at + 1, vndf_excerpt(excerpt, text, size), hint, known, functions);
+    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+              "column %zu: unknown name '%s'; %sknown are %s, and with parentheses %s", p->at + 1,
+              vndf_excerpt(excerpt, text, size), hint, known, functions);
     return 0;
 }
 
