@@ -165,8 +165,8 @@ static void test_error(const char *specification, const char *message)
 static void test_errors(void)
 {
     static const char *const refused[][2] = {
-        {"",
-         "column 1: unknown family ''; known are ggx, beckmann, student-t, gtr, epd, abc, sgd, hyper-cauchy, phong, mix"},
+        {"", "column 1: unknown family ''; known are ggx, beckmann, student-t, gtr, epd, abc, sgd, hyper-cauchy, "
+             "phong, mix"},
         {"GGX", "column 1: unknown family 'GGX'"},
         {"ggx:1", "column 5: too many parameters; right would be ggx"},
         {"student-t", "column 10: GAMMA is missing; right would be student-t:GAMMA"},

@@ -1,6 +1,6 @@
 /* Functions of intervals: a monotone function takes its bounds at the ends, any other at its extremes in between
  * too. */
-#include "source/interval/ends.h"
+#include "source/interval/interval.h"
 
 static const double EXPONENTIAL = 1e-15; /* error of an exponent, the argument of exp() */
 static const double LOG_2 = 0.69314718055994531;

@@ -1,5 +1,5 @@
 /* The ends of intervals, and + - * / of them: see interval.h. */
-#include "source/interval/ends.h"
+#include "source/interval/interval.h"
 
 #include <float.h>
 
