@@ -1,48 +1,73 @@
 /* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
  *
- * A renderer links the library of this header, which needs the C library and nothing else. A distribution of
- * microfacet normals is a table that was made offline (vndf_build.h, or `vndf build`), or one of the closed
- * forms vndf_ggx() and vndf_beckmann(). Every function below treats all of them alike.
+ *     int main(void)
+ *     {
+ *         vndf_error error;
+ *         vndf_distribution *table = vndf_load("tables/example.vndf", &error);
+ *         if (!table)
+ *             return puts(error.message), 1;
+ *         vndf_surface metal = {table, 0.3f, 0.1f}; // alpha_x, alpha_y
+ *         vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
+ *         vndf_view view = vndf_view_from(&metal, wi); // once for each hit
+ *         float pdf, weight;
+ *         vndf_vec3 wm = vndf_sample_weight(&view, 0.25f, 0.5f, &pdf, &weight);
+ *         printf("wm (%g, %g, %g), pdf %g, weight %g\n", wm.x, wm.y, wm.z, pdf, weight);
+ *         vndf_free(table);
+ *         return 0;
+ *     }
  *
- * Conventions. Local frame: z is the geometric normal, x the axis of alpha_x. Directions are unit
- * vectors that point away from the surface; wi is the known direction, wm a microfacet normal (wm.z >= 0).
- * The slope of wm is (x, y) = (-wm.x/wm.z, -wm.y/wm.z). The density of normals D is per steradian with
- * integral D(wm) cos(theta_m) dwm = 1, and P22(x, y) = D cos^4(theta_m) is the density of slopes.
- * A roughness (alpha_x, alpha_y) stretches the distribution that the table was built from:
+ * needs <stdio.h>, this header, the library and a table that was made offline, by `vndf build` or vndf_build.h.
  *
- *     D(wm) = P22(x/alpha_x, y/alpha_y) / (alpha_x alpha_y cos^4(theta_m)),
+ * Map
+ *     distributions   vndf_load, vndf_load_memory, vndf_free; vndf_ggx, vndf_beckmann; vndf_distribution_info
+ *     surfaces        vndf_surface {distribution, alpha_x, alpha_y}, vndf_affine {distribution, matrix, mean},
+ *                     vndf_mixture of up to eight of these
+ *     one direction   vndf_view_from, vndf_affine_view_from: a view; then vndf_sample, vndf_sample_weight,
+ *                     vndf_pdf, vndf_visible, vndf_invert; vndf_mixture_view_from with calls of its own
+ *     any direction   vndf_ndf, vndf_p22, vndf_projected_area, vndf_lambda, vndf_g1, vndf_g2, and the same
+ *                     with vndf_affine_ and vndf_mixture_
+ *     many at once    the same calls with _n at their ends
+ *     families        vndf_family_load, vndf_family_at: a parameter of the distribution that is a texture
+ *     GPUs            vndf_numbers, and the kernels of `vndf export`
  *
- * so alpha = 1 is the distribution exactly as the builder received it. The visible normals from wi
- * (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible
- * Normals", EGSR 2014) have the density  Dv(wm) = max(0, wi.wm) D(wm) / A(wi)  per steradian, where
- * A(wi) = integral max(0, wi.wm) D(wm) dwm is the projected area of the microsurface.
- * Incident directions from 0 to 180 degrees are all valid. From below the horizon the visible normals are those that
- * a ray inside the microsurface meets.
+ * Conventions. Local frame: z is the geometric normal, x the axis of alpha_x. Directions are unit vectors that
+ * point away from the surface; wi is the known direction, wm a microfacet normal (wm.z >= 0), whose slope is
+ * (-wm.x/wm.z, -wm.y/wm.z). The density of normals D is per steradian with integral D(wm) cos(theta_m) dwm = 1,
+ * and P22 = D cos^4(theta_m) is the density of slopes. The roughness stretches the distribution that the table was
+ * built from, so alpha = 1 is the distribution as the builder received it:
  *
- * Densities. A sample returns the density with which it was drawn, by a formula in the numbers of the table. So an
- * estimator that divides by this density is unbiased at every size of the table: a coarse table costs variance, never
- * bias. The density is positive wherever the true one is, and the certificate holds the largest ratio of both.
- * The run time computes in float alone. The density of a sample is, to 1e-5, that of a normal within one rounding
- * (2^-23) of the normal returned. vndf_pdf of the normal returned differs from it
+ *     D(wm) = P22(x/alpha_x, y/alpha_y) / (alpha_x alpha_y cos^4(theta_m)).
  *
- *     above the horizon by at most 1e-5 for 99.9% of the samples, 1e-4 for 99.99%,
- *     below the horizon by at most 1e-4 for 99.9% of the samples, 1e-3 for 99.99%,
- * relative, where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a tenth of
- * its slope. Smoother surfaces and narrower lobes lose digits: there one rounding of wm moves the density itself, as
- * a rotation to world space and back does. No density is zero, infinite or NaN, and no normal is turned away from wi.
- * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be NULL. Calls
- * on values (sample, pdf, ...) cannot fail: valid input gives finite results, and the comment of vndf_view_from
- * states the one result of invalid input. The library keeps no state: distributions are immutable, and any number of
- * threads may call every function at once.
- * Same bits everywhere. One call and a batch, gcc and clang, -O0 and -O3, SSE2, AVX2, AVX-512 and NEON give the same
- * bits: every function of this header uses only + - * / sqrt, comparisons, conversions and the bits of numbers, has
- * its own elementary functions, and is compiled without contraction. That needs IEEE 754 floats, rounding to nearest,
- * and denormals that are kept. The sources refuse to compile where intermediate results have more digits
- * (FLT_EVAL_METHOD not 0: 32-bit x86, unless compiled with -msse2 -mfpmath=sse). A caller may flush denormals to
- * zero: it gets the same bits as long as none occurs, and where one occurs it counts as zero.
- * tests/corpus/same_bits.txt holds hashes to compare machines by. Builds (vndf_build.h) use exp, log and pow of the C
- * library, so the last digits of a new table depend on the machine; a table file, once written, gives the same bits
- * everywhere. */
+ * The visible normals (Heitz & d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of
+ * Visible Normals", EGSR 2014) have the density Dv(wm) = max(0, wi.wm) D(wm)/A(wi) per steradian; the projected
+ * area A(wi) is integral max(0, wi.wm) D(wm) dwm. All directions wi are valid, from 0 to 180 degrees from the
+ * normal: from below the horizon a ray inside the microsurface sees the surface.
+ *
+ * Densities. A sample returns the density with which it was drawn, by a formula in the numbers of the table. An
+ * estimator that divides by this density is unbiased at every size of the table: a coarse table costs variance,
+ * never bias. The density is positive wherever the true one is, and the certificate holds the largest ratio of
+ * both. No density is zero, infinite or NaN, and no normal is turned away from wi. The run time computes in float.
+ * The density of a sample is that of a normal within one rounding (2^-23) of the normal returned, to 1e-5; beside
+ * vndf_pdf of the normal returned it is
+ *
+ *     above the horizon within 1e-5 for 99.9% of the samples, 1e-4 for 99.99%,
+ *     below the horizon within 1e-4 for 99.9% of the samples, 1e-3 for 99.99%,
+ *
+ * where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a tenth of its
+ * slope. On smoother surfaces and in narrower lobes one rounding of wm moves the density itself.
+ *
+ * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be NULL.
+ * Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and vndf_view_from states the
+ * result of invalid input. The library keeps no state: distributions are immutable, and any number of threads may
+ * call every function at once.
+ *
+ * Same bits everywhere. Single calls and batches, gcc and clang, -O0 and -O3, SSE2, AVX2, AVX-512 and NEON agree
+ * to the bit: every function of this header uses only + - * / sqrt, comparisons, conversions and the bits of
+ * numbers, without contraction. That needs IEEE 754 floats, rounding to nearest, and FLT_EVAL_METHOD 0 (32-bit
+ * x86: -msse2 -mfpmath=sse), without which the sources do not compile. Where denormals are flushed to zero,
+ * results are the same as long as none occurs. tests/corpus/same_bits.txt holds hashes to compare machines by.
+ * Builds (vndf_build.h) use exp, log and pow of the C library: the last digits of a new table depend on the
+ * machine, those of its samples do not. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -90,60 +115,56 @@ typedef struct vndf_vec3 {
     float x, y, z;
 } vndf_vec3;
 
-/* The version of the library that runs, VNDF_VERSION of its header: "0.1.0". Before 1.0 a minor version may change
- * the members of the structs below, so a program that loads the library itself compares. */
+/* The version of the library that runs, "0.1.0". Before 1.0 a minor version may change the members of the structs
+ * below, so a program that loads the library itself compares this with VNDF_VERSION. */
 VNDF_API const char *vndf_version(void);
 
 /* ---- distributions ---------------------------------------------------------------------------- */
 
-/* A distribution of normals: a loaded or built table, or a closed form. It is immutable; threads may share it. */
+/* A distribution of normals: a table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* A larger file is not a table. Tables that vndf_build makes have at most 180 KiB. */
+/* No table is larger. Those that vndf_build makes have at most 180 KiB. */
 enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
 
-/* Reads a table file. Returns NULL and an error if the file cannot be read or is not a whole, consistent table.
- * The loader does not trust the bytes: no file crashes it. Free the result with vndf_free. */
+/* Reads a table from a file or from memory, whose bytes are copied. NULL and an error if the file cannot be read,
+ * or is not a whole, consistent table. No bytes crash the loader. Free the result with vndf_free. */
 VNDF_API vndf_distribution *vndf_load(const char *path, vndf_error *error);
-
-/* The same from memory. The bytes are copied; the caller may free them at once. */
 VNDF_API vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error);
 
 /* Frees a table; does nothing for NULL and the closed forms. */
 VNDF_API void vndf_free(vndf_distribution *distribution);
 
-/* GGX (Trowbridge-Reitz), P22(r) = 1/(pi (1 + r^2)^2), sampled by spherical caps (Dupuy & Benyoub,
- * "Sampling Visible GGX Normals with Spherical Caps", HPG 2023) in half angles, which leave no NaN. Exact. It need
- * not be freed. */
+/* GGX (Trowbridge-Reitz), P22(r) = 1/(pi (1 + r^2)^2), sampled by spherical caps (Dupuy & Benyoub, "Sampling
+ * Visible GGX Normals with Spherical Caps", HPG 2023). It need not be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the CDF of slopes. It need not be freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the CDF of slopes. It need not be
+ * freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
-/* What the builder measured: the table as it is stored, in float, against quadrature of the given D. It measures
- * incident directions from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of the area at grazing
- * incidence. Slopes nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed
- * forms.
+/* What the builder measured: the table as it is stored against quadrature of the given D, for incident directions
+ * from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of that at grazing incidence. Slopes
+ * nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed forms.
  *
- * `hidden` and `finest` say how well the builder knew D. It bounds a formula between all points, and knows every
- * scale of a family and of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at
- * grazing incidence, can have escaped. A callback can only be sampled: then hidden is 1, and a feature narrower than
- * `finest` times its slope may have escaped. */
+ * `hidden` and `finest` say how well the builder knew D. It bounds formulas and families between all points, and
+ * knows every row of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at grazing
+ * incidence, has escaped. A callback can only be sampled: then hidden is 1, and a feature narrower than `finest`
+ * times its slope may have escaped. */
 typedef struct vndf_certificate {
     float tv;       /* largest total variation distance between sampled and true visible normals */
     float tv_theta; /* the incident angle where it was found, degrees */
     float tv_above; /* the same over directions from 0 to 90 degrees */
     float tv_above_theta;
     float max_weight;     /* largest true/sampled density over the region that holds all but 1e-6 of the mass that
-                           * a direction sees: far below the horizon that region is small */
+                           * a direction sees */
     float weight_bounded; /* 1 if true/sampled is bounded on the whole hemisphere, 0 if not */
     float area_error;     /* largest relative error of the projected area, hence of Lambda and G1 */
     float consistency;    /* largest |integral of the pdf - 1| */
     float ndf_error;      /* largest relative error of ndf() over the slopes that hold all but 1e-6 of the mass */
-    float hidden;         /* the part that may have escaped, in [0, 1]: see above */
+    float hidden;         /* the part that may have escaped, in [0, 1] */
     float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
-    float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon, where the angular grid of a
-                           * host cannot resolve it; 0 if D is bounded there */
+    float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon; 0 if D is bounded there */
 } vndf_certificate;
 
 /* What a distribution is. The strings belong to the distribution. */
@@ -162,76 +183,65 @@ typedef struct vndf_info {
 /* For NULL: empty texts and zeros. */
 VNDF_API vndf_info vndf_distribution_info(const vndf_distribution *distribution);
 
-/* The numbers of a table that the kernels of `vndf export` read, for hosts that bind a buffer of a GPU: writes up to
- * `capacity` of them to numbers[], which may be NULL if that is 0, and returns how many there are: 8, and 20 for each
- * of the cells + 1 knots, some 900 for a table of 2 KiB; 0 for a closed form or NULL. tools/export/README.md tells
- * how kernels are used. */
+/* The numbers of a table that the kernels of `vndf export` read from a buffer of the host
+ * (tools/export/README.md): writes up to `capacity` of them to numbers[], which may be NULL if that is 0, and
+ * returns how many there are, 8 and 20 for each of the cells + 1 knots; 0 for a closed form or NULL. */
 VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity);
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
 
-/* A rough surface: a plain value. alpha_x, alpha_y > 0 scale the slopes of the distribution. */
+/* A rough surface, a plain value: alpha_x, alpha_y > 0 scale the slopes of the distribution. */
 typedef struct vndf_surface {
     const vndf_distribution *distribution;
     float alpha_x, alpha_y;
 } vndf_surface;
 
-/* Everything that depends on the surface and wi alone: a plain value, valid while the distribution lives.
- * `distribution` is NULL in an invalid view. `numbers` is private and may change between versions. */
+/* Everything that depends on a surface and wi alone: a plain value, valid while the distribution lives. */
 enum { VNDF_VIEW_NUMBERS = 40 };
 
 typedef struct vndf_view {
-    const vndf_distribution *distribution;
-    vndf_vec3 wi; /* as it was given */
-    float numbers[VNDF_VIEW_NUMBERS];
+    const vndf_distribution *distribution; /* NULL marks an invalid view */
+    vndf_vec3 wi;                          /* as it was given */
+    float numbers[VNDF_VIEW_NUMBERS];      /* private */
 } vndf_view;
 
-/* wi need not be unit: it may have any length that a float can hold. alpha_x and alpha_y may be as far apart as
- * their range allows. Invalid input gives an invalid view: NULL, a direction that is zero or not finite, alpha
- * times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15, 1e15]. From an invalid view
- * vndf_sample returns (0, 0, 1) with density 0, and every other function returns 0.
+/* wi may have any length but 0 that a float can hold. Invalid input gives an invalid view: NULL, a direction that
+ * is zero or not finite, alpha times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15,
+ * 1e15]. From an invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
  *
- * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: vndf_sample draws from all normals, with
- * the density Dv = D(wm) cos(theta_m), and u1 turns them from -x through +x. Straight from below, wi.x = wi.y = 0 >
- * wi.z, every normal is turned away: samples have density 0. */
+ * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: the density is D(wm) cos(theta_m), and u1
+ * turns the normal from -x through +x. From straight below no normal is visible: samples have density 0. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
-/* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). The normal has unit
- * length within 4 ulps of 2^-23, wm.z >= 0, and wi.wm > 0 for wi as it was given. *pdf, unless pdf is NULL, receives
- * the density per steradian with which the normal was drawn. vndf_pdf of the normal is the same within the promise at
- * the head of this file. The density is within [FLT_MIN, FLT_MAX]: where it would underflow, on the rim of a lobe, it
- * is FLT_MIN.
+/* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). It has unit length
+ * within 4 ulps of 2^-23, wm.z >= 0 and wi.wm > 0. *pdf, unless NULL, receives the density per steradian with
+ * which the normal was drawn, within [FLT_MIN, FLT_MAX].
  *
- * The map from (u1, u2) to the normal is continuous, so stratified and quasi-random points keep their worth, and
- * monotone in each number but for rounding. Tables, in the frame where slopes are divided by alpha: u2 moves the
- * normal away from z; at that distance u1 turns it about z over the visible arc, from its end behind wi (0) through
- * the side of wi (1/2) to the other end (1). GGX: u1 and u2 move the direction that the normal mirrors wi to, in the
- * same way. Beckmann: u1 moves the slope along wi, u2 the slope across it. */
+ * The map from (u1, u2) to the normal is continuous, and monotone in each number within rounding, so stratified
+ * and quasi-random points keep their worth. Of tables, where slopes are divided by alpha, u2 moves the normal away
+ * from z, and u1 turns it about z over the visible arc, from its end behind wi (0) through the side of wi (1/2) to
+ * the other end (1). Of GGX both move the direction that the normal mirrors wi to, in the same way. Of Beckmann u1
+ * moves the slope along wi, and u2 across it. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
-/* The same normal and density, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an
- * estimator with Dv in it is multiplied. A sample knows its cell, so this costs less than the two calls. The weight
- * has the accuracy of the densities at the head of this file, and the error of the projected area (area_error of the
- * certificate). For closed forms it is 1; from an invalid view 0. `pdf` may be NULL. */
+/* The same, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an estimator with Dv
+ * in it is multiplied; faster than the three calls. The weight has the accuracy of the densities (head of this
+ * file) and of the projected area (area_error of the certificate). It is 1 for closed forms. `pdf` may be NULL. */
 VNDF_API vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
 
-/* The density per steradian with which vndf_sample draws wm, a unit vector. It is 0 where wm.z < 0, since no normal
- * points below the surface, and where wi.wm <= 0; elsewhere it is at least FLT_MIN. It is close to vndf_visible, not
- * equal to it: vndf_visible/vndf_pdf is the weight, and the certificate holds the largest one. */
+/* The density per steradian with which vndf_sample draws wm, a unit vector: 0 where wm.z < 0 or wi.wm <= 0,
+ * elsewhere at least FLT_MIN. */
 VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 
-/* The uniform numbers that vndf_sample turns into wm. Of the normals that vndf_sample drew 99.9% come back within 1e-5
- * and 99.99% within 1e-4, the distance between unit normals whose slopes are divided by alpha, or their numbers come
- * back within eight steps of 2^-24: in far tails and gaps of D such a step leads farther.
- *
- * In three places only the range [0, 1] is promised: within 2^-22 of the border of the unit square (at u2 = 0 every
- * u1 gives one normal); for directions below the horizon that see less than 1e-10 of the area at grazing incidence;
- * and straight from below. */
-VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
-
-/* Dv(wm) = max(0, wi.wm) D(wm) / A(wi), per steradian; 0 where wm.z < 0. For the closed forms it equals vndf_pdf,
- * FLT_MIN included. */
+/* The true density Dv(wm) = max(0, wi.wm) D(wm)/A(wi), per steradian; 0 where wm.z < 0. For the closed forms it
+ * equals vndf_pdf. */
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
+
+/* The uniform numbers that vndf_sample turns into wm. Of the normals that vndf_sample drew 99.9% come back within
+ * 1e-5 and 99.99% within 1e-4, measured between unit normals whose slopes are divided by alpha, or their numbers
+ * come back within eight steps of 2^-24. Only the range [0, 1] is promised within 2^-22 of the border of the unit
+ * square, for directions that see less than 1e-10 of the area at grazing incidence, and from straight below. */
+VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
 
 /* ---- many at once ------------------------------------------------------------------------------ */
 
@@ -246,16 +256,15 @@ typedef enum vndf_instructions {
 /* The set that a batch runs on if it may go up to `limit`: one of the last three. */
 VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
 
-/* `count` surfaces and incident directions, the arguments of vndf_view_from, as a structure of arrays. An array
- * holds `count` numbers; if its bit in `shared` is set, it points to one number that serves all elements. The
- * batch is a plain value; no array needs an alignment. */
+/* `count` surfaces and incident directions, the arguments of vndf_view_from. An array holds `count` numbers; if
+ * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment. */
 enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
 
 typedef struct vndf_batch {
     const vndf_distribution *distribution;
     size_t count;
-    unsigned shared;         /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
-    vndf_instructions limit; /* 0: the best set of this machine; results are the same */
+    unsigned shared; /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
+    vndf_instructions limit;
     const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
 } vndf_batch;
@@ -265,11 +274,9 @@ typedef struct vndf_normals {
     float *x, *y, *z;
 } vndf_normals;
 
-/* Element i equals, to the bit, the result of the call for one element: vndf_sample, vndf_pdf and so on, with the
- * view or the surface of element i. An array of results may be an array of inputs that is not shared; apart from that
- * arrays must not overlap. `pdf` of vndf_sample_n and vndf_sample_weight_n may be NULL. If direction and roughness
- * are shared, the view is made once. vndf_ndf_n does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n
- * take wi as their direction. */
+/* Element i equals, to the bit, the result of the call for one element. An array of results may be an array of
+ * inputs that is not shared; apart from that arrays must not overlap. `pdf` of samples may be NULL. vndf_ndf_n
+ * does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as their direction. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
                             float *pdf);
 VNDF_API void vndf_sample_weight_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
@@ -290,16 +297,16 @@ VNDF_API float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm);
 /* P22 at the slope (x, y), per unit of slope area. */
 VNDF_API float vndf_p22(const vndf_surface *surface, float x, float y);
 
-/* A(w) = integral max(0, w.wm) D(wm) dwm for any w on the sphere; in [0, inf). Far below the horizon it may underflow
- * to 0; vndf_sample and vndf_pdf are right there all the same. */
+/* A(w) = integral max(0, w.wm) D(wm) dwm for any w on the sphere, in [0, inf). Far below the horizon it may
+ * underflow to 0, where samples and densities are right all the same. */
 VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
 
 /* Smith's Lambda(w) = A(w)/cos(theta) - 1: >= 0 above the horizon, and Lambda(-w) = -1 - Lambda(w). It is never
  * infinite: at cos(theta) = 0 it is the largest float, with the sign of the side. */
 VNDF_API float vndf_lambda(const vndf_surface *surface, vndf_vec3 w);
 
-/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w): in [0, 1] above the horizon, 0 below it.
- * The caller multiplies by the factor that is 1 for w.wm > 0, else 0. */
+/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w), for w.wm > 0: in [0, 1] above the horizon, 0
+ * below. */
 VNDF_API float vndf_g1(const vndf_surface *surface, vndf_vec3 w);
 
 /* How G2 correlates masking and shadowing (Heitz, "Understanding the Masking-Shadowing Function
@@ -314,30 +321,24 @@ VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, 
 
 /* ---- any linear map of slopes ------------------------------------------------------------------ */
 
-/* A rough surface whose slopes are s = M u + mean, where u are slopes of the distribution: M = (xx xy; yx yy)
- * stretches, turns and shears them, as anisotropy along a direction and filtered normal maps do. Slopes are
- * (-wm.x/wm.z, -wm.y/wm.z), so a mean slope (m, 0) with m > 0 leans the surface towards -x. A plain value. This is
- * the general surface, and vndf_surface is its diagonal case: M = (alpha_x 0; 0 alpha_y) without a mean slope gives
- * the bits of vndf_surface.
+/* A rough surface whose slopes are s = M u + mean, where u are slopes of the distribution and M = (xx xy; yx yy)
+ * stretches, turns and shears them, as anisotropy along a direction and filtered normal maps do. A mean slope (m,
+ * 0) with m > 0 leans the surface towards -x. vndf_surface is the case M = (alpha_x 0; 0 alpha_y), mean = 0, and
+ * gives the same bits.
  *
- * From wi it looks as the surface without mean slope does from wi', which is not of unit length:
+ * With wi'.z = wi.z - wi.x mean.x - wi.y mean.y, the projection of wi on the mean plane, A(wi) - A(-wi) = wi'.z
+ * takes the place of cos(theta) (Dupuy et al., "Linear Efficient Antialiased Displacement and Reflectance
+ * Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z - 1 and G1(wi) = wi'.z/A(wi). A direction above the horizon
+ * may be below the mean plane, wi'.z < 0: then G1 is 0, and Lambda(wi) = -1 - Lambda(-wi).
  *
- *     wi' = (wi.x, wi.y, wi.z - wi.x mean.x - wi.y mean.y),    A(wi) = |wi'| A0(wi'/|wi'|),
- *
- * and A(wi) - A(-wi) = wi'.z, the projection of the mean plane, takes the place of cos(theta) (Dupuy et al.,
- * "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z -
- * 1, G1(wi) = wi'.z/A(wi), for a unit wi. A direction above the horizon may be below the mean plane, wi'.z < 0: then
- * G1 is 0, and Lambda(wi) = -1 - Lambda(-wi); samples and densities are as good there as anywhere.
- *
- * Brushed metal under a normal map: the brush runs at the angle phi from x, roughness is `along` it and `across` it
- * in the plane z = 0, and n is the normal of the map, n.z > 0. M turns x to the brush after it has stretched, and the
- * mean slope is that of n:
+ * Brushed metal under a normal map: the brush runs at the angle phi from x, the roughness is `along` it and
+ * `across` it in the plane z = 0, and n is the normal of the map, n.z > 0:
  *
  *     const float c = cosf(phi), s = sinf(phi);
  *     const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
- *     const vndf_affine_view view = vndf_affine_view_from(&brushed, wi);
+ *     const vndf_view view = vndf_affine_view_from(&brushed, wi);
  *     float pdf;
- *     const vndf_vec3 wm = vndf_affine_sample(&view, u[0], u[1], &pdf);
+ *     const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
  */
 typedef struct vndf_affine {
     const vndf_distribution *distribution;
@@ -345,20 +346,11 @@ typedef struct vndf_affine {
     float mean_x, mean_y;
 } vndf_affine;
 
-/* An affine surface has views like any other. */
-typedef vndf_view vndf_affine_view;
+/* The view of an affine surface. Also invalid are, of the matrix times the scale of the distribution, an entry
+ * above 1e15 or a determinant outside [1e-36, 1e36], and a mean slope above 1e6. The numbers u1 and u2 mean what
+ * they mean for vndf_sample in the frame of the slopes u, seen from (M^T wi_xy, wi'.z). */
+VNDF_API vndf_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 
-/* The calls of the same names for vndf_surface and vndf_view, with their promises: any wi on the sphere, a unit
- * normal with wm.z >= 0 that faces wi, a finite density, one result for invalid input. Also invalid are a matrix with
- * an entry above 1e15, or a determinant outside [1e-36, 1e36], of the matrix times the scale of the distribution,
- * and a mean slope above 1e6. The
- * numbers u1 and u2 mean what they mean for vndf_sample, in the frame of the slopes u, seen from (M^T wi'_xy,
- * wi'.z). */
-VNDF_API vndf_affine_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
-VNDF_API vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf);
-VNDF_API float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm);
-VNDF_API float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm);
-VNDF_API void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, float *u2);
 VNDF_API float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm);
 VNDF_API float vndf_affine_p22(const vndf_affine *surface, float x, float y);
 VNDF_API float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w);
@@ -368,11 +360,10 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
 
 /* ---- several lobes on one surface --------------------------------------------------------------- */
 
-/* A surface with D = sum of w_i D_i over up to VNDF_MIXTURE_LOBES lobes, w_i the weights divided by their sum: a core
- * and a haze, or two tables of a family where its parameter lies between theirs. A mixture is one microsurface, where
- * a blend of BSDFs has several: its masking is that of the whole, A = sum of w_i A_i, and Dv = sum of (w_i A_i/A)
- * Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH 2023). Weights are >= 0 and finite;
- * a lobe of weight 0 is not read. A plain value without memory of its own. */
+/* A surface with D = sum of w_i D_i, w_i the weights divided by their sum: a core and a haze, or neighbours of a
+ * family. A mixture is one microsurface, where a blend of BSDFs has several: it masks as a whole, A = sum of w_i
+ * A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH
+ * 2023). Weights are >= 0 and finite; a lobe of weight 0 is not read. A plain value without memory of its own. */
 enum { VNDF_MIXTURE_LOBES = 8 };
 
 typedef struct vndf_mixture_lobe {
@@ -385,35 +376,36 @@ typedef struct vndf_mixture {
     vndf_mixture_lobe lobe[VNDF_MIXTURE_LOBES];
 } vndf_mixture;
 
-/* Members are private. The first `count` elements of each array are filled. */
+typedef struct vndf_mixture_part {
+    vndf_view view;
+    float weight, share;
+    int lobe;
+} vndf_mixture_part;
+
 typedef struct vndf_mixture_view {
-    int count;                        /* 0 marks an invalid view */
-    int index[VNDF_MIXTURE_LOBES];    /* which lobe of the mixture it is */
-    float weight[VNDF_MIXTURE_LOBES]; /* over the sum of all */
-    float share[VNDF_MIXTURE_LOBES];  /* w_i A_i/A: how often lobe i is drawn */
-    float area, cosine;               /* A(wi), and the projection of wi on the mean plane, of the whole */
-    vndf_affine_view lobe[VNDF_MIXTURE_LOBES]; /* those of weight 0 are left out */
+    int count;                                  /* 0 marks an invalid view */
+    vndf_mixture_part part[VNDF_MIXTURE_LOBES]; /* private */
 } vndf_mixture_view;
 
-/* An invalid mixture gives an invalid view, with the results of an invalid vndf_view. Invalid are a count out of
- * range, a weight that is negative or not finite, weights that are all 0, and an invalid surface of a lobe whose
- * weight is above 0. */
+/* Invalid, with the results of an invalid vndf_view, are a count out of range, a weight that is negative or not
+ * finite, weights that are all 0, and an invalid surface of a lobe whose weight is above 0. */
 VNDF_API vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi);
 
-/* u1 picks a lobe: each lobe has an interval of [0, 1], as long as w_i A_i/A. That interval is stretched to [0, 1]
- * and, with u2, draws from the lobe. The cost is one draw, and one density for each lobe. *pdf, unless NULL, receives
- * the density of the whole mixture; *lobe, unless NULL, the index of the lobe, or -1 for an invalid view. The map is
- * continuous and monotone within each lobe. */
+/* u1 picks a lobe by its interval of [0, 1], which is as long as w_i A_i/A; stretched to [0, 1] it draws, with u2,
+ * from the lobe. The cost is one draw, and one density for each lobe. *pdf, unless NULL, receives the density of
+ * the whole; *lobe, unless NULL, the index of the lobe, or -1 for an invalid view. The map is continuous and
+ * monotone within each lobe. */
 VNDF_API vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe);
 VNDF_API float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm);
 VNDF_API float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm);
 
 /* The numbers that draw wm from the lobe with this index; if `lobe` is -1, from the lobe that draws it most often.
- * Returns the index of the lobe, or -1 with numbers of 0 for an invalid view and for a lobe that is never drawn. */
+ * Returns the index of the lobe, or -1 with numbers of 0 for an invalid view and for a lobe that is never drawn.
+ */
 VNDF_API int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2);
 
-/* These describe the whole mixture. Its mean slope is the sum of w_i mean_i, and wi'.z = wi.z - wi.mean takes the
- * place of cos(theta), as for vndf_affine. */
+/* Of the whole mixture. Its mean slope is the sum of w_i mean_i, and wi'.z = wi.z - wi.mean takes the place of
+ * cos(theta), as for vndf_affine. */
 VNDF_API float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm);
 VNDF_API float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y);
 VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w);
@@ -423,8 +415,8 @@ VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_v
 
 /* ---- many affine surfaces and mixtures at once ---------------------------------------------------- */
 
-/* `count` affine surfaces and incident directions as a structure of arrays, like vndf_batch. xy, yx, mean_x and mean_y
- * may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the mean slope. */
+/* Like vndf_batch. xy, yx, mean_x and mean_y may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the
+ * mean slope. */
 typedef struct vndf_affine_batch {
     const vndf_distribution *distribution;
     size_t count;
@@ -434,8 +426,7 @@ typedef struct vndf_affine_batch {
     const float *wi_x, *wi_y, *wi_z;
 } vndf_affine_batch;
 
-/* Element i equals, to the bit, the call for one element, under the rules of vndf_sample_n. With xy, yx, mean_x and
- * mean_y of 0, or NULL, results have the bits of vndf_sample_n and the others. */
+/* As vndf_sample_n and the others. */
 VNDF_API void vndf_affine_sample_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
                                    vndf_normals wm, float *pdf);
 VNDF_API void vndf_affine_pdf_n(const vndf_affine_batch *batch, vndf_normals wm, float *pdf);
@@ -464,9 +455,8 @@ typedef struct vndf_mixture_batch {
     vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
 } vndf_mixture_batch;
 
-/* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert for each
- * element, and may be NULL for -1 everywhere; `lobe` receives what that call returns. Batches take their scratch from
- * the stack: optimised some 100 KiB, unoptimised up to 600 KiB. */
+/* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert, and
+ * may be NULL for -1. Scratch is on the stack: some 100 KiB, unoptimised up to 600 KiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
@@ -485,9 +475,8 @@ VNDF_API void vndf_mixture_g1_n(const vndf_mixture_batch *batch, float *g1);
  *
  *     D = (1 - t) D_i + t D_i+1,    t = (p - p_i)/(p_i+1 - p_i),  or linear in 1/p where that takes fewer knots,
  *
- * which is a D as good as any: samples and densities are exact for it. vndf_build_family (vndf_build.h) makes the
- * tables, and measures how far the mixture is from the family that is meant. Immutable; threads may share it.
- * (vndf_family_help and vndf_family_material of vndf_build.h list the names that distributions are built from.) */
+ * for which samples and densities are exact. vndf_build_family (vndf_build.h) makes the tables, and measures how
+ * far the mixture is from the family that is meant. Immutable; threads may share it. */
 typedef struct vndf_family vndf_family;
 
 enum {
@@ -495,14 +484,13 @@ enum {
     VNDF_LIMIT_FAMILY_BYTES = 1 << 26 /* of a file */
 };
 
-/* Reads a file of `vndf build --parameter`, or its bytes, which are copied. As for vndf_load, no bytes crash it. Free
- * the result with vndf_family_free. */
+/* Reads what `vndf build --parameter` or vndf_family_save wrote, as vndf_load and vndf_load_memory do. Free the
+ * result with vndf_family_free. */
 VNDF_API vndf_family *vndf_family_load(const char *path, vndf_error *error);
 VNDF_API vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error *error);
 
-/* A family of distributions of any kind, linear in its parameters, which are finite and ascend: 1 to
- * VNDF_LIMIT_FAMILY_KNOTS. The arrays are copied. The distributions are not: the caller frees them, after the family
- * and all views that were made through it. */
+/* A family of 1 to VNDF_LIMIT_FAMILY_KNOTS distributions of any kind, linear in its parameters, which are finite
+ * and ascend. The arrays are copied. The caller frees the distributions, after the family and all its views. */
 VNDF_API vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const float *parameters,
                                      size_t count, vndf_error *error);
 
@@ -519,15 +507,15 @@ typedef struct vndf_family_facts {
     float low, high;    /* the first and the last parameter */
     int reciprocal;     /* 1 if mixtures are linear in 1/p, 0 if in p */
     float distance;     /* largest total variation distance between the slopes of family and mixture that was found
-                         * between the knots; 0 without a file. Tables add at most their own (vndf_certificate) */
+                         * between the knots; 0 without a file */
     float grazing;      /* the same of the normals that are visible at grazing incidence, which weighs the tail */
 } vndf_family_facts;
 
 /* For NULL: empty texts and zeros. */
 VNDF_API vndf_family_facts vndf_family_info(const vndf_family *family);
 
-/* A knot has an index below `count`. These return its parameter, its distribution, which belongs to the family, and
- * the distance that was found between it and the next knot (0 for the last). Any other index gives 0 and NULL. */
+/* Of the knot `index` < count: its parameter, its distribution, which belongs to the family, and the distance that
+ * was found between it and the next knot (0 for the last). Any other index gives 0 and NULL. */
 VNDF_API float vndf_family_parameter(const vndf_family *family, size_t index);
 VNDF_API const vndf_distribution *vndf_family_distribution(const vndf_family *family, size_t index);
 VNDF_API float vndf_family_distance(const vndf_family *family, size_t index);
@@ -539,10 +527,10 @@ typedef enum vndf_family_place {
     VNDF_FAMILY_ABOVE  /* above the last one, likewise */
 } vndf_family_place;
 
-/* The family at a parameter, with the matrix and the mean slope of `shape`, whose distribution is not read: a mixture
- * of one lobe at a knot, of two between knots, with weights whose sum is 1, valid while the family lives. Costs a
- * binary search and a division; other lobes of *mixture are not written, so that more may be added behind. Two
- * families on one surface, of which the second is 30%, are two to four of its VNDF_MIXTURE_LOBES:
+/* The family at a parameter, with the matrix and the mean slope of `shape`, whose distribution is not read: a
+ * mixture of one lobe at a knot, of two between knots, with weights whose sum is 1, valid while the family lives.
+ * Other lobes of *mixture are not written, so more may be added behind. Two families on one surface, of which the
+ * second is 30%:
  *
  *     vndf_mixture whole, haze;
  *     vndf_family_at(metals, p, narrow, &whole);

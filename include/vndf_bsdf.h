@@ -19,9 +19,9 @@
  * gives a direction s.wo with the density s.density and the weight s.weight.
  *
  * The conventions of vndf.h hold: z is the geometric normal, directions are unit and point away from the surface,
- * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 (below the mean plane, where
- * there is one: see "Mean slopes") is on the other side of the surface, in the second medium; it is not below the
- * horizon. Both sides have the same microsurface.
+ * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 (below the mean plane,
+ * where there is one: see "Mean slopes") is on the other side of the surface, in the second medium; it is not
+ * below the horizon. Both sides have the same microsurface.
  *
  * The model (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
  * "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 2014). With the microfacet normal
@@ -36,32 +36,32 @@
  * weight holds the small ratio, so estimators are exact for a table of any size.
  *
  * A call carries one to four wavelengths at once, as the material says: three, red, green and blue, unless it says
- * another number. Numbers that do not depend on the wavelength are the same for all. Dispersion and absorption belong
- * to the renderer.
+ * another number. Numbers that do not depend on the wavelength are the same for all. Dispersion and absorption
+ * belong to the renderer.
  *
  * Mean slopes (VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
  * z = 0, as it does in masking (vndf.h): it divides reflection from transmission, and with its unit normal n all
  * cosines above are those to n, cos_i = n.wi, cos_o = n.wo; f has D n.z, the density per area of that plane. So f
- * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z. A
- * renderer that has |wo.z| in the place of vndf_bsdf_cosine gets it wrong. A reflected direction may point below z = 0,
- * into the geometry, and is then lost to a ray.
+ * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z.
+ * A renderer that has |wo.z| in the place of vndf_bsdf_cosine gets it wrong. A reflected direction may point below
+ * z = 0, into the geometry, and is then lost to a ray.
  *
- * Errors and invalid input. vndf_material_resolve refuses sets that make no sense, and names the reason: a conductor
- * that transmits, both lobes without a Fresnel term to choose by, bounded normals that transmit, V-cavity normals
- * without V-cavity masking, a walk with masking or normals other than its own or with transmission alone, mean
- * slopes and mixtures with a walk, with V-cavities or with normals that are not visible ones, retroreflection with
- * mean slopes, with mixtures or of transmission alone, compensation of these two, of transmission alone, of another
- * masking or without the right albedo. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and
- * invalid roughness scatter nothing (lobe 0; weights, values and densities 0). For lengths between these that are
- * not 1, and for a cosine and a sine of different angles, only finite numbers are promised. The material must have
- * been resolved. No state, no NaN, and the same bits everywhere, as vndf.h says.
+ * Errors and invalid input. vndf_material_resolve refuses sets of effects that make no sense, and names the
+ * reason: a conductor that transmits; both lobes without a Fresnel term to choose by; bounded normals that
+ * transmit; V-cavity normals without V-cavity masking; a walk with other masking or normals than its own, or with
+ * transmission alone; mean slopes and mixtures with a walk, with V-cavities or with normals that are not visible
+ * ones; retroreflection with mean slopes, with mixtures or of transmission alone; compensation of these two, of
+ * transmission alone, of another masking or without the right albedo. Calls on values cannot fail: NaN, infinity,
+ * lengths below 1/2 or above 2 and invalid roughness scatter nothing (lobe 0; weights, values and densities 0).
+ * Other lengths, and a cosine and a sine that belong to no angle, give finite numbers. The library keeps no state,
+ * and gives the same bits everywhere, as vndf.h says.
  *
- * Accuracy. The density that comes with a sample is, to 1e-5, that of a direction within one rounding (2^-23 in each
- * coordinate) of the one returned, and its weight is f |cos_o| over the density of such a direction: both for 99.9% of
- * the samples at any roughness from 1e-3 on, and the weight to 5e-6 beside vndf_bsdf_eval and vndf_bsdf_pdf of the very
- * direction where normals are visible ones and the distribution is a closed form. A rounding of wo turns the facet
- * by 2^-23/(2 wi.wm) in reflection and by 2^-23 r/|r - 1| in transmission, and the density with it: the more, the
- * smoother the surface is, the flatter the light and the nearer r to 1. f is reciprocal to 1e-4.
+ * Accuracy. At roughness 1e-3 and above, 99.9% of the samples have the density, to 1e-5, of a direction within one
+ * rounding (2^-23 in each coordinate) of the one returned, and the weight f |cos_o| over that density. With
+ * visible normals of a closed form the weight is within 5e-6 of vndf_bsdf_eval and vndf_bsdf_pdf of the direction
+ * returned. A rounding of wo turns the facet by 2^-23/(2 wi.wm) in reflection and by 2^-23 r/|r - 1| in
+ * transmission, and changes the density with it: most on smooth surfaces, at grazing light and for r near 1. f is
+ * reciprocal to 1e-4.
  *
  * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
  * nothing set but distribution and roughness is a rough white mirror: it has no Fresnel term. */
@@ -82,9 +82,9 @@ enum { VNDF_WAVELENGTHS = 4 };
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
-/* What light does at the surface; the lobes of a mixture (vndf.h) are parts of its normals instead, and each reflects
- * and transmits. With both, a sample chooses one: reflection with the probability F (the mean over the
- * wavelengths). */
+/* What light does at the surface. With both, a sample chooses reflection with the probability F, the mean over the
+ * wavelengths. (The lobes of a mixture in vndf.h are parts of its normals; each of them reflects and transmits.)
+ */
 typedef enum vndf_lobes { VNDF_LOBES_REFLECTION, VNDF_LOBES_TRANSMISSION, VNDF_LOBES_BOTH } vndf_lobes;
 
 typedef enum vndf_fresnel {
@@ -122,15 +122,15 @@ typedef enum vndf_scattering {
     VNDF_SCATTERING_MULTIPLE, /* Smith's random walk (Heitz et al., "Multiple-Scattering Microfacet BSDFs with the
                                * Smith Model", SIGGRAPH 2016): only walks longer than order_limit lose energy
                                * between the microfacets */
-    /* Single scattering, and the energy that it loses given back from a table of albedos (vndf_albedo.h), at the cost
-     * of looking it up. With E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection
-     * is scaled by 1 + F0 (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
+    /* Single scattering, and the energy that it loses given back from a table of albedos (vndf_albedo.h). With
+     * E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection is scaled by 1 + F0
+     * (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
     VNDF_SCATTERING_TURQUIN,
-    /* The same by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with F_ms = F_avg^2 E_avg/(1 - F_avg (1 -
-     * E_avg)) (Kulla & Conty 2017). Of both lobes, where F_ms is 1, the part b = (1 - F_avg) min/(1 - E_avg) of it is
-     * transmitted, min the smaller 1 - E_avg of the two sides, and spread by the E and E_avg of the other side. f is
-     * reciprocal. A sample takes this lobe as often as light does; wm is then 0. Of smooth surfaces, where 1 - E_avg is
-     * below 1e-5, Turquin's factor stands for the lobe. */
+    /* The same by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with
+     * F_ms = F_avg^2 E_avg/(1 - F_avg (1 - E_avg)) (Kulla & Conty 2017). Of both lobes F_ms is 1, and the part
+     * (1 - F_avg) min/(1 - E_avg) is transmitted, where min is the smaller 1 - E_avg of the two sides, and spread
+     * by E and E_avg of the other side. f is reciprocal. A sample takes this lobe as often as light does; wm is
+     * then 0. Where 1 - E_avg is below 1e-5, on smooth surfaces, Turquin's factor takes its place. */
     VNDF_SCATTERING_KULLA_CONTY
 } vndf_scattering;
 
@@ -140,11 +140,11 @@ typedef enum vndf_transport {
     VNDF_TRANSPORT_IMPORTANCE /* paths from the light */
 } vndf_transport;
 
-/* How the distribution is stretched at a hit, and which call brings what a texture says of it. */
+/* How the distribution is stretched at a hit, and the call that takes it from a texture. */
 typedef enum vndf_shape {
     VNDF_SHAPE_ALIGNED, /* alpha_x along x, alpha_y along y: vndf_bsdf_rough */
     VNDF_SHAPE_ROTATED, /* alpha_x at an angle: vndf_bsdf_rough */
-    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes: vndf_bsdf_affine, whose mean slope is not read */
+    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes: vndf_bsdf_affine, of which the mean slope is not read */
     VNDF_SHAPE_AFFINE,  /* a matrix and a mean slope, as filtered normal maps have it: vndf_bsdf_affine */
     VNDF_SHAPE_MIXTURE  /* several lobes, each with its distribution and matrix: vndf_bsdf_mixture */
 } vndf_shape;
@@ -152,8 +152,8 @@ typedef enum vndf_shape {
 /* Where reflected light goes. */
 typedef enum vndf_reflection {
     VNDF_REFLECTION_SPECULAR, /* to where facets mirror it */
-    /* Back to where it came from: f of wi and (-wo.x, -wo.y, wo.z), samples and densities likewise (Portsmouth et al.,
-     * JCGT 15(1), 2026). Transmission is not changed. */
+    /* Back to where it came from: f of wi and (-wo.x, -wo.y, wo.z), samples and densities likewise (Portsmouth et
+     * al., JCGT 15(1), 2026). Transmission is not changed. */
     VNDF_REFLECTION_RETRO
 } vndf_reflection;
 
@@ -171,31 +171,31 @@ typedef struct vndf_effects {
 
 /* ---- materials ---------------------------------------------------------------------------------- */
 
-/* The parts of a material. A member that the effects do not need is not read. */
+/* The parts of a material. A member that the effects do not need is not read. What it points to must outlive the
+ * material. */
 typedef struct vndf_description {
-    const vndf_distribution *distribution; /* not owned; must outlive the material; a mixture has its own */
+    const vndf_distribution *distribution; /* not read for mixtures, whose lobes have their own */
     vndf_effects effects;
-    float alpha_x, alpha_y;      /* roughness of hits that bring none, > 0 */
-    float rotation;              /* angle from x to the axis of alpha_x, radians, within 1e4 */
-    vndf_affine affine;          /* of hits that bring none; its distribution is not read, its mean slope is of
-                                  * VNDF_SHAPE_AFFINE alone */
-    const vndf_mixture *mixture; /* of hits that bring none; NULL: all do; must outlive the material */
+    float alpha_x, alpha_y; /* roughness, > 0, of hits by vndf_bsdf_at */
+    float rotation;         /* angle from x to the axis of alpha_x, radians, within 1e4 */
+    vndf_affine affine;     /* of hits by vndf_bsdf_at; its distribution is not read, and its mean slope only for
+                             * VNDF_SHAPE_AFFINE */
+    const vndf_mixture *mixture; /* of hits by vndf_bsdf_at; may be NULL if every hit has its own */
     int wavelengths;             /* 1 to VNDF_WAVELENGTHS; 0: 3 */
-    /* Turquin, Kulla & Conty: of this distribution, for a mirror where the material only reflects, else for its eta;
-     * must outlive the material. Built for isotropic roughness; sqrt(alpha_x alpha_y) stands for two. */
+    /* For Turquin and Kulla & Conty: of this distribution, for a mirror where the material only reflects, else for
+     * its eta. It knows isotropic roughness: sqrt(alpha_x alpha_y) takes the place of two numbers. */
     const vndf_albedo *albedo;
     float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
     float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at normal incidence, 0 to 1 */
     float conductor_eta[VNDF_WAVELENGTHS]; /* index over that on the side of z: real part, 0 to 1000, */
     float conductor_k[VNDF_WAVELENGTHS];   /* and imaginary part, 0 to 1000; one of the two > 0 */
-    /* The most scattering events of a walk; 0: 64. A walk that has not left by then is lost: up to alpha 10 none
-     * of 40000 walks on GGX, but 1% on a heavy-tailed table at alpha 10, 0.7% with eta 1.001 at grazing incidence,
-     * and all at alpha 1000. */
+    /* The most scattering events of a walk; 0: 64. Longer walks are lost: none of 40000 on GGX up to alpha 10, 1%
+     * on a heavy-tailed table at alpha 10, 0.7% with eta 1.001 at grazing incidence, all at alpha 1000. */
     unsigned order_limit;
 } vndf_description;
 
 /* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if the shape is rotated;
- * they must be unit within 1e-6; far from that nothing is scattered. */
+ * they are unit within 1e-6. */
 typedef struct vndf_roughness {
     float alpha_x, alpha_y;
     float cos_rotation, sin_rotation;
@@ -218,8 +218,8 @@ typedef struct vndf_material {
     int two_sided;
 } vndf_material;
 
-/* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material is
- * then safe to use: it scatters nothing. */
+/* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material
+ * then scatters nothing. */
 VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, vndf_material *material,
                                            vndf_error *error);
 
@@ -261,21 +261,19 @@ typedef struct vndf_bsdf {
     struct vndf_hit_view view; /* of wi */
 } vndf_bsdf;
 
-/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
- * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
- * from both sides. Returns 0 if the material scatters nothing from there, as one does whose mixture is NULL, since hits
- * have to bring theirs (vndf_bsdf_mixture). (The result goes through a pointer: a returned struct would be copied, and
- * reading it back would stall on store forwarding.) */
+/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that
+ * does not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane),
+ * any other from both sides. Returns 0 if the material scatters nothing from there, or has no mixture where it
+ * needs one. */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* The same with the roughness of the hit; NULL: the roughness of the material. */
 VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness,
                              vndf_vec3 wi);
 
-/* The same with the matrix and mean slope of the hit (its distribution is not read), and with its mixture; neither is
- * kept. NULL: those of the material. A mean slope needs VNDF_SHAPE_AFFINE: VNDF_SHAPE_MATRIX does not read it. A call
- * for another shape than the material's scatters nothing and returns 0, as invalid matrices and mixtures do, and NULL
- * where the material has no mixture. */
+/* The same with the matrix and mean slope, or the mixture, of the hit; neither is kept, and the distribution of
+ * the matrix is not read. NULL: those of the material. Returns 0, and scatters nothing, for an invalid matrix or
+ * mixture, and for another shape than the material's. */
 VNDF_API int vndf_bsdf_affine(vndf_bsdf *bsdf, const vndf_material *material, const vndf_affine *affine,
                               vndf_vec3 wi);
 VNDF_API int vndf_bsdf_mixture(vndf_bsdf *bsdf, const vndf_material *material, const vndf_mixture *mixture,
@@ -300,31 +298,30 @@ typedef struct vndf_scattered {
 } vndf_scattered;
 
 /* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random
- * walk takes all further numbers from a hash of the three, so low-discrepancy points help its first event only.
- * The weight of a walk is its throughput, and its density an estimate (vndf_bsdf_pdf). */
+ * walk takes further numbers from a hash of the three; its weight is its throughput, its density that of
+ * vndf_bsdf_pdf. */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
-/* f of each wavelength of the material, without the cosine; 0 where that is 0. Only random walks read `seed`: their f
- * is a random number with the right mean. */
+/* value[i] = f of wavelength i of the material, without the cosine. f of a random walk is a random number with the
+ * right mean, made from `seed`, which nothing else reads. */
 VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value);
 
-/* The density per steradian with which vndf_bsdf_sample draws wo. For random walks it is a density near that one:
- * positive wherever f is, with integral 1 over the directions above the horizon, so multiple importance sampling
- * may use it. */
+/* The density per steradian with which vndf_bsdf_sample draws wo. For random walks it is an estimate for multiple
+ * importance sampling: positive wherever f is, with integral 1 over the directions above the horizon. */
 VNDF_API float vndf_bsdf_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
 /* Both at once, with the same bits. */
 VNDF_API void vndf_bsdf_eval_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 
-/* The cosine of wo that goes with f: wo.z, and n.wo where mean slopes tilt the surface. */
+/* The cosine of wo that f is multiplied by: wo.z, or n.wo where mean slopes tilt the surface. */
 VNDF_API float vndf_bsdf_cosine(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
 /* ---- many at once ------------------------------------------------------------------------------- */
 
-/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. Arrays of the shape
- * are shared if VNDF_SHARED_ALPHA is set, and NULL where every hit has what the material has: alpha_x and alpha_y
- * together, cos_rotation and sin_rotation together, `affine` (its distribution is not read), `mixture`. Those of
- * another shape than the material's are not read. */
+/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. The arrays of
+ * the material's shape are read: alpha_x and alpha_y together, cos_rotation and sin_rotation together, `affine`
+ * (without its distribution), `mixture`. They are shared if VNDF_SHARED_ALPHA is set, and NULL for what the
+ * material has. */
 typedef struct vndf_bsdf_batch {
     const vndf_material *material;
     size_t count;
@@ -337,8 +334,8 @@ typedef struct vndf_bsdf_batch {
     const float *wi_x, *wi_y, *wi_z;
 } vndf_bsdf_batch;
 
-/* Results of sampling: arrays of `count` elements, and a weight for each wavelength of the material. All arrays of wm
- * may be NULL. */
+/* Results of sampling: arrays of `count` elements, and a weight for each wavelength of the material. All arrays of
+ * wm may be NULL. */
 typedef struct vndf_scattered_n {
     vndf_normals wo;
     float *weight[VNDF_WAVELENGTHS];
@@ -347,11 +344,8 @@ typedef struct vndf_scattered_n {
     vndf_normals wm;
 } vndf_scattered_n;
 
-/* Element i equals, to the bit, the result of the call for one element. No array of results may overlap an array of
- * inputs. `seed` may be NULL unless the material is a random walk.
- *
- * The visible normals of VNDF_SHAPE_ALIGNED with single scattering are drawn in lanes (vndf_sample_weight_n), a
- * block at a time; the rest is done one after the other. */
+/* Element i equals, to the bit, the result of the call for one element. No array of results may overlap an array
+ * of inputs. `seed` may be NULL unless the material is a random walk. */
 VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3],
                                  vndf_scattered_n scattered);
 VNDF_API void vndf_bsdf_eval_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,

@@ -1,8 +1,13 @@
 /* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
  *
- * A *source* is a distribution of normals that a user brings: a formula, a CSV, a named family or a C
- * callback, at any scale, normalised or not. vndf_build turns it into a table and measures how good the
- * table is; vndf_save writes it. The conventions of vndf.h hold. */
+ * Map
+ *     sources    vndf_source_slope_expression, vndf_source_ndf_expression, vndf_source_csv_file, vndf_source_rows,
+ *                vndf_source_family, vndf_source_slope_callback, vndf_source_ndf_callback: a distribution that a
+ * user brings, at any scale, normalised or not; vndf_source_p22, vndf_source_free tables     vndf_build,
+ * vndf_save; vndf_certify measures a table, vndf_reference is the truth it is measured by families
+ * vndf_build_family, vndf_family_save
+ *
+ * The conventions of vndf.h hold. */
 #ifndef VNDF_BUILD_H
 #define VNDF_BUILD_H
 
@@ -25,8 +30,7 @@ typedef struct vndf_parameter {
 /* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses, numbers, pi,
  * parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
  * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. If the text cannot be read,
- * returns NULL and an error that points at the column. The text and parameters are copied. A parameter that the
- * formula does not use is no error here (`vndf build --set` refuses it). */
+ * or does not use a parameter, returns NULL and an error that says where. The text and parameters are copied. */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                                  vndf_error *error);
 
@@ -36,16 +40,16 @@ VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_
 
 /* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
  * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped.
- * Shape-preserving interpolation joins the rows. Beyond the last row P22 falls as the power of r that the last two rows
- * give, at least as r^-4; a last row of value 0 ends the support there, at 90 degrees as well. */
+ * Shape-preserving interpolation joins the rows. Beyond the last row P22 falls as the power of r that the last two
+ * rows give, at least as r^-4; a last row of value 0 ends the support there, at 90 degrees as well. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 
 /* The same from numbers in memory: x[], theta_m in radians from 0 to pi/2 or the slope length, ascending from 0 or
- * above by more than 1e-12 of itself, and value[], D or P22, finite and not negative; 2 to VNDF_LIMIT_CSV_ROWS of each.
- * A row at 90 degrees (within 1e-9 radians) is for D alone. The numbers are copied. `name` says what they are, and may
- * be NULL; with a checksum of the numbers it becomes the provenance: "--rows NAME (crc32 ...)". If a row is refused,
- * returns NULL and VNDF_ERROR_DISTRIBUTION with its number, counted from 0. */
+ * above by more than 1e-12 of itself, and value[], D or P22, finite and not negative; 2 to VNDF_LIMIT_CSV_ROWS of
+ * each. A row at 90 degrees (within 1e-9 radians) is for D alone. The numbers are copied. `name` says what they
+ * are, and may be NULL; with a checksum of the numbers it becomes the provenance: "--rows NAME (crc32 ...)". If a
+ * row is refused, returns NULL and VNDF_ERROR_DISTRIBUTION with its number, counted from 0. */
 typedef enum vndf_rows_over { VNDF_ROWS_OVER_THETA, VNDF_ROWS_OVER_SLOPE } vndf_rows_over;
 typedef enum vndf_rows_of { VNDF_ROWS_OF_NDF, VNDF_ROWS_OF_P22 } vndf_rows_of;
 VNDF_API vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
@@ -63,8 +67,8 @@ VNDF_API const char *vndf_family_help(void);
 VNDF_API const char *vndf_family_material(size_t index);
 
 /* A C function: D(cos theta_m), or P22(r), which is better for narrow distributions (1 - cos loses digits). It
- * must return the same value for the same argument. name is copied into the table as its provenance. A function
- * can only be sampled: a feature narrower than vndf_build_options.finest can hide, unless a break marks it. */
+ * returns the same value for the same argument. The name is copied into the table as its provenance. A feature
+ * narrower than vndf_build_options.finest can hide between the samples of a function, unless a break marks it. */
 typedef double vndf_density_function(double x, void *user);
 VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
                                                vndf_error *error);
@@ -81,11 +85,11 @@ VNDF_API double vndf_source_p22(const vndf_source *source, double r);
 /* How the source was given, as arguments of `vndf build`. The text belongs to the source; it is empty for NULL. */
 VNDF_API const char *vndf_source_description(const vndf_source *source);
 
-/* Puts other words in the place of that text, which tables keep as provenance: for programs that make rows or a
- * function out of data of their own, "--rgl leather.bsdf (crc32 0f3a22bc)". One line of 1 to VNDF_LIMIT_NAME_LENGTH
- * characters without control characters, its quotes closed; the text is copied. VNDF_ERROR_ARGUMENT for any other, for
- * a source by --ndf, --slope or --family, whose description makes it again, and for words that begin with one of these
- * three. Not while a build reads the source. */
+/* Puts other words in the place of that text, which tables keep as provenance, for programs that make rows or a
+ * function out of data of their own: "--rgl leather.bsdf (crc32 0f3a22bc)". One line of 1 to
+ * VNDF_LIMIT_NAME_LENGTH characters without control characters, its quotes closed; the text is copied.
+ * VNDF_ERROR_ARGUMENT for any other line, for words that begin with --ndf, --slope or --family, and for a source
+ * that was made by one of these. Not while a build reads the source. */
 VNDF_API vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error);
 
 VNDF_API void vndf_source_free(vndf_source *source);
@@ -122,29 +126,25 @@ typedef int vndf_progress(double done, const char *what, void *user);
 
 /* Zeroed options are the defaults.
  *
- * Size and moments are what accuracy costs. Bytes buy cells: with more of them the slope length is drawn closer to D.
- * Moments bound what cells cannot mend, the law of the slope length seen from one direction. Above the horizon the
- * drawn density is within 6.5e-2 of the visible one with 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D,
- * direction and roughness. Fewer moments take fewer bytes and less time. Below the horizon moments change little: the
- * total variation is some percent there (tv of vndf_certificate), and weights or densities keep estimators unbiased.
+ * Size and moments are what accuracy costs. Bytes buy cells: the slope length is drawn closer to D. Moments bound
+ * how far the law of the slope length from one direction is from the visible one: above the horizon by 6.5e-2 with
+ * 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D, direction and roughness. Below the horizon the total
+ * variation is some percent with any of them. Fewer moments take fewer bytes and less time. If max_bytes and
+ * max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of 8192 bytes.
  *
- * If max_bytes and max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of
- * 8192 bytes.
- *
- * Narrow features. The builder bounds a formula and a family between all points by interval arithmetic, and reads every
- * row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence, can escape it:
- * all hidden features together, however narrow. It resolves anything larger, or refuses the source and names the slope
- * where the feature may be (VNDF_ERROR_DISTRIBUTION). A feature narrower than the spacing of doubles does not count.
- * A callback can only be sampled: a feature narrower than `finest` of its slope may escape completely, unless a break
- * is given there. The certificate says which case it was (vndf_certificate: hidden, finest).
+ * Narrow features. The builder bounds formulas and families between all points by interval arithmetic, and reads
+ * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
+ * escapes it: all hidden features together, however narrow they are, down to the spacing of doubles. It resolves
+ * anything larger, or refuses the source and names the slope (VNDF_ERROR_DISTRIBUTION). A formula that cannot be
+ * bounded is refused, or sampled if `finest` is given. A callback can only be sampled: features narrower than
+ * `finest` of their slope may escape.
  *
  * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the
- * slope there. `finest` is the width of the features that sampling has to find, and costs 280/finest evaluations. A
- * formula that cannot be bounded is refused; if finest is given it is sampled. */
+ * slope there. `finest` costs 280/finest evaluations. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
     double max_tv; /* build the smallest table that reaches this total variation above the horizon, and 30 times it
-                       * below; 0: the best that fits */
+                    * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
     const double *breaks; /* slopes in the unit of the source, for any source; kept in the provenance */
@@ -159,13 +159,13 @@ typedef struct vndf_build_options {
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 
-/* Measures a table against a source: the certificate that vndf_build would write. It uses the breaks and finest that
- * the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
+/* Measures a table against a source: the certificate that vndf_build would write. It uses the breaks and finest
+ * that the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
-/* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the unit
- * problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
+/* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the
+ * unit problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
  * features that a build with zeroed options finds. A slow oracle, valid while the source lives; 0 for NULL. */
 typedef struct vndf_reference vndf_reference;
 VNDF_API vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error);
@@ -173,12 +173,11 @@ VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);
 VNDF_API double vndf_reference_area(const vndf_reference *reference, double theta);
 VNDF_API void vndf_reference_free(vndf_reference *reference);
 
-/* Writes the table to a file: first to a temporary file beside it, which is flushed to the disk, then renamed over
- * path. The temporary is called NAME.PROCESS.tmp; a long name is cut, and another number taken if a file has that
- * name. If a step fails, the old file is whole and no temporary is left. A file that is replaced keeps its
- * permissions. If path is a symbolic link, the file that it leads to is replaced, or made, and the link stays;
- * other hard links keep the old file. A device, a pipe or anything else that is no regular file is refused. A
- * signal that ends the process meanwhile may leave a temporary: block it, as `vndf build` does. */
+/* Writes the table to a file: first to a temporary file beside it, NAME.PROCESS.tmp, which is flushed to the disk
+ * and renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced
+ * keeps its permissions, and a symbolic link stays one; other hard links keep the old file. Anything but a regular
+ * file is refused. A signal that ends the process meanwhile may leave the temporary: block it, as `vndf build`
+ * does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 /* The same to memory, for vndf_load_memory: `size` bytes, which is `bytes` of vndf_distribution_info. */
@@ -188,9 +187,9 @@ VNDF_API vndf_status vndf_save_memory(const vndf_distribution *distribution, voi
 /* ---- families ---------------------------------------------------------------------------------- */
 
 /* Zeroed options are the defaults. The distance is the total variation between the slopes of the family and of the
- * mixture of neighbouring knots (vndf_family_at), 1/2 integral |P22_mix - P22_p| dA, by quadrature of both as they are
- * given, without tables. It is measured at VNDF_FAMILY_PROBES parameters between each two knots, not proven: where the
- * family changes smoothly the largest distance is within a few percent of what is found. */
+ * mixture of neighbouring knots (vndf_family_at), by quadrature without tables, measured at VNDF_FAMILY_PROBES
+ * parameters between each two knots: where the family changes smoothly, the largest is within a few percent of it.
+ */
 enum { VNDF_FAMILY_PROBES = 7 };
 
 typedef struct vndf_family_options {
@@ -203,15 +202,15 @@ typedef struct vndf_family_options {
 } vndf_family_options;
 
 /* Builds the tables of a family along one of its numbers, from `low` to `high`. The specification is that of
- * vndf_source_family with {p} where the number stands, "abc:{p},0.8" or "mix:({p},1,ggx)+(1,0.1,beckmann)"; the name
- * of a family with one number may stand alone, "student-t". Mixtures are linear in p, or in 1/p where low > 0 and that
- * makes the distance smaller by a quarter at least. Parameters of knots have seven digits, and the table of a knot is
- * the one that vndf_build makes there. NULL and an error as for vndf_build; VNDF_ERROR_TARGET if 256 knots do not reach
- * the distance. Takes a build for each knot. Free the result with vndf_family_free. */
+ * vndf_source_family with {p} where the number is, "abc:{p},0.8" or "mix:({p},1,ggx)+(1,0.1,beckmann)"; a family
+ * with one number needs no {p}: "student-t". Mixtures are linear in p, or in 1/p where low > 0 and the distance is
+ * less by a quarter at least. Parameters of knots have seven digits. NULL and an error as for vndf_build,
+ * VNDF_ERROR_TARGET if 256 knots do not reach the distance. Free the result with vndf_family_free. */
 VNDF_API vndf_family *vndf_build_family(const char *specification, double low, double high,
                                         const vndf_family_options *options, vndf_error *error);
 
-/* Writes a family that was built or loaded, as vndf_save and vndf_save_memory do; vndf_family_info says its bytes. */
+/* Writes a family that was built or loaded, as vndf_save and vndf_save_memory do; vndf_family_info says its bytes.
+ */
 VNDF_API vndf_status vndf_family_save(const vndf_family *family, const char *path, vndf_error *error);
 VNDF_API vndf_status vndf_family_save_memory(const vndf_family *family, void *bytes, size_t size,
                                              vndf_error *error);

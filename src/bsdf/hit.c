@@ -104,7 +104,7 @@ int vndf_hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_aff
     b->surface = *surface;
     b->view.kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
     take_side(b, material, wi, wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y);
-    b->view.of.one = vndf_view_of(&b->surface, b->wi);
+    b->view.of.one = vndf_affine_view_from(&b->surface, b->wi);
     return complete(b, material);
 }
 

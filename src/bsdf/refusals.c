@@ -152,7 +152,7 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 static int is_visible(const vndf_affine *surface)
 {
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    vndf_view view = vndf_view_of(surface, up);
+    vndf_view view = vndf_affine_view_from(surface, up);
     return vndf_view_area(&view, up) > 0.0f;
 }
 

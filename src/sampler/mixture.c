@@ -36,16 +36,16 @@ static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_L
 static void set_shares(vndf_mixture_view *view, vndf_vec3 wi)
 {
     float sum = 0.0f, total = 0.0f;
-    view->cosine = 0.0f;
     for (int i = 0; i < view->count; i++) {
-        view->share[i] = view->weight[i] * vndf_view_area(&view->lobe[i], wi);
-        view->cosine += view->weight[i] * vndf_view_cosine(&view->lobe[i], wi);
-        sum += view->share[i];
-        total += view->weight[i];
+        vndf_mixture_part *part = &view->part[i];
+        part->share = part->weight * vndf_view_area(&part->view, wi);
+        sum += part->share;
+        total += part->weight;
     }
-    view->area = sum;
-    for (int i = 0; i < view->count; i++)
-        view->share[i] = sum > FLT_MIN ? view->share[i] / sum : view->weight[i] / total;
+    for (int i = 0; i < view->count; i++) {
+        vndf_mixture_part *part = &view->part[i];
+        part->share = sum > FLT_MIN ? part->share / sum : part->weight / total;
+    }
 }
 
 vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
@@ -56,15 +56,17 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
     if (!(weights_of(mixture, weight) > 0.0f))
         return view;
     for (int i = 0; i < mixture->count; i++) {
+        vndf_mixture_part *part = &view.part[view.count];
         if (mixture->lobe[i].weight == 0.0f)
             continue;
-        view.lobe[view.count] = vndf_view_of(&mixture->lobe[i].surface, wi);
-        if (!view.lobe[view.count].distribution) {
+        part->view = vndf_affine_view_from(&mixture->lobe[i].surface, wi);
+        if (!part->view.distribution) {
             view.count = 0;
             return view;
         }
-        view.index[view.count] = i;
-        view.weight[view.count++] = weight[i];
+        part->lobe = i;
+        part->weight = weight[i];
+        view.count++;
     }
     set_shares(&view, wi);
     return view;
@@ -77,7 +79,7 @@ static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->share[i] * (i == drawn_lobe ? known : vndf_pdf(&view->lobe[i], wm));
+        sum += view->part[i].share * (i == drawn_lobe ? known : vndf_pdf(&view->part[i].view, wm));
     return sum;
 }
 
@@ -86,22 +88,22 @@ vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2,
     vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
     float begin = 0.0f, density = 0.0f, u = vndf_clamp_unit(u1);
     int i = 0;
-    while (i + 1 < view->count && u >= begin + view->share[i])
-        begin += view->share[i++];
+    while (i + 1 < view->count && u >= begin + view->part[i].share)
+        begin += view->part[i++].share;
     if (view->count) {
-        wm = vndf_sample(&view->lobe[i], (u - begin) / view->share[i], u2, &density);
+        wm = vndf_sample(&view->part[i].view, (u - begin) / view->part[i].share, u2, &density);
         density = density > 0.0f ? most(density_with(view, wm, i, density), FLT_MIN) : 0.0f;
     }
     if (pdf)
         *pdf = least(density, FLT_MAX);
     if (lobe)
-        *lobe = view->count ? view->index[i] : -1;
+        *lobe = view->count ? view->part[i].lobe : -1;
     return wm;
 }
 
 static int is_seen(const vndf_mixture_view *view, vndf_vec3 wm)
 {
-    return view->count && vndf_pdf(&view->lobe[0], wm) > 0.0f;
+    return view->count && vndf_pdf(&view->part[0].view, wm) > 0.0f;
 }
 
 float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
@@ -113,7 +115,7 @@ float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->share[i] * vndf_visible(&view->lobe[i], wm);
+        sum += view->part[i].share * vndf_visible(&view->part[i].view, wm);
     return least(sum, FLT_MAX);
 }
 
@@ -122,20 +124,20 @@ int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, f
     float begin = 0.0f, best = -1.0f, best_begin = 0.0f;
     int found_lobe = -1;
     for (int i = 0; i < view->count; i++) {
-        float drawn_here = lobe >= 0 ? 0.0f : view->share[i] * vndf_pdf(&view->lobe[i], wm);
-        if ((lobe >= 0 && view->index[i] == lobe) || (lobe < 0 && drawn_here > best)) {
+        float drawn_here = lobe >= 0 ? 0.0f : view->part[i].share * vndf_pdf(&view->part[i].view, wm);
+        if ((lobe >= 0 && view->part[i].lobe == lobe) || (lobe < 0 && drawn_here > best)) {
             best = drawn_here;
             best_begin = begin;
             found_lobe = i;
         }
-        begin += view->share[i];
+        begin += view->part[i].share;
     }
     *u1 = *u2 = 0.0f;
     if (found_lobe < 0)
         return -1;
-    vndf_invert(&view->lobe[found_lobe], wm, u1, u2);
-    *u1 = vndf_clamp_unit(best_begin + *u1 * view->share[found_lobe]);
-    return view->index[found_lobe];
+    vndf_invert(&view->part[found_lobe].view, wm, u1, u2);
+    *u1 = vndf_clamp_unit(best_begin + *u1 * view->part[found_lobe].share);
+    return view->part[found_lobe].lobe;
 }
 
 /* ---- the whole ---- */
@@ -144,7 +146,7 @@ float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->weight[i] * vndf_view_ndf(&view->lobe[i], wm);
+        sum += view->part[i].weight * vndf_view_ndf(&view->part[i].view, wm);
     return least(sum, FLT_MAX);
 }
 
@@ -152,7 +154,7 @@ float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w)
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->weight[i] * vndf_view_area(&view->lobe[i], w);
+        sum += view->part[i].weight * vndf_view_area(&view->part[i].view, w);
     return sum;
 }
 
@@ -160,7 +162,7 @@ float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w)
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->weight[i] * vndf_view_cosine(&view->lobe[i], w);
+        sum += view->part[i].weight * vndf_view_cosine(&view->part[i].view, w);
     return sum;
 }
 

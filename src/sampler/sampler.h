@@ -5,9 +5,6 @@
 
 #include "vndf.h"
 
-/* The view of any surface. vndf_view_from and vndf_affine_view_from are this; vndf_affine_view is a vndf_view. */
-vndf_view vndf_view_of(const vndf_affine *surface, vndf_vec3 wi);
-
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the
  * view. */
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);

@@ -65,12 +65,7 @@ VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi)
     return view;
 }
 
-vndf_view vndf_view_of(const vndf_affine *affine, vndf_vec3 wi)
-{
-    return view_of(affine, wi);
-}
-
-vndf_affine_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
+vndf_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
 {
     return view_of(affine, wi);
 }
@@ -125,11 +120,6 @@ vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
     return sample(view, u1, u2, pdf, NULL);
 }
 
-vndf_vec3 vndf_affine_sample(const vndf_affine_view *view, float u1, float u2, float *pdf)
-{
-    return sample(view, u1, u2, pdf, NULL);
-}
-
 vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
     float ignored;
@@ -177,7 +167,7 @@ VNDF_INLINE float density(const vndf_view *view, unit_normal n)
     return table_pdf(table_of(d), s->of.table, table_unturned(s->of.table.ex, s->of.table.ey, n), reach, 1);
 }
 
-VNDF_INLINE float pdf_of(const vndf_view *view, vndf_vec3 wm)
+float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
 {
     unit_normal n;
     if (!seen_normal(view, wm, &n))
@@ -186,17 +176,7 @@ VNDF_INLINE float pdf_of(const vndf_view *view, vndf_vec3 wm)
     return frame_density(*f, density(view, n) / f->determinant);
 }
 
-float vndf_pdf(const vndf_view *view, vndf_vec3 wm)
-{
-    return pdf_of(view, wm);
-}
-
-float vndf_affine_pdf(const vndf_affine_view *view, vndf_vec3 wm)
-{
-    return pdf_of(view, wm);
-}
-
-VNDF_INLINE float visible_of(const vndf_view *view, vndf_vec3 wm)
+float vndf_visible(const vndf_view *view, vndf_vec3 wm)
 {
     unit_normal n;
     if (!seen_normal(view, wm, &n))
@@ -208,17 +188,7 @@ VNDF_INLINE float visible_of(const vndf_view *view, vndf_vec3 wm)
     return frame_density(s->f, unit_ndf(view->distribution, n) / s->f.determinant * (n.facing / area));
 }
 
-float vndf_visible(const vndf_view *view, vndf_vec3 wm)
-{
-    return visible_of(view, wm);
-}
-
-float vndf_affine_visible(const vndf_affine_view *view, vndf_vec3 wm)
-{
-    return visible_of(view, wm);
-}
-
-VNDF_INLINE void invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
+void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 {
     pair u = {0.0f, 0.0f};
     if (view->distribution) {
@@ -233,16 +203,6 @@ VNDF_INLINE void invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u
     }
     *u1 = vndf_clamp_unit(u.a);
     *u2 = vndf_clamp_unit(u.b);
-}
-
-void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
-{
-    invert(view, wm, u1, u2);
-}
-
-void vndf_affine_invert(const vndf_affine_view *view, vndf_vec3 wm, float *u1, float *u2)
-{
-    invert(view, wm, u1, u2);
 }
 
 /* ---- the distribution itself ---- */

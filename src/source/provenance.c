@@ -1,13 +1,10 @@
 /* Reads provenance back, and lets programs bring words of their own. Descriptions come from table files, so they are
  * not trusted: every word is checked. */
-#include "source/provenance.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
 #include "source/formula/expression.h"
-#include "source/number.h"
 #include "source/resolution.h"
 #include "source/source.h"
 #include "source/words.h"

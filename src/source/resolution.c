@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/number.h"
 
 static const double FINEST_LEAST = 1e-9, FINEST_MOST = 1;
 

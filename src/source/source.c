@@ -1,5 +1,12 @@
-/* The public calls that all kinds of source have in common. */
+/* The calls that all kinds of source have in common, and sources given by a C function: P22(r), or D(cos theta) with
+ * P22(r) = D(c) c^4, c = 1/sqrt(1 + r^2). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
 #include "source/source.h"
+#include "source/words.h"
 
 double vndf_source_p22(const vndf_source *source, double r)
 {
@@ -15,4 +22,75 @@ void vndf_source_free(vndf_source *source)
 {
     if (source)
         source->destroy(source);
+}
+
+/* ---- functions -------------------------------------------------------------------------------- */
+
+enum { OPERATIONS = 8 }; /* the cost of a call, whatever it does: a guess */
+
+typedef struct callback_source {
+    vndf_source base; /* first: a vndf_source* is cast back to this */
+    vndf_density_function *density;
+    void *user;
+} callback_source;
+
+static double slope_p22(const vndf_source *self, double r)
+{
+    const callback_source *source = (const callback_source *)self;
+    return source->density(r, source->user);
+}
+
+static double ndf_p22(const vndf_source *self, double r)
+{
+    const callback_source *source = (const callback_source *)self;
+    double c = 1 / hypot(1, r), c2 = c * c;
+    return source->density(c, source->user) * c2 * c2;
+}
+
+static void destroy(vndf_source *self)
+{
+    free(self->description);
+    free(self);
+}
+
+/* `vndf build` has no such option, since a shell cannot bring a function. It says what the table came from. */
+static vndf_source *make(const char *option, vndf_density_function *density, void *user, const char *name,
+                         double (*p22)(const vndf_source *, double), vndf_error *error)
+{
+    vndf_text words = {NULL, 0, 0, 0};
+    if (!density) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
+        return NULL;
+    }
+    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback's name has %zu characters; at most %d are possible",
+                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
+    vndf_text_add_word(&words, option);
+    vndf_text_add_word(&words, name ? name : "unnamed");
+    char *description = vndf_text_finish(&words, error);
+    callback_source *source = calloc(1, sizeof *source);
+    if (!description || !source) {
+        free(description);
+        free(source);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
+        return NULL;
+    }
+    source->base =
+        (vndf_source){.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS};
+    source->density = density;
+    source->user = user;
+    return &source->base;
+}
+
+vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name, vndf_error *error)
+{
+    return make("--ndf-callback", ndf, user, name, ndf_p22, error);
+}
+
+vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user, const char *name,
+                                        vndf_error *error)
+{
+    return make("--slope-callback", p22, user, name, slope_p22, error);
 }

@@ -1,6 +1,6 @@
 /* A source as the builder sees it, whatever its kind: an unnormalised P22(r), the slopes where it is not smooth,
- * and the words that made it. Each kind (expression_source.c, csv.c, family.c, callback.c) embeds vndf_source as
- * its first member and fills it. */
+ * and the words that made it. Each kind (formula/expression_source.c, csv/curve.c, family/family.c, source.c)
+ * embeds vndf_source as its first member and fills it. */
 #ifndef VNDF_SOURCE_SOURCE_H
 #define VNDF_SOURCE_SOURCE_H
 
@@ -27,5 +27,10 @@ struct vndf_source {
     double rounding;   /* relative: P22 is no smoother than that */
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */
 };
+
+/* Makes the source that has this description, "--slope 'exp(-a*r)' --set a=0.3". It understands --ndf, --slope,
+ * --set and --family, and refuses any other (VNDF_ERROR_ARGUMENT): those of a CSV and of a callback do not hold
+ * the data. */
+vndf_source *vndf_source_from_description(const char *description, vndf_error *error);
 
 #endif

@@ -1,6 +1,11 @@
-/* Words of a command line: vndf_text_add_word writes what vndf_words_split reads. */
+/* Words of a command line: vndf_text_add_word writes what vndf_words_split reads. Numbers: the C library rounds
+ * correctly but follows the locale, so the locale's decimal point is put in before strtod and taken out after
+ * snprintf; the grammar is checked here, since strtod accepts more. */
 #include "source/words.h"
 
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -128,4 +133,114 @@ const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size)
         out[i] = text[i] >= 32 && text[i] < 127 ? text[i] : '?';
     strcpy(out + length, size > most ? "..." : "");
     return out;
+}
+
+int vndf_is_word(const char *text, size_t size, const char *word)
+{
+    return strlen(word) == size && memcmp(text, word, size) == 0;
+}
+
+static int small(char c)
+{
+    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
+}
+
+/* Row by row; row[0] is the current one, row[1] and row[2] are those before. */
+size_t vndf_word_distance(const char *text, size_t size, const char *word)
+{
+    enum { LONGEST = 64 };
+    size_t row[3][LONGEST + 1] = {{0}}, length = size < LONGEST ? size : LONGEST;
+    for (size_t i = 0; i <= length; i++)
+        row[0][i] = i;
+    for (size_t w = 0; word[w]; w++) {
+        memmove(row[1], row[0], 2 * sizeof row[0]);
+        row[0][0]++;
+        for (size_t i = 1; i <= length; i++) {
+            size_t best = row[1][i - 1] + (small(text[i - 1]) != small(word[w]));
+            if (row[0][i - 1] + 1 < best)
+                best = row[0][i - 1] + 1;
+            if (row[1][i] + 1 < best)
+                best = row[1][i] + 1;
+            if (i > 1 && w > 0 && text[i - 1] == word[w - 1] && text[i - 2] == word[w] && row[2][i - 2] + 1 < best)
+                best = row[2][i - 2] + 1;
+            row[0][i] = best;
+        }
+    }
+    return row[0][length];
+}
+
+/* ---- numbers ---------------------------------------------------------------------------------- */
+
+static size_t digits(const char *text, size_t size, size_t at)
+{
+    size_t count = 0;
+    while (at + count < size && text[at + count] >= '0' && text[at + count] <= '9')
+        count++;
+    return count;
+}
+
+/* An e without digits behind it belongs to the text after the number. */
+static size_t exponent(const char *text, size_t size, size_t at)
+{
+    size_t start = at + 1;
+    if (at >= size || (text[at] != 'e' && text[at] != 'E'))
+        return 0;
+    if (start < size && (text[start] == '+' || text[start] == '-'))
+        start++;
+    size_t count = digits(text, size, start);
+    return count ? start + count - at : 0;
+}
+
+/* Length of the number at the start of text, and where its point is (or its end). */
+static size_t number_length(const char *text, size_t size, size_t *point)
+{
+    size_t at = size > 0 && (text[0] == '+' || text[0] == '-');
+    size_t whole = digits(text, size, at), part = 0;
+    at += whole;
+    *point = at;
+    if (at < size && text[at] == '.') {
+        part = digits(text, size, at + 1);
+        at += 1 + part;
+    }
+    return whole + part == 0 ? 0 : at + exponent(text, size, at);
+}
+
+size_t vndf_number_read(const char *text, size_t size, double *value)
+{
+    char copy[VNDF_NUMBER_LENGTH + 32];
+    const char *mark = localeconv()->decimal_point;
+    size_t point, length = number_length(text, size, &point), mark_length = strlen(mark);
+    if (length == 0 || length > VNDF_NUMBER_LENGTH || mark_length > 16)
+        return 0;
+    memcpy(copy, text, point);
+    if (point == length || text[point] != '.')
+        mark_length = 0;
+    memcpy(copy + point, mark, mark_length);
+    size_t rest = point + (mark_length > 0);
+    memcpy(copy + point + mark_length, text + rest, length - rest);
+    copy[length - rest + point + mark_length] = '\0';
+    *value = strtod(copy, NULL);
+    return length;
+}
+
+int vndf_number_is_all(const char *text, size_t size, double *value)
+{
+    return size > 0 && vndf_number_read(text, size, value) == size;
+}
+
+const char *vndf_number_print(char out[VNDF_NUMBER_TEXT], double value)
+{
+    char text[VNDF_NUMBER_TEXT]; /* gcc's sanitizers would warn that out may be NULL */
+    for (int precision = 15; precision <= 17; precision++) {
+        snprintf(text, sizeof text, "%.*g", precision, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    const char *mark = localeconv()->decimal_point;
+    char *found = strcmp(mark, ".") ? strstr(text, mark) : NULL;
+    if (found) {
+        *found = '.';
+        memmove(found + 1, found + strlen(mark), strlen(found + strlen(mark)) + 1);
+    }
+    return memcpy(out, text, strlen(text) + 1);
 }

@@ -1,5 +1,5 @@
 /* The words of a command line as one text: text that grows, quoting as a shell wants it, and splitting into words
- * again. Also short printable excerpts of input, for error messages. */
+ * again. Short printable excerpts of input, for error messages, and the nearest words. Numbers as text. */
 #ifndef VNDF_SOURCE_WORDS_H
 #define VNDF_SOURCE_WORDS_H
 
@@ -35,5 +35,26 @@ void vndf_words_free(vndf_words *words);
 /* The first characters of text, for a message: '?' for an unprintable character, "..." where it is cut. */
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
+
+/* Whether the text is the word; and how many letters (of at most 64) are to be inserted, dropped, replaced or
+ * exchanged with the next for it to become the word, small or capital. */
+int vndf_is_word(const char *text, size_t size, const char *word);
+size_t vndf_word_distance(const char *text, size_t size, const char *word);
+
+/* ---- numbers, the same in every locale: a decimal point is '.', whatever setlocale() was told --------------- */
+
+/* Longest number that is read, and space for one that is printed. */
+enum { VNDF_NUMBER_LENGTH = 4096, VNDF_NUMBER_TEXT = 32 };
+
+/* Reads [+-] digits [. digits] [e [+-] digits] from the start of text, correctly rounded, into *value
+ * (infinite if it is too large). Returns how many characters belong to the number; 0 if there is none. No
+ * hexadecimal, no "inf" or "nan". */
+size_t vndf_number_read(const char *text, size_t size, double *value);
+
+/* The same for text that must be one number from its first to its last character: 1 if it is. */
+int vndf_number_is_all(const char *text, size_t size, double *value);
+
+/* Prints the shortest of %.15g, %.16g, %.17g that reads back as the same double; returns out. */
+const char *vndf_number_print(char out[VNDF_NUMBER_TEXT], double value);
 
 #endif

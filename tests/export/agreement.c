@@ -100,10 +100,10 @@ static exported_answer answer_of(const subjects *s, const exported_question *q, 
     for (int i = 0; i < s->count; i++)
         if (s->base[i] == q->distribution)
             m.distribution = s->is[i];
-    vndf_affine_view view = vndf_affine_view_from(&m, wi);
-    put(a.wm, vndf_affine_sample(&view, q->u1, q->u2, &a.sampled));
-    a.pdf = vndf_affine_pdf(&view, wm);
-    a.visible = vndf_affine_visible(&view, wm);
+    vndf_view view = vndf_affine_view_from(&m, wi);
+    put(a.wm, vndf_sample(&view, q->u1, q->u2, &a.sampled));
+    a.pdf = vndf_pdf(&view, wm);
+    a.visible = vndf_visible(&view, wm);
     a.ndf = vndf_affine_ndf(&m, wm);
     a.lambda = vndf_affine_lambda(&m, wi);
     a.g1 = vndf_affine_g1(&m, wi);

@@ -6,12 +6,12 @@
 typedef vndf_source *read_function(const char *text, const vndf_parameter *parameters, size_t count,
                                    vndf_error *error);
 
-static void read_and_evaluate(read_function *read, const char *text)
+static void read_and_evaluate(read_function *read, const char *text, size_t count)
 {
     static const vndf_parameter parameters[] = {{"a", 0.3}, {"b_1", -2.0}};
     static const double slopes[] = {0.0, 1e-300, 1e-6, 0.5, 1.0, 7.0, 1e3, 1e18, 1e300};
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = read(text, parameters, 2, &error);
+    vndf_source *source = read(text, parameters, count, &error);
     double sum = 0.0;
 
     fuzz_require((source == NULL) == (error.status != VNDF_OK), "NULL and an error come together");
@@ -31,8 +31,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *text = fuzz_text(data, size);
 
-    read_and_evaluate(vndf_source_ndf_expression, text);
-    read_and_evaluate(vndf_source_slope_expression, text);
+    for (size_t count = 0; count <= 2; count += 2) { /* a parameter that is not used is refused */
+        read_and_evaluate(vndf_source_ndf_expression, text, count);
+        read_and_evaluate(vndf_source_slope_expression, text, count);
+    }
     free(text);
     return 0;
 }

@@ -1,6 +1,6 @@
-/* The examples of the public headers compile, stand there to the letter, and do what is said of them: glass scatters;
- * a brushed surface under a normal map has the map's normal in its middle, `along` along the brush and `across` across
- * it; two families in one mixture have the densities of their sum, 7 to 3. */
+/* The examples of the public headers compile, stand there to the letter, and do what is said of them: the first program
+ * draws a normal; glass scatters; a brushed surface under a normal map has the map's normal in its middle, `along`
+ * along the brush and `across` across it; two families in one mixture have the densities of their sum, 7 to 3. */
 #include <ctype.h>
 
 #include "harness/test.h"
@@ -10,6 +10,29 @@
 static const double PI = 3.14159265358979323846;
 
 /* ---- examples ---- */
+
+#define main example_first
+#define vndf_load(path, error) vndf_load(VNDF_SOURCE_DIR "/" path, error)
+int main(void);
+/* example: vndf.h */
+int main(void)
+{
+    vndf_error error;
+    vndf_distribution *table = vndf_load("tables/example.vndf", &error);
+    if (!table)
+        return puts(error.message), 1;
+    vndf_surface metal = {table, 0.3f, 0.1f}; // alpha_x, alpha_y
+    vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
+    vndf_view view = vndf_view_from(&metal, wi); // once for each hit
+    float pdf, weight;
+    vndf_vec3 wm = vndf_sample_weight(&view, 0.25f, 0.5f, &pdf, &weight);
+    printf("wm (%g, %g, %g), pdf %g, weight %g\n", wm.x, wm.y, wm.z, pdf, weight);
+    vndf_free(table);
+    return 0;
+}
+/* end */
+#undef main
+#undef vndf_load
 
 static int example_glass(vndf_vec3 wi, const float u[3], vndf_scattered *scattered)
 {
@@ -43,9 +66,9 @@ static drawn example_brushed(const vndf_distribution *metal, float phi, float al
     /* example: vndf.h */
     const float c = cosf(phi), s = sinf(phi);
     const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
-    const vndf_affine_view view = vndf_affine_view_from(&brushed, wi);
+    const vndf_view view = vndf_affine_view_from(&brushed, wi);
     float pdf;
-    const vndf_vec3 wm = vndf_affine_sample(&view, u[0], u[1], &pdf);
+    const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
     /* end */
     const drawn sample = {wm, pdf};
     *surface = brushed;
@@ -107,8 +130,8 @@ static void test_brushed(void)
     const float u[2] = {0.3f, 0.7f};
     vndf_affine surface;
     drawn d = example_brushed(vndf_ggx(), (float)phi, (float)along, (float)across, n, wi, u, &surface);
-    vndf_affine_view view = vndf_affine_view_from(&surface, wi);
-    TEST_RELATIVE((double)d.pdf, (double)vndf_affine_pdf(&view, d.wm), 1e-5);
+    vndf_view view = vndf_affine_view_from(&surface, wi);
+    TEST_RELATIVE((double)d.pdf, (double)vndf_pdf(&view, d.wm), 1e-5);
     TEST_RELATIVE((double)vndf_affine_ndf(&surface, n), p22_brushed(along, across, 0, 0) / pow((double)n.z, 4),
                   1e-4);
     for (int i = -3; i <= 3; i++)
@@ -201,11 +224,12 @@ static void test_letters(void)
         at = end + 1;
         count++;
     }
-    TEST(count == 3);
+    TEST(count == 4);
 }
 
 int main(void)
 {
+    TEST(example_first() == 0);
     test_glass();
     test_brushed();
     test_families();

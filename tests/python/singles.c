@@ -60,15 +60,15 @@ void singles_affine(const vndf_distribution *d, const singles *s)
     for (int i = 0; i < s->n; i++) {
         vndf_affine surface = shape(d, s, i);
         vndf_vec3 wi = at(s->wi, i), wm = at(s->wm, i);
-        vndf_affine_view view = vndf_affine_view_from(&surface, wi);
-        put(s->drawn, i, vndf_affine_sample(&view, s->u[0][i], s->u[1][i], &s->pdf[i]));
-        s->other[0][i] = vndf_affine_pdf(&view, wm);
-        s->other[1][i] = vndf_affine_visible(&view, wm);
+        vndf_view view = vndf_affine_view_from(&surface, wi);
+        put(s->drawn, i, vndf_sample(&view, s->u[0][i], s->u[1][i], &s->pdf[i]));
+        s->other[0][i] = vndf_pdf(&view, wm);
+        s->other[1][i] = vndf_visible(&view, wm);
         s->other[2][i] = vndf_affine_ndf(&surface, wm);
         s->other[3][i] = vndf_affine_projected_area(&surface, wi);
         s->other[4][i] = vndf_affine_lambda(&surface, wi);
         s->other[5][i] = vndf_affine_g1(&surface, wi);
-        vndf_affine_invert(&view, wm, &s->inverse[0][i], &s->inverse[1][i]);
+        vndf_invert(&view, wm, &s->inverse[0][i], &s->inverse[1][i]);
     }
 }
 

@@ -97,6 +97,8 @@ class Refused(unittest.TestCase):
     def test_errors_have_the_words_and_the_kind(self):
         for call, status, words in (
             (lambda: vndf.Source.slope("exp(-"), vndf.Status.SYNTAX, "column 6"),
+            (lambda: vndf.Source.slope("exp(-r**2)"), vndf.Status.SYNTAX, "written with \\^"),
+            (lambda: vndf.Source.slope("exp(-r)", k=2), vndf.Status.ARGUMENT, "has no 'k'"),
             (lambda: vndf.Source.csv("nowhere.csv"), vndf.Status.IO, "nowhere.csv"),
             (lambda: vndf.load(os.path.join(SOURCE, "README.md")), vndf.Status.TABLE, "README.md"),
             (lambda: vndf.from_bytes(b""), vndf.Status.TABLE, ""),

@@ -15,7 +15,6 @@ typedef struct seen {
     vndf_mixture of; /* of the first two kinds one lobe */
     vndf_vec3 wi;
     vndf_view view;
-    vndf_affine_view affine;
     vndf_mixture_view mixture;
 } seen;
 
@@ -37,7 +36,7 @@ static inline seen seen_from(seen_kind kind, const vndf_mixture *of, vndf_vec3 w
     if (kind == SEEN_SURFACE)
         s.view = vndf_view_from(&surface, wi);
     else if (kind == SEEN_AFFINE)
-        s.affine = vndf_affine_view_from(first, wi);
+        s.view = vndf_affine_view_from(first, wi);
     else
         s.mixture = vndf_mixture_view_from(&s.of, wi);
     return s;
@@ -52,23 +51,18 @@ static inline seen seen_surface(const vndf_distribution *d, float alpha_x, float
 static inline vndf_vec3 seen_draw(const void *of, float u1, float u2, float *pdf)
 {
     const seen *s = of;
-    return s->kind == SEEN_SURFACE  ? vndf_sample(&s->view, u1, u2, pdf)
-           : s->kind == SEEN_AFFINE ? vndf_affine_sample(&s->affine, u1, u2, pdf)
-                                    : vndf_mixture_sample(&s->mixture, u1, u2, pdf, NULL);
+    return s->kind == SEEN_MIXTURE ? vndf_mixture_sample(&s->mixture, u1, u2, pdf, NULL)
+                                   : vndf_sample(&s->view, u1, u2, pdf);
 }
 
 static inline float seen_pdf(const seen *s, vndf_vec3 wm)
 {
-    return s->kind == SEEN_SURFACE  ? vndf_pdf(&s->view, wm)
-           : s->kind == SEEN_AFFINE ? vndf_affine_pdf(&s->affine, wm)
-                                    : vndf_mixture_pdf(&s->mixture, wm);
+    return s->kind == SEEN_MIXTURE ? vndf_mixture_pdf(&s->mixture, wm) : vndf_pdf(&s->view, wm);
 }
 
 static inline float seen_visible(const seen *s, vndf_vec3 wm)
 {
-    return s->kind == SEEN_SURFACE  ? vndf_visible(&s->view, wm)
-           : s->kind == SEEN_AFFINE ? vndf_affine_visible(&s->affine, wm)
-                                    : vndf_mixture_visible(&s->mixture, wm);
+    return s->kind == SEEN_MIXTURE ? vndf_mixture_visible(&s->mixture, wm) : vndf_visible(&s->view, wm);
 }
 
 static inline float seen_area(const seen *s, vndf_vec3 w)

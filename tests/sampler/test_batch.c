@@ -69,10 +69,7 @@ static void expect_drawn(const batch_case *b, const seen *s, call which, size_t 
         return;
     }
     if (which == INVERT) {
-        if (b->kind == SEEN_SURFACE)
-            vndf_invert(&s->view, wm, &out[0], &out[1]);
-        else
-            vndf_affine_invert(&s->affine, wm, &out[0], &out[1]);
+        vndf_invert(&s->view, wm, &out[0], &out[1]);
         return;
     }
     wm = which == WEIGHT           ? vndf_sample_weight(&s->view, u1, u2, &out[3], &out[4])

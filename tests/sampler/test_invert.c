@@ -23,10 +23,7 @@ static int invert(const seen *s, vndf_vec3 wm, int lobe, float *u1, float *u2)
 {
     if (s->kind == SEEN_MIXTURE)
         return vndf_mixture_invert(&s->mixture, wm, lobe, u1, u2);
-    if (s->kind == SEEN_SURFACE)
-        vndf_invert(&s->view, wm, u1, u2);
-    else
-        vndf_affine_invert(&s->affine, wm, u1, u2);
+    vndf_invert(&s->view, wm, u1, u2);
     return 0;
 }
 

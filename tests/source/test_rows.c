@@ -109,35 +109,42 @@ static void refused(vndf_rows_over over, vndf_rows_of of, const double *x, const
     vndf_source_free(source);
 }
 
-static void test_refused_row(double x1, double value1, const char *message)
+static void test_refused_rows(void)
 {
-    const double x[3] = {0.1, x1, 1.5}, value[3] = {1, value1, 1};
-    refused(VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_P22, x, value, 3, VNDF_ERROR_DISTRIBUTION, message);
+    static const struct {
+        vndf_rows_of of;
+        double x, value;
+        const char *message;
+    } rows[] = {
+        {VNDF_ROWS_OF_P22, NAN, 1, "row 1: theta is nan; it must be finite"},
+        {VNDF_ROWS_OF_P22, INFINITY, 1, "row 1: theta is inf; it must be finite"},
+        {VNDF_ROWS_OF_P22, -1, 1, "row 1: theta is -1; it must be finite and not negative"},
+        {VNDF_ROWS_OF_P22, 0.2, NAN, "row 1: p22 is nan; it must be finite"},
+        {VNDF_ROWS_OF_P22, 0.2, -1e-300, "row 1: p22 is -1e-300; it must be finite and not negative"},
+        {VNDF_ROWS_OF_P22, 0.1, 1,
+         "row 1: theta is 0.10000000000000001, which is not above that of the row before"},
+        {VNDF_ROWS_OF_P22, 0.1 * (1 + 5e-13), 1, "which is not above that of the row before"},
+        {VNDF_ROWS_OF_P22, 1.5, 1, "row 2: theta is 1.5, which is not above"},
+        {VNDF_ROWS_OF_P22, PI / 2, 1, "row 1: at 90 degrees the slope is infinite"},
+        {VNDF_ROWS_OF_NDF, 1.6, 1, "row 1: theta is 1.6; angles from the normal are at most pi/2"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const double x[3] = {0.1, rows[i].x, 1.5}, value[3] = {1, rows[i].value, 1};
+        refused(VNDF_ROWS_OVER_THETA, rows[i].of, x, value, 3, VNDF_ERROR_DISTRIBUTION, rows[i].message);
+    }
 }
 
 static void test_refusals(void)
 {
-    const double x[2] = {0, 1}, value[2] = {1, 1}, wide[2] = {0, 1.6}, grazing[2] = {0, PI / 2};
-    test_refused_row(NAN, 1, "row 1: theta is nan; it must be finite");
-    test_refused_row(INFINITY, 1, "row 1: theta is inf; it must be finite");
-    test_refused_row(-1, 1, "row 1: theta is -1; it must be finite and not negative");
-    test_refused_row(0.2, NAN, "row 1: p22 is nan; it must be finite");
-    test_refused_row(0.2, -1e-300, "row 1: p22 is -1e-300; it must be finite and not negative");
-    test_refused_row(0.1, 1, "row 1: theta is 0.10000000000000001, which is not above that of the row before");
-    test_refused_row(0.1 * (1 + 5e-13), 1, "which is not above that of the row before");
-    test_refused_row(1.5, 1, "row 2: theta is 1.5, which is not above");
-    refused(VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, wide, value, 2, VNDF_ERROR_DISTRIBUTION,
-            "row 1: theta is 1.6; angles from the normal are at most pi/2");
-    refused(VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_P22, grazing, value, 2, VNDF_ERROR_DISTRIBUTION,
-            "row 1: at 90 degrees the slope is infinite");
-    refused(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, x, NULL, 2, VNDF_ERROR_ARGUMENT, "the array of p22 is NULL");
-    refused(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, value, 2, VNDF_ERROR_ARGUMENT,
-            "the array of slope is NULL");
-    refused(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, x, value, 1, VNDF_ERROR_ARGUMENT, "1 rows; from 2 to 1000000");
-    refused(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, x, value, 1000001, VNDF_ERROR_ARGUMENT,
-            "1000001 rows; from 2");
-    refused((vndf_rows_over)7, VNDF_ROWS_OF_P22, x, value, 2, VNDF_ERROR_ARGUMENT, "the columns are neither");
-    refused(VNDF_ROWS_OVER_SLOPE, (vndf_rows_of)-1, x, value, 2, VNDF_ERROR_ARGUMENT, "the columns are neither");
+    const double x[2] = {0, 1};
+    const vndf_rows_over slope = VNDF_ROWS_OVER_SLOPE;
+    const vndf_rows_of p22 = VNDF_ROWS_OF_P22;
+    refused(slope, p22, x, NULL, 2, VNDF_ERROR_ARGUMENT, "the array of p22 is NULL");
+    refused(slope, p22, NULL, x, 2, VNDF_ERROR_ARGUMENT, "the array of slope is NULL");
+    refused(slope, p22, x, x, 1, VNDF_ERROR_ARGUMENT, "1 rows; from 2 to 1000000");
+    refused(slope, p22, x, x, 1000001, VNDF_ERROR_ARGUMENT, "1000001 rows; from 2");
+    refused((vndf_rows_over)7, p22, x, x, 2, VNDF_ERROR_ARGUMENT, "the columns are neither");
+    refused(slope, (vndf_rows_of)-1, x, x, 2, VNDF_ERROR_ARGUMENT, "the columns are neither");
 }
 
 /* ---- what they came from ----------------------------------------------------------------------- */
@@ -166,19 +173,23 @@ static void undescribed(vndf_source *source, const char *words, const char *mess
 static void test_description(void)
 {
     static char words[VNDF_LIMIT_NAME_LENGTH + 2];
+    static const char *const refused[][2] = {
+        {"", "a description of 0 characters"},
+        {"--height a\nb", "column 11 of the description: a control character"},
+        {"--height 'a", "column 10: a quote in this word is not closed"},
+        {"--family ggx", "begins as that of a formula or a family"},
+        {"'--slope' 1", "begins as that of a formula or a family"},
+        {NULL, "the description is NULL"},
+        {words, "a description of 4097 characters; 1 to 4096"},
+    };
     const double x[2] = {0, 1}, value[2] = {4, 1};
     vndf_source *source = rows_of(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, x, value, 2);
     vndf_source *family = vndf_source_family("ggx", NULL);
-    undescribed(source, "", "a description of 0 characters");
-    undescribed(source, "--height a\nb", "column 11 of the description: a control character");
-    undescribed(source, "--height 'a", "column 10: a quote in this word is not closed");
-    undescribed(source, "--family ggx", "begins as that of a formula or a family");
-    undescribed(source, "'--slope' 1", "begins as that of a formula or a family");
-    undescribed(source, NULL, "the description is NULL");
+    memset(words, 'x', VNDF_LIMIT_NAME_LENGTH + 1);
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+        undescribed(source, refused[i][0], refused[i][1]);
     undescribed(NULL, "a", "the source is NULL");
     undescribed(family, "--height a", "the description '--family ggx' makes this source again");
-    memset(words, 'x', VNDF_LIMIT_NAME_LENGTH + 1);
-    undescribed(source, words, "a description of 4097 characters; 1 to 4096");
     words[VNDF_LIMIT_NAME_LENGTH] = '\0';
     TEST(vndf_source_describe(source, words, NULL) == VNDF_OK);
     TEST(strcmp(vndf_source_description(source), words) == 0);
@@ -199,6 +210,7 @@ int main(void)
     test_columns();
     test_grazing();
     test_falling();
+    test_refused_rows();
     test_refusals();
     test_name();
     test_description();

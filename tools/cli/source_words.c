@@ -23,46 +23,6 @@ static int read_parameter(const char *command, const char *text, char storage[NA
     return parse_numbers(command, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
 }
 
-static int is_of_name(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/* Past a number, a name or a single character. The e of 1e3 is no name. */
-static size_t word_length(const char *text)
-{
-    size_t length = strspn(text, ".0123456789");
-    if (length && (text[length] == 'e' || text[length] == 'E'))
-        length += text[length + 1] == '-' || text[length + 1] == '+' ? 2 : 1;
-    while (is_of_name(text[length]))
-        length++;
-    return length ? length : 1;
-}
-
-/* Whether a formula has the name other than before a parenthesis, where it is a function's. */
-static int is_used(const char *formula, const char *parameter)
-{
-    for (size_t length; *formula; formula += length) {
-        length = word_length(formula);
-        if (length == strlen(parameter) && memcmp(formula, parameter, length) == 0 &&
-            formula[length + strspn(formula + length, " \t\r\n")] != '(')
-            return 1;
-    }
-    return 0;
-}
-
-/* A formula that can be read; 0 after a complaint. */
-static int uses_all(const char *command, const char *formula, const vndf_parameter *parameters, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!is_used(formula, parameters[i].name)) {
-            complain(command, "--set %s: the formula '%s' has no '%s'", parameters[i].name, formula,
-                     parameters[i].name);
-            return 0;
-        }
-    return 1;
-}
-
 static vndf_source *source_from_expression(const char *command, const source_words *given, vndf_error *error)
 {
     vndf_parameter parameters[WORDS_MAX];
@@ -71,13 +31,8 @@ static vndf_source *source_from_expression(const char *command, const source_wor
         if (!read_parameter(command, given->set.item[i], names[i], &parameters[i]))
             return NULL;
     const char *formula = only_word(given->ndf.count ? &given->ndf : &given->slope);
-    vndf_source *source = given->ndf.count
-                              ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
-                              : vndf_source_slope_expression(formula, parameters, given->set.count, error);
-    if (!source || uses_all(command, formula, parameters, given->set.count))
-        return source;
-    vndf_source_free(source);
-    return NULL;
+    return given->ndf.count ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
+                            : vndf_source_slope_expression(formula, parameters, given->set.count, error);
 }
 
 vndf_source *source_from_words(const char *command, const source_words *given)

@@ -55,14 +55,14 @@ static int is_density(float pdf)
     return pdf > 0 && pdf <= FLT_MAX;
 }
 
-static void measure_sample(const vndf_affine_view *view, const stress_point *at, stress_result *result)
+static void measure_sample(const vndf_view *view, const stress_point *at, stress_result *result)
 {
     float pdf = -1, u1 = -1, u2 = -1;
-    vndf_vec3 wm = vndf_affine_sample(view, at->u1, at->u2, &pdf);
+    vndf_vec3 wm = vndf_sample(view, at->u1, at->u2, &pdf);
     int blind = at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0; /* from straight below no normal is visible */
-    int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_affine_pdf(view, wm));
+    int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_pdf(view, wm));
     result->samples++;
-    vndf_affine_invert(view, wm, &u1, &u2);
+    vndf_invert(view, wm, &u1, &u2);
     stress_note(result, STRESS_UNIT, fabs(stress_length(wm) - 1) * 0x1p23, at);
     stress_note(result, STRESS_ABOVE, -(double)wm.z, at);
     stress_note(result, STRESS_FACING, blind ? 0 : stress_turned_away(at->wi, wm), at);
@@ -163,7 +163,7 @@ static float hard_float(random_stream *stream)
 
 static void run_view(stress_point *at, random_stream *stream, size_t edged, stress_result *result)
 {
-    vndf_affine_view view = vndf_affine_view_from(&at->surface, at->wi);
+    vndf_view view = vndf_affine_view_from(&at->surface, at->wi);
     result->views++;
     for (size_t i = 0; i < edged + RANDOM; i++) {
         at->u1 = i < edged ? edges[i / EDGES] : hard_float(stream);

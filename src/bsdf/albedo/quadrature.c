@@ -238,7 +238,7 @@ static vndf_parts integrate(const vndf_quadrature *q, double cosine, double alph
     ring g = {.q = q, .reflects = reflects, .cosine = cosine, .sine = sine, .eta = eta};
     const vndf_affine surface = {q->distribution, (float)alpha, 0.0f, 0.0f, (float)alpha, 0.0f, 0.0f};
     const vndf_vec3 wi = {(float)sine, 0.0f, (float)cosine};
-    g.view = vndf_view_of(&surface, wi);
+    g.view = vndf_affine_view_from(&surface, wi);
     g.roughness = (double)(float)alpha * q->scale;
     g.area = vndf_view_area(&g.view, wi);
     int count = find_breaks(&g, breaks), next = 0;

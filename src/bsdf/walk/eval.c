@@ -33,7 +33,7 @@ static end end_at(const vndf_walk *walk, const vndf_view *view, vndf_vec3 up, in
 static end far_end(const vndf_walk *walk, vndf_vec3 wo)
 {
     vndf_vec3 up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
-    vndf_view seen = vndf_view_of(walk->surface, up);
+    vndf_view seen = vndf_affine_view_from(walk->surface, up);
     end e = end_at(walk, &seen, up, wo.z < 0.0f);
     e.walk.eta = wo.z < 0.0f ? 1.0 / walk->eta : walk->eta;
     return e;
@@ -76,7 +76,7 @@ static int step(const vndf_walk *walk, vndf_walk_path *path, vndf_vec3 *along)
 static double begin_factor(const end *from, const vndf_walk_path *path, vndf_vec3 along, double depth)
 {
     vndf_walk_scattered s;
-    vndf_view view = vndf_view_of(from->walk.surface, along);
+    vndf_view view = vndf_affine_view_from(from->walk.surface, along);
     if (!vndf_walk_scatter(&from->walk, &view, along, path->eta, from->up, path->turned, &s))
         return 0.0;
     return s.drawn * leaving_from(depth, 0, from) / (double)from->up.z;

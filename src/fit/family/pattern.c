@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "source/family/family.h"
-#include "source/number.h"
 #include "source/words.h"
 
 static const char PLACE[] = "{p}";

@@ -56,19 +56,19 @@ static void one(const vndf_call *c, size_t i)
     float *to = &c->write[0][i], numbers[2];
     switch (c->task) {
     case VNDF_TASK_SAMPLE:
-        view = vndf_view_of(&surface, wi);
+        view = vndf_affine_view_from(&surface, wi);
         sample(c, i, &view);
         break;
     case VNDF_TASK_PDF:
-        view = vndf_view_of(&surface, wi);
+        view = vndf_affine_view_from(&surface, wi);
         *to = vndf_pdf(&view, wm);
         break;
     case VNDF_TASK_VISIBLE:
-        view = vndf_view_of(&surface, wi);
+        view = vndf_affine_view_from(&surface, wi);
         *to = vndf_visible(&view, wm);
         break;
     case VNDF_TASK_INVERT:
-        view = vndf_view_of(&surface, wi);
+        view = vndf_affine_view_from(&surface, wi);
         vndf_invert(&view, wm, &numbers[0], &numbers[1]);
         *to = numbers[0];
         c->write[1][i] = numbers[1];

@@ -1,10 +1,10 @@
-/* Measured curves: D or P22 against angle or slope, as CSV or as rows of numbers (numbers.c).
+/* Measured curves: D or P22 against angle or slope, as CSV or as rows of numbers (read.c); the curve is in curve.c.
  *
  * The first line that is neither blank nor a comment (#) names two columns: theta_deg, theta (radians) or
  * slope (= tan theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0
  * or above, the second finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
  *
- * Between the rows: a shape-preserving cubic (curve.h). It interpolates the logarithm of the second column if all
+ * Between the rows: a shape-preserving cubic. It interpolates the logarithm of the second column if all
  * values are positive, so that a curve over many decades keeps its shape in each; if there are zeros, the column
  * itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic beyond.
  * s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost as they
@@ -32,21 +32,7 @@ typedef struct vndf_csv_rows {
     size_t count;
 } vndf_csv_rows;
 
-/* An angle of pi/2, 1e-9 around it included. */
-int vndf_csv_is_grazing(double theta);
-
-/* Why no row of p22 stands at 90 degrees. */
-#define VNDF_CSV_GRAZING "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf"
-
-/* Neighbours must differ by more than this part of themselves: the abscissa of the interpolation could not tell closer
- * rows apart. */
-#define VNDF_CSV_APART 1e-12
-
 /* The curve through rows that have been checked; it copies them and takes description, also where it fails. */
 vndf_source *vndf_csv_source(const vndf_csv_rows *rows, char *description, vndf_error *error);
-
-/* Reads and checks text. VNDF_ERROR_SYNTAX with the line (from 1). On failure *rows needs no freeing. */
-vndf_status vndf_csv_read(const char *text, size_t size, vndf_csv_rows *rows, vndf_error *error);
-void vndf_csv_rows_free(vndf_csv_rows *rows);
 
 #endif

@@ -13,9 +13,7 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/formula/expression_bound.h"
-#include "source/family/materials.h"
-#include "source/number.h"
+#include "source/formula/expression.h"
 #include "source/source.h"
 #include "source/words.h"
 
@@ -158,12 +156,12 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
 /* `whole` is "sgd:alum-bronze/r": the list holds whole names. */
 static vndf_status read_material(part whole, lobe *l, vndf_error *error)
 {
-    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIAL_NEAREST];
-    const vndf_material *material = vndf_material_find(whole.text, whole.size);
+    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
+    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
     if (!material)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
                          whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
-                         vndf_material_nearest(nearest, whole.text, whole.size));
+                         vndf_materials_near(nearest, whole.text, whole.size));
     memcpy(l->parameter, material->parameter, sizeof l->parameter);
     return VNDF_OK;
 }
@@ -257,7 +255,7 @@ static vndf_status compile(lobe *l, vndf_error *error)
 {
     static const char *const variables[] = {"r"};
     const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = {{"a", l->parameter[0]}, {"b", l->parameter[1]}};
-    vndf_names names = {variables, 1, parameters, VNDF_FAMILY_PARAMETERS};
+    vndf_names names = {variables, 1, parameters, l->form->count};
     return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
 }
 

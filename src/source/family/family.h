@@ -1,7 +1,7 @@
 /* Families of distributions by name: the form of each as P22(r), its parameters, and the area under it.
  *
- * family_forms.c holds the formulas, family.c reads specifications ("student-t:2.5", "mix:(...)+(...)"),
- * materials.c the parameters of measured materials, family_help.c the words for people. */
+ * family_forms.c holds the formulas and the words for people, family.c reads specifications ("student-t:2.5",
+ * "mix:(...)+(...)"), materials.c holds the parameters of measured materials. */
 #ifndef VNDF_SOURCE_FAMILY_FAMILY_H
 #define VNDF_SOURCE_FAMILY_FAMILY_H
 
@@ -30,5 +30,20 @@ typedef struct vndf_family_form {
 /* The form of this name, NULL if there is none; the i-th form, NULL past the last. */
 const vndf_family_form *vndf_family_form_find(const char *name, size_t size);
 const vndf_family_form *vndf_family_form_at(size_t index);
+
+/* The shipped measured materials. */
+typedef struct vndf_material_fit {
+    const char *name;    /* as a specification: "sgd:alum-bronze/r", "abc:two-layer-gold" */
+    double parameter[2]; /* of its family: alpha, p or B, C */
+} vndf_material_fit;
+
+enum { VNDF_MATERIAL_FITS = 312, VNDF_MATERIALS_NEAR = 192 };
+extern const vndf_material_fit vndf_material_fits[VNDF_MATERIAL_FITS];
+
+/* The material with this name; NULL if there is none. */
+const vndf_material_fit *vndf_material_fit_find(const char *name, size_t size);
+
+/* Writes the names that differ from the given one by the fewest letters, "a, b, c"; returns out. */
+const char *vndf_materials_near(char out[VNDF_MATERIALS_NEAR], const char *name, size_t size);
 
 #endif

@@ -8,8 +8,8 @@
  *
  * A name stands for a variable of the formula, for pi or for a parameter of the caller. A parenthesis behind a
  * name makes it a function, so a parameter may be called gamma. Blanks separate. expression_parse.c reads,
- * expression.c evaluates, expression_breaks.c finds kinks and jumps, expression_bound.c bounds what lies between
- * points, and expression_source.c makes a distribution of it. */
+ * expression.c evaluates at points and bounds what lies between them, expression_breaks.c finds kinks and jumps,
+ * and expression_source.c makes a distribution of it. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
@@ -69,31 +69,36 @@ typedef struct vndf_names {
 } vndf_names;
 
 /* Compiles text; parameters become constants. VNDF_ERROR_SYNTAX with the column (from 1) and what would
- * be right; VNDF_ERROR_ARGUMENT for a bad parameter. On failure *expression needs no freeing. */
+ * be right; VNDF_ERROR_ARGUMENT for a parameter that is bad or not used. On failure *expression needs no freeing.
+ */
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error);
 void vndf_expression_free(vndf_expression *expression);
 
-/* Runs the first count instructions and returns the value on top of the stack; *below, if not NULL,
- * receives the one under it (0 if there is none). All instructions: the value of the formula. */
-double vndf_expression_run(const vndf_expression *expression, size_t count, const double *variables,
-                           double *below);
+/* The values of variable i at up to VNDF_SOURCE_MANY points: variables[i]. */
+typedef double vndf_points[VNDF_SOURCE_MANY];
 
-/* The values of the formula at up to VNDF_SOURCE_MANY points, the same bits; variables[i] are the values of variable
- * i there. An instruction is looked at once for all. */
-void vndf_expression_run_many(const vndf_expression *expression, double (*variables)[VNDF_SOURCE_MANY],
-                              size_t count, double *values);
+/* Runs the first `length` instructions at `count` points: values[] receives what is on top of the stack, and
+ * below[], unless NULL, what is under it (0 if there is nothing). All instructions: the values of the formula. An
+ * instruction is looked at once for all points; a point alone gets the same bits. */
+void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_points *variables, size_t count,
+                         double *values, double *below);
 
-/* The function of this name, NULL if there is none; the names of all, separated by blanks. */
+/* Bounds on all slopes between two: r itself, the value of the formula, and p22 with the stray of p22 r^2. */
+vndf_jet vndf_jet_of_slope(double low, double high);
+vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables);
+vndf_reach vndf_reach_from(const vndf_jet *p22, const vndf_jet *r, double low, double high);
+
+/* The function of this name, NULL if there is none; the name of the i-th, NULL past the last. */
 const vndf_function *vndf_function_find(const char *name, size_t size);
-const char *vndf_function_names(void);
+const char *vndf_function_name(size_t index);
 
 /* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
  * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
- * the breaks of the inner calls. variables(r) fills the variables. A search that becomes too long ends and keeps
- * the breaks found so far. Writes at most `limit` of them to breaks and their number to *count; returns 0 if there
- * is no memory. */
-typedef void vndf_variables_of_slope(double r, double *variables);
+ * the breaks of the inner calls. `variables` fills the variables at slopes. A search that becomes too long ends
+ * and keeps the breaks found so far. Writes at most `limit` of them to breaks and their number to *count; returns
+ * 0 if there is no memory. */
+typedef void vndf_variables_of_slope(const double *r, size_t count, vndf_points *variables);
 int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
                            size_t limit, size_t *count);
 

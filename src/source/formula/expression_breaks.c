@@ -25,10 +25,11 @@ typedef struct call {
 
 static int side(const call *c, double r)
 {
-    double variables[3], below, top;
+    vndf_points variables[3];
+    double below, top;
     *c->done += c->prefix;
-    c->variables(r, variables);
-    top = vndf_expression_run(c->expression, c->prefix, variables, &below);
+    c->variables(&r, 1, variables);
+    vndf_expression_run(c->expression, c->prefix, variables, 1, &top, &below);
     return c->kink == VNDF_KINK_EQUAL ? below >= top : top >= 0;
 }
 

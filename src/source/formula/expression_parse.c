@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/number.h"
 #include "source/words.h"
 
 typedef struct parser {
@@ -17,6 +16,7 @@ typedef struct parser {
     size_t depth;      /* rules that are open around this one */
     size_t stack;      /* operands on the stack of the program so far */
     const vndf_names *names;
+    unsigned char used[VNDF_LIMIT_PARAMETERS];
     vndf_expression *expression;
     vndf_error *error;
 } parser;
@@ -62,6 +62,26 @@ static int unexpected(parser *p, const char *wanted)
         vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s", p->at + 1,
                   vndf_excerpt(excerpt, &p->text[p->at], 1), wanted);
     return 0;
+}
+
+/* The same where two operands are side by side: "an operator ... would be right; a product is written 3*r". */
+static int unexpected_operand(parser *p, const char *wanted)
+{
+    char text[160] = "";
+    size_t at = peek(p) ? p->at : p->length, end = at, start;
+    while (end > 0 && strchr(" \t\r\n", p->text[end - 1]))
+        end--;
+    for (start = end; start > 0 && (is_letter(p->text[start - 1]) || is_digit(p->text[start - 1])); start--)
+        ;
+    if (at < p->length && (is_letter(p->text[at]) || is_digit(p->text[at]) || p->text[at] == '(')) {
+        size_t next = name_length(p->text + at, p->length - at), first = end - start;
+        if (first > 0 && first <= 20 && next > 0 && next <= 20)
+            snprintf(text, sizeof text, "%s; a product is written %.*s*%.*s", wanted, (int)first, p->text + start,
+                     (int)next, p->text + at);
+        else
+            snprintf(text, sizeof text, "%s; a product is written with *", wanted);
+    }
+    return unexpected(p, text[0] ? text : wanted);
 }
 
 /* ---- output ----------------------------------------------------------------------------------- */
@@ -116,18 +136,43 @@ static int number(parser *p)
     return emit_number(p, value);
 }
 
+/* The known name of this index: variables, parameters, pi, functions; NULL past the last. */
+static const char *known_name(const vndf_names *n, size_t i)
+{
+    if (i < n->variable_count)
+        return n->variables[i];
+    i -= n->variable_count;
+    if (i < n->parameter_count)
+        return n->parameters[i].name;
+    i -= n->parameter_count;
+    return i == 0 ? "pi" : vndf_function_name(i - 1);
+}
+
+static void add_name(char *list, size_t size, const char *separator, const char *name)
+{
+    size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s", used ? separator : "", name);
+}
+
 static int unknown_name(parser *p, size_t size)
 {
-    char excerpt[VNDF_EXCERPT], known[320] = "";
-    size_t used = 0;
-    const vndf_names *n = p->names;
-    for (size_t i = 0; i < n->variable_count + n->parameter_count && used < sizeof known; i++) {
-        const char *name = i < n->variable_count ? n->variables[i] : n->parameters[i - n->variable_count].name;
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", name);
+    char excerpt[VNDF_EXCERPT], known[320] = "", functions[160] = "", hint[VNDF_LIMIT_PARAMETER_NAME + 32] = "";
+    size_t least = size < 5 ? 2 : 3; /* further is another word, not a slip */
+    const char *name, *text = p->text + p->at;
+    for (size_t i = 0; (name = known_name(p->names, i)) != NULL; i++) {
+        size_t distance = vndf_word_distance(text, size, name);
+        if (distance < least && distance < strlen(name) && distance < size) {
+            least = distance;
+            snprintf(hint, sizeof hint, "did you mean '%s'? ", name);
+        }
+        if (i > p->names->variable_count + p->names->parameter_count)
+            add_name(functions, sizeof functions, " ", name);
+        else
+            add_name(known, sizeof known, ", ", name);
     }
     vndf_fail(p->error, VNDF_ERROR_SYNTAX,
-              "column %zu: unknown name '%s'; known are %spi, and with parentheses %s", p->at + 1,
-              vndf_excerpt(excerpt, p->text + p->at, size), known, vndf_function_names());
+              "column %zu: unknown name '%s'; %sknown are %s, and with parentheses %s", p->at + 1,
+              vndf_excerpt(excerpt, text, size), hint, known, functions);
     return 0;
 }
 
@@ -136,16 +181,17 @@ static int name(parser *p, size_t size)
     const char *text = p->text + p->at;
     const vndf_names *n = p->names;
     for (size_t i = 0; i < n->variable_count; i++)
-        if (strlen(n->variables[i]) == size && memcmp(n->variables[i], text, size) == 0) {
+        if (vndf_is_word(text, size, n->variables[i])) {
             p->at += size;
             return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
         }
     for (size_t i = 0; i < n->parameter_count; i++)
-        if (strlen(n->parameters[i].name) == size && memcmp(n->parameters[i].name, text, size) == 0) {
+        if (vndf_is_word(text, size, n->parameters[i].name)) {
             p->at += size;
+            p->used[i] = 1;
             return emit_number(p, n->parameters[i].value);
         }
-    if (size == 2 && memcmp(text, "pi", 2) == 0) {
+    if (vndf_is_word(text, size, "pi")) {
         p->at += size;
         return emit_number(p, 3.14159265358979323846);
     }
@@ -160,7 +206,7 @@ static int close_parenthesis(parser *p, size_t opened)
     char wanted[80];
     snprintf(wanted, sizeof wanted, "an operator, or ')' for the '(' of column %zu, would be right", opened + 1);
     if (peek(p) != ')')
-        return unexpected(p, wanted);
+        return unexpected_operand(p, wanted);
     p->at++;
     p->depth--;
     return 1;
@@ -207,6 +253,8 @@ static int primary(parser *p)
         return number(p);
     if (is_letter(c))
         return name_or_call(p);
+    if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*')
+        return unexpected(p, "a power is written with ^, as in r^2");
     if (c != '(')
         return unexpected(p, "a number, a name or '(' would be right");
     p->at++;
@@ -302,10 +350,21 @@ static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
     return VNDF_OK;
 }
 
+static vndf_status check_use(const parser *p)
+{
+    char excerpt[VNDF_EXCERPT];
+    for (size_t i = 0; i < p->names->parameter_count; i++)
+        if (!p->used[i])
+            return vndf_fail(p->error, VNDF_ERROR_ARGUMENT, "parameter '%s': the formula '%s' has no '%s'",
+                             p->names->parameters[i].name, vndf_excerpt(excerpt, p->text, p->length),
+                             p->names->parameters[i].name);
+    return VNDF_OK;
+}
+
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error)
 {
-    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, expression, error};
+    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, {0}, expression, error};
     *expression = (vndf_expression){NULL, 0};
     if (!text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");
@@ -318,8 +377,12 @@ vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vnd
     expression->program = malloc((p.length + 1) * sizeof *expression->program);
     if (!expression->program)
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for an expression of %zu characters", p.length);
-    if (sum(&p) && (peek(&p) == '\0' || unexpected(&p, "an operator (+ - * / ^) or the end would be right")))
-        return VNDF_OK;
-    vndf_expression_free(expression);
-    return VNDF_ERROR_SYNTAX;
+    if (sum(&p) &&
+        (peek(&p) == '\0' || unexpected_operand(&p, "an operator (+ - * / ^) or the end would be right")))
+        status = check_use(&p);
+    else
+        status = VNDF_ERROR_SYNTAX;
+    if (status != VNDF_OK)
+        vndf_expression_free(expression);
+    return status;
 }

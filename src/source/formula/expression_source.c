@@ -3,10 +3,10 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/error.h"
-#include "source/formula/expression_bound.h"
-#include "source/number.h"
+#include "source/formula/expression.h"
 #include "source/source.h"
 #include "source/words.h"
 
@@ -23,8 +23,6 @@ typedef struct form {
     const char *names[3];
     size_t count;
     vndf_variables_of_slope *variables;
-    double (*p22)(const vndf_expression *expression, double r);
-    void (*p22_many)(const vndf_expression *expression, const double *r, size_t count, double *p22);
     vndf_jet (*jet)(const vndf_expression *expression, const vndf_jet *r);
 } form;
 
@@ -35,58 +33,18 @@ typedef struct expression_source {
     double *breaks; /* owned */
 } expression_source;
 
-static void slope_variables(double r, double *variables)
+static void slope_variables(const double *r, size_t count, vndf_points *variables)
 {
-    variables[0] = r;
+    memcpy(variables[0], r, count * sizeof *r);
 }
 
-static void ndf_variables(double r, double *variables)
+static void ndf_variables(const double *r, size_t count, vndf_points *variables)
 {
-    variables[0] = 1 / hypot(1, r);
-    variables[1] = atan(r);
-    variables[2] = r;
-}
-
-static double slope_p22(const vndf_expression *expression, double r)
-{
-    return vndf_expression_run(expression, expression->count, &r, NULL);
-}
-
-static double ndf_p22(const vndf_expression *expression, double r)
-{
-    double variables[3];
-    ndf_variables(r, variables);
-    double c2 = variables[0] * variables[0];
-    return vndf_expression_run(expression, expression->count, variables, NULL) * c2 * c2;
-}
-
-static void slope_p22_many(const vndf_expression *expression, const double *r, size_t count, double *p22)
-{
-    double variables[1][VNDF_SOURCE_MANY];
-    for (size_t i = 0; i < count; i++)
-        variables[0][i] = r[i];
-    vndf_expression_run_many(expression, variables, count, p22);
-}
-
-static void ndf_p22_many(const vndf_expression *expression, const double *r, size_t count, double *p22)
-{
-    double variables[3][VNDF_SOURCE_MANY], here[3];
     for (size_t i = 0; i < count; i++) {
-        ndf_variables(r[i], here);
-        for (size_t n = 0; n < 3; n++)
-            variables[n][i] = here[n];
+        variables[0][i] = 1 / hypot(1, r[i]);
+        variables[1][i] = atan(r[i]);
+        variables[2][i] = r[i];
     }
-    vndf_expression_run_many(expression, variables, count, p22);
-    for (size_t i = 0; i < count; i++) {
-        double c2 = variables[0][i] * variables[0][i];
-        p22[i] = p22[i] * c2 * c2;
-    }
-}
-
-/* P22 over jets of r. */
-static vndf_jet slope_jet(const vndf_expression *expression, const vndf_jet *r)
-{
-    return vndf_expression_jet(expression, r);
 }
 
 /* The formula in c, theta, t, times c^4. */
@@ -106,14 +64,10 @@ static vndf_reach reach(const vndf_source *self, double low, double high)
     return vndf_reach_from(&p22, &r, low, high);
 }
 
-/* The value. Where doubles overflow on the way, as in r^11 exp(-r^2) far out: the value that the bounds leave, if
- * they are close enough. */
-static double p22(const vndf_source *self, double r)
+/* The value at a slope where doubles overflow on the way, as in r^11 exp(-r^2) far out: the value that the bounds
+ * leave, if they are close enough. */
+static double bounded_value(const expression_source *source, double r, double value)
 {
-    const expression_source *source = (const expression_source *)self;
-    double value = source->form->p22(&source->expression, r);
-    if (isfinite(value) || !(r > 0 && r < HUGE_VAL))
-        return value;
     vndf_jet at = vndf_jet_number(r), jet = source->form->jet(&source->expression, &at);
     double low = vndf_interval_low(jet.at[0]), high = vndf_interval_high(jet.at[0]);
     double size = fmax(fabs(low), fabs(high));
@@ -123,10 +77,23 @@ static double p22(const vndf_source *self, double r)
 static void p22_many(const vndf_source *self, const double *r, size_t count, double *values)
 {
     const expression_source *source = (const expression_source *)self;
-    source->form->p22_many(&source->expression, r, count, values);
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(values[i]))
-            values[i] = p22(self, r[i]);
+    vndf_points variables[3];
+    source->form->variables(r, count, variables);
+    vndf_expression_run(&source->expression, source->expression.count, variables, count, values, NULL);
+    for (size_t i = 0; i < count; i++) {
+        double c2 = variables[0][i] * variables[0][i];
+        if (source->form->jet == ndf_jet)
+            values[i] = values[i] * c2 * c2;
+        if (!isfinite(values[i]) && r[i] > 0 && r[i] < HUGE_VAL)
+            values[i] = bounded_value(source, r[i], values[i]);
+    }
+}
+
+static double p22(const vndf_source *self, double r)
+{
+    double value;
+    p22_many(self, &r, 1, &value);
+    return value;
 }
 
 static void destroy(vndf_source *self)
@@ -211,13 +178,13 @@ static vndf_source *make(const form *of, const char *text, const vndf_parameter 
 vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                         vndf_error *error)
 {
-    static const form ndf = {"--ndf", {"c", "theta", "t"}, 3, ndf_variables, ndf_p22, ndf_p22_many, ndf_jet};
+    static const form ndf = {"--ndf", {"c", "theta", "t"}, 3, ndf_variables, ndf_jet};
     return make(&ndf, text, parameters, count, error);
 }
 
 vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters, size_t count,
                                           vndf_error *error)
 {
-    static const form slope = {"--slope", {"r"}, 1, slope_variables, slope_p22, slope_p22_many, slope_jet};
+    static const form slope = {"--slope", {"r"}, 1, slope_variables, vndf_expression_jet};
     return make(&slope, text, parameters, count, error);
 }

@@ -1,6 +1,6 @@
 /* Functions of intervals: a monotone function takes its bounds at the ends, any other at its extremes in between
  * too. */
-#include "source/interval/ends.h"
+#include "source/interval/interval.h"
 
 static const double EXPONENTIAL = 1e-15; /* error of an exponent, the argument of exp() */
 static const double LOG_2 = 0.69314718055994531;
@@ -111,17 +111,6 @@ vndf_interval vndf_interval_power(vndf_interval x, double exponent)
 
 /* ---- functions of doubles ---- */
 
-/* Positive numbers too small for a double become the least one as an upper end. */
-static double low_of(vndf_interval x)
-{
-    return vndf_interval_low(x);
-}
-
-static double high_of(vndf_interval x)
-{
-    return vndf_interval_high(x);
-}
-
 /* Whether place + n period lies in [low, high] for some n, or nearly. */
 static int meets(double low, double high, double place, double period)
 {
@@ -132,7 +121,7 @@ static int meets(double low, double high, double place, double period)
 /* sin and cos: 1 at top + 2 pi n, -1 half a turn later. */
 static vndf_interval wave(double (*f)(double), vndf_interval x, double top)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     if (!(high - low < 2 * PI) || fabs(low) > 1e9 || fabs(high) > 1e9)
         return vndf_interval_from(-1, 1);
     double a = f(low), b = f(high), least = fmin(a, b), most = fmax(a, b);
@@ -153,7 +142,7 @@ vndf_interval vndf_interval_cos(vndf_interval x)
 
 vndf_interval vndf_interval_tan(vndf_interval x)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     if (!(high - low < PI) || fabs(low) > 1e9 || fabs(high) > 1e9 || meets(low, high, PI / 2, PI))
         return vndf_interval_all();
     return vndf_interval_of_library(tan(low), tan(high));
@@ -161,7 +150,7 @@ vndf_interval vndf_interval_tan(vndf_interval x)
 
 vndf_interval vndf_interval_asin(vndf_interval x)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     if (low > 1 || high < -1)
         return vndf_interval_all();
     return vndf_interval_of_library(asin(fmax(low, -1)), asin(fmin(high, 1)));
@@ -169,7 +158,7 @@ vndf_interval vndf_interval_asin(vndf_interval x)
 
 vndf_interval vndf_interval_acos(vndf_interval x)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     if (low > 1 || high < -1)
         return vndf_interval_all();
     return vndf_interval_of_library(acos(fmin(high, 1)), acos(fmax(low, -1)));
@@ -177,14 +166,14 @@ vndf_interval vndf_interval_acos(vndf_interval x)
 
 vndf_interval vndf_interval_atan(vndf_interval x)
 {
-    return vndf_interval_of_library(atan(low_of(x)), atan(high_of(x)));
+    return vndf_interval_of_library(atan(vndf_interval_low(x)), atan(vndf_interval_high(x)));
 }
 
 /* A function that rises from -1 to 1, and is 1 in doubles from x = full on. There the interval has no width, so
  * that the difference of two such functions vanishes. */
 static vndf_interval step_of(double (*f)(double), vndf_interval x, double full)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     vndf_interval y = vndf_interval_of_library(f(low), f(high));
     if (fabs(low) >= full)
         y.low.m = low < 0 ? -1 : 1;
@@ -222,7 +211,7 @@ static vndf_wide sinh_end(vndf_wide x, int outwards)
 
 vndf_interval vndf_interval_sinh(vndf_interval x)
 {
-    vndf_interval ends = vndf_interval_from(low_of(x), high_of(x));
+    vndf_interval ends = vndf_interval_from(vndf_interval_low(x), vndf_interval_high(x));
     return vndf_interval_widened(sinh_end(ends.low, -1), sinh_end(ends.high, 1), VNDF_LIBRARY);
 }
 
@@ -254,7 +243,8 @@ static vndf_wide erfc_end(double x, int outwards)
 
 vndf_interval vndf_interval_erfc(vndf_interval x)
 {
-    return vndf_interval_widened(erfc_end(high_of(x), -1), erfc_end(low_of(x), 1), VNDF_LIBRARY);
+    return vndf_interval_widened(erfc_end(vndf_interval_high(x), -1), erfc_end(vndf_interval_low(x), 1),
+                                 VNDF_LIBRARY);
 }
 
 /* ---- gamma ---- */
@@ -262,7 +252,7 @@ vndf_interval vndf_interval_erfc(vndf_interval x)
 vndf_interval vndf_interval_lgamma(vndf_interval x)
 {
     static const double place = 1.4616321449683623, least = -0.12148629053584961;
-    double low = low_of(x), high = high_of(x), error = VNDF_LIBRARY;
+    double low = vndf_interval_low(x), high = vndf_interval_high(x), error = VNDF_LIBRARY;
     if (!(low > 0)) /* poles, unless x is a single number */
         return low == high && !is_whole(low) ? vndf_interval_of_library(lgamma(low), lgamma(low))
                                              : vndf_interval_all();
@@ -291,7 +281,7 @@ static double polygamma(int n, double x)
 
 vndf_interval vndf_interval_polygamma(int n, vndf_interval x)
 {
-    double low = low_of(x), high = high_of(x);
+    double low = vndf_interval_low(x), high = vndf_interval_high(x);
     if (!(low > 0))
         return vndf_interval_all();
     double a = polygamma(n, low), b = polygamma(n, high), error = 1e-12 + 1e-12 * fmax(fabs(a), fabs(b));

@@ -1,5 +1,5 @@
 /* The ends of intervals, and + - * / of them: see interval.h. */
-#include "source/interval/ends.h"
+#include "source/interval/interval.h"
 
 #include <float.h>
 
@@ -138,6 +138,7 @@ vndf_interval vndf_interval_difference(vndf_interval a, vndf_interval b)
     return vndf_interval_sum(a, vndf_interval_negative(b));
 }
 
+/* fmin and fmax of the C library are calls. */
 static double least_of(double a, double b)
 {
     return a < b ? a : b;
@@ -173,19 +174,14 @@ vndf_interval vndf_interval_product(vndf_interval a, vndf_interval b)
 
 static vndf_interval reciprocal(vndf_interval b)
 {
-    vndf_wide one = {1, 0};
-    if (b.low.m < 0 && b.high.m > 0)
-        return vndf_interval_all();
-    if (b.low.m == 0 && b.high.m == 0)
-        return vndf_interval_all();
-    if (b.low.m == 0 || b.high.m == 0) { /* on one side of 0 */
-        vndf_interval beyond = b.low.m == 0 ? vndf_interval_from(0, HUGE_VAL) : vndf_interval_from(-HUGE_VAL, 0);
-        if (b.low.m == 0)
-            beyond.low = down(vndf_wide_over(one, b.high), ROUNDING);
-        else
-            beyond.high = up(vndf_wide_over(one, b.low), ROUNDING);
-        return beyond;
-    }
+    const vndf_wide one = {1, 0};
+    vndf_interval all = vndf_interval_all();
+    if ((b.low.m < 0 && b.high.m > 0) || (b.low.m == 0 && b.high.m == 0))
+        return all;
+    if (b.low.m == 0) /* on one side of 0 */
+        return (vndf_interval){down(vndf_wide_over(one, b.high), ROUNDING), all.high};
+    if (b.high.m == 0)
+        return (vndf_interval){all.low, up(vndf_wide_over(one, b.low), ROUNDING)};
     return vndf_interval_widened(vndf_wide_over(one, b.high), vndf_wide_over(one, b.low), ROUNDING);
 }
 

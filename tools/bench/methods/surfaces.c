@@ -25,8 +25,8 @@ static vndf_mixture two_lobes(const vndf_distribution *d, float alpha)
 
 static inline vndf_vec3 draw_affine(const vndf_affine *surface, const method_input *in, float *pdf)
 {
-    vndf_affine_view view = vndf_affine_view_from(surface, in->wi);
-    return vndf_affine_sample(&view, in->u1, in->u2, pdf);
+    vndf_view view = vndf_affine_view_from(surface, in->wi);
+    return vndf_sample(&view, in->u1, in->u2, pdf);
 }
 
 static inline vndf_vec3 one_diagonal(const method *m, const method_input *in, float *pdf)
@@ -67,7 +67,7 @@ static void each_two_lobes(const method *m, const method_inputs *in, const metho
 
 static vndf_vec3 draw_from_affine(const void *view, float u1, float u2, float *pdf)
 {
-    return vndf_affine_sample(view, u1, u2, pdf);
+    return vndf_sample(view, u1, u2, pdf);
 }
 
 static vndf_vec3 draw_from_mixture(const void *view, float u1, float u2, float *pdf)
@@ -78,14 +78,14 @@ static vndf_vec3 draw_from_mixture(const void *view, float u1, float u2, float *
 static void shared_diagonal(const method *m, const method_inputs *in, const method_outputs *out)
 {
     vndf_affine surface = straight(m->state, in->at[0].alpha);
-    vndf_affine_view view = vndf_affine_view_from(&surface, in->at[0].wi);
+    vndf_view view = vndf_affine_view_from(&surface, in->at[0].wi);
     method_shared_loop(draw_from_affine, &view, in, out);
 }
 
 static void shared_affine(const method *m, const method_inputs *in, const method_outputs *out)
 {
     vndf_affine surface = oblique(m->state, in->at[0].alpha);
-    vndf_affine_view view = vndf_affine_view_from(&surface, in->at[0].wi);
+    vndf_view view = vndf_affine_view_from(&surface, in->at[0].wi);
     method_shared_loop(draw_from_affine, &view, in, out);
 }
 

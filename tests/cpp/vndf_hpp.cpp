@@ -1,0 +1,281 @@
+// vndf.hpp frees what it owns once and leaves empty what was moved from; results say what went wrong and throw
+// only if they are asked to; what a callable throws reaches the caller and never C; batches compare the sizes of
+// their arrays.
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "harness/test.h"
+#include "vndf.hpp"
+
+// The library's allocations are counted where the linker puts these in the place of those of the C library.
+#ifdef VNDF_TEST_WRAP
+static long allocated;
+extern "C" {
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void __real_free(void *pointer);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+void __wrap_free(void *pointer);
+void *__wrap_malloc(size_t size)
+{
+    allocated++;
+    return __real_malloc(size);
+}
+void *__wrap_calloc(size_t count, size_t size)
+{
+    allocated++;
+    return __real_calloc(count, size);
+}
+void *__wrap_realloc(void *old, size_t size)
+{
+    allocated += old == nullptr;
+    return __real_realloc(old, size);
+}
+void __wrap_free(void *pointer)
+{
+    allocated -= pointer != nullptr;
+    __real_free(pointer);
+}
+}
+#endif
+
+namespace
+{
+
+const char table_file[] = VNDF_SOURCE_DIR "/tables/example.vndf";
+const vndf::vec3 wi = {0.6f, 0.0f, 0.8f};
+
+template <class T>
+constexpr bool moves_only = !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T> &&
+                            std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T>;
+static_assert(moves_only<vndf::distribution> && moves_only<vndf::family> && moves_only<vndf::source>);
+static_assert(moves_only<vndf::reference> && moves_only<vndf::albedo>);
+// A pointer to a temporary owner would dangle.
+static_assert(std::is_convertible_v<const vndf::distribution &, const vndf_distribution *>);
+static_assert(!std::is_convertible_v<vndf::distribution, const vndf_distribution *>);
+
+// A callable that counts how many of its copies live.
+struct counted_law {
+    static int alive;
+    counted_law()
+    {
+        alive++;
+    }
+    counted_law(const counted_law &)
+    {
+        alive++;
+    }
+    ~counted_law()
+    {
+        alive--;
+    }
+    double operator()(double r) const
+    {
+        return std::exp(-r * r);
+    }
+};
+int counted_law::alive = 0;
+
+// ---- owners ----
+
+void test_distribution()
+{
+    auto loaded = vndf::load(table_file);
+    if (!TEST(loaded && loaded.status() == VNDF_OK && loaded.message()[0] == '\0'))
+        return;
+    vndf::distribution first = std::move(*loaded), second;
+    TEST(first && !*loaded && vndf_distribution_info(*loaded).bytes == 0);
+    const vndf_distribution *pointer = first;
+    second = std::move(first);
+    TEST(second.get() == pointer && !first && !vndf::save(first, "/dev/null"));
+    first = *vndf::load(std::string(table_file)); // frees nothing, then something
+    first = std::move(second);
+    TEST(first.get() == pointer && !second);
+
+    std::vector<unsigned char> bytes(vndf_distribution_info(first).bytes);
+    TEST(vndf::done(vndf_save_memory, first, bytes.data(), bytes.size()));
+    TEST(vndf::own<vndf::distribution>(vndf_load_memory, bytes.data(), bytes.size()));
+    const auto cut = vndf::own<vndf::distribution>(vndf_load_memory, bytes.data(), bytes.size() / 2);
+    TEST(!cut && cut.status() == VNDF_ERROR_TABLE && !*cut);
+}
+
+void test_builds()
+{
+    const auto formula = vndf::slope_expression("exp(-k*r)", {{"k", 3.0}});
+    vndf_build_options options = {};
+    options.max_bytes = 2048;
+    options.moments = 3;
+    const auto table = vndf::build(*formula, options);
+    TEST(table && vndf_distribution_info(*table).moments == 3 && vndf_distribution_info(*table).bytes <= 2048);
+    const auto exact = vndf::own<vndf::reference>(vndf_reference_from, *formula);
+    TEST_RELATIVE(vndf_reference_area(*exact, 0.0), 1.0, 1e-7);
+    vndf_family_options two = {};
+    two.knots = 2;
+    two.max_bytes = 2048;
+    const auto family = vndf::build_family("student-t", 2.0, 3.0, two);
+    TEST(vndf_family_info(*family).count == 2);
+    vndf_albedo_options small = {};
+    small.columns = small.rows = 8;
+    int told = 0;
+    const auto albedo = vndf::build_albedo(vndf_ggx(), small, [&](double, const char *) { return ++told > 0; });
+    TEST(albedo && told > 3 && vndf_albedo_info(*albedo).columns == 8);
+    TEST(!vndf::build_albedo(vndf_ggx(), small, [](double, const char *) { return false; }));
+    const auto wrong = vndf::ndf_expression("exp(-k*c");
+    TEST(!wrong && wrong.status() == VNDF_ERROR_SYNTAX && !*wrong && !vndf::build(*wrong));
+}
+
+void test_callable()
+{
+    {
+        auto made = vndf::slope_callback(counted_law(), "a law");
+        TEST(made && counted_law::alive == 1);
+        const vndf::source moved = std::move(*made);
+        TEST(!*made && vndf_source_p22(moved, 0.5) == std::exp(-0.25) && counted_law::alive == 1);
+        vndf::source other = *vndf::ndf_callback([](double c) { return c; }, "a cosine");
+        TEST(vndf_source_p22(other, 0.0) == 1.0);
+        other = *vndf::slope_callback(counted_law(), "another");
+        TEST(counted_law::alive == 2 && vndf_source_p22(other, 0.0) == 1.0);
+    }
+    TEST(counted_law::alive == 0);
+}
+
+// ---- errors ----
+
+struct mine {
+    int number;
+};
+
+// The number of what is thrown by value(): of a `mine` itself, of a vndf::error its status.
+template <class T> int number_thrown(const vndf::result<T> &failed)
+{
+    try {
+        failed.value();
+    } catch (const mine &m) {
+        return failed || failed.status() != VNDF_ERROR_ARGUMENT ? -2 : m.number;
+    } catch (const vndf::error &e) {
+        return e.what()[0] ? static_cast<int>(e.status()) : -2;
+    }
+    return -1;
+}
+
+void test_errors()
+{
+    TEST(number_thrown(vndf::load("/no/such/file")) == VNDF_ERROR_IO);
+    TEST(number_thrown(vndf::load(table_file)) == -1);
+    TEST(number_thrown(vndf::save(vndf_ggx(), "/dev/null")) == VNDF_ERROR_ARGUMENT);
+    vndf_description mirror = {};
+    vndf_material material;
+    TEST(!vndf::done(vndf_material_resolve, &mirror, &material));
+    mirror.distribution = vndf_ggx();
+    mirror.alpha_x = mirror.alpha_y = 0.3f;
+    TEST(vndf::done(vndf_material_resolve, &mirror, &material));
+}
+
+void test_thrown_by_callables()
+{
+    int calls = 0;
+    const auto late = vndf::slope_callback(
+        [&](double r) -> double {
+            if (++calls == 100)
+                throw mine{7};
+            return std::exp(-r);
+        },
+        "late");
+    const auto table = vndf::build(*late);
+    TEST(number_thrown(table) == 7 && calls == 100 && !*table);
+    TEST_HAS(table.message(), "threw");
+    calls = 99; // outside this header a throw is NaN, and forgotten
+    TEST(std::isnan(vndf_source_p22(*late, 1)) && vndf_source_p22(*late, 1) == std::exp(-1.0));
+    const auto known =
+        vndf::slope_callback([](double) -> double { throw std::runtime_error("no such brdf"); }, "known");
+    TEST_HAS(vndf::build(*known).message(), "no such brdf");
+    const auto ggx = vndf::own<vndf::source>(vndf_source_family, "ggx");
+    TEST(number_thrown(vndf::build(*ggx, {}, [](double done, const char *) -> bool {
+             return done < 0.01 ? true : throw mine{8};
+         })) == 8);
+    const auto stopped = vndf::build(*ggx, {}, [](double, const char *) { return false; });
+    TEST(!stopped && !stopped.thrown());
+    TEST_HAS(stopped.message(), "interrupted");
+}
+
+// A callable that builds: what is thrown inside stays inside, and what it throws itself afterwards does not.
+void test_nested()
+{
+    const auto inner = vndf::slope_callback([](double) -> double { throw mine{1}; }, "inner");
+    int number = 0;
+    const auto outer = vndf::slope_callback(
+        [&](double r) {
+            if (!number)
+                number = number_thrown(vndf::build(*inner));
+            return r < 1e9 ? std::exp(-r) : throw mine{2};
+        },
+        "outer");
+    TEST(number_thrown(vndf::build(*outer)) == 2 && number == 1);
+}
+
+// ---- samples and batches ----
+
+void test_batches()
+{
+    const auto table = vndf::load(table_file);
+    const vndf_surface surface = {*table, 0.3f, 0.1f};
+    const vndf_view view = vndf_view_from(&surface, wi);
+    const vndf_batch many = {*table,
+                             3,
+                             VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
+                             VNDF_INSTRUCTIONS_BEST,
+                             &surface.alpha_x,
+                             &surface.alpha_y,
+                             &wi.x,
+                             &wi.y,
+                             &wi.z};
+    const std::vector<float> u1 = {0.1f, 0.5f, 0.9f};
+    const std::array<float, 3> u2 = {0.2f, 0.4f, 0.8f};
+    std::vector<float> x(3), y(3), z(3), pdf(3), lower(2);
+    TEST(vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), pdf));
+    for (std::size_t i = 0; i < 3; i++) {
+        const auto [wm, density] = vndf::sample(view, u1[i], u2[i]);
+        const auto w = vndf::sample_weight(view, u1[i], u2[i]);
+        TEST(wm.x == x[i] && wm.y == y[i] && wm.z == z[i] && density == pdf[i] && w.pdf == density &&
+             w.weight > 0);
+    }
+    const std::vector<float> before = x;
+    TEST(vndf::run(vndf_sample_n, many, std::vector<float>(3, 0.5f), u2, vndf::normals(x, y, z), vndf::none()));
+    TEST(x != before);
+    TEST_HAS(vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), lower).message(), "array 4");
+    TEST(!vndf::run(vndf_pdf_n, many, vndf::normals(x, lower, z), pdf));
+    vndf_mixture mixture = {};
+    mixture.count = 1;
+    mixture.lobe[0] = {{*table, 0.3f, 0, 0, 0.1f, 0, 0}, 1.0f};
+    const auto drawn = vndf::sample(vndf_mixture_view_from(&mixture, wi), 0.1f, 0.2f);
+    TEST(drawn.lobe == 0 && drawn.pdf > 0);
+}
+
+// Without VNDF_TEST_WRAP the sanitizer counts, or nobody does.
+template <class Test> void without_leaks(const Test &test)
+{
+#ifdef VNDF_TEST_WRAP
+    const long before = allocated;
+    test();
+    TEST(allocated == before);
+#else
+    test();
+#endif
+}
+
+} // namespace
+
+int main()
+{
+    for (void (*test)() : {test_distribution, test_builds, test_callable, test_errors, test_thrown_by_callables,
+                           test_nested, test_batches})
+        without_leaks(test);
+    return test_done();
+}
