@@ -44,10 +44,10 @@ typedef struct vndf_fresnel_routine {
                         double f[VNDF_WAVELENGTHS]);
 } vndf_fresnel_routine;
 
-/* G, which stays finite where the cosines vanish; cos_o is the size of wo'. */
+/* G, which stays finite where the cosines vanish. */
 typedef struct vndf_masking_routine {
-    double (*reflection)(const vndf_bsdf *bsdf, const event *e, double cos_o);
-    double (*transmission)(const vndf_bsdf *bsdf, const event *e, double cos_o);
+    double (*reflection)(const vndf_bsdf *bsdf, const event *e);
+    double (*transmission)(const vndf_bsdf *bsdf, const event *e);
 } vndf_masking_routine;
 
 /* One scattering event (single.c). */

@@ -107,36 +107,34 @@ VNDF_INLINE double area_of(const vndf_bsdf *b, const event *e)
     return (double)vndf_hit_area(&b->view, up_of(e));
 }
 
-static double reflect_by_height(const vndf_bsdf *b, const event *e, double cos_o)
+static double reflect_by_height(const vndf_bsdf *b, const event *e)
 {
-    return masked_by_height((double)b->rise, cos_o, (double)b->area, area_of(b, e));
+    return masked_by_height((double)b->rise, e->rise, (double)b->area, area_of(b, e));
 }
 
-static double transmit_by_height(const vndf_bsdf *b, const event *e, double cos_o)
+static double transmit_by_height(const vndf_bsdf *b, const event *e)
 {
-    return passed_by_height((double)b->rise, cos_o, (double)b->area, area_of(b, e));
+    return passed_by_height((double)b->rise, e->rise, (double)b->area, area_of(b, e));
 }
 
-static double mask_apart(const vndf_bsdf *b, const event *e, double cos_o)
+static double mask_apart(const vndf_bsdf *b, const event *e)
 {
-    (void)cos_o;
     return masked_apart((double)b->area, area_of(b, e));
 }
 
-static double reflect_in_cavities(const vndf_bsdf *b, const event *e, double cos_o)
+static double reflect_in_cavities(const vndf_bsdf *b, const event *e)
 {
-    return masked_in_cavities((double)b->rise, cos_o, e->facing, e->wm.z);
+    return masked_in_cavities((double)b->rise, e->rise, e->facing, e->wm.z);
 }
 
-static double transmit_in_cavities(const vndf_bsdf *b, const event *e, double cos_o)
+static double transmit_in_cavities(const vndf_bsdf *b, const event *e)
 {
-    return passed_in_cavities((double)b->rise, cos_o, e->facing, e->beyond, e->wm.z);
+    return passed_in_cavities((double)b->rise, e->rise, e->facing, e->beyond, e->wm.z);
 }
 
-static double unmasked(const vndf_bsdf *b, const event *e, double cos_o)
+static double unmasked(const vndf_bsdf *b, const event *e)
 {
-    (void)e;
-    return 1.0 / ((double)b->rise * cos_o);
+    return 1.0 / ((double)b->rise * e->rise);
 }
 
 static const vndf_masking_routine by_height = {reflect_by_height, transmit_by_height};
@@ -186,24 +184,23 @@ VNDF_INLINE float pdf_of(const vndf_bsdf *b, const event *e)
 /* ---- samples ---- */
 
 /* Bounded normals reflect to above the horizon but for rounding, and are not lost to that. */
-VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e, float *rise)
+VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e)
 {
-    *rise = vndf_hit_cosine(&b->view, up_of(e));
-    if (*rise > 0.0f)
+    e->rise = (double)vndf_hit_cosine(&b->view, up_of(e));
+    if (e->rise > 0.0)
         return 1;
-    if (b->material->is.effects.normals != VNDF_NORMALS_BOUNDED || *rise < -2e-6f)
+    if (b->material->is.effects.normals != VNDF_NORMALS_BOUNDED || e->rise < -2e-6)
         return 0;
-    e->up.z = (double)(*rise = FLT_MIN);
+    e->up.z = e->rise = (double)FLT_MIN;
     return 1;
 }
 
 /* Completes a sample of an event; `part` of the samples take its lobe. f NULL: 1 of all wavelengths. */
 VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, const event *e, double masked,
-                               float rise, const double f[VNDF_WAVELENGTHS], double part, vndf_lobe lobe,
-                               vndf_scattered *s)
+                               const double f[VNDF_WAVELENGTHS], double part, vndf_lobe lobe, vndf_scattered *s)
 {
     int reflects = lobe == VNDF_LOBE_REFLECTION;
-    double whole = masked * (double)rise * ((double)b->area * (double)n->weight);
+    double whole = masked * e->rise * ((double)b->area * (double)n->weight);
     s->wo = vndf_turned(up_of(e), reflects ? b->side : -b->side);
     s->wm = vndf_turned(n->wm, b->side);
     s->density = lobe == VNDF_LOBE_STRAIGHT
@@ -225,30 +222,29 @@ VNDF_INLINE const double *reflectances(const vndf_bsdf *b, seen_cosine c, double
 VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
                          double part, int fresnel, const vndf_masking_routine *masking, vndf_scattered *s)
 {
-    float rise;
     double own[VNDF_WAVELENGTHS];
     event e = reflected_at(vndf_direction(b->wi), vndf_direction(n->wm), c);
-    if (!e.met || !goes_up(b, &e, &rise)) {
+    if (!e.met || !goes_up(b, &e)) {
         vndf_scatter_nothing(s);
         return;
     }
     if (fresnel)
         f = reflectances(b, c, own);
-    double masked = masking->reflection(b, &e, (double)rise);
-    set_scattered(b, n, &e, masked, rise, f, part, VNDF_LOBE_REFLECTION, s);
+    double masked = masking->reflection(b, &e);
+    set_scattered(b, n, &e, masked, f, part, VNDF_LOBE_REFLECTION, s);
 }
 
 VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
                           double part, vndf_scattered *s)
 {
     event e = refracted_at(vndf_direction(b->wi), vndf_direction(n->wm), c, b->eta);
-    float rise = vndf_hit_cosine(&b->view, up_of(&e));
-    if (!e.met || !(rise > 0.0f)) {
+    e.rise = (double)vndf_hit_cosine(&b->view, up_of(&e));
+    if (!e.met || !(e.rise > 0.0)) {
         vndf_scatter_nothing(s);
         return;
     }
-    double masked = b->carried * b->material->masking->transmission(b, &e, (double)rise);
-    set_scattered(b, n, &e, masked, rise, f, part, b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION, s);
+    double masked = b->carried * b->material->masking->transmission(b, &e);
+    set_scattered(b, n, &e, masked, f, part, b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION, s);
 }
 
 VNDF_INLINE seen_cosine seen(const vndf_bsdf *b, const vndf_drawn_normal *n)
@@ -317,12 +313,12 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
     event e = reflects ? reflecting(from, to) : refracting(from, to, b->eta);
     if (!e.met)
         return;
-    double f[VNDF_WAVELENGTHS], cos_o = fabs((double)rise);
+    double f[VNDF_WAVELENGTHS];
+    e.rise = fabs((double)rise);
     if (value || lobes == VNDF_LOBES_BOTH)
         fresnel->reflectance(&m->is, e.facing, reflects ? reflecting_rest(e, from, to) : e.rest, b->eta, f);
     if (value) {
-        double masked =
-            reflects ? masking->reflection(b, &e, cos_o) : b->carried * masking->transmission(b, &e, cos_o);
+        double masked = reflects ? masking->reflection(b, &e) : b->carried * masking->transmission(b, &e);
         vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
         double shape = (double)b->tilt * (double)vndf_hit_ndf(&b->view, wm) * e.facing * e.jacobian * masked;
         for (int i = 0; i < m->is.wavelengths; i++)

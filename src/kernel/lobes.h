@@ -39,11 +39,12 @@ HERE real dot_of(direction a, direction b)
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
-/* A microfacet between two directions: its normal, on the side of wi; wo, or of transmission -wo; the sizes of
- * their cosines to the normal; 1 - wi.wm; dwm/dwo; and whether there is one, which NaN is not. */
+/* A microfacet between two directions: its normal, on the side of wi; wo, or of transmission -wo; the projection of
+ * that on the mean plane, which is up.z until who knows a mean slope changes it; the sizes of the cosines of both to
+ * the normal; 1 - wi.wm; dwm/dwo; and whether there is one, which NaN is not. */
 typedef struct event {
     direction wm, up;
-    real facing, beyond, rest, jacobian;
+    real rise, facing, beyond, rest, jacobian;
     mask met;
 } event;
 
@@ -75,6 +76,7 @@ HERE event reflected_at(direction wi, direction wm, seen_cosine c)
     e.up.x = narrow(twice * wm.x - wi.x);
     e.up.y = narrow(twice * wm.y - wi.y);
     e.up.z = narrow(twice * wm.z - wi.z);
+    e.rise = e.up.z;
     e.facing = c.facing;
     e.beyond = c.facing;
     e.rest = c.rest;
@@ -94,6 +96,7 @@ HERE event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
     e.up.x = narrow((wi.x + along * wm.x) * per);
     e.up.y = narrow((wi.y + along * wm.y) * per);
     e.up.z = narrow((wi.z + along * wm.z) * per);
+    e.rise = e.up.z;
     e.facing = c.facing;
     e.beyond = beyond;
     e.rest = c.rest;
@@ -115,6 +118,7 @@ HERE event reflecting(direction wi, direction wo)
     e.wm.y = narrow(y * per);
     e.wm.z = narrow(z * per);
     e.up = wo;
+    e.rise = wo.z;
     e.facing = dot_of(wi, e.wm);
     e.beyond = e.facing;
     e.rest = 1.0f - e.facing;
@@ -148,6 +152,7 @@ HERE event refracting(direction wi, direction up, real eta)
     e.wm.y = narrow(y * per);
     e.wm.z = narrow(z * per);
     e.up = up;
+    e.rise = up.z;
     e.facing = ((ix * x + iy * y) + iz * z) * per;
     e.beyond = ((ox * x + oy * y) + oz * z) * per;
     e.rest = 1.0f - e.facing;

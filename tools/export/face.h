@@ -42,14 +42,25 @@ HERE affine_map matrix_of(vndf_surface m)
     return s;
 }
 
-/* wi is unit, and may be below the surface. */
-HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
+/* A view without what the distribution makes of it. */
+HERE vndf_view placed(vndf_surface m, vec3 wi)
 {
     vndf_view view;
     view.surface = m;
     view.wi = wi;
     view.at = frame_of(matrix_of(m), wi.x, wi.y, wi.z);
     view.unit_area = 0.0f;
+    /* only table */
+    if (m.distribution >= 0)
+        view.t = table_at(m.distribution);
+    /* end */
+    return view;
+}
+
+/* wi is unit, and may be below the surface. */
+HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
+{
+    vndf_view view = placed(m, wi);
     /* only ggx */
     if (m.distribution == VNDF_GGX)
         view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
@@ -61,7 +72,6 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
     /* only table */
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
-        view.t = table_at(m.distribution);
         const table_view seen_from = table_view_of(view.t, view.at, view.below);
         view.ex = seen_from.ex;
         view.ey = seen_from.ey;
@@ -81,33 +91,35 @@ HERE float vndf_projected_area(vndf_view view)
 /* ---- given normals ---- */
 
 /* D times |det M|, of a normal of the unit problem. */
-HERE float unit_ndf(int distribution, float x, float y, float z)
+HERE float unit_ndf(vndf_view view, unit_normal n)
 {
     /* only ggx */
-    if (distribution == VNDF_GGX)
-        return ggx_p22(x, y, z);
+    if (view.surface.distribution == VNDF_GGX)
+        return ggx_p22(n.x, n.y, n.z);
     /* end */
     /* only beckmann */
-    if (distribution == VNDF_BECKMANN)
-        return beckmann_p22(x, y, z);
+    if (view.surface.distribution == VNDF_BECKMANN)
+        return beckmann_p22(n.x, n.y, n.z);
     /* end */
     /* only table */
-    if (distribution >= 0) {
-        table t = table_at(distribution);
-        return table_p22(t, table_given(t, x, y, z));
-    }
+    if (view.surface.distribution >= 0)
+        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z));
     /* end */
     return 0.0f;
+}
+
+/* D of the surface of a view. */
+HERE float placed_ndf(vndf_view view, vec3 wm)
+{
+    if (!(wm.z >= 0.0f))
+        return 0.0f;
+    return least(unit_ndf(view, frame_normal(view.at, wm.x, wm.y, wm.z)) / view.at.determinant, 3.4028234e38f);
 }
 
 /* D(wm) per steradian; wm is unit, here and below. */
 HERE float vndf_ndf(vndf_surface m, vec3 wm)
 {
-    frame at = frame_of(matrix_of(m), 0.0f, 0.0f, 1.0f);
-    unit_normal n = frame_normal(at, wm.x, wm.y, wm.z);
-    if (!(wm.z >= 0.0f))
-        return 0.0f;
-    return least(unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant, 3.4028234e38f);
+    return placed_ndf(placed(m, vec3(0.0f, 0.0f, 1.0f)), wm);
 }
 
 /* The density with which vndf_sample draws wm. */
@@ -144,7 +156,7 @@ HERE float vndf_visible(vndf_view view, vec3 wm)
         return vndf_pdf(view, wm);
     if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
         return 0.0f;
-    float ndf = unit_ndf(view.surface.distribution, n.x, n.y, n.z) / view.at.determinant;
+    float ndf = unit_ndf(view, n) / view.at.determinant;
     return frame_density(view.at, ndf * (n.facing / most(view.unit_area, 1e-37f)));
 }
 
@@ -177,6 +189,38 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
     /* end */
     sampled s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};
+    return drawn_normal;
+}
+
+/* The same, and the quotient (visible density)/density: weights of estimators have it as a factor. */
+typedef struct vndf_weighed {
+    vec3 wm;
+    float pdf, weight;
+} vndf_weighed;
+
+HERE vndf_weighed vndf_sample_weight(vndf_view view, float w1, float w2)
+{
+    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
+    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
+    float weight = 1.0f;
+    /* only ggx */
+    if (view.surface.distribution == VNDF_GGX)
+        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
+    /* end */
+    /* only beckmann */
+    if (view.surface.distribution == VNDF_BECKMANN)
+        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
+    /* end */
+    /* only table */
+    if (view.surface.distribution >= 0) {
+        const table_view seen_from = {view.ex, view.ey, view.v};
+        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below);
+        n = both_drawn.n;
+        weight = both_drawn.weight;
+    }
+    /* end */
+    sampled s = frame_sampled(view.at, n);
+    const vndf_weighed drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
 

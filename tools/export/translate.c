@@ -247,7 +247,8 @@ static const char *put_call(writer *w, const word *name)
 static void put_number(const writer *w, const word *number)
 {
     int hex = number->length > 1 && (number->text[1] == 'x' || number->text[1] == 'X');
-    if (hex && (memchr(number->text, 'p', number->length)))
+    int rounded = !hex && memchr(number->text, '.', number->length) && number->text[number->length - 1] != 'f';
+    if (rounded || (hex && (memchr(number->text, 'p', number->length)))) /* of doubles too: all is float */
         fprintf(w->to, w->t->to->indents ? "%.9g" : "%.9gf", strtod(number->text, NULL));
     else
         fprintf(w->to, "%.*s",
