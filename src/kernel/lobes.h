@@ -39,9 +39,9 @@ HERE real dot_of(direction a, direction b)
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
-/* A microfacet between two directions: its normal, on the side of wi; wo, or of transmission -wo; the projection of
- * that on the mean plane, which is up.z until who knows a mean slope changes it; the sizes of the cosines of both to
- * the normal; 1 - wi.wm; dwm/dwo; and whether there is one, which NaN is not. */
+/* A microfacet between two directions: its normal, on the side of wi; wo, or of transmission -wo; the projection
+ * of that on the mean plane, which is up.z until who knows a mean slope changes it; the sizes of the cosines of
+ * both to the normal; 1 - wi.wm; dwm/dwo; and whether there is one, which NaN is not. */
 typedef struct event {
     direction wm, up;
     real rise, facing, beyond, rest, jacobian;
@@ -181,26 +181,23 @@ HERE real masked_apart(real area_i, real area_o)
     return 1.0f / (area_i * area_o);
 }
 
-/* G1/cos of V-cavities, min(1/cos, 2 cos_m/facing). */
+/* G1 of V-cavities, exactly 1 where nothing hides. */
 HERE real in_cavity(real cosine, real facing, real cos_m)
 {
-    mask hides = less(2.0f * cos_m * cosine, facing);
-    return pick(hides, 2.0f * cos_m, set(1.0f)) / pick(hides, facing, cosine);
+    return least(2.0f * cos_m * cosine / facing, set(1.0f));
 }
 
 /* The smaller of the two is visible to both. */
 HERE real masked_in_cavities(real cos_i, real cos_o, real facing, real cos_m)
 {
-    real i = in_cavity(cos_i, facing, cos_m), o = in_cavity(cos_o, facing, cos_m);
-    mask lesser = less(i * cos_i, o * cos_o);
-    return pick(lesser, i, o) / pick(lesser, cos_o, cos_i);
+    return least(in_cavity(cos_i, facing, cos_m), in_cavity(cos_o, facing, cos_m)) / (cos_i * cos_o);
 }
 
 /* From above the upper part of a side is seen, from below the lower one. */
 HERE real passed_in_cavities(real cos_i, real cos_o, real facing, real beyond, real cos_m)
 {
-    real i = in_cavity(cos_i, facing, cos_m) * cos_i, o = in_cavity(cos_o, beyond, cos_m) * cos_o;
-    return most(i + o - 1.0f, set(0.0f)) / (cos_i * cos_o);
+    real i = in_cavity(cos_i, facing, cos_m), o = in_cavity(cos_o, beyond, cos_m);
+    return most(least(i, o) - (1.0f - most(i, o)), set(0.0f)) / (cos_i * cos_o);
 }
 
 /* ---- transmission, masked by height: Euler's Beta function ----

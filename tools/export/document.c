@@ -78,10 +78,10 @@ static const char head[] =
     "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static const char bsdf_head[] =
-    "// vndf_bsdf_of(material, wi), a vndf_material being a surface and its optics; then vndf_bsdf_sample(bsdf, u):\n"
-    "// wo, f |cosine|/density of three wavelengths, and the density per steradian. vndf_bsdf_eval is f without the\n"
-    "// cosine, which is vndf_bsdf_cosine, vndf_bsdf_pdf the density of a given wo. Directions with z < 0 are on the\n"
-    "// other side of the surface.\n";
+    "// vndf_bsdf_of(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"
+    "// wo with three uniform numbers, f |cosine|/density of three wavelengths and the density per steradian;\n"
+    "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
+    "// wo. Directions with z < 0 are on the other side of the surface.\n";
 
 static void put_head(FILE *to, const export_document *document)
 {

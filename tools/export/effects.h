@@ -1,5 +1,5 @@
-/* The effects of an exported BSDF: what `--bsdf 'lobes=both fresnel=dielectric'` chooses, and which parts of the text
- * go with it. */
+/* The effects of an exported BSDF: what `--bsdf 'lobes=both fresnel=dielectric'` chooses, and which parts of the
+ * text go with it. */
 #ifndef TOOLS_EXPORT_EFFECTS_H
 #define TOOLS_EXPORT_EFFECTS_H
 
@@ -16,8 +16,8 @@ typedef struct export_effects {
     unsigned choice[EFFECT_KEYS];
 } export_effects;
 
-/* Reads key=choice, separated by blanks or commas; 0 and a reason for words that are none, for what files do not have,
- * and for what the library refuses. */
+/* Reads key=choice, separated by blanks or commas; 0 and a reason for words that are none, for what files do not
+ * have, and for what the library refuses. */
 int effects_read(export_effects *effects, const char *text, char error[EFFECTS_ERROR_MAX]);
 
 /* Whether the effects have what a mark of the text names: a choice, "lobes=both", or

@@ -2,8 +2,8 @@
 
 /* ---- surfaces and views ---- */
 
-/* A surface whose slopes (-wm.x/wm.z, -wm.y/wm.z) are (xx xy; yx yy) u + mean, where u are slopes of the distribution:
- * the first number of a table, VNDF_GGX or VNDF_BECKMANN. */
+/* A surface whose slopes (-wm.x/wm.z, -wm.y/wm.z) are (xx xy; yx yy) u + mean, where u are slopes of the
+ * distribution: the first number of a table, VNDF_GGX or VNDF_BECKMANN. */
 typedef struct vndf_surface {
     int distribution;
     float xx, xy, yx, yy, mean_x, mean_y;
@@ -265,19 +265,23 @@ typedef struct vndf_mixture_view {
     float area;
 } vndf_mixture_view;
 
-/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. */
+/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. Loops have a constant
+ * end, so that a GPU unrolls them: what is indexed by a variable lies in local memory. */
 HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
 {
     vndf_mixture lobes = mixture;
     float largest = 1e-37f, sum = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        largest = most(largest, lobes.weight[i]);
-    for (int j = 0; j < lobes.count; j++) {
-        lobes.weight[j] = lobes.weight[j] / largest;
-        sum = sum + lobes.weight[j];
-    }
-    for (int k = 0; k < lobes.count; k++)
-        lobes.weight[k] = lobes.weight[k] / sum;
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            largest = most(largest, lobes.weight[i]);
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            lobes.weight[j] = lobes.weight[j] / largest;
+            sum = sum + lobes.weight[j];
+        }
+    for (int k = 0; k < VNDF_LOBES; k++)
+        if (k < lobes.count)
+            lobes.weight[k] = lobes.weight[k] / sum;
     return lobes;
 }
 
@@ -287,17 +291,19 @@ HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
     vndf_mixture_view view;
     view.count = lobes.count;
     view.area = 0.0f;
-    for (int i = 0; i < lobes.count; i++) {
-        view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
-        view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
-        view.area = view.area + view.share[i];
-    }
-    for (int j = 0; j < lobes.count; j++) {
-        if (view.area > 1.17549435e-38f)
-            view.share[j] = view.share[j] / view.area;
-        else
-            view.share[j] = lobes.weight[j];
-    }
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count) {
+            view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
+            view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
+            view.area = view.area + view.share[i];
+        }
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            if (view.area > 1.17549435e-38f)
+                view.share[j] = view.share[j] / view.area;
+            else
+                view.share[j] = lobes.weight[j];
+        }
     return view;
 }
 
@@ -313,8 +319,9 @@ HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
     return mixed_density(density);
 }
 
@@ -322,8 +329,9 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
     return least(density, 3.4028234e38f);
 }
 
@@ -331,20 +339,24 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
-    float before = 0.0f, density = 0.0f;
-    int chosen = 0;
-    for (int i = 0; i + 1 < lobes.count; i++)
-        if (chosen == i && u1 >= before + lobes.share[i]) {
-            before = before + lobes.share[i];
-            chosen = i + 1;
+    vndf_view chosen = lobes.lobe[0];
+    float before = 0.0f, share = lobes.share[0], density = 0.0f;
+    int at = 0;
+    for (int i = 1; i < VNDF_LOBES; i++)
+        if (at == i - 1 && i < lobes.count && u1 >= before + share) {
+            before = before + share;
+            at = i;
+            chosen = lobes.lobe[i];
+            share = lobes.share[i];
         }
-    vndf_sampled one = vndf_sample(lobes.lobe[chosen], (u1 - before) / most(lobes.share[chosen], 1e-37f), u2);
-    for (int j = 0; j < lobes.count; j++) {
-        if (j == chosen)
-            density = density + lobes.share[j] * one.pdf;
-        else
-            density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
-    }
+    vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            if (j == at)
+                density = density + lobes.share[j] * one.pdf;
+            else
+                density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
+        }
     one.pdf = mixed_density(density);
     return one;
 }
@@ -353,7 +365,8 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
     return least(density, 3.4028234e38f);
 }

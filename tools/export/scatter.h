@@ -1,5 +1,5 @@
-/* The BSDF that `--bsdf` asks for: the calls of vndf_bsdf.h over kernel/lobes.h, with the effects that are chosen and
- * nothing else. */
+/* The BSDF that `--bsdf` asks for: the calls of vndf_bsdf.h over kernel/lobes.h, with the effects that are chosen
+ * and nothing else. */
 
 /* ---- materials and hits ---- */
 
@@ -17,7 +17,8 @@ typedef struct vndf_material {
     /* end */
 } vndf_material;
 
-/* A hit. Its frame is turned about the origin where wi is below the mean plane, so that wi is above: side is -1 then. */
+/* A hit. Its frame is turned about the origin where wi is below the mean plane, so that wi is above: side is -1
+ * then. */
 typedef struct vndf_bsdf {
     vndf_material material;
     vndf_view view;
@@ -155,8 +156,9 @@ HERE float masked_transmission(vndf_bsdf b, event e)
 
 /* ---- samples ---- */
 
-/* wo, f |cosine of wo|/density of the three wavelengths, and the density per steradian. The lobe is 0 where the sample
- * is lost, 1 for reflection, 2 for transmission, and 3 for what goes straight on where eta is 1, a Dirac of density 1. */
+/* wo, f |cosine of wo|/density of the three wavelengths, and the density per steradian. The lobe is 0 where the
+ * sample is lost, 1 for reflection, 2 for transmission, and 3 for what goes straight on where eta is 1, a Dirac of
+ * density 1. */
 typedef struct vndf_scattered {
     vec3 wo, weight;
     float pdf;

@@ -703,11 +703,23 @@ static void put_line_end(writer *w)
     w->at = next.kind == WORD_LINE ? next.text + 1 : next.text;
 }
 
+/* Whether a loop, from its bracket on, ends at one of VNDF_. */
+static int ends_constant(const char *open)
+{
+    const char *from = words_end(words_end(open + 1, ";") + 1, "<") + 1;
+    word end = word_solid(from);
+    return end.kind == WORD_NAME && has_prefix(&end, "VNDF_");
+}
+
 static void put_statement(writer *w)
 {
     put_between(w);
     word first = word_solid(w->at), second = after(&first);
     put_indent(w);
+    if (word_is(&first, "for") && w->t->to->unroll && ends_constant(after(&first).text)) {
+        fprintf(w->to, "%s\n", w->t->to->unroll);
+        put_indent(w);
+    }
     if (word_is(&first, "if")) {
         put_if(w);
         if (w->t->to->indents)
