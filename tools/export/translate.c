@@ -402,7 +402,8 @@ static void put_field(writer *w, const field *f, int ends)
         fputs(f->count.length ? ": array<" : ": ", w->to);
         put_type(w, &f->type);
         fputs(f->count.length ? ", " : "", w->to);
-        put_range(w, (range){f->count.text, f->count.text + f->count.length});
+        if (f->count.length)
+            put_range(w, (range){f->count.text, f->count.text + f->count.length});
         fputs(f->count.length ? ">" : "", w->to);
     } else {
         if (f->begins)
