@@ -1,7 +1,6 @@
 /* The calls of many. The visible normals of an aligned surface are drawn a block at a time, in lanes
  * (vndf_sample_weight_n), and scattered by the routine of the call of one. The rest is done one after the other. */
-#include "bsdf/hit.h"
-#include "bsdf/material.h"
+#include "bsdf/bsdf.h"
 
 enum { BLOCK = 256 };
 

@@ -1,13 +1,7 @@
 /* A description becomes a material. Nothing else looks at the effects. */
-#include "bsdf/material.h"
-
-#include "bsdf/hit.h"
-#include "bsdf/lobes/lobes.h"
-#include "bsdf/terms/fresnel.h"
-#include "bsdf/terms/masking.h"
-#include "math/turn.h"
 #include "bsdf/walk/walk.h"
 #include "core/error.h"
+#include "math/turn.h"
 
 /* ---- nothing ---- */
 
@@ -35,52 +29,21 @@ const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {
 
 /* ---- effects to routines ---- */
 
-static const vndf_fresnel_routine *fresnel_of(const vndf_effects *e)
-{
-    switch (e->fresnel) {
-    case VNDF_FRESNEL_SCHLICK:
-        return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_schlick : &vndf_fresnel_of_schlick_thin;
-    case VNDF_FRESNEL_DIELECTRIC: return &vndf_fresnel_of_dielectric;
-    case VNDF_FRESNEL_CONDUCTOR: return &vndf_fresnel_of_conductor;
-    default: return e->lobes == VNDF_LOBES_REFLECTION ? &vndf_fresnel_of_total : &vndf_fresnel_of_nothing;
-    }
-}
-
-static const vndf_masking_routine *masking_of(const vndf_effects *e)
-{
-    switch (e->masking) {
-    case VNDF_MASKING_SEPARABLE: return &vndf_masking_separable;
-    case VNDF_MASKING_V_CAVITIES: return &vndf_masking_v_cavities;
-    case VNDF_MASKING_NONE: return &vndf_masking_none;
-    default: return &vndf_masking_height_correlated;
-    }
-}
-
+/* A walk, single scattering, or that with compensation around it. */
 static const vndf_routines *single_of(const vndf_description *is)
 {
     const vndf_effects *e = &is->effects;
-    if (e->scattering == VNDF_SCATTERING_MULTIPLE)
-        return e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f
-                   ? &vndf_routines_unbent
-                   : &vndf_routines_walk;
-    if (e->lobes == VNDF_LOBES_TRANSMISSION)
-        return &vndf_routines_transmission;
-    if (e->lobes == VNDF_LOBES_BOTH)
-        return &vndf_routines_both;
-    return e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED
-               ? &vndf_routines_bare
-               : &vndf_routines_reflection;
+    if (e->scattering != VNDF_SCATTERING_MULTIPLE)
+        return vndf_single_of(e);
+    int straight = e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f;
+    return straight ? &vndf_routines_unbent : &vndf_routines_walk;
 }
 
-static const vndf_routines *compensated(const vndf_routines *single, vndf_scattering scattering)
+static const vndf_routines *specular_of(const vndf_routines *single, vndf_scattering scattering)
 {
-    switch (scattering) {
-    case VNDF_SCATTERING_SINGLE:
-    case VNDF_SCATTERING_MULTIPLE: return single;
-    case VNDF_SCATTERING_TURQUIN: return &vndf_routines_turquin;
-    case VNDF_SCATTERING_KULLA_CONTY: break;
-    }
-    return &vndf_routines_kulla_conty;
+    return scattering == VNDF_SCATTERING_TURQUIN       ? &vndf_routines_turquin
+           : scattering == VNDF_SCATTERING_KULLA_CONTY ? &vndf_routines_kulla_conty
+                                                       : single;
 }
 
 /* The surface of hits that bring none. */
@@ -94,7 +57,7 @@ static void set_surface(vndf_material *m)
     m->sin_rotation = (float)sine;
     const vndf_roughness r = {is->alpha_x, is->alpha_y, m->cos_rotation, m->sin_rotation};
     if (is->effects.shape <= VNDF_SHAPE_ROTATED)
-        vndf_hit_surface_of(m, &r, &m->surface);
+        vndf_surface_of(m, &r, &m->surface);
     else
         m->surface = is->affine;
     m->surface.distribution = is->distribution;
@@ -116,11 +79,11 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
     m->is.wavelengths = is->wavelengths ? is->wavelengths : 3;
     m->per_wavelength = 1.0 / m->is.wavelengths;
-    m->normals = &vndf_normals_routines[e->normals];
-    m->fresnel = fresnel_of(e);
-    m->masking = masking_of(e);
+    m->normals = vndf_normals_of(e);
+    m->fresnel = vndf_fresnel_of(e);
+    m->masking = vndf_masking_of(e);
     m->single = single_of(is);
-    m->specular = compensated(m->single, e->scattering);
+    m->specular = specular_of(m->single, e->scattering);
     m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_surface(m);

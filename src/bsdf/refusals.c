@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "bsdf/material.h"
+#include "bsdf/bsdf.h"
 #include "core/error.h"
 #include "sampler/sampler.h"
 

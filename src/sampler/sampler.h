@@ -10,6 +10,9 @@
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);
 float vndf_view_area(const vndf_view *view, vndf_vec3 w);
 
+/* That of its own wi. */
+float vndf_view_own_area(const vndf_view *view);
+
 /* The projection of w on the mean plane: w.z without a mean slope. G1(w) = that over vndf_view_area. */
 float vndf_view_cosine(const vndf_view *view, vndf_vec3 w);
 
@@ -21,6 +24,9 @@ typedef struct vndf_drawn_normal {
     vndf_vec3 wm;
     float density, weight;
 } vndf_drawn_normal;
+
+/* Visible normals: vndf_sample_weight; the density is vndf_pdf. */
+vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2);
 
 /* Visible normals that reflect wi to above the horizon (wi.z > 0); no sample is lost. Surfaces without a mean slope. */
 vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2);

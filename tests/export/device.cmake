@@ -1,6 +1,6 @@
 # The kernel that is exported to LANGUAGE, run by tools/export/run_kernel.py on what runs the language here, answers as
 # the library does, with numbers embedded or read from a buffer that two tables share: FORMS says how they get there.
-# What is absent is skipped.
+# Other words of FORMS are BSDFs. What is absent is skipped.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT PYTHON)
@@ -24,18 +24,33 @@ macro(run what)
     endif()
 endmacro()
 
+# Of BSDFs these effects, which between them call all of the text.
+set(scattering "lobes=both fresnel=dielectric")
+set(metal "fresnel=conductor masking=v-cavities reflection=retro")
+set(thin "lobes=both fresnel=schlick masking=separable transport=importance")
 foreach(form IN LISTS FORMS)
     set(tables ${SOURCE}/tables/student-t-2.5-small.vndf)
     set(how "")
     if(form STREQUAL fetching)
         list(PREPEND tables ${SOURCE}/tables/student-t-2.5.vndf)
+    endif()
+    if(NOT form STREQUAL embedded)
         set(how --buffer numbers.f32)
     endif()
-    run("vndf export" ${VNDF} export ${tables} --language ${LANGUAGE} -o kernel.${form} ${how})
-    run("questions" ${AGREEMENT} make ${QUESTIONS} questions ${tables})
+    set(make make ${QUESTIONS} questions)
+    set(check check ROUNDED questions answers)
+    if(DEFINED ${form})
+        set(bsdf --bsdf "${${form}}")
+        set(make make-bsdf ${QUESTIONS} questions "${${form}}")
+        set(check check-bsdf "${${form}}" questions answers)
+    else()
+        set(bsdf "")
+    endif()
+    run("vndf export" ${VNDF} export ${tables} --language ${LANGUAGE} -o kernel.${form} ${how} ${bsdf})
+    run("questions" ${AGREEMENT} ${make} ${tables})
     run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form}
-        questions answers ${how})
+        questions answers ${how} ${bsdf})
     string(REGEX MATCH "${LANGUAGE} on [^\n]*" device "${errors}")
-    run("agreement of ${form} ${LANGUAGE} with the library" ${AGREEMENT} check ROUNDED questions answers ${tables})
+    run("agreement of ${form} ${LANGUAGE} with the library" ${AGREEMENT} ${check} ${tables})
     message("${form}, ${device}\n${output}")
 endforeach()

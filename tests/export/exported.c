@@ -32,17 +32,60 @@ static kernel_vec3 vector(const float v[3])
     return kernel_vec3_of(v[0], v[1], v[2]);
 }
 
-static kernel_surface surface_of(const exported_question *q)
-{
-    kernel_surface surface = {(int)q->distribution, q->xx, q->xy, q->yx, q->yy, q->mean_x, q->mean_y};
-    return surface;
-}
-
 static void put(float to[3], kernel_vec3 v)
 {
     to[0] = v.x;
     to[1] = v.y;
     to[2] = v.z;
+}
+
+#ifdef KERNEL_SCATTERS /* the file is a BSDF; the word says which optics its material has */
+
+static kernel_material material_of(const exported_hit *q)
+{
+    kernel_surface surface = {
+        (int)q->of.distribution, q->of.xx, q->of.xy, q->of.yx, q->of.yy, q->of.mean_x, q->of.mean_y};
+    const float f0[] = EXPORTED_F0, n[] = EXPORTED_CONDUCTOR_ETA, k[] = EXPORTED_CONDUCTOR_K;
+    kernel_material m;
+    memset(&m, 0, sizeof m);
+    m.surface = surface;
+    (void)f0;
+    (void)n;
+    (void)k;
+#  ifdef KERNEL_INDEXED
+    m.eta = EXPORTED_ETA;
+#  endif
+#  ifdef KERNEL_SCHLICK
+    m.f0 = vector(f0);
+#  endif
+#  ifdef KERNEL_CONDUCTOR
+    m.conductor_eta = vector(n);
+    m.conductor_k = vector(k);
+#  endif
+    return m;
+}
+
+void exported_scatter_at(const exported_hit *q, exported_scattered *a)
+{
+    kernel_bsdf b = kernel_bsdf_of(AT material_of(q), vector(q->wi));
+    kernel_scattered s = kernel_bsdf_sample(AT b, vector(q->u));
+    put(a->wo, s.wo);
+    put(a->weight, s.weight);
+    a->sampled = s.pdf;
+    a->lobe = (float)s.lobe;
+    put(a->f, kernel_bsdf_eval(AT b, vector(q->wo)));
+    a->pdf = kernel_bsdf_pdf(AT b, vector(q->wo));
+    put(a->own_f, kernel_bsdf_eval(AT b, s.wo));
+    a->own_pdf = kernel_bsdf_pdf(AT b, s.wo);
+}
+
+#else
+
+static kernel_surface surface_of(const exported_question *q)
+{
+    kernel_surface surface = {
+        (int)q->of.distribution, q->of.xx, q->of.xy, q->of.yx, q->of.yy, q->of.mean_x, q->of.mean_y};
+    return surface;
 }
 
 static void answer_mixture(const exported_question *q, exported_answer *a)
@@ -72,3 +115,5 @@ void exported_answer_to(const exported_question *q, exported_answer *a)
     a->area = kernel_projected_area(view);
     answer_mixture(q, a);
 }
+
+#endif

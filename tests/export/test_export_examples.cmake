@@ -1,5 +1,6 @@
 # The examples of tools/export compile with the files that `vndf export` writes: GLSL by glslang, CUDA by nvcc, where
-# they are.
+# they are. For a GPU a view and a sample of a table take at most 64 registers, and neither they nor a mixture of two
+# tables have local memory, which an index by a variable makes.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -33,6 +34,38 @@ if(nvcc)
     execute_process(COMMAND ${nvcc} -c average.cu -o average.o WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status
         OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     expect("average.cu does not compile:\n${output}${errors}" status EQUAL 0)
+    # registers(NAME MOST ONLY STATEMENTS): a kernel of these calls.
+    function(registers name most only statements)
+        answers(0 "" export ${SOURCE}/tables/hazy.vndf --language cuda --buffer hazy.f32 --distribution table --lobes 2
+            --only ${only} -o ${name}.cuh)
+        file(WRITE ${OUT}/${name}.cu "#include \"${name}.cuh\"
+__global__ void draw(const float *numbers, const float *in, float *out)
+{
+    int i = 16 * (int)(blockIdx.x * blockDim.x + threadIdx.x);
+    float3 wi = make_float3(in[i], in[i + 1], in[i + 2]);
+    vndf_surface surface = vndf_surface_of(VNDF_HAZY, in[i + 3], in[i + 4]);
+    ${statements}
+    out[i] = s.wm.x;
+    out[i + 1] = s.wm.y;
+    out[i + 2] = s.wm.z;
+    out[i + 3] = s.pdf;
+}
+")
+        execute_process(COMMAND ${nvcc} -O3 -arch=sm_80 -Xptxas -v -c ${name}.cu -o ${name}.o WORKING_DIRECTORY ${OUT}
+            RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+        expect("${name}.cu does not compile:\n${output}${errors}" status EQUAL 0)
+        expect("${name} has local memory:\n${errors}" errors MATCHES "\n *0 bytes stack frame, 0 bytes spill stores")
+        string(REGEX REPLACE ".*Used ([0-9]+) registers.*" "\\1" used "${errors}")
+        expect("${name} takes ${used} registers, not at most ${most}" used LESS_EQUAL most)
+        message("${name}: ${used} registers")
+        set(failures ${failures} PARENT_SCOPE)
+    endfunction()
+    registers(one 64 view,sample "vndf_view view = vndf_view_of(numbers, surface, wi);
+    vndf_sampled s = vndf_sample(numbers, view, in[i + 5], in[i + 6]);")
+    registers(two 255 mixture "vndf_mixture m = {2, {surface, vndf_surface_of(VNDF_HAZY, in[i + 7], in[i + 8])},
+        {in[i + 9], in[i + 10]}};
+    vndf_mixture_view view = vndf_mixture_view_of(numbers, m, wi);
+    vndf_sampled s = vndf_mixture_sample(numbers, view, in[i + 5], in[i + 6]);")
 else()
     string(APPEND absent " nvcc")
 endif()

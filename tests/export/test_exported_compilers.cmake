@@ -1,7 +1,7 @@
 # The exported C is C99 and the exported C++ is C++11, for every compiler of both that is here: no warning with
 # -Wall -Wextra -Wpedantic -Wshadow -Wconversion, numbers embedded or read from their file; answers are the library's,
-# bit for bit, and near them with -ffast-math, as renderers compile; two kernels with prefixes of their own live in one
-# program, and one may be included twice.
+# bit for bit, and near them with -ffast-math, as renderers compile; BSDFs scatter as the library's do; two kernels with
+# prefixes of their own live in one program, and one may be included twice.
 cmake_minimum_required(VERSION 3.16)
 
 if(SANITIZE)
@@ -68,6 +68,22 @@ function(try_compiler compiler language form)
     set_property(GLOBAL APPEND PROPERTY tried ${compiler})
 endfunction()
 
+# try_bsdf(COMPILER LANGUAGE EFFECTS [DEFINITION...]): of BSDFs numbers are embedded.
+function(try_bsdf compiler language effects)
+    set(standard -x c -std=c99)
+    if(language STREQUAL cpp)
+        set(standard -x c++ -std=c++11)
+    endif()
+    run("export of ${effects}" ${VNDF} export ${tables} --language ${language} --prefix kernel --bsdf "${effects}"
+        -o bsdf.${language}.h)
+    run("questions of ${effects}" ${AGREEMENT} make-bsdf 8000 hits "${effects}" ${tables})
+    run("${compiler} of ${effects}" ${compiler} -O1 -ffp-contract=off ${standard} ${flags} -DKERNEL_SCATTERS ${ARGN}
+        "-DKERNEL_FILE=\"bsdf.${language}.h\"" ${SOURCE}/tests/export/exported.c ${SOURCE}/tests/export/answer.c
+        -lm -o ${OUT}/scatter)
+    run("the program of ${effects}" ${OUT}/scatter hits scattered)
+    run("agreement of ${effects}" ${AGREEMENT} check-bsdf "${effects}" hits scattered ${tables})
+endfunction()
+
 # Compilers that take gcc's flags; the build's own first.
 function(try_all language)
     set(found "")
@@ -83,6 +99,12 @@ function(try_all language)
         list(GET found 0 compiler)
         try_compiler(${compiler} ${language} fetching "-DKERNEL_RAW=\"${OUT}/numbers.f32\"")
         try_compiler(${compiler} ${language} embedded -O3 -ffast-math)
+        try_bsdf(${compiler} ${language} "lobes=reflection")
+        try_bsdf(${compiler} ${language} "lobes=both fresnel=dielectric" -DKERNEL_INDEXED)
+        try_bsdf(${compiler} ${language} "lobes=both fresnel=schlick masking=v-cavities transport=importance"
+            -DKERNEL_INDEXED -DKERNEL_SCHLICK)
+        try_bsdf(${compiler} ${language} "fresnel=conductor masking=separable reflection=retro" -DKERNEL_CONDUCTOR)
+        try_bsdf(${compiler} ${language} "lobes=transmission masking=none" -DKERNEL_INDEXED)
     endif()
 endfunction()
 

@@ -202,7 +202,7 @@ oracle_value oracle_bsdf_eval(const oracle_bsdf *o, const double wi_given[3], co
 
 vndf_effects oracle_effects(size_t index)
 {
-    vndf_effects e;
+    vndf_effects e = {.reflection = VNDF_REFLECTION_SPECULAR};
     e.lobes = (vndf_lobes)(index % 3);
     e.fresnel = (vndf_fresnel)(index / 3 % 4);
     e.masking = (vndf_masking)(index / 12 % 4);

@@ -29,8 +29,13 @@ static const char help[] =
     "                   little-endian (at run time vndf_numbers writes the same)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
     "  --distribution KIND  only table, ggx or beckmann (repeat for two); a kernel has all three by default\n"
-    "  --only CALLS     only these calls and what they need: view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,\n"
-    "                   mixture\n"
+    "  --only CALLS     only these calls and what they need: view,sample,sample_weight,pdf,visible,ndf,lambda,g1,g2,\n"
+    "                   projected_area,mixture\n"
+    "  --bsdf EFFECTS   a BSDF with these effects, its sample, value and density, in the place of the calls above:\n"
+    "                   'lobes=reflection|transmission|both fresnel=none|schlick|dielectric|conductor\n"
+    "                   masking=correlated|separable|v-cavities|none transport=radiance|importance\n"
+    "                   reflection=specular|retro'; the first of each is the default. --only has bsdf_sample,\n"
+    "                   bsdf_eval and bsdf_pdf too\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
     "  --notice TEXT    a notice for the head of OUT, such as your licence; --notice @FILE takes it from a file\n"
     "\n"
@@ -39,13 +44,14 @@ static const char help[] =
     "\n"
     "example: vndf export tables/student-t-2.5-small.vndf --language glsl -o normals.glsl\n"
     "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n"
+    "         vndf export tables/hazy.vndf --bsdf 'lobes=both fresnel=dielectric' --language wgsl -o glass.wgsl\n"
     "\n";
 
 static const char help_end[] = "\n"
                                "exit status: 0 good, 2 wrong use\n";
 
 typedef struct export_words {
-    words tables, language, output, embed, buffer, prefix, lobes, notice, only, distribution;
+    words tables, language, output, embed, buffer, prefix, lobes, notice, only, distribution, bsdf;
 } export_words;
 
 /* ---- words --------------------------------------------------------------------------------------- */
@@ -115,13 +121,25 @@ static int read_only(const export_words *given, export_document *document, char 
             ;
         if (!calls[n] || count + 1 >= EXPORT_CALLS)
             return complain(name,
-                            "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area and "
-                            "mixture are known, each once",
+                            "--only '%s': view, sample, sample_weight, pdf, visible, ndf, lambda, g1, g2, "
+                            "projected_area, mixture, bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
                             call),
                    0;
+        if (document_is_of_bsdf(call) && !document->effects.wanted)
+            return complain(name, "--only '%s' needs --bsdf", call), 0;
         document->only[count++] = call;
     }
     return 1;
+}
+
+static int read_bsdf(const export_words *given, export_document *document)
+{
+    char why[EFFECTS_ERROR_MAX];
+    const char *text = only_word(&given->bsdf);
+    if (!text || effects_read(&document->effects, text, why))
+        return 1;
+    complain(name, "--bsdf %s", why);
+    return 0;
 }
 
 static int read_kinds(const export_words *given, export_document *document)
@@ -173,13 +191,21 @@ static int read_settings(const export_words *given, export_document *document)
 
 /* ---- tables --------------------------------------------------------------------------------------- */
 
+/* Of a table, if each has its part of the numbers: files have some 2.3 bytes a number. */
+static size_t bytes_that_fit(const export_document *document)
+{
+    return 23 * (document->as.to->most_embedded / document->tables) / 10 / 64 * 64;
+}
+
 static int fits(const export_document *document)
 {
     const language *as = document->as.to;
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
-    complain(name, "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE", document->count, as->title,
-             as->why, as->most_embedded);
+    complain(name,
+             "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE, or smaller tables: vndf build "
+             "--max-bytes %zu",
+             document->count, as->title, as->why, as->most_embedded, bytes_that_fit(document));
     return 0;
 }
 
@@ -236,10 +262,11 @@ static int run(const export_words *given, export_document *document)
 
 static int run_brdf(const export_words *given, brdf_words *brdf)
 {
-    const words *const others[] = {&given->language, &given->embed,  &given->buffer, &given->prefix,
-                                   &given->lobes,    &given->notice, &given->only,   &given->distribution};
-    static const char *const names[] = {"--language", "--embed",  "--buffer", "--prefix",
-                                        "--lobes",    "--notice", "--only",   "--distribution"};
+    const words *const others[] = {&given->language, &given->embed,        &given->buffer,
+                                   &given->prefix,   &given->lobes,        &given->notice,
+                                   &given->only,     &given->distribution, &given->bsdf};
+    static const char *const names[] = {"--language", "--embed", "--buffer",       "--prefix", "--lobes",
+                                        "--notice",   "--only",  "--distribution", "--bsdf"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i]->count)
             return complain(name, "%s is for kernels, not for --rgl and --brdf", names[i]);
@@ -274,6 +301,7 @@ int command_export(int argc, char **argv)
         {"--notice", 1, 1, &given.notice},
         {"--only", 1, 1, &given.only},
         {"--distribution", 1, 3, &given.distribution},
+        {"--bsdf", 1, 1, &given.bsdf},
         {"--rgl", 0, 1, &brdf.rgl},
         {"--brdf", 1, 1, &brdf.brdf},
         {"--alpha", 1, 1, &brdf.alpha},
@@ -291,8 +319,8 @@ int command_export(int argc, char **argv)
         parsed = check_not_brdf(&brdf);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    int good = read_settings(&given, &document) && read_only(&given, &document, only, sizeof only) &&
-               read_notice(&given, &document, &notice);
+    int good = read_settings(&given, &document) && read_bsdf(&given, &document) &&
+               read_only(&given, &document, only, sizeof only) && read_notice(&given, &document, &notice);
     int status = good ? run(&given, &document) : STATUS_USE;
     free(notice);
     return status;

@@ -18,13 +18,12 @@ enum { VNDF_KNOT, VNDF_LAW, VNDF_MORE, VNDF_TAIL, VNDF_LOW };
 /* The table whose first number is number `base`. */
 HERE table table_at(int base)
 {
-    const int cells = to_whole(fetch(base));
-    int highest = 1, steps = 1;
-    for (int left = cells; left > 1; left = left / 2) {
-        highest = highest * 2;
-        steps = steps + 1;
-    }
-    const table t = {base + HEAD, cells, to_whole(fetch(base + 1)), to_whole(fetch(base + 2)), highest, steps};
+    const table t = {base + HEAD,
+                     to_whole(fetch(base)),
+                     to_whole(fetch(base + 1)),
+                     to_whole(fetch(base + 2)),
+                     to_whole(fetch(base + 4)),
+                     to_whole(fetch(base + 5))};
     return t;
 }
 

@@ -77,6 +77,12 @@ static const char head[] =
     "beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
     "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
+static const char bsdf_head[] =
+    "// vndf_bsdf_of(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"
+    "// wo with three uniform numbers, f |cosine|/density of three wavelengths and the density per steradian;\n"
+    "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
+    "// wo. Directions with z < 0 are on the other side of the surface.\n";
+
 static void put_head(FILE *to, const export_document *document)
 {
     fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
@@ -84,6 +90,12 @@ static void put_head(FILE *to, const export_document *document)
     translate_pattern(&document->as, to, head, "", 0);
     for (size_t i = 0; i < document->tables; i++)
         put_certificate(to, document, &document->table[i]);
+    if (document->effects.wanted) {
+        char effects[200];
+        effects_name(&document->effects, effects, sizeof effects);
+        fprintf(to, "//\n// BSDF: %s.\n", effects);
+        translate_pattern(&document->as, to, bsdf_head, "", 0);
+    }
     if (document->notice) {
         fputs("//\n", to);
         put_comment(to, document->notice);
@@ -144,19 +156,31 @@ static void put_vec3(FILE *to, const translation *t)
     translate_pattern(t, to, vec3_made, "", 0);
 }
 
-/* Whether a line begins or ends a part that not all files have, and whether this one has it. */
+/* Whether the file has a kind of distribution or an effect. */
+static int has_part(const export_document *document, const char *name, size_t length)
+{
+    static const char *const kinds[] = {"table", "ggx", "beckmann"};
+    for (unsigned i = 0; i < 3; i++)
+        if (strlen(kinds[i]) == length && memcmp(name, kinds[i], length) == 0)
+            return (document->kinds >> i & 1u) != 0;
+    return effects_have(&document->effects, name, length);
+}
+
+/* Whether a line begins or ends a part that not all files have, and whether this one has it: all words of its mark. */
 static int is_mark(const export_document *document, const char *line, int *in)
 {
-    static const char *const kinds[] = {"/* only table */", "/* only ggx */", "/* only beckmann */"};
+    static const char only[] = "/* only ";
     const char *text = line + strspn(line, " ");
-    for (unsigned i = 0; i < 3; i++)
-        if (strcmp(text, kinds[i]) == 0) {
-            *in = (document->kinds >> i & 1u) != 0;
-            return 1;
-        }
     if (strcmp(text, "/* C only */") == 0)
         return *in = 0, 1;
-    return strcmp(text, "/* end */") == 0 ? *in = 1 : 0;
+    if (strcmp(text, "/* end */") == 0)
+        return *in = 1;
+    if (strncmp(text, only, sizeof only - 1) != 0)
+        return 0;
+    *in = 1;
+    for (text += sizeof only - 1; *text != '*'; text += strcspn(text, " ") + 1)
+        *in &= has_part(document, text, strcspn(text, " "));
+    return 1;
 }
 
 /* NULL if there is no memory. */
@@ -179,9 +203,15 @@ static char *whole_text(const export_document *document)
 
 const char *const *document_calls(void)
 {
-    static const char *const calls[EXPORT_CALLS] = {"view",   "sample", "pdf", "visible",        "ndf",
-                                                    "lambda", "g1",     "g2",  "projected_area", "mixture"};
+    static const char *const calls[EXPORT_CALLS] = {
+        "view", "sample", "sample_weight",  "pdf",     "visible",     "ndf",       "lambda",
+        "g1",   "g2",     "projected_area", "mixture", "bsdf_sample", "bsdf_eval", "bsdf_pdf"};
     return calls;
+}
+
+int document_is_of_bsdf(const char *call)
+{
+    return strncmp(call, "bsdf_", 5) == 0;
 }
 
 static void want(const translation *t, part_list *parts, const char *call)
@@ -192,6 +222,8 @@ static void want(const translation *t, part_list *parts, const char *call)
         snprintf(name, sizeof name, "vndf_mixture_%s", mixtures[i]);
         translation_want(t, parts, name);
     }
+    for (size_t i = 0; i < 2 && document_is_of_bsdf(call); i++)
+        translation_want(t, parts, i ? "vndf_bsdf_cosine" : "vndf_bsdf_of");
     snprintf(name, sizeof name, strcmp(call, "view") == 0 ? "vndf_%s_of" : "vndf_%s", call);
     translation_want(t, parts, name);
 }
@@ -219,7 +251,8 @@ static int put_kernel(FILE *to, const export_document *document, const translati
             translation_want(t, parts, *name);
         for (const char *const *call = document->only[0] ? document->only : document_calls();
              !t->to->indents && *call; call++)
-            want(t, parts, *call);
+            if (document->only[0] || document_is_of_bsdf(*call) == document->effects.wanted)
+                want(t, parts, *call);
         translate(t, to, parts);
     }
     int good = text && parts;

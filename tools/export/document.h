@@ -4,10 +4,11 @@
 
 #include <stdio.h>
 
+#include "export/effects.h"
 #include "export/translate.h"
 #include "vndf.h"
 
-enum { EXPORT_TABLES_MAX = 16, EXPORT_CALLS = 12 };
+enum { EXPORT_TABLES_MAX = 16, EXPORT_CALLS = 18 };
 
 /* Kinds of distributions that a kernel draws from, as bits. */
 enum { EXPORT_TABLE = 1, EXPORT_GGX = 2, EXPORT_BECKMANN = 4, EXPORT_ALL = 7 };
@@ -28,11 +29,13 @@ typedef struct export_document {
     long lobes;
     int embeds;
     unsigned kinds;
+    export_effects effects;
     const char *only[EXPORT_CALLS]; /* calls that are wanted, ended by NULL; all if there is none */
 } export_document;
 
-/* The calls that can be wanted, ended by NULL: "view" ... */
+/* The calls that can be wanted, ended by NULL: "view" ... and those of a BSDF, "bsdf_sample" ... */
 const char *const *document_calls(void);
+int document_is_of_bsdf(const char *call);
 
 /* Names the table's constant after its file; 0 if that leaves no name. */
 int document_name_table(exported_table *table);

@@ -2,8 +2,8 @@
 
 /* ---- surfaces and views ---- */
 
-/* A surface whose slopes (-wm.x/wm.z, -wm.y/wm.z) are (xx xy; yx yy) u + mean, where u are slopes of the distribution:
- * the first number of a table, VNDF_GGX or VNDF_BECKMANN. */
+/* A surface whose slopes (-wm.x/wm.z, -wm.y/wm.z) are (xx xy; yx yy) u + mean, where u are slopes of the
+ * distribution: the first number of a table, VNDF_GGX or VNDF_BECKMANN. */
 typedef struct vndf_surface {
     int distribution;
     float xx, xy, yx, yy, mean_x, mean_y;
@@ -42,14 +42,25 @@ HERE affine_map matrix_of(vndf_surface m)
     return s;
 }
 
-/* wi is unit, and may be below the surface. */
-HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
+/* A view without what the distribution makes of it. */
+HERE vndf_view placed(vndf_surface m, vec3 wi)
 {
     vndf_view view;
     view.surface = m;
     view.wi = wi;
     view.at = frame_of(matrix_of(m), wi.x, wi.y, wi.z);
     view.unit_area = 0.0f;
+    /* only table */
+    if (m.distribution >= 0)
+        view.t = table_at(m.distribution);
+    /* end */
+    return view;
+}
+
+/* wi is unit, and may be below the surface. */
+HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
+{
+    vndf_view view = placed(m, wi);
     /* only ggx */
     if (m.distribution == VNDF_GGX)
         view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
@@ -61,7 +72,6 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
     /* only table */
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
-        view.t = table_at(m.distribution);
         const table_view seen_from = table_view_of(view.t, view.at, view.below);
         view.ex = seen_from.ex;
         view.ey = seen_from.ey;
@@ -81,33 +91,35 @@ HERE float vndf_projected_area(vndf_view view)
 /* ---- given normals ---- */
 
 /* D times |det M|, of a normal of the unit problem. */
-HERE float unit_ndf(int distribution, float x, float y, float z)
+HERE float unit_ndf(vndf_view view, unit_normal n)
 {
     /* only ggx */
-    if (distribution == VNDF_GGX)
-        return ggx_p22(x, y, z);
+    if (view.surface.distribution == VNDF_GGX)
+        return ggx_p22(n.x, n.y, n.z);
     /* end */
     /* only beckmann */
-    if (distribution == VNDF_BECKMANN)
-        return beckmann_p22(x, y, z);
+    if (view.surface.distribution == VNDF_BECKMANN)
+        return beckmann_p22(n.x, n.y, n.z);
     /* end */
     /* only table */
-    if (distribution >= 0) {
-        table t = table_at(distribution);
-        return table_p22(t, table_given(t, x, y, z));
-    }
+    if (view.surface.distribution >= 0)
+        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z));
     /* end */
     return 0.0f;
+}
+
+/* D of the surface of a view. */
+HERE float placed_ndf(vndf_view view, vec3 wm)
+{
+    if (!(wm.z >= 0.0f))
+        return 0.0f;
+    return least(unit_ndf(view, frame_normal(view.at, wm.x, wm.y, wm.z)) / view.at.determinant, 3.4028234e38f);
 }
 
 /* D(wm) per steradian; wm is unit, here and below. */
 HERE float vndf_ndf(vndf_surface m, vec3 wm)
 {
-    frame at = frame_of(matrix_of(m), 0.0f, 0.0f, 1.0f);
-    unit_normal n = frame_normal(at, wm.x, wm.y, wm.z);
-    if (!(wm.z >= 0.0f))
-        return 0.0f;
-    return least(unit_ndf(m.distribution, n.x, n.y, n.z) / at.determinant, 3.4028234e38f);
+    return placed_ndf(placed(m, vec3(0.0f, 0.0f, 1.0f)), wm);
 }
 
 /* The density with which vndf_sample draws wm. */
@@ -144,7 +156,7 @@ HERE float vndf_visible(vndf_view view, vec3 wm)
         return vndf_pdf(view, wm);
     if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
         return 0.0f;
-    float ndf = unit_ndf(view.surface.distribution, n.x, n.y, n.z) / view.at.determinant;
+    float ndf = unit_ndf(view, n) / view.at.determinant;
     return frame_density(view.at, ndf * (n.facing / most(view.unit_area, 1e-37f)));
 }
 
@@ -177,6 +189,38 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
     /* end */
     sampled s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};
+    return drawn_normal;
+}
+
+/* The same, and the quotient (visible density)/density: weights of estimators have it as a factor. */
+typedef struct vndf_weighed {
+    vec3 wm;
+    float pdf, weight;
+} vndf_weighed;
+
+HERE vndf_weighed vndf_sample_weight(vndf_view view, float w1, float w2)
+{
+    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
+    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
+    float weight = 1.0f;
+    /* only ggx */
+    if (view.surface.distribution == VNDF_GGX)
+        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
+    /* end */
+    /* only beckmann */
+    if (view.surface.distribution == VNDF_BECKMANN)
+        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
+    /* end */
+    /* only table */
+    if (view.surface.distribution >= 0) {
+        const table_view seen_from = {view.ex, view.ey, view.v};
+        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below);
+        n = both_drawn.n;
+        weight = both_drawn.weight;
+    }
+    /* end */
+    sampled s = frame_sampled(view.at, n);
+    const vndf_weighed drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
 
@@ -221,19 +265,23 @@ typedef struct vndf_mixture_view {
     float area;
 } vndf_mixture_view;
 
-/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. */
+/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. Loops have a constant
+ * end, so that a GPU unrolls them: what is indexed by a variable lies in local memory. */
 HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
 {
     vndf_mixture lobes = mixture;
     float largest = 1e-37f, sum = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        largest = most(largest, lobes.weight[i]);
-    for (int j = 0; j < lobes.count; j++) {
-        lobes.weight[j] = lobes.weight[j] / largest;
-        sum = sum + lobes.weight[j];
-    }
-    for (int k = 0; k < lobes.count; k++)
-        lobes.weight[k] = lobes.weight[k] / sum;
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            largest = most(largest, lobes.weight[i]);
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            lobes.weight[j] = lobes.weight[j] / largest;
+            sum = sum + lobes.weight[j];
+        }
+    for (int k = 0; k < VNDF_LOBES; k++)
+        if (k < lobes.count)
+            lobes.weight[k] = lobes.weight[k] / sum;
     return lobes;
 }
 
@@ -243,17 +291,19 @@ HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
     vndf_mixture_view view;
     view.count = lobes.count;
     view.area = 0.0f;
-    for (int i = 0; i < lobes.count; i++) {
-        view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
-        view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
-        view.area = view.area + view.share[i];
-    }
-    for (int j = 0; j < lobes.count; j++) {
-        if (view.area > 1.17549435e-38f)
-            view.share[j] = view.share[j] / view.area;
-        else
-            view.share[j] = lobes.weight[j];
-    }
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count) {
+            view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
+            view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
+            view.area = view.area + view.share[i];
+        }
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            if (view.area > 1.17549435e-38f)
+                view.share[j] = view.share[j] / view.area;
+            else
+                view.share[j] = lobes.weight[j];
+        }
     return view;
 }
 
@@ -269,8 +319,9 @@ HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
     return mixed_density(density);
 }
 
@@ -278,8 +329,9 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
     return least(density, 3.4028234e38f);
 }
 
@@ -287,20 +339,24 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
-    float before = 0.0f, density = 0.0f;
-    int chosen = 0;
-    for (int i = 0; i + 1 < lobes.count; i++)
-        if (chosen == i && u1 >= before + lobes.share[i]) {
-            before = before + lobes.share[i];
-            chosen = i + 1;
+    vndf_view chosen = lobes.lobe[0];
+    float before = 0.0f, share = lobes.share[0], density = 0.0f;
+    int at = 0;
+    for (int i = 1; i < VNDF_LOBES; i++)
+        if (at == i - 1 && i < lobes.count && u1 >= before + share) {
+            before = before + share;
+            at = i;
+            chosen = lobes.lobe[i];
+            share = lobes.share[i];
         }
-    vndf_sampled one = vndf_sample(lobes.lobe[chosen], (u1 - before) / most(lobes.share[chosen], 1e-37f), u2);
-    for (int j = 0; j < lobes.count; j++) {
-        if (j == chosen)
-            density = density + lobes.share[j] * one.pdf;
-        else
-            density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
-    }
+    vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            if (j == at)
+                density = density + lobes.share[j] * one.pdf;
+            else
+                density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
+        }
     one.pdf = mixed_density(density);
     return one;
 }
@@ -309,7 +365,8 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     float density = 0.0f;
-    for (int i = 0; i < lobes.count; i++)
-        density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < lobes.count)
+            density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
     return least(density, 3.4028234e38f);
 }

@@ -100,6 +100,7 @@ static const language languages[] = {
      .keeps_const = 1,
      .guarded = 1,
      .function = "__device__ inline ",
+     .unroll = "#pragma unroll",
      .begin = "",
      .constant = "enum { $NAME = $N };\n",
      .array = "static __device__ const float $NAME[$N] = {",

@@ -37,6 +37,7 @@ typedef struct language {
     int guarded;          /* #ifndef around all, since files include one another */
     int indents;          /* as Python does: no braces, no types */
     const char *function; /* before the type of a function */
+    const char *unroll;   /* a line before loops with a constant end; NULL: none */
     const char *zero;     /* what a struct $ is before its members are set, where that must be said */
     const char *begin;    /* after the first comment */
     const char *constant; /* declares the whole number $NAME, which is $N */

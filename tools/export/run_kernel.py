@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs a kernel that `vndf export` wrote (prefix vndf) on whatever runs its language here: for the tests of tests/export.
 
-    run_kernel.py LANGUAGE KERNEL QUESTIONS ANSWERS [--buffer RAW]
+    run_kernel.py LANGUAGE KERNEL QUESTIONS ANSWERS [--buffer RAW] [--bsdf EFFECTS]
 
-LANGUAGE is opencl, glsl, hlsl, wgsl or cuda. QUESTIONS are records of twelve floats, ANSWERS of sixteen: tests/export/
-exported.h says which. --buffer says that the kernel fetches its numbers, from RAW.
+LANGUAGE is opencl, glsl, hlsl, wgsl or cuda. QUESTIONS are records of twelve floats, of a BSDF sixteen, ANSWERS of
+sixteen: tests/export/exported.h says which. --buffer says that the kernel fetches its numbers, from RAW; --bsdf that it
+is a BSDF, exported with these effects.
 
 Needs numpy, and pyopencl for OpenCL, moderngl with EGL for GLSL, glslangValidator and wgpu for HLSL, wgpu for WGSL,
 nvcc and a GPU for CUDA. Exit status 77, and a line "SKIPPED: why" on stderr, where something is absent."""
@@ -16,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-QUESTION, ANSWER = 12, 16
+ANSWER = 16
 
 
 def skip(why):
@@ -34,7 +35,7 @@ def module(name):
 # ---- what is asked, in each language ---------------------------------------------------------------
 
 # A line is "type name = value", "name = value" or a call of put(index, value). WORD(...) of these fetch numbers.
-ANSWERS = """
+SURFACE = """
     vndf_surface surface
     surface.distribution = int(ask(0))
     surface.xx = ask(1)
@@ -44,6 +45,8 @@ ANSWERS = """
     surface.mean_x = ask(5)
     surface.mean_y = ask(6)
     vec3 wi = vec3(ask(7), ask(8), ask(9))
+"""
+NORMALS = SURFACE + """
     vndf_view view = vndf_view_of(surface, wi)
     vndf_sampled drawn = vndf_sample(view, ask(10), ask(11))
     put(0, drawn.wm.x)
@@ -75,35 +78,80 @@ ANSWERS = """
     put(14, mixed.pdf)
     put(15, vndf_mixture_pdf(lobes, mixed.wm))
 """
-FETCHING = ("view_of", "sample", "pdf", "visible", "ndf", "lambda", "g1", "g2", "mixture_view_of", "mixture_sample",
+# Optics that the effects have, and a line for each.
+OPTICS = {
+    "indexed": "material.eta = 1.5",
+    "schlick": "material.f0 = vec3(0.0, 0.04, 0.9)",
+    "conductor": "material.conductor_eta = vec3(0.2, 0.9, 1.5)\n material.conductor_k = vec3(3.9, 2.4, 1.9)",
+}
+BSDF = SURFACE + """
+    vndf_material material
+    material.surface = surface
+OPTICS
+    vndf_bsdf bsdf = vndf_bsdf_of(material, wi)
+    vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(ask(10), ask(11), ask(12)))
+    put(0, s.wo.x)
+    put(1, s.wo.y)
+    put(2, s.wo.z)
+    put(3, s.weight.x)
+    put(4, s.weight.y)
+    put(5, s.weight.z)
+    put(6, s.pdf)
+    put(7, float(s.lobe))
+    vec3 wo = vec3(ask(13), ask(14), ask(15))
+    vec3 f = vndf_bsdf_eval(bsdf, wo)
+    put(8, f.x)
+    put(9, f.y)
+    put(10, f.z)
+    put(11, vndf_bsdf_pdf(bsdf, wo))
+    vec3 own = vndf_bsdf_eval(bsdf, s.wo)
+    put(12, own.x)
+    put(13, own.y)
+    put(14, own.z)
+    put(15, vndf_bsdf_pdf(bsdf, s.wo))
+"""
+
+
+def asked_of(effects):
+    """The lines, and how many numbers a question has."""
+    if effects is None:
+        return NORMALS, 12
+    has = [word for word in ("schlick", "conductor") if "fresnel=" + word in effects]
+    if "dielectric" in effects or "lobes=both" in effects or "lobes=transmission" in effects:
+        has.append("indexed")
+    return BSDF.replace("OPTICS", "\n".join(OPTICS[word] for word in has)), 16
+
+
+FETCHING = ("bsdf_of", "bsdf_sample", "bsdf_eval", "bsdf_pdf", "view_of", "sample", "pdf", "visible", "ndf", "lambda", "g1", "g2", "mixture_view_of", "mixture_sample",
             "mixture_pdf")
-C_NAMES = {"vec3(": "(float3)(", "int(": "(int)("}
+C_NAMES = {"vec3(": "(float3)(", "int(": "(int)(", "float(": "(float)("}
 NAMES = {
     "opencl": C_NAMES,
     "cuda": {"vec3(": "make_float3(", "vec3 ": "float3 "},
     "glsl": {},
     "hlsl": {"vec3(": "float3(", "vec3 ": "float3 "},
-    "wgsl": {"vec3(": "vec3<f32>(", "int(": "i32("},
+    "wgsl": {"vec3(": "vec3<f32>(", "int(": "i32(", "float(": "f32("},
 }
 NAMES["opencl"]["vec3 "] = "float3 "
 
 
-def body(language, by_pointer):
-    """The statements of ANSWERS."""
+def body(language, by_pointer, effects):
+    """The statements."""
     lines = []
-    for line in ANSWERS.split("\n"):
+    text, size = asked_of(effects)
+    for line in text.split("\n"):
         line = line.strip()
         if not line:
             continue
         if line.startswith("put("):
             index, value = line[4:-1].split(", ", 1)
             line = f"result[{ANSWER} * i + {index}] = {value}"
-        elif language == "wgsl" and not line.split(" ")[0].startswith(("surface.", "mixture.")):
+        elif language == "wgsl" and not line.split(" ")[0].startswith(("surface.", "mixture.", "material.")):
             kind, rest = line.split(" ", 1)
             name = rest.split(" ", 1)[0]
             line = f"var {name}: {kind.replace('vec3', 'vec3<f32>')}" + rest[len(name):]
-        for index in range(QUESTION):
-            line = line.replace(f"ask({index})", f"asked[{QUESTION} * i + {index}]")
+        for index in range(size):
+            line = line.replace(f"ask({index})", f"asked[{size} * i + {index}]")
         for old, new in NAMES[language].items():
             line = line.replace(old, new)
         if by_pointer:
@@ -189,11 +237,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>)
 }
 
 
-def source_of(language, kernel, fetches):
+def source_of(language, kernel, fetches, effects):
     by_pointer = fetches and language in ("opencl", "cuda")
     qualifier = "__global const float *numbers, " if language == "opencl" else "const float *numbers, "
     main = MAIN[language].format(numbers=qualifier if by_pointer else "", given="n, " if by_pointer else "",
-                                 body=body(language, by_pointer))
+                                 body=body(language, by_pointer, effects))
     return ("#version 430\n" if language == "glsl" else "") + kernel + main
 
 
@@ -336,15 +384,15 @@ DEVICES = {"opencl": OpenCL, "glsl": GL, "hlsl": hlsl, "wgsl": WebGPU, "cuda": C
 
 # ---- work ------------------------------------------------------------------------------------------
 
-def answers(device, questions, to):
-    numpy = module("numpy")
+def answers(device, questions, to, effects):
+    numpy, size = module("numpy"), asked_of(effects)[1]
     asked = numpy.fromfile(questions, "<f4")
-    count = asked.size // QUESTION
-    padded = numpy.zeros(-(-count // 64) * 64 * QUESTION, "<f4")
+    count = asked.size // size
+    padded = numpy.zeros(-(-count // 64) * 64 * size, "<f4")
     padded[:asked.size] = asked
-    padded[asked.size:] = numpy.resize(asked[:QUESTION], padded.size - asked.size)
-    result = numpy.zeros(padded.size // QUESTION * ANSWER, "<f4")
-    device.run(padded, result, padded.size // QUESTION)
+    padded[asked.size:] = numpy.resize(asked[:size], padded.size - asked.size)
+    result = numpy.zeros(padded.size // size * ANSWER, "<f4")
+    device.run(padded, result, padded.size // size)
     result[:count * ANSWER].tofile(to)
 
 
@@ -355,14 +403,15 @@ def main():
     parser.add_argument("questions")
     parser.add_argument("answers")
     parser.add_argument("--buffer")
+    parser.add_argument("--bsdf")
     given = parser.parse_args()
     numpy = module("numpy")
     numbers = None if given.buffer is None else numpy.fromfile(given.buffer, "<f4")
     with open(given.kernel) as file:
         kernel = file.read()
-    device = DEVICES[given.language](source_of(given.language, kernel, numbers is not None), numbers)
+    device = DEVICES[given.language](source_of(given.language, kernel, numbers is not None, given.bsdf), numbers)
     print(f"{given.language} on {device.name}", file=sys.stderr)
-    answers(device, given.questions, given.answers)
+    answers(device, given.questions, given.answers, given.bsdf)
 
 
 main()

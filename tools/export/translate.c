@@ -247,7 +247,8 @@ static const char *put_call(writer *w, const word *name)
 static void put_number(const writer *w, const word *number)
 {
     int hex = number->length > 1 && (number->text[1] == 'x' || number->text[1] == 'X');
-    if (hex && (memchr(number->text, 'p', number->length)))
+    int rounded = !hex && memchr(number->text, '.', number->length) && number->text[number->length - 1] != 'f';
+    if (rounded || (hex && (memchr(number->text, 'p', number->length)))) /* of doubles too: all is float */
         fprintf(w->to, w->t->to->indents ? "%.9g" : "%.9gf", strtod(number->text, NULL));
     else
         fprintf(w->to, "%.*s",
@@ -401,7 +402,8 @@ static void put_field(writer *w, const field *f, int ends)
         fputs(f->count.length ? ": array<" : ": ", w->to);
         put_type(w, &f->type);
         fputs(f->count.length ? ", " : "", w->to);
-        put_range(w, (range){f->count.text, f->count.text + f->count.length});
+        if (f->count.length)
+            put_range(w, (range){f->count.text, f->count.text + f->count.length});
         fputs(f->count.length ? ">" : "", w->to);
     } else {
         if (f->begins)
@@ -702,11 +704,23 @@ static void put_line_end(writer *w)
     w->at = next.kind == WORD_LINE ? next.text + 1 : next.text;
 }
 
+/* Whether a loop, from its bracket on, ends at one of VNDF_. */
+static int ends_constant(const char *open)
+{
+    const char *from = words_end(words_end(open + 1, ";") + 1, "<") + 1;
+    word end = word_solid(from);
+    return end.kind == WORD_NAME && has_prefix(&end, "VNDF_");
+}
+
 static void put_statement(writer *w)
 {
     put_between(w);
     word first = word_solid(w->at), second = after(&first);
     put_indent(w);
+    if (word_is(&first, "for") && w->t->to->unroll && ends_constant(after(&first).text)) {
+        fprintf(w->to, "%s\n", w->t->to->unroll);
+        put_indent(w);
+    }
     if (word_is(&first, "if")) {
         put_if(w);
         if (w->t->to->indents)

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "bsdf/terms/beta.h"
-#include "bsdf/terms/fresnel.h"
+#include "bsdf/wide.h"
+#include "math/vector.h"
 #include "sampler/sampler.h"
 
 /* ---- rules --------------------------------------------------------------------------------------- */
@@ -102,12 +102,12 @@ static double reflected_whole(const ring *g, double w)
 
 static double reflected_part(const ring *g, double w)
 {
-    return reflected_whole(g, w) * vndf_dielectric(w / g->length, g->eta);
+    return reflected_whole(g, w) * dielectric(w / g->length, g->eta);
 }
 
 static double transmitted_part(const ring *g, double w)
 {
-    double facing = w / g->length, square = vndf_refracted_square(facing, g->eta);
+    double facing = w / g->length, square = refracted_square(facing, g->eta);
     if (!(square > 0.0) || !(g->cosine > 0.0) || !(w > 0.0))
         return 0.0;
     double beyond = sqrt(square), cos_o = g->cosine / g->eta + (beyond - facing / g->eta) / g->length;
@@ -115,8 +115,8 @@ static double transmitted_part(const ring *g, double w)
     if (!(cos_o > 0.0))
         return 0.0;
     cos_o = cos_o < 1.0 ? cos_o : 1.0;
-    return w / g->cosine * (1.0 - vndf_dielectric_at(facing, beyond, g->eta)) *
-           vndf_beta(i > 1.0 ? i : 1.0, 1.0 + area_below(g, cos_o) / cos_o);
+    return w / g->cosine * (1.0 - dielectric_at(facing, beyond, g->eta)) *
+           beta_of(i > 1.0 ? i : 1.0, 1.0 + area_below(g, cos_o) / cos_o);
 }
 
 /* Over azimuths whose cosines run from `from` down to `to`, on one side of a right angle. */

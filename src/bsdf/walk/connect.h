@@ -11,30 +11,6 @@
 
 #include "bsdf/walk/path.h"
 
-/* The microfacet between two directions. */
-typedef struct vndf_walk_half {
-    vndf_vec3 wm;
-    double cosine, jacobian; /* v.wm; dwm/do */
-} vndf_walk_half;
-
-/* v + o, or eta o - v, which is summed so that it keeps its digits where eta is near 1: there an error of a length
- * matters, so both lengths are made 1. 0 if no microfacet sends v to o. */
-VNDF_INLINE int vndf_walk_half_of(vndf_vec3 v, vndf_vec3 o, double eta, int across, vndf_walk_half *half)
-{
-    double iv = 1.0 / sqrt(vndf_walk_dot(v, v)), io = 1.0 / sqrt(vndf_walk_dot(o, o)),
-           rise = across ? eta - 1.0 : 0.0;
-    double side = across ? -1.0 : 1.0, vx = v.x * iv, vy = v.y * iv, vz = v.z * iv;
-    double ox = o.x * io, oy = o.y * io, oz = o.z * io;
-    double x = rise * ox + (ox + side * vx), y = rise * oy + (oy + side * vy), z = rise * oz + (oz + side * vz);
-    double square = x * x + y * y + z * z,
-           per = square > 0.0 ? copysign(1.0 / sqrt(square), across ? rise : 1.0) : 0.0;
-    double cosine = (vx * x + vy * y + vz * z) * per, beyond = (ox * x + oy * y + oz * z) * per;
-    half->wm = vndf_vec3_of((float)(x * per), (float)(y * per), (float)(z * per));
-    half->cosine = cosine;
-    half->jacobian = across ? eta * eta * beyond * (per * per) : 0.25 / cosine;
-    return cosine > 0.0 && beyond > 0.0;
-}
-
 /* For one event and one direction. */
 typedef struct vndf_walk_scattered {
     double value[VNDF_WAVELENGTHS]; /* of the wavelengths, per steradian; */
@@ -45,13 +21,15 @@ typedef struct vndf_walk_scattered {
 VNDF_INLINE int vndf_walk_scatter(const vndf_walk *walk, const vndf_view *view, vndf_vec3 v, double eta,
                                   vndf_vec3 o, int across, vndf_walk_scattered *s)
 {
-    vndf_walk_half half;
-    if (!vndf_walk_half_of(v, o, eta, across, &half))
+    event e = across ? refracting(vndf_direction(v), vndf_direction(o), eta)
+                     : reflecting(vndf_direction(v), vndf_direction(o));
+    if (!e.met)
         return 0;
-    double density = (double)vndf_visible(view, half.wm) * half.jacobian;
+    vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
+    double density = (double)vndf_visible(view, wm) * e.jacobian;
     if (!(density > 0.0))
         return 0;
-    double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, half.cosine, eta, f);
+    double f[VNDF_WAVELENGTHS], mean = vndf_walk_reflectances(walk, e.facing, eta, f);
     for (int i = 0; i < walk->material->is.wavelengths; i++)
         s->value[i] = density * (across ? 1.0 - f[i] : f[i]);
     s->drawn = density * (!walk->transmits ? 1.0 : across ? 1.0 - mean : mean);

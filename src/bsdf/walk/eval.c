@@ -11,7 +11,6 @@
  *
  * turns the two contributions of a path into half their harmonic mean: a narrow lobe at one end makes no spike, unless
  * both walks meet it. */
-#include "bsdf/terms/beta.h"
 #include "bsdf/walk/connect.h"
 
 /* One end of the paths, turned up. */
@@ -55,7 +54,7 @@ static void add_single(const end *from, const end *to, double *value)
     if (!vndf_walk_scatter(&from->walk, &from->view, from->up, from->walk.eta, to->up, to->beyond, &s))
         return;
     double a = 1.0 + from->lambda;
-    double leaving = to->beyond ? a * vndf_beta(a, 1.0 + to->lambda) : a / (a + to->lambda);
+    double leaving = to->beyond ? a * beta_of(a, 1.0 + to->lambda) : a / (a + to->lambda);
     for (int i = 0; i < from->walk.material->is.wavelengths; i++)
         value[i] += s.value[i] * leaving;
 }

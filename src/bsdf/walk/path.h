@@ -73,7 +73,7 @@ VNDF_INLINE double vndf_walk_reflectances(const vndf_walk *walk, double cosine, 
             f[i] = 1.0;
         return 1.0;
     }
-    m->fresnel->reflectance(&m->is, cosine, eta, f);
+    vndf_reflectance(m, cosine, eta, f);
     return vndf_mean_of(m, f);
 }
 

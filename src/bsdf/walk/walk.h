@@ -27,7 +27,7 @@
 #ifndef VNDF_BSDF_WALK_WALK_H
 #define VNDF_BSDF_WALK_WALK_H
 
-#include "bsdf/routines.h"
+#include "bsdf/bsdf.h"
 
 /* With an index ratio of 1 light meets no surface and goes straight on. */
 extern const vndf_routines vndf_routines_walk, vndf_routines_unbent;

@@ -4,10 +4,9 @@
  * f = b_A (1 - E_A(wi)) (1 - E_B(wo))/(pi (1 - E_avg,B)). Energy asks for a part of 1 - b_A that stays, reciprocity for
  * b_A (1 - E_avg,A) n_A^2 = b_B (1 - E_avg,B) n_B^2. Since (1 - F_avg) n^2 is the same seen from both sides, b =
  * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
-#include "bsdf/lobes/lobes.h"
+#include "bsdf/bsdf.h"
 
 #include "math/turn.h"
-#include "math/exp_log.h"
 
 static const float INVERSE_PI = 0.318309886f;
 
@@ -27,11 +26,11 @@ enum { NODES = 64 };
 void vndf_compensation_resolve(vndf_material *m)
 {
     double f[VNDF_WAVELENGTHS], sum[VNDF_WAVELENGTHS] = {0.0};
-    m->fresnel->reflectance(&m->is, 1.0, m->is.eta, f);
+    vndf_reflectance(m, 1.0, m->is.eta, f);
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance0[i] = (float)f[i];
     for (int n = 0; n < NODES; n++) {
-        m->fresnel->reflectance(&m->is, sqrt((n + 0.5) / NODES), m->is.eta, f);
+        vndf_reflectance(m, sqrt((n + 0.5) / NODES), m->is.eta, f);
         for (int i = 0; i < m->is.wavelengths; i++)
             sum[i] += f[i] / NODES;
     }

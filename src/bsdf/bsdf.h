@@ -1,0 +1,158 @@
+/* What the files of this room share. A material is resolved to routines made for its set of effects, called
+ * through pointers; at a hit no code asks whether an effect is wanted. The mathematics is kernel/lobes.h and
+ * kernel/fresnel.h.
+ *
+ * The frame of a hit is turned about the origin, w to -w, where wi is below the mean plane: facets are then seen
+ * from their other side, and their slopes stay what they are. So wi is above that plane, and the normal of a
+ * microfacet, on the side of wi, has wm.z >= 0. Light that goes to above the plane is reflected, to below it
+ * transmitted. With primes for projections on the plane, w' = w.z - w.mean, A for projected areas and G = G2/(wi'
+ * wo'),
+ *
+ *     reflection      f n.z = F G D/4
+ *     transmission    f n.z = (1 - F) G D (wi.wm) dwm/dwo, over r^2 for radiance.
+ *
+ * Below the plane the size of wo' counts, and the area is that of the surface from its other side, A(-wo). */
+#ifndef VNDF_BSDF_BSDF_H
+#define VNDF_BSDF_BSDF_H
+
+#include "bsdf/wide.h"
+#include "math/vector.h"
+#include "sampler/sampler.h"
+#include "vndf_bsdf.h"
+
+/* ---- routines of a material ---- */
+
+typedef struct vndf_routines {
+    /* completes a hit; NULL: nothing is missing */
+    void (*prepare)(vndf_bsdf *bsdf);
+    void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
+    /* the value of each wavelength and the density; either may be NULL */
+    void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
+    /* `sample` after a normal was drawn with u[0] and u[1]; NULL if it draws more than that */
+    void (*scatter)(const vndf_bsdf *bsdf, const vndf_drawn_normal *normal, float u3, vndf_scattered *scattered);
+} vndf_routines;
+
+/* How the normals of one surface are drawn; mixtures have visible normals alone. */
+typedef struct vndf_normals_routine {
+    vndf_drawn_normal (*draw)(const vndf_view *view, float u1, float u2);
+    float (*pdf)(const vndf_view *view, vndf_vec3 wm);
+} vndf_normals_routine;
+
+/* Reflectances at a microfacet, facing = wi.wm and rest = 1 - facing. */
+typedef struct vndf_fresnel_routine {
+    void (*reflectance)(const vndf_description *is, double facing, double rest, double eta,
+                        double f[VNDF_WAVELENGTHS]);
+} vndf_fresnel_routine;
+
+/* G, which stays finite where the cosines vanish. */
+typedef struct vndf_masking_routine {
+    double (*reflection)(const vndf_bsdf *bsdf, const event *e);
+    double (*transmission)(const vndf_bsdf *bsdf, const event *e);
+} vndf_masking_routine;
+
+/* One scattering event (single.c). */
+const vndf_normals_routine *vndf_normals_of(const vndf_effects *effects);
+const vndf_fresnel_routine *vndf_fresnel_of(const vndf_effects *effects);
+const vndf_masking_routine *vndf_masking_of(const vndf_effects *effects);
+const vndf_routines *vndf_single_of(const vndf_effects *effects);
+
+/* Reflected light goes to where the half turn about z takes it (single.c). */
+extern const vndf_routines vndf_routines_retro;
+
+/* The energy that single scattering loses, given back from a table of albedos; what that takes of a material
+ * (compensated.c). */
+extern const vndf_routines vndf_routines_turquin, vndf_routines_kulla_conty;
+void vndf_compensation_resolve(vndf_material *material);
+
+/* Scatters nothing, in so many wavelengths, 0 being 3: a wrong description resolves to it, and a hit that sees no
+ * surface has it. */
+extern const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1];
+
+/* Whether single scattering is compensated. */
+VNDF_INLINE int vndf_compensates(const vndf_effects *e)
+{
+    return e->scattering == VNDF_SCATTERING_TURQUIN || e->scattering == VNDF_SCATTERING_KULLA_CONTY;
+}
+
+/* Whether the numbers and the combination of effects make sense; else an error that names what does not. */
+vndf_status vndf_description_check(const vndf_description *is, vndf_error *error);
+
+/* The surface of a roughness; 0 if it is none. */
+int vndf_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
+
+/* ---- a hit: one surface, level or tilted, or a mixture ---- */
+
+/* Kinds of vndf_hit_view. */
+enum { VNDF_HIT_LEVEL, VNDF_HIT_TILTED, VNDF_HIT_MIXTURE };
+
+VNDF_INLINE float vndf_hit_ndf(const struct vndf_hit_view *v, vndf_vec3 wm)
+{
+    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_ndf(&v->of.mixture, wm) : vndf_view_ndf(&v->of.one, wm);
+}
+
+/* A(w). */
+VNDF_INLINE float vndf_hit_area(const struct vndf_hit_view *v, vndf_vec3 w)
+{
+    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_area(&v->of.mixture, w) : vndf_view_area(&v->of.one, w);
+}
+
+/* w'. */
+VNDF_INLINE float vndf_hit_cosine(const struct vndf_hit_view *v, vndf_vec3 w)
+{
+    if (v->kind == VNDF_HIT_LEVEL)
+        return w.z;
+    return v->kind == VNDF_HIT_MIXTURE ? vndf_mixture_view_cosine(&v->of.mixture, w)
+                                       : vndf_view_cosine(&v->of.one, w);
+}
+
+/* ---- small steps ---- */
+
+VNDF_INLINE direction vndf_direction(vndf_vec3 w)
+{
+    const direction d = {(double)w.x, (double)w.y, (double)w.z};
+    return d;
+}
+
+/* To the frame of the hit, and back. */
+VNDF_INLINE vndf_vec3 vndf_turned(vndf_vec3 w, float side)
+{
+    return vndf_vec3_of(side * w.x, side * w.y, side * w.z);
+}
+
+/* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
+VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
+{
+    float square = vndf_dot(w, w);
+    return 0.25f < square && square < 4.0f;
+}
+
+VNDF_INLINE void vndf_reflectance(const vndf_material *m, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+{
+    double c = cosine < 1.0 ? cosine : 1.0;
+    m->fresnel->reflectance(&m->is, c, 1.0 - c, eta, f);
+}
+
+/* The part of the samples that is reflected: the mean over the wavelengths. */
+VNDF_INLINE double vndf_mean_of(const vndf_material *m, const double f[VNDF_WAVELENGTHS])
+{
+    double sum = f[0];
+    for (int i = 1; i < m->is.wavelengths; i++)
+        sum += f[i];
+    return sum * m->per_wavelength;
+}
+
+VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
+{
+    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
+    *s = none;
+}
+
+VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
+{
+    for (int i = 0; value && i < b->material->is.wavelengths; i++)
+        value[i] = 0.0f;
+    if (pdf)
+        *pdf = 0.0f;
+}
+
+#endif

@@ -1,0 +1,307 @@
+/* The BSDF that `--bsdf` asks for: the calls of vndf_bsdf.h over kernel/lobes.h, with the effects that are chosen
+ * and nothing else. */
+
+/* ---- materials and hits ---- */
+
+/* A surface and its optics; indices are those beyond over that on the side of z. */
+typedef struct vndf_material {
+    vndf_surface surface;
+    /* only indexed */
+    float eta;
+    /* end */
+    /* only fresnel=schlick */
+    vec3 f0; /* reflectance at normal incidence */
+    /* end */
+    /* only fresnel=conductor */
+    vec3 conductor_eta, conductor_k; /* real and imaginary part */
+    /* end */
+} vndf_material;
+
+/* A hit. Its frame is turned about the origin where wi is below the mean plane, so that wi is above: side is -1
+ * then. */
+typedef struct vndf_bsdf {
+    vndf_material material;
+    vndf_view view;
+    float side, eta;        /* eta: index on the other side over that on the side of wi */
+    float rise, area, tilt; /* of wi: projection on the mean plane, projected area; length of (mean slope, 1) */
+} vndf_bsdf;
+
+/* w.z without a mean slope. */
+HERE float projected(vndf_surface m, vec3 w)
+{
+    return w.z - (w.x * m.mean_x + w.y * m.mean_y);
+}
+
+HERE vec3 scaled(float factor, vec3 w)
+{
+    return vec3(factor * w.x, factor * w.y, factor * w.z);
+}
+
+HERE direction direction_of(vec3 w)
+{
+    const direction d = {w.x, w.y, w.z};
+    return d;
+}
+
+HERE vec3 vector_of(direction d)
+{
+    return vec3(d.x, d.y, d.z);
+}
+
+/* wi is unit, towards the viewer. */
+HERE vndf_bsdf vndf_bsdf_of(vndf_material material, vec3 wi)
+{
+    const vndf_surface m = material.surface;
+    vndf_bsdf b;
+    b.material = material;
+    b.side = 1.0f;
+    b.eta = 1.0f;
+    /* only indexed */
+    b.eta = material.eta;
+    if (projected(m, wi) < 0.0f) {
+        b.side = -1.0f;
+        b.eta = 1.0f / material.eta;
+    }
+    /* end */
+    b.view = vndf_view_of(m, scaled(b.side, wi));
+    b.rise = projected(m, b.view.wi);
+    b.area = vndf_projected_area(b.view);
+    b.tilt = root(1.0f + (m.mean_x * m.mean_x + m.mean_y * m.mean_y));
+    return b;
+}
+
+/* The cosine of wo that goes with f: wo.z, or to the normal of the mean plane. */
+HERE float vndf_bsdf_cosine(vndf_bsdf b, vec3 wo)
+{
+    return projected(b.material.surface, wo) / b.tilt;
+}
+
+/* ---- terms ---- */
+
+/* Reflectances of the three wavelengths at a microfacet. */
+HERE vec3 reflectances(vndf_bsdf b, seen_cosine c)
+{
+    /* only fresnel=none */
+    return scaled(pick(less(0.0f, refracted_square(c.facing, b.eta)), 0.0f, 1.0f), vec3(1.0f, 1.0f, 1.0f));
+    /* end */
+    /* only fresnel=dielectric */
+    return scaled(dielectric(c.facing, b.eta), vec3(1.0f, 1.0f, 1.0f));
+    /* end */
+    /* only fresnel=schlick */
+    const vec3 f0 = b.material.f0;
+    float rest = c.rest;
+    /* end */
+    /* only fresnel=schlick transmits */
+    if (b.eta < 1.0f)
+        rest = refracted_rest(rest, b.eta);
+    /* end */
+    /* only fresnel=schlick */
+    return vec3(schlick(rest, f0.x), schlick(rest, f0.y), schlick(rest, f0.z));
+    /* end */
+    /* only fresnel=conductor */
+    const vec3 n = b.material.conductor_eta, k = b.material.conductor_k;
+    return vec3(conductor(c.facing, n.x, k.x), conductor(c.facing, n.y, k.y), conductor(c.facing, n.z, k.z));
+    /* end */
+}
+
+/* The part of the samples that is reflected: the mean, which is exact where all are the same. */
+HERE float mean_of(vec3 f)
+{
+    return f.x + ((f.y - f.x) + (f.z - f.x)) * 0.333333333f;
+}
+
+/* A(w) of another direction. */
+HERE float area_towards(vndf_bsdf b, direction w)
+{
+    return vndf_projected_area(vndf_view_of(b.material.surface, vector_of(w)));
+}
+
+/* G2/(cos_i cos_o) of reflection. */
+HERE float masked_reflection(vndf_bsdf b, event e)
+{
+    /* only masking=correlated */
+    return masked_by_height(b.rise, e.rise, b.area, area_towards(b, e.up));
+    /* end */
+    /* only masking=separable */
+    return masked_apart(b.area, area_towards(b, e.up));
+    /* end */
+    /* only masking=v-cavities */
+    return masked_in_cavities(b.rise, e.rise, e.facing, e.wm.z);
+    /* end */
+    /* only masking=none */
+    return 1.0f / (b.rise * e.rise);
+    /* end */
+}
+
+/* G2/(cos_i cos_o) of transmission, with what the transport asks for. */
+HERE float masked_transmission(vndf_bsdf b, event e)
+{
+    float carried = 1.0f;
+    /* only transport=radiance */
+    carried = 1.0f / (b.eta * b.eta);
+    /* end */
+    /* only masking=correlated */
+    return carried * passed_by_height(b.rise, e.rise, b.area, area_towards(b, e.up));
+    /* end */
+    /* only masking=separable */
+    return carried * masked_apart(b.area, area_towards(b, e.up));
+    /* end */
+    /* only masking=v-cavities */
+    return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);
+    /* end */
+    /* only masking=none */
+    return carried / (b.rise * e.rise);
+    /* end */
+}
+
+/* ---- samples ---- */
+
+/* wo, f |cosine of wo|/density of the three wavelengths, and the density per steradian. The lobe is 0 where the
+ * sample is lost, 1 for reflection, 2 for transmission, and 3 for what goes straight on where eta is 1, a Dirac of
+ * density 1. */
+typedef struct vndf_scattered {
+    vec3 wo, weight;
+    float pdf;
+    int lobe;
+} vndf_scattered;
+
+/* Of three uniform numbers in [0, 1] two draw the normal; the third chooses the lobe where there are two. */
+HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
+{
+    vndf_scattered s = {vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 0.0f), 0.0f, 0};
+    const vndf_weighed n = vndf_sample_weight(b.view, u.x, u.y);
+    const direction wi = direction_of(b.view.wi), wm = direction_of(n.wm);
+    const seen_cosine c = seen_cosine_of(wi, wm);
+    vec3 f = vec3(1.0f, 1.0f, 1.0f);
+    float part = 1.0f, masked = 0.0f, side = b.side;
+    event e;
+    /* only coloured */
+    f = reflectances(b, c);
+    /* end */
+    /* only lobes=reflection */
+    int reflects = 1;
+    /* end */
+    /* only lobes=transmission */
+    int reflects = 0;
+    /* end */
+    /* only lobes=both */
+    part = mean_of(f);
+    int reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
+    if (!reflects)
+        part = 1.0f - part;
+    /* end */
+    /* only reflects */
+    if (reflects)
+        e = reflected_at(wi, wm, c);
+    /* end */
+    /* only transmits */
+    if (!reflects) {
+        e = refracted_at(wi, wm, c, b.eta);
+        f = vec3(1.0f - f.x, 1.0f - f.y, 1.0f - f.z);
+        side = -side;
+    }
+    /* end */
+    e.rise = projected(b.material.surface, vector_of(e.up));
+    if (!any(e.met) || !(e.rise > 0.0f) || !(b.rise > 0.0f))
+        return s;
+    /* only reflects */
+    if (reflects)
+        masked = masked_reflection(b, e);
+    /* end */
+    /* only transmits */
+    if (!reflects)
+        masked = masked_transmission(b, e);
+    /* end */
+    s.wo = scaled(side, vector_of(e.up));
+    s.weight = scaled(masked * e.rise * (b.area * n.weight) / part, f);
+    s.pdf = least(most(n.pdf * e.jacobian * part, 1.17549435e-38f), 3.4028234e38f);
+    s.lobe = 2 - reflects;
+    /* only transmits */
+    if (!reflects && b.eta == 1.0f) {
+        s.pdf = 1.0f;
+        s.lobe = 3;
+    }
+    /* end */
+    /* only reflection=retro */
+    if (reflects)
+        s.wo = vec3(-s.wo.x, -s.wo.y, s.wo.z);
+    /* end */
+    return s;
+}
+
+/* ---- values and densities ---- */
+
+/* The microfacet between wi and wo, and whether it reflects. */
+typedef struct meeting {
+    event e;
+    int reflects;
+} meeting;
+
+HERE meeting meeting_of(vndf_bsdf b, vec3 given)
+{
+    const direction wi = direction_of(b.view.wi);
+    vec3 wo = scaled(b.side, given);
+    meeting m;
+    /* only reflection=retro */
+    if (wo.z > 0.0f)
+        wo = vec3(-wo.x, -wo.y, wo.z);
+    /* end */
+    const float rise = projected(b.material.surface, wo);
+    m.reflects = pick_whole(less(0.0f, rise), 1, 0);
+    m.e.met = less(rise, rise); /* no */
+    /* only reflects */
+    if (rise > 0.0f) {
+        m.e = reflecting(wi, direction_of(wo));
+        m.e.rest = reflecting_rest(m.e, wi, direction_of(wo));
+    }
+    /* end */
+    /* only transmits */
+    if (rise < 0.0f)
+        m.e = refracting(wi, direction_of(scaled(-1.0f, wo)), b.eta);
+    /* end */
+    m.e.rise = size(rise);
+    m.e.met = both(m.e.met, less(0.0f, b.rise));
+    return m;
+}
+
+/* f of the three wavelengths, without the cosine. */
+HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
+{
+    const meeting m = meeting_of(b, wo);
+    vec3 f = vec3(1.0f, 1.0f, 1.0f);
+    float masked = 0.0f;
+    if (!any(m.e.met))
+        return vec3(0.0f, 0.0f, 0.0f);
+    /* only coloured */
+    const seen_cosine c = {m.e.facing, m.e.rest};
+    f = reflectances(b, c);
+    /* end */
+    /* only reflects */
+    if (m.reflects)
+        masked = masked_reflection(b, m.e);
+    /* end */
+    /* only transmits */
+    if (!m.reflects) {
+        masked = masked_transmission(b, m.e);
+        f = vec3(1.0f - f.x, 1.0f - f.y, 1.0f - f.z);
+    }
+    /* end */
+    const float ndf = placed_ndf(b.view, vector_of(m.e.wm));
+    return scaled(b.tilt * ndf * m.e.facing * m.e.jacobian * masked, f);
+}
+
+/* The density per steradian with which vndf_bsdf_sample draws wo. */
+HERE float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
+{
+    const meeting m = meeting_of(b, wo);
+    float part = 1.0f;
+    if (!any(m.e.met))
+        return 0.0f;
+    /* only lobes=both */
+    const seen_cosine c = {m.e.facing, m.e.rest};
+    part = mean_of(reflectances(b, c));
+    if (!m.reflects)
+        part = 1.0f - part;
+    /* end */
+    return least(part * (vndf_pdf(b.view, vector_of(m.e.wm)) * m.e.jacobian), 3.4028234e38f);
+}
