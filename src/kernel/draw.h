@@ -6,14 +6,6 @@
 
 #include "kernel/law.h"
 
-/* `cell` is that of rho. */
-HERE seen table_see(table t, real s, real c, real rho, whole cell, const int below)
-{
-    if (below)
-        return law_see_below(t, s, c, rho, cell);
-    return law_see_above(t, s, c, rho, cell);
-}
-
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
 typedef struct aim {
     weights w;
@@ -44,11 +36,23 @@ HERE whole table_within(table t, seen v, aim a, whole i)
     return least_whole(most_whole(i, first), last);
 }
 
-HERE whole table_find(table t, seen v, aim a, const int below)
+/* The cell of the slope, and the law beyond its knot. */
+typedef struct reached {
+    whole i;
+    real beyond;
+} reached;
+
+HERE reached table_find(table t, seen v, aim a, const int below)
 {
-    if (below)
-        return law_find_below(t, v, a.left);
-    return table_within(t, v, a, find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left));
+    reached r;
+    if (below) {
+        r.i = law_find_below(t, v, a.left);
+        r.beyond = law_beyond(t, v, r.i);
+    } else {
+        r.i = table_within(t, v, a, find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left));
+        r.beyond = law_sum(a.w, look(t, VNDF_TAIL, r.i));
+    }
+    return r;
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -57,19 +61,17 @@ typedef struct found {
     real before;
 } found;
 
-HERE found table_cell(table t, seen v, aim a, whole i, const int below)
+HERE found table_cell(table t, seen v, aim a, reached r, const int below)
 {
     found f;
-    quad tail = look(t, VNDF_TAIL, i);
+    f.before = r.beyond - a.left;
     if (below) {
-        f.at = law_cell_below(t, v, i);
-        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
-        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        f.before = pick(at_most(to_real(i), to_real(v.cell)), a.at, sum - a.left);
-        return f;
+        f.at = law_cell_below(t, v, r.i);
+        f.before = pick(at_most(to_real(r.i), to_real(v.cell)), a.at, f.before);
+    } else {
+        f.at = law_cell_above(t, v, a.w, r.i);
+        f.before = pick(same(r.i, 0), a.at, f.before);
     }
-    f.at = law_cell_above(t, v, a.w, i);
-    f.before = pick(same(i, 0), a.at, law_sum(a.w, tail) - a.left);
     return f;
 }
 
@@ -204,13 +206,11 @@ HERE pair table_invert(table t, seen v, given g, real x, real y, const int below
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.across, g.up, g.per);
     real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
-    quad tail = look(t, VNDF_TAIL, i);
     real sum = before;
-    if (below) {
-        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
-        real beyond = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        sum = pick(at_most(to_real(i), to_real(v.cell)), before, (v.total - beyond) + before);
-    } else {
+    if (below)
+        sum = pick(at_most(to_real(i), to_real(v.cell)), before, (v.total - law_beyond(t, v, i)) + before);
+    else {
+        quad tail = look(t, VNDF_TAIL, i);
         mask near = less(to_real(i), to_real(v.first));
         sum = pick(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);
         sum = pick(same(i, 0), before, sum);

@@ -84,32 +84,31 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-/* `cell` is that of rho. */
-HERE seen law_see_above(table t, real s, real c, real rho, whole cell)
+/* The knot where the law of k~ begins, beside the cell of rho; `square` and `under` are the parts of rho^2. */
+HERE whole law_first(table t, whole cell, real square, real under)
+{
+    real end = look(t, VNDF_KNOT, cell).d;
+    return pick_whole(at_most((end * end) * under, square), cell + 1, cell);
+}
+
+/* `cell` is that of rho. In the first cell what is beyond knot 0 is c f, which knot 1 gives, and what law_sum has. */
+HERE seen law_see_above(table t, real s, real c, real rho, whole cell, whole first)
 {
     seen v;
     v.s = s;
     v.c = c;
     v.rho = rho;
     v.cell = cell;
-    quad k = look(t, VNDF_KNOT, v.cell);
-    v.first = pick_whole(at_most(k.d, v.rho), v.cell + 1, v.cell);
+    v.first = first;
     quad tail = look(t, VNDF_TAIL, v.first);
     real reach = least(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  c * (square * square) * law_terms[n + 3]};
     v.w = law_weights_at(w, c, same(v.first, t.cells));
-    v.near = c * most(1.0f - tail.b, set(0.0f));
-    real far = law_sum(v.w, tail);
-    mask grazing = same(v.first, 0);
-    if (any(grazing)) {
-        quad second = look(t, VNDF_TAIL, v.first + 1);
-        real rest = law_sum(v.w, second), whole_first = v.w.w1 * (tail.a - second.a) + c * (tail.b - second.b);
-        far = pick(grazing, rest + whole_first, far);
-        v.near = pick(grazing, set(0.0f), v.near);
-    }
-    v.total = v.near + far;
+    real near = c * most(1.0f - tail.b, set(0.0f));
+    v.total = near + law_sum(v.w, tail);
+    v.near = pick(same(v.first, 0), set(0.0f), near);
     return v;
 }
 
@@ -180,7 +179,9 @@ HERE piece law_cell_above(table t, seen v, weights w, whole i)
     piece at = law_cell_at(t, v.s, v.c, i, k);
     w = law_weights_at(w, v.c, same(i, 0));
     real a = w.w1 * k.a, line = a + w.w0;
-    real m = ((w.w1 * more.a + w.w4 * more.b) + (line + a) * l.d) + (line * k.a + w.wq) * l.c;
+    real m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
+    if (t.moments > 3)
+        m = m + w.w4 * more.b;
     return law_cell_of(at, m, l.a * law_weight_at(t, w, at.x0, at.z0), l.b * law_weight_at(t, w, at.x1, at.z1));
 }
 
@@ -256,22 +257,30 @@ HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
     return v;
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. Rounded sums need not fall from
- * knot to knot: which knot is found depends on the order of the steps. */
-HERE whole law_step_below(table t, seen v, real left, whole i, int step)
+/* The mass beyond knot i, which is at rho or beyond it. */
+HERE real law_beyond(table t, seen v, whole i)
 {
-    whole next = least_whole(i + step, set_whole(t.cells));
-    quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
-    real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-    return pick_whole(at_most(left, sum), next, i);
+    real r = look(t, VNDF_KNOT, i).a;
+    return law_sum_below(v.w, r, most(r - v.rho, set(0.0f)), look(t, VNDF_TAIL, i), look(t, VNDF_LOW, i));
 }
 
+/* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
+ * cell is found depends on the order of the steps. */
+HERE mask law_passes(table t, seen v, whole next, real beyond, real left)
+{
+    return either(at_most(to_real(next), to_real(v.cell)),
+                  both(at_most(to_real(next), to_real(set_whole(t.cells))), at_most(left, beyond)));
+}
+
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
 HERE whole law_find_below(table t, seen v, real left)
 {
-    whole i = v.cell;
+    whole i = set_whole(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        i = law_step_below(t, v, left, i, step);
+        whole next = i + step;
+        real beyond = law_beyond(t, v, least_whole(next, set_whole(t.cells)));
+        i = pick_whole(law_passes(t, v, next, beyond, left), next, i);
         step = step / 2;
     }
     return i;

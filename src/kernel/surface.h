@@ -185,7 +185,13 @@ HERE table_view table_view_of(table t, frame f, const int below)
 {
     table_direction w = table_direction_of(f);
     whole cell = find_knot(t, w.square, w.under);
-    table_view view = {w.ex, w.ey, table_see(t, w.s, w.c, w.rho, cell, below)};
+    table_view view;
+    view.ex = w.ex;
+    view.ey = w.ey;
+    if (below)
+        view.v = law_see_below(t, w.s, w.c, w.rho, cell);
+    else
+        view.v = law_see_above(t, w.s, w.c, w.rho, cell, law_first(t, cell, w.square, w.under));
     return view;
 }
 

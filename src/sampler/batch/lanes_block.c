@@ -93,44 +93,134 @@ HERE table_direction put_direction(side *s, int g, frame f)
 
 /* ---- sides of the horizon ---- */
 
-/* Cells of slopes, by their squares. */
-HERE void find_knots(table t, int groups, const float *square, const float *under, whole *i)
+/* The knot of entry `at` of a step of searches. */
+HERE whole knot_of(table t, whole at, int level)
 {
-    for (int g = 0; g < groups; g++)
-        i[g] = begin_knot(t, load(square + g * LANES), load(under + g * LANES));
-    for (int step = t.stride / 2; step > 0; step /= 2)
-        for (int g = 0; g < groups; g++)
-            i[g] = step_knot(t, load(square + g * LANES), load(under + g * LANES), i[g], step);
+    return (at + at + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
 }
 
-HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
+/* One step: entries that follow `at`. */
+HERE whole step_slope(table t, int column, real square, real under, whole at, int level)
 {
-    whole cell[GROUPS];
-    find_knots(t, groups, s->read[SQUARE], s->read[UNDER], cell);
+    return follow(at, at_most(look_level(t, column, at, level) * under, square));
+}
+
+/* The last knots whose entry of `column`, AT_KNOT or AT_TURN, is at most the slope whose square has these
+ * parts. */
+HERE void find_slopes(table t, int groups, const int column, const float *square, const float *under, whole *i)
+{
+    for (int g = 0; g < groups; g++) {
+        real a = load(square + g * LANES), b = load(under + g * LANES);
+        whole at = set_whole(1);
+        LANES_UNROLLED
+        for (int level = 0; level < FIRST_LEVELS; level++)
+            at = step_slope(t, column, a, b, at, level);
+        i[g] = at;
+    }
+    LANES_UNROLLED
+    for (int level = FIRST_LEVELS; level < LEVELS; level++)
+        for (int g = 0; level < t.levels && g < groups; g++)
+            i[g] = step_slope(t, column, load(square + g * LANES), load(under + g * LANES), i[g], level);
+    for (int g = 0; g < groups; g++)
+        i[g] = (i[g] - (1 << t.levels)) * t.stride;
+    for (int step = t.stride / 2; step > 0; step /= 2)
+        for (int g = 0; g < groups; g++) {
+            whole next = least_whole(i[g] + step, set_whole(t.cells));
+            real r = column == AT_KNOT ? look(t, VNDF_KNOT, next).a : look(t, VNDF_KNOT, next - 1).d;
+            i[g] = pick_whole(at_most((r * r) * load(under + g * LANES), load(square + g * LANES)), next, i[g]);
+        }
+}
+
+/* What is seen of a side; v.cell is known below the horizon or for `areas`. */
+HERE void see_side(table t, int groups, const side *s, seen *v, const int areas, const int below)
+{
+    whole i[GROUPS];
+    find_slopes(t, groups, below || areas ? AT_KNOT : AT_TURN, s->read[SQUARE], s->read[UNDER], i);
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
-        v[g] = table_see(t, load(at + S * BLOCK), load(at + C * BLOCK), load(at + RHO * BLOCK), cell[g], below);
+        real sine = load(at + S * BLOCK), c = load(at + C * BLOCK), rho = load(at + RHO * BLOCK);
+        if (below)
+            v[g] = law_see_below(t, sine, c, rho, i[g]);
+        else if (areas) {
+            whole first = law_first(t, i[g], load(at + SQUARE * BLOCK), load(at + UNDER * BLOCK));
+            v[g] = law_see_above(t, sine, c, rho, i[g], first);
+        } else
+            v[g] = law_see_above(t, sine, c, rho, i[g], i[g]);
     }
+}
+
+/* law_sum, whose fourth term is 0 for fewer moments. */
+HERE real sum_beyond(table t, weights w, quad tail)
+{
+    real far = w.wq * tail.c;
+    if (t.moments > 3)
+        far = far + w.w4 * tail.d;
+    return (w.w1 * tail.a + w.w0 * tail.b) + far;
+}
+
+/* One step of a search for the cell of a sample. */
+HERE reached step_cell(table t, seen v, aim a, reached r, int level, const int below)
+{
+    const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
+    quad tail = zero, low = zero;
+    real beyond;
+    mask passes;
+    tail.c = look_level(t, AT_TQ, r.i, level);
+    if (below) {
+        real knot = look_level(t, AT_R, r.i, level);
+        low.a = look_level(t, AT_N1, r.i, level);
+        low.b = look_level(t, AT_N2, r.i, level);
+        beyond = law_sum_below(v.w, knot, most(knot - v.rho, set(0.0f)), tail, low);
+        passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
+    } else {
+        tail.a = look_level(t, AT_T1, r.i, level);
+        tail.b = look_level(t, AT_T0, r.i, level);
+        if (t.moments > 3)
+            tail.d = look_level(t, AT_T4, r.i, level);
+        beyond = sum_beyond(t, a.w, tail);
+        passes = at_most(a.left, beyond);
+    }
+    r.i = follow(r.i, passes);
+    r.beyond = pick(passes, beyond, r.beyond);
+    return r;
+}
+
+/* The same by rows: r.i is a knot. */
+HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int below)
+{
+    whole next = r.i + step, there = least_whole(next, set_whole(t.cells));
+    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, look(t, VNDF_TAIL, there));
+    mask passes = below ? law_passes(t, v, next, beyond, a.left) : at_most(a.left, beyond);
+    r.i = pick_whole(passes, there, r.i);
+    r.beyond = pick(passes, beyond, r.beyond);
+    return r;
 }
 
 /* Cells of samples. */
-HERE void find_cells(table t, int groups, const seen *v, const aim *a, whole *i, const int below)
+HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
 {
-    if (below) {
-        for (int g = 0; g < groups; g++)
-            i[g] = v[g].cell;
-        for (int step = t.highest; step > 0; step /= 2)
-            for (int g = 0; g < groups; g++)
-                i[g] = law_step_below(t, v[g], a[g].left, i[g], step);
-        return;
+    for (int g = 0; g < groups; g++) {
+        reached at = {set_whole(1), set(0.0f)};
+        LANES_UNROLLED
+        for (int level = 0; level < FIRST_LEVELS; level++)
+            at = step_cell(t, v[g], a[g], at, level, below);
+        r[g] = at;
     }
+    LANES_UNROLLED
+    for (int level = FIRST_LEVELS; level < LEVELS; level++)
+        for (int g = 0; level < t.levels && g < groups; g++)
+            r[g] = step_cell(t, v[g], a[g], r[g], level, below);
     for (int g = 0; g < groups; g++)
-        i[g] = begin_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left);
+        r[g].i = (r[g].i - (1 << t.levels)) * t.stride;
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
-            i[g] = step_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left, i[g], step);
-    for (int g = 0; g < groups; g++)
-        i[g] = table_within(t, v[g], a[g], i[g]);
+            r[g] = step_rows(t, v[g], a[g], r[g], step, below);
+    for (int g = 0; !below && g < groups; g++) {
+        whole i = table_within(t, v[g], a[g], r[g].i);
+        if (any(less_whole(i, r[g].i)) || any(less_whole(r[g].i, i)))
+            r[g].beyond = sum_beyond(t, a[g].w, look(t, VNDF_TAIL, i));
+        r[g].i = i;
+    }
 }
 
 /* The azimuths of u1. */
@@ -150,17 +240,17 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
 {
     seen v[GROUPS];
     aim a[GROUPS];
-    whole i[GROUPS];
+    reached r[GROUPS];
     found f[GROUPS];
     drawn_length d[GROUPS];
     arc k[GROUPS];
     bearing turned[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, weigh, below);
     for (int g = 0; g < groups; g++)
         a[g] = table_aim(v[g], load(s->read[GIVEN_B] + g * LANES), below);
-    find_cells(t, groups, v, a, i, below);
+    find_cells(t, groups, v, a, r, below);
     for (int g = 0; g < groups; g++)
-        f[g] = table_cell(t, v[g], a[g], i[g], below);
+        f[g] = table_cell(t, v[g], a[g], r[g], below);
     for (int g = 0; g < groups; g++)
         d[g] = table_length(t, v[g], f[g], below);
     for (int g = 0; g < groups; g++)
@@ -175,7 +265,7 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
     }
     for (int g = 0; weigh && g < groups; g++) {
         place in = law_invert(f[g].at, f[g].before);
-        real area = law_area(t, v[g]), weight = table_weight(t, v[g], i[g], f[g], in, d[g].r, k[g], area, below);
+        real area = law_area(t, v[g]), weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area, below);
         store(s->write[RESULT_E] + g * LANES, weight);
     }
 }
@@ -192,7 +282,7 @@ HERE void place_given(table t, int groups, const side *s, given *n)
         store(square + g * LANES, n[g].square);
         store(under + g * LANES, n[g].under);
     }
-    find_knots(t, groups, square, under, cell);
+    find_slopes(t, groups, AT_KNOT, square, under, cell);
     for (int g = 0; g < groups; g++)
         n[g].cell = cell[g];
 }
@@ -201,7 +291,7 @@ HERE void density_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, 0, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES,
@@ -212,7 +302,7 @@ HERE void invert_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, 0, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++) {
         real x = load(s->read[GIVEN_A] + g * LANES), y = load(s->read[GIVEN_B] + g * LANES);
@@ -225,7 +315,7 @@ HERE void invert_side(table t, int groups, side *s, const int below)
 HERE void area_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, 1, below);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES, law_area(t, v[g]));
 }
@@ -767,7 +857,7 @@ void LANES_ENTRY(const vndf_call *call)
     block b;
     b.call = call;
     if (kind == VNDF_KIND_TABLE)
-        b.t = table_of(call->distribution, &table_parts, call->count);
+        b.t = table_of(call->distribution, &table_parts);
     for (size_t first = 0; first < call->count; first += BLOCK) {
         int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
         float *to[VNDF_WRITES];
