@@ -17,10 +17,13 @@
 
 #if VNDF_LANES == 4
 #  define LANES_ENTRY vndf_lanes_4
+#  define LANES_MIXTURE vndf_mixture_lanes_4
 #elif VNDF_LANES == 8
 #  define LANES_ENTRY vndf_lanes_8
+#  define LANES_MIXTURE vndf_mixture_lanes_8
 #else
 #  define LANES_ENTRY vndf_lanes_16
+#  define LANES_MIXTURE vndf_mixture_lanes_16
 #endif
 
 enum { BLOCK = 128, GROUPS = BLOCK / LANES };
@@ -373,54 +376,64 @@ STEP void area_below(table t, int groups, side *s)
     area_side(t, groups, s, 1);
 }
 
-/* Puts those elements together that are below the horizon, or those that are not; returns how many. */
-HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, const int below)
-{
-    int count = 0;
-#if VNDF_LANES == \
-    16 /* one instruction for sixteen copies: mixed batches take 15 ns for 19. Lanes end within the row */
-    (void)some;
-    for (int g = 0; g < groups; g++) {
-        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
-        for (int r = 0; r < reads; r++) {
-            __m512 together = _mm512_maskz_compress_ps(chosen, (__m512)load(s->read[r] + g * LANES));
-            _mm512_storeu_ps(own->read[r] + count, together);
-        }
-        count += __builtin_popcount(chosen);
-    }
-#else
-    for (int i = 0; i < groups * LANES; i++) {
-        some[count] = (uint8_t)i;
-        count += (s->height[i] < 0.0f) == below;
-    }
-    for (int r = 0; r < reads; r++)
-        for (int i = 0; i < count; i++)
-            own->read[r][i] = s->read[r][some[i]];
+/* Some elements of a block, to be put together: which, how many, and in how many groups. */
+typedef struct some {
+    mask of[GROUPS];
+    int count, groups;
+#if VNDF_LANES < 16
+    uint8_t at[BLOCK];
 #endif
-    return count;
+} some;
+
+/* Counts the elements in e->of. */
+HERE void count_some(some *e, int groups)
+{
+    e->count = 0;
+    for (int g = 0; g < groups; g++) {
+#if VNDF_LANES == 16
+        e->count += __builtin_popcount(e->of[g]);
+#else
+        for (int l = 0; l < LANES; l++) {
+            e->at[e->count] = (uint8_t)(g * LANES + l);
+            e->count -= e->of[g][l];
+        }
+#endif
+    }
+    e->groups = (e->count + LANES - 1) / LANES;
 }
 
-/* Puts results back. */
-HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t *some, int count, const int below)
+/* Puts their numbers together; lanes that are left hold the first. */
+HERE void gather(const some *e, int groups, const float *from, float *to)
 {
-#if VNDF_LANES == 16
-    (void)some;
-    count = 0;
+#if VNDF_LANES == 16 /* one instruction for sixteen copies. Lanes end within the row */
+    int count = 0;
     for (int g = 0; g < groups; g++) {
-        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
-        for (int w = 0; w < writes; w++) {
-            __m512 all_of = (__m512)load(s->write[w] + g * LANES);
-            store(s->write[w] + g * LANES,
-                  (real)_mm512_mask_expand_ps(all_of, chosen, _mm512_loadu_ps(own->write[w] + count)));
-        }
-        count += __builtin_popcount(chosen);
+        _mm512_storeu_ps(to + count, _mm512_maskz_compress_ps(e->of[g], (__m512)load(from + g * LANES)));
+        count += __builtin_popcount(e->of[g]);
     }
 #else
     (void)groups;
-    (void)below;
-    for (int w = 0; w < writes; w++)
-        for (int i = 0; i < count; i++)
-            s->write[w][some[i]] = own->write[w][i];
+    for (int i = 0; i < e->count; i++)
+        to[i] = from[e->at[i]];
+#endif
+    for (int i = e->count; i < e->groups * LANES; i++)
+        to[i] = to[0];
+}
+
+/* Puts numbers back. */
+HERE void scatter(const some *e, int groups, const float *from, float *to)
+{
+#if VNDF_LANES == 16
+    int count = 0;
+    for (int g = 0; g < groups; g++) {
+        __m512 before = (__m512)load(to + g * LANES);
+        store(to + g * LANES, (real)_mm512_mask_expand_ps(before, e->of[g], _mm512_loadu_ps(from + count)));
+        count += __builtin_popcount(e->of[g]);
+    }
+#else
+    (void)groups;
+    for (int i = 0; i < e->count; i++)
+        to[e->at[i]] = from[i];
 #endif
 }
 
@@ -428,13 +441,17 @@ HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t
 HERE void take_some(table t, side *s, int groups, int reads, int writes, side_step *step, const int below)
 {
     side own;
-    uint8_t some[BLOCK];
-    int count = pack(s, groups, reads, &own, some, below), padded = (count + LANES - 1) / LANES;
+    some e;
+    for (int g = 0; g < groups; g++) {
+        real height = load(s->height + g * LANES);
+        e.of[g] = below ? less(height, set(0.0f)) : at_most(set(0.0f), height);
+    }
+    count_some(&e, groups);
     for (int r = 0; r < reads; r++)
-        for (int i = count; i < padded * LANES; i++)
-            own.read[r][i] = own.read[r][0];
-    step(t, padded, &own);
-    unpack(s, groups, writes, &own, some, count, below);
+        gather(&e, groups, s->read[r], own.read[r]);
+    step(t, e.groups, &own);
+    for (int w = 0; w < writes; w++)
+        scatter(&e, groups, own.write[w], s->write[w]);
 }
 
 /* Each element by the step of its side. */
@@ -787,15 +804,16 @@ typedef struct copies {
     row read[VNDF_READS], write[VNDF_WRITES], valid[VNDF_READ_A];
 } copies;
 
-/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. */
-HERE void place_reads(block *b, size_t first, int count, copies *c)
+/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. What all elements
+ * share is copied to `fresh` copies. */
+HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
 {
     const vndf_call *call = b->call;
     for (int r = 0; r < VNDF_READS; r++) {
         const float *from = call->read[r];
         int one = !from || (call->shared >> r & 1), whole_block = count == b->groups * LANES;
         b->read[r] = !one && whole_block ? from + first : c->read[r];
-        if (one ? first > 0 : whole_block)
+        if (one ? !fresh : whole_block)
             continue;
         for (int i = 0; i < BLOCK; i++)
             c->read[r][i] = one ? (from ? *from : 0.0f) : from[first + (size_t)(i < count ? i : count - 1)];
@@ -849,31 +867,36 @@ HERE void set_valid(block *b, copies *c)
         b->read[r] = c->valid[r];
 }
 
+static void run_block(const block *b, float *const to[VNDF_WRITES])
+{
+    const vndf_kind kind = b->call->distribution->kind;
+    (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(b, to);
+}
+
 void LANES_ENTRY(const vndf_call *call)
 {
-    const vndf_kind kind = call->distribution->kind;
     table_copies table_parts;
     copies c;
     block b;
     b.call = call;
-    if (kind == VNDF_KIND_TABLE)
+    if (call->distribution->kind == VNDF_KIND_TABLE)
         b.t = table_of(call->distribution, &table_parts);
     for (size_t first = 0; first < call->count; first += BLOCK) {
         int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
         float *to[VNDF_WRITES];
         b.groups = (count + LANES - 1) / LANES;
         int in_place = count == b.groups * LANES;
-        place_reads(&b, first, count, &c);
+        place_reads(&b, first, count, first == 0, &c);
         set_valid(&b, &c);
         for (int w = 0; w < VNDF_WRITES; w++)
             to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
-        (kind == VNDF_KIND_TABLE ? block_of_table
-         : kind == VNDF_KIND_GGX ? block_of_ggx
-                                 : block_of_beckmann)(&b, to);
+        run_block(&b, to);
         for (int w = 0; !in_place && w < VNDF_WRITES; w++)
             if (call->write[w])
                 memcpy(call->write[w] + first, c.write[w], (size_t)count * sizeof(float));
     }
 }
+
+#include "sampler/batch/mixture_lanes.h"
 
 #endif
