@@ -63,11 +63,11 @@ static int hit_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_m
     *view = vndf_mixture_view_from(mixture, wi);
     if (!view->count)
         return nothing(b, material);
-    take_side(b, material, wi, view->cosine < 0.0f);
+    take_side(b, material, wi, vndf_mixture_view_cosine(view, wi) < 0.0f);
     if (b->side < 0.0f)
         *view = vndf_mixture_view_from(mixture, b->wi);
-    b->rise = view->cosine;
-    b->area = view->area;
+    b->rise = vndf_mixture_view_cosine(view, b->wi);
+    b->area = vndf_mixture_view_area(view, b->wi);
     return complete(b, material);
 }
 

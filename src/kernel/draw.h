@@ -27,12 +27,24 @@ HERE aim table_aim(seen v, real u2, const int below)
     return a;
 }
 
-/* The cell of the slope. Where sums round, it may be on the other side of `first`, at whose knot it then ends. */
-HERE whole table_find(table t, seen v, aim a, const int below)
+/* The cell of the slope, and the law beyond its knot. Where sums round, the cell may be on the other side of `first`,
+ * at whose knot the slope then is. */
+typedef struct reached {
+    whole i;
+    real beyond;
+} reached;
+
+HERE reached table_find(table t, seen v, aim a, const int below)
 {
-    if (below)
-        return law_find_below(t, v, a.left);
-    return find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
+    reached r;
+    if (below) {
+        r.i = law_find_below(t, v, a.left);
+        r.beyond = law_beyond(t, v, r.i);
+    } else {
+        r.i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
+        r.beyond = law_sum(a.w, look(t, VNDF_TAIL, r.i));
+    }
+    return r;
 }
 
 /* The place of the slope: cell and the mass before it there. */
@@ -41,19 +53,17 @@ typedef struct found {
     real before;
 } found;
 
-HERE found table_cell(table t, seen v, aim a, whole i, const int below)
+HERE found table_cell(table t, seen v, aim a, reached r, const int below)
 {
     found f;
-    quad tail = look(t, VNDF_TAIL, i);
+    f.before = r.beyond - a.left;
     if (below) {
-        f.at = law_cell_below(t, v, i);
-        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
-        real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        f.before = pick(at_most(to_real(i), to_real(v.first)), a.at, sum - a.left);
-        return f;
+        f.at = law_cell_below(t, v, r.i);
+        f.before = pick(at_most(to_real(r.i), to_real(v.first)), a.at, f.before);
+    } else {
+        f.at = law_cell_above(t, v, a.w, r.i);
+        f.before = pick(same(r.i, 0), a.at, f.before);
     }
-    f.at = law_cell_above(t, v, a.w, i);
-    f.before = pick(same(i, 0), a.at, law_sum(a.w, tail) - a.left);
     return f;
 }
 
@@ -188,13 +198,11 @@ HERE pair table_invert(table t, seen v, given g, real x, real y, const int below
     piece at = table_given_cell(t, v, i, below);
     place in = law_place(t, at, g.across, g.up, g.per);
     real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
-    quad tail = look(t, VNDF_TAIL, i);
     real sum = before;
-    if (below) {
-        quad k = look(t, VNDF_KNOT, i), low = look(t, VNDF_LOW, i);
-        real beyond = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-        sum = pick(at_most(to_real(i), to_real(v.first)), before, (v.total - beyond) + before);
-    } else {
+    if (below)
+        sum = pick(at_most(to_real(i), to_real(v.first)), before, (v.total - law_beyond(t, v, i)) + before);
+    else {
+        quad tail = look(t, VNDF_TAIL, i);
         mask near = less(to_real(i), to_real(v.first));
         sum = pick(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);
         sum = pick(same(i, 0), before, sum);

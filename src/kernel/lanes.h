@@ -2,9 +2,9 @@
  * The same names as in one.h, the same operations in the same order: the same bits. Intrinsics stand only where the
  * extensions have no word for an instruction.
  *
- * A table is read by rows of four numbers, one load a lane and a transposition. With 16 lanes, searches of small tables
- * read columns in registers instead, by permutations. A search begins with the anchors, a few knots at equal distances.
- * Columns and anchors are copies that a call makes once. */
+ * A table is read by rows of four numbers, one load a lane and a transposition. Searches begin with columns in the
+ * order of the levels of a search, and with 16 lanes all of a small table is in columns: they are in registers, which
+ * are permuted. Columns are copies that a call makes once. */
 #ifndef VNDF_KERNEL_LANES_H
 #define VNDF_KERNEL_LANES_H
 
@@ -263,17 +263,25 @@ HERE whole most_whole(whole a, whole b)
 
 /* ---- tables ---- */
 
-enum {
-    ANCHORS = VNDF_LANES == 16 ? 16 : 8, /* anchor k is knot k * stride */
-    COPIED = 128,                        /* cells of a table whose columns are copied, with 16 lanes */
-    COPIED_COUNT = 256,                  /* for so many elements or more */
-    COPIED_GROUPS = 3                    /* VNDF_KNOT, VNDF_TAIL, VNDF_LOW */
-};
-
-typedef struct table_copies {
-    float anchor[5][ANCHORS]; /* R and the four sums of VNDF_TAIL */
+/* Steps of a search in one register, and in registers; how often an entry is in its column. */
 #if VNDF_LANES == 16
-    float column[COPIED_GROUPS][4][COPIED]; /* without the last row */
+enum { FIRST_LEVELS = 4, LEVELS = 7, COPIES = 1 };
+#elif VNDF_LANES == 8
+enum { FIRST_LEVELS = 3, LEVELS = 6, COPIES = 1 };
+#else
+enum { FIRST_LEVELS = 1, LEVELS = 3, COPIES = LANES };
+#endif
+
+enum { COPIED = 128 }; /* tables of fewer cells have columns, with 16 lanes */
+
+/* What searches compare: R^2, the rho^2 from which on the law begins at the knot, R, sums beyond the knot. */
+enum { AT_KNOT, AT_R, AT_T1, AT_T0, AT_TQ, AT_T4, AT_N1, AT_N2, SEARCHED };
+
+/* Entries 2^l to 2^(l+1) - 1 of `level` are the knots that the step l of a search compares with, in ascending order. */
+typedef struct table_copies {
+    float level[SEARCHED][COPIES << LEVELS];
+#if VNDF_LANES == 16
+    float column[VNDF_GROUPS][4][COPIED];
 #endif
 } table_copies __attribute__((aligned(64)));
 
@@ -283,7 +291,8 @@ typedef struct table {
     const table_copies *copies;
     const uint16_t *first;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
-    int stride, copied;
+    int levels, stride; /* steps that `level` serves, and what is left for the others: 2^(steps - levels) */
+    int copied;         /* registers of a column in pairs: 2 or 4, 0 if there are no columns */
 } table;
 
 /* Four numbers of each lane, those of lane l from row[l] on. */
@@ -355,35 +364,32 @@ HERE whole look_first(table t, whole quarter)
 
 #if VNDF_LANES == 16
 
-/* Where the columns of a group are copied; -1 if they are not: all numbers of a cell are read at once, best by rows. */
-HERE int copied_group(int group)
+/* Entry i of 32 numbers; of 64, which bit 5 of i halves. */
+HERE real look_32(const float *c, whole i)
 {
-    return group == VNDF_KNOT ? 0 : group == VNDF_TAIL ? 1 : group == VNDF_LOW ? 2 : -1;
+    return (real)_mm512_permutex2var_ps(_mm512_load_ps(c), (__m512i)i, _mm512_load_ps(c + 16));
 }
 
-HERE real look_column(table t, int group, int n, whole i)
+HERE real look_64(const float *c, whole i)
 {
-    const float *c = t.copies->column[copied_group(group)][n];
-    const __m512i at = (__m512i)i;
-    __m512 r = _mm512_permutex2var_ps(_mm512_load_ps(c), at, _mm512_load_ps(c + 16));
-    mask odd = _mm512_test_epi32_mask(at, _mm512_set1_epi32(32));
-    r = _mm512_mask_blend_ps(odd, r, _mm512_permutex2var_ps(_mm512_load_ps(c + 32), at, _mm512_load_ps(c + 48)));
-    if (t.cells > 64) {
-        __m512 s = _mm512_permutex2var_ps(_mm512_load_ps(c + 64), at, _mm512_load_ps(c + 80));
-        s = _mm512_mask_blend_ps(odd, s,
-                                 _mm512_permutex2var_ps(_mm512_load_ps(c + 96), at, _mm512_load_ps(c + 112)));
-        r = _mm512_mask_blend_ps(_mm512_test_epi32_mask(at, _mm512_set1_epi32(64)), r, s);
-    }
-    return pick(same(i, t.cells), set(t.numbers[4 * (group * (t.cells + 1) + t.cells) + n]), (real)r);
+    mask odd = _mm512_test_epi32_mask((__m512i)i, _mm512_set1_epi32(32));
+    return pick(odd, look_32(c + 32, i), look_32(c, i));
+}
+
+HERE real look_column(table t, const float *c, whole i)
+{
+    real r = look_64(c, i);
+    if (t.copied > 2)
+        r = pick(_mm512_test_epi32_mask((__m512i)i, _mm512_set1_epi32(64)), look_64(c + 64, i), r);
+    return r;
 }
 
 HERE void copy_columns(table t, table_copies *copies)
 {
-    const int groups[COPIED_GROUPS] = {VNDF_KNOT, VNDF_TAIL, VNDF_LOW};
     const whole lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    for (int first = 0; first < (t.cells > 64 ? 128 : 64); first += 16)
-        for (int g = 0; g < COPIED_GROUPS; g++) {
-            quad q = look_rows(t, groups[g], least_whole(lanes + first, set_whole(t.cells)));
+    for (int first = 0; first < 32 * t.copied; first += 16)
+        for (int g = 0; g < VNDF_GROUPS; g++) {
+            quad q = look_rows(t, g, least_whole(lanes + first, set_whole(t.cells)));
             store(copies->column[g][0] + first, q.a);
             store(copies->column[g][1] + first, q.b);
             store(copies->column[g][2] + first, q.c);
@@ -397,144 +403,112 @@ HERE void copy_columns(table t, table_copies *copies)
 HERE quad look(table t, int group, whole i)
 {
 #if VNDF_LANES == 16
-    if (t.copied && copied_group(group) >= 0) {
-        quad q = {look_column(t, group, 0, i), look_column(t, group, 1, i), look_column(t, group, 2, i),
-                  look_column(t, group, 3, i)};
+    if (t.copied) {
+        const float(*c)[COPIED] = t.copies->column[group];
+        quad q = {look_column(t, c[0], i), look_column(t, c[1], i), look_column(t, c[2], i),
+                  look_column(t, c[3], i)};
         return q;
     }
 #endif
     return look_rows(t, group, i);
 }
 
-/* A table, and its copies for a call with `count` elements. */
-HERE table table_of(const vndf_distribution *d, table_copies *copies, size_t count)
+/* Entry `at` of the levels is knot i; a knot that is not there fails all comparisons. */
+HERE void copy_knot(table t, table_copies *copies, int at, int i)
 {
-    table t = {d->numbers + VNDF_HEAD, copies,     d->first, d->cells, d->moments,
-               d->squarings,           d->highest, d->steps, 1,        0};
-    while (ANCHORS * t.stride < t.cells)
-        t.stride *= 2;
-    for (int k = 0; k < ANCHORS; k++) {
-        int knot = k * t.stride, there = knot < t.cells;
-        const float *tail = t.numbers + 4 * (VNDF_TAIL * (t.cells + 1) + knot);
-        copies->anchor[0][k] = there ? t.numbers[4 * knot] : 3e38f; /* fails all comparisons, as sums of -1 do */
-        for (int n = 0; n < 4; n++)
-            copies->anchor[1 + n][k] = there ? tail[n] : -1.0f;
+    const float none = __builtin_inff(), *row = t.numbers + 4 * i, *tail = row + 4 * VNDF_TAIL * (t.cells + 1),
+                *low = row + 4 * VNDF_LOW * (t.cells + 1);
+    float of[SEARCHED] = {none, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
+    if (i <= t.cells) {
+        const float knot[SEARCHED] = {row[0] * row[0], row[0], tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
+        memcpy(of, knot, sizeof of);
     }
+    for (int c = 0; c < SEARCHED; c++)
+        for (int n = 0; n < COPIES; n++)
+            copies->level[c][COPIES * at + n] = of[c];
+}
+
+/* A table, and its copies for a call. */
+HERE table table_of(const vndf_distribution *d, table_copies *copies)
+{
+    table t = {d->numbers + VNDF_HEAD,
+               copies,
+               d->first,
+               d->cells,
+               d->moments,
+               d->squarings,
+               d->highest,
+               d->steps,
+               0,
+               1,
+               0};
+    t.levels = t.steps > LEVELS ? LEVELS : t.steps < FIRST_LEVELS ? FIRST_LEVELS : t.steps;
+    for (int level = t.steps; level > t.levels; level--)
+        t.stride *= 2;
+    for (int level = 0; level < t.levels; level++)
+        for (int n = 1 << level; n < 2 << level; n++)
+            copy_knot(t, copies, n, (2 * n + 1 - (2 << level)) * (t.stride << (t.levels - level - 1)));
 #if VNDF_LANES == 16
-    t.copied = t.cells <= COPIED && count >= COPIED_COUNT;
-    if (t.copied)
-        copy_columns(t, copies);
-#else
-    (void)count;
+    t.copied = t.cells < 64 ? 2 : t.cells < COPIED ? 4 : 0;
+    copy_columns(t, copies);
 #endif
     return t;
 }
 
 /* ---- searches ----
  *
- * The last knot R with R^2 under <= square, and the last knot beyond which at least `left` of the law lies, by the sums
- * of law_sum: from the anchors and the last knot on in steps that are halved. Blocks take each step for all their
- * elements before the next, since a step waits for what it looks up. */
+ * The last knot that passes: each step compares with the knot in the middle of what is left. An entry `at` of a step is
+ * followed in the next by entry 2 `at` or, if its knot passes, 2 `at` + 1. */
 
-#define VNDF_KERNEL_FINDS 1
-
-#if VNDF_LANES > 4
-
-HERE real look_anchor(table t, int n, whole k)
+HERE whole follow(whole at, mask passes)
 {
-#  if VNDF_LANES == 16
-    return (real)_mm512_permutexvar_ps((__m512i)k, _mm512_load_ps(t.copies->anchor[n]));
+#if VNDF_LANES == 16
+    return (whole)_mm512_mask_add_epi32((__m512i)(at + at), passes, (__m512i)(at + at), _mm512_set1_epi32(1));
+#else
+    return at + at - passes;
+#endif
+}
+
+#if VNDF_LANES < 16
+
+/* By bit `bit` of `at`. */
+HERE real pick_bit(whole at, int bit, real yes, real no)
+{
+#  if VNDF_LANES == 8 /* which reads signs alone */
+    return (real)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)(at << (31 - bit)));
 #  else
-    return (real)_mm256_permutevar8x32_ps(_mm256_load_ps(t.copies->anchor[n]), (__m256i)k);
+    return pick((at << (31 - bit)) >> 31, yes, no);
 #  endif
 }
 
 #endif
 
-HERE mask knot_reaches(real r, real square, real under)
+/* Entry `at` of a column, which is one of step `level`. */
+HERE real look_level(table t, int column, whole at, int level)
 {
-    return at_most((r * r) * under, square);
-}
-
-HERE whole begin_knot(table t, real square, real under)
-{
-    whole k = set_whole(0);
-#if VNDF_LANES > 4
-    for (int step = ANCHORS / 2; step > 0; step /= 2)
-        k = pick_whole(knot_reaches(look_anchor(t, 0, k + step), square, under), k + step, k);
+    const float *c = t.copies->level[column];
+#if VNDF_LANES == 16
+    if (level < 5)
+        return (real)_mm512_permutexvar_ps((__m512i)at, _mm512_load_ps(c + (level < 4 ? 0 : 16)));
+    return level == 5 ? look_32(c + 32, at) : look_64(c + 64, at);
 #else
+    enum { BITS = VNDF_LANES == 8 ? 3 : 0 }; /* of an entry's place in a register */
+    const float *first = c + (COPIES << level);
+    int registers = level > BITS ? 1 << (level - BITS) : 1, bit = BITS;
+    real r[8] = {{0}};
     LANES_UNROLLED
-    for (int n = 1; n < ANCHORS; n++)
-        k = k - knot_reaches(set(t.copies->anchor[0][n]), square, under);
-#endif
-    mask last = knot_reaches(set(t.numbers[4 * t.cells]), square, under);
-    return pick_whole(last, set_whole(t.cells), k * t.stride);
-}
-
-HERE whole step_knot(table t, real square, real under, whole i, int step)
-{
-    whole next = least_whole(i + step, set_whole(t.cells));
-    return pick_whole(knot_reaches(look(t, VNDF_KNOT, next).a, square, under), next, i);
-}
-
-HERE whole find_knot(table t, real square, real under)
-{
-    whole i = begin_knot(t, square, under);
-    for (int step = t.stride / 2; step > 0; step /= 2)
-        i = step_knot(t, square, under, i, step);
-    return i;
-}
-
-/* The fourth term is 0 for fewer moments. */
-HERE mask sum_reaches(table t, real w1, real w0, real wq, real w4, quad tail, real left)
-{
-    real far = wq * tail.c;
-    if (t.moments > 3)
-        far = far + w4 * tail.d;
-    return at_most(left, (w1 * tail.a + w0 * tail.b) + far);
-}
-
-HERE quad quad_of(const float *a, const float *b, const float *c, const float *d)
-{
-    quad q = {set(*a), set(*b), set(*c), set(*d)};
-    return q;
-}
-
-HERE whole begin_sum(table t, real w1, real w0, real wq, real w4, real left)
-{
-    const table_copies *c = t.copies;
-    const float *end = t.numbers + 4 * (VNDF_TAIL * (t.cells + 1) + t.cells);
-    whole k = set_whole(0);
-#if VNDF_LANES > 4
-    (void)c;
-    for (int step = ANCHORS / 2; step > 0; step /= 2) {
-        whole next = k + step;
-        quad tail = {look_anchor(t, 1, next), look_anchor(t, 2, next), look_anchor(t, 3, next),
-                     look_anchor(t, 4, next)};
-        k = pick_whole(sum_reaches(t, w1, w0, wq, w4, tail, left), next, k);
-    }
-#else
+    for (int n = 0; n < registers; n++)
+#  if VNDF_LANES == 8
+        r[n] = (real)_mm256_permutevar8x32_ps(_mm256_load_ps((level < BITS ? c : first) + 8 * n), (__m256i)at);
+#  else
+        r[n] = load(first + 4 * n);
+#  endif
     LANES_UNROLLED
-    for (int n = 1; n < ANCHORS; n++)
-        k = k - sum_reaches(t, w1, w0, wq, w4,
-                            quad_of(&c->anchor[1][n], &c->anchor[2][n], &c->anchor[3][n], &c->anchor[4][n]), left);
+    for (; registers > 1; registers /= 2, bit++)
+        for (int n = 0; n < registers / 2; n++)
+            r[n] = pick_bit(at, bit, r[2 * n + 1], r[2 * n]);
+    return r[0];
 #endif
-    mask last = sum_reaches(t, w1, w0, wq, w4, quad_of(end, end + 1, end + 2, end + 3), left);
-    return pick_whole(last, set_whole(t.cells), k * t.stride);
-}
-
-HERE whole step_sum(table t, real w1, real w0, real wq, real w4, real left, whole i, int step)
-{
-    whole next = least_whole(i + step, set_whole(t.cells));
-    return pick_whole(sum_reaches(t, w1, w0, wq, w4, look(t, VNDF_TAIL, next), left), next, i);
-}
-
-HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
-{
-    whole i = begin_sum(t, w1, w0, wq, w4, left);
-    for (int step = t.stride / 2; step > 0; step /= 2)
-        i = step_sum(t, w1, w0, wq, w4, left, i, step);
-    return i;
 }
 
 #endif

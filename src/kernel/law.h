@@ -90,6 +90,7 @@ HERE whole law_quarter(real rho)
                        set_whole(VNDF_RHO_PARTS - 1));
 }
 
+/* In the first cell what is beyond knot 0 is c f, which knot 1 gives, and what law_sum has. */
 HERE seen law_see_above(table t, real s, real c, real rho)
 {
     seen v;
@@ -104,16 +105,9 @@ HERE seen law_see_above(table t, real s, real c, real rho)
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  pick(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
     v.w = law_weights_at(w, c, same(v.first, t.cells));
-    v.near = c * most(1.0f - tail.b, set(0.0f));
-    real far = law_sum(v.w, tail);
-    mask grazing = same(v.first, 0);
-    if (any(grazing)) {
-        quad second = look(t, VNDF_TAIL, v.first + 1);
-        real rest = law_sum(v.w, second), whole_first = v.w.w1 * (tail.a - second.a) + c * (tail.b - second.b);
-        far = pick(grazing, rest + whole_first, far);
-        v.near = pick(grazing, set(0.0f), v.near);
-    }
-    v.total = v.near + far;
+    real near = c * most(1.0f - tail.b, set(0.0f));
+    v.total = near + law_sum(v.w, tail);
+    v.near = pick(same(v.first, 0), set(0.0f), near);
     return v;
 }
 
@@ -255,22 +249,30 @@ HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
     return v;
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. Rounded sums need not fall from
- * knot to knot: which knot is found depends on the order of the steps. */
-HERE whole law_step_below(table t, seen v, real left, whole i, int step)
+/* The mass beyond knot i, which is at rho or beyond it. */
+HERE real law_beyond(table t, seen v, whole i)
 {
-    whole next = least_whole(i + step, set_whole(t.cells));
-    quad k = look(t, VNDF_KNOT, next), tail = look(t, VNDF_TAIL, next), low = look(t, VNDF_LOW, next);
-    real sum = law_sum_below(v.w, k.a, most(k.a - v.rho, set(0.0f)), tail, low);
-    return pick_whole(at_most(left, sum), next, i);
+    real r = look(t, VNDF_KNOT, i).a;
+    return law_sum_below(v.w, r, most(r - v.rho, set(0.0f)), look(t, VNDF_TAIL, i), look(t, VNDF_LOW, i));
 }
 
+/* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
+ * cell is found depends on the order of the steps. */
+HERE mask law_passes(table t, seen v, whole next, real beyond, real left)
+{
+    return either(at_most(to_real(next), to_real(v.first)),
+                  both(at_most(to_real(next), to_real(set_whole(t.cells))), at_most(left, beyond)));
+}
+
+/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
 HERE whole law_find_below(table t, seen v, real left)
 {
-    whole i = v.first;
+    whole i = set_whole(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        i = law_step_below(t, v, left, i, step);
+        whole next = i + step;
+        real beyond = law_beyond(t, v, least_whole(next, set_whole(t.cells)));
+        i = pick_whole(law_passes(t, v, next, beyond, left), next, i);
         step = step / 2;
     }
     return i;
@@ -373,9 +375,8 @@ HERE real law_width(table t, piece at, place in)
 /* ---- area ---- */
 
 /* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). */
-HERE real law_area_above(table t, seen v)
+HERE real law_area_above(table t, seen v, whole cell)
 {
-    whole cell = find_knot(t, v.rho * v.rho, set(1.0f));
     mask last = same(cell, t.cells);
     whole next = pick_whole(last, cell, cell + 1);
     quad k = look(t, VNDF_KNOT, cell), low = look(t, VNDF_LOW, cell), up = look(t, VNDF_LOW, next);
@@ -387,13 +388,18 @@ HERE real law_area_above(table t, seen v)
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
  * digits, and the area that is drawn where it does not. */
-HERE real law_area(table t, seen v)
+HERE real law_area_at(table t, seen v, whole cell)
 {
-    real above = law_area_above(t, v), sampled = v.s * v.total * 0.318309886f;
+    real above = law_area_above(t, v, cell), sampled = v.s * v.total * 0.318309886f;
     real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
     real below = sampled + mixed * ((above - size(v.c)) - sampled);
     below = pick(less(set(2e-15f), v.s), below, set(0.0f)); /* straight from below nothing is seen */
     return pick(less(v.c, set(0.0f)), below, above);
+}
+
+HERE real law_area(table t, seen v)
+{
+    return law_area_at(t, v, find_knot(t, v.rho * v.rho, set(1.0f)));
 }
 
 #endif

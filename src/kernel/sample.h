@@ -15,8 +15,8 @@ typedef struct weighed {
 HERE drawn table_draw(table t, table_view view, real u1, real u2, const int below)
 {
     aim a = table_aim(view.v, u2, below);
-    whole i = table_find(t, view.v, a, below);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, below), below);
+    reached at = table_find(t, view.v, a, below);
+    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, at, below), below);
     arc k = table_arc(view.v, d.r, below);
     return table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
 }
@@ -24,12 +24,12 @@ HERE drawn table_draw(table t, table_view view, real u1, real u2, const int belo
 HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below)
 {
     aim a = table_aim(view.v, u2, below);
-    whole i = table_find(t, view.v, a, below);
-    found f = table_cell(t, view.v, a, i, below);
+    reached at = table_find(t, view.v, a, below);
+    found f = table_cell(t, view.v, a, at, below);
     drawn_length d = table_length(t, view.v, f, below);
     arc k = table_arc(view.v, d.r, below);
     weighed s;
-    s.weight = table_weight(t, view.v, i, f, law_invert(f.at, f.before), d.r, k, law_area(t, view.v), below);
+    s.weight = table_weight(t, view.v, at.i, f, law_invert(f.at, f.before), d.r, k, law_area(t, view.v), below);
     s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
     return s;
 }
@@ -59,8 +59,8 @@ HERE pair table_numbers(table t, table_view view, unit_normal n, const int below
 HERE any_slope table_slope(table t, table_view straight, real u2)
 {
     aim a = table_aim(straight.v, u2, 0);
-    whole i = table_find(t, straight.v, a, 0);
-    drawn_length d = table_length(t, straight.v, table_cell(t, straight.v, a, i, 0), 0);
+    reached at = table_find(t, straight.v, a, 0);
+    drawn_length d = table_length(t, straight.v, table_cell(t, straight.v, a, at, 0), 0);
     any_slope r = {d.r.x, d.r.z, d.density * 0.159154943f};
     return r;
 }
@@ -106,8 +106,8 @@ HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, rea
                                        real u2)
 {
     aim a = table_aim(view.v, u2 * part, 0);
-    whole i = table_find(t, view.v, a, 0);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, i, 0), 0);
+    reached at = table_find(t, view.v, a, 0);
+    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, at, 0), 0);
     arc k = table_arc(view.v, d.r, 0);
     real arc_part = bounded_arc(k, bounded_cosine(alpha, slant, d.r.x, d.r.z));
     bounded_normal s;

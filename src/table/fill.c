@@ -116,9 +116,11 @@ static void fill_cell(vndf_distribution *table, const vndf_table_draft *d, size_
     put(row(table, VNDF_MORE, i), d->m2[i], d->cubes ? d->cubes[i] : 0.0, d->b0[i], d->b1[i]);
 }
 
-/* Sums beyond each knot, from the last one; *mass becomes that of all. */
+/* Sums beyond each knot, from the last one; *mass becomes that of all. In the first cell k~ is a_1 y + pi, so that knot
+ * 0 has the sum of f R from there on, and those of knot 1. */
 static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, double *mass)
 {
+    const float *first = row(table, VNDF_TAIL, 1);
     double t1 = 0, t0 = 0, tq = 0, t4 = 0, n1 = 0, n2 = 0;
     for (size_t i = d->cells + 1; i-- > 0;) {
         double r = d->knot[i], gap = i < d->cells ? d->knot[i + 1] - r : 0, m0 = d->m0[i], m1 = d->m1[i],
@@ -129,7 +131,7 @@ static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, doubl
         t0 += m1 + r * m0;
         t1 += m2 + r * (2 * m1 + r * m0);
         t4 += d->cubes && i > 0 ? d->cubes[i] * m0 : 0.0;
-        put(row(table, VNDF_TAIL, i), t1, t0, tq, t4);
+        put(row(table, VNDF_TAIL, i), t1, i ? t0 : first[1], i ? tq : first[2], i ? t4 : first[3]);
         put(row(table, VNDF_LOW, i), n1, n2, d->area[i], d->slope[i]);
     }
     *mass = t0;

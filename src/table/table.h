@@ -43,8 +43,8 @@ enum {
     VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
     VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end; moments 0 and 1 */
     VNDF_MORE, /* moment 2; mean of R^-3 in f/R; shares of the two terms below the horizon at this knot */
-    VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4 */
-    VNDF_LOW,  /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
+    VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4; at knot 0 the last three are those of knot 1 */
+    VNDF_LOW, /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
     VNDF_GROUPS
 };
 

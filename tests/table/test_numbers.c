@@ -21,8 +21,8 @@ static void test_table(const char *path)
     TEST(vndf_numbers(d, part, count / 2) == count && part[count / 2] == 7 &&
          memcmp(n, part, count / 2 * sizeof *n) == 0);
     TEST((size_t)n[0] + 1 == rows && n[1] >= 2 && n[1] <= 4 && n[2] >= 0 && n[2] <= 5 && n[3] > 0);
-    const float *knot = n + HEAD, *tail = n + HEAD + 3 * 4 * rows;
-    TEST(knot[0] == 0 && fabsf(tail[1] - 1) < 1e-5f);
+    const float *knot = n + HEAD, *law = knot + 4 * rows, *tail = knot + 3 * 4 * rows;
+    TEST(knot[0] == 0 && fabsf(law[3] + tail[1] - 1) < 1e-5f); /* the first cell, and what is beyond */
     for (size_t i = 0; i + 1 < rows; i++)
         for (int j = 0; j < 4; j++)
             if (!TEST(knot[4 * i + 4] > knot[4 * i]) ||

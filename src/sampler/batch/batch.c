@@ -1,5 +1,6 @@
-/* Batches: which instruction set they run on, and the arrays of each call. Lanes (lanes_block.c) take tables and closed
- * forms; mixtures, and all calls where the compiler has no lanes, go one by one. */
+/* Batches: which instruction set they run on, and the arrays of each call. Lanes (lanes_block.c, mixture_lanes.h) take
+ * all surfaces; single elements, lobes without a distribution, and all calls where the compiler has no lanes, go one by
+ * one. */
 #include "sampler/batch/call.h"
 #include "sampler/batch/elements.h"
 #include "sampler/sampler.h"
@@ -28,12 +29,20 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-static vndf_lanes *lanes_of(vndf_instructions limit)
+static void run_lanes(const vndf_call *call, vndf_instructions limit)
 {
     vndf_instructions used = vndf_instructions_used(limit);
-    return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16
-           : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_lanes_8
-                                            : vndf_lanes_4;
+    (used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16
+     : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_lanes_8
+                                      : vndf_lanes_4)(call);
+}
+
+static void run_mixture_lanes(const vndf_mixture_call *call, vndf_instructions limit)
+{
+    vndf_instructions used = vndf_instructions_used(limit);
+    (used == VNDF_INSTRUCTIONS_AVX512 ? vndf_mixture_lanes_16
+     : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_mixture_lanes_8
+                                      : vndf_mixture_lanes_4)(call);
 }
 
 #else
@@ -44,14 +53,24 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-static vndf_lanes *lanes_of(vndf_instructions limit)
+#  if defined(__GNUC__)
+#    define vndf_one_lanes vndf_lanes_4
+#    define vndf_one_mixture_lanes vndf_mixture_lanes_4
+#  else
+#    define vndf_one_lanes vndf_one_by_one
+#    define vndf_one_mixture_lanes vndf_mixture_one_by_one
+#  endif
+
+static void run_lanes(const vndf_call *call, vndf_instructions limit)
 {
     (void)limit;
-#  if defined(__GNUC__)
-    return vndf_lanes_4;
-#  else
-    return vndf_one_by_one;
-#  endif
+    vndf_one_lanes(call);
+}
+
+static void run_mixture_lanes(const vndf_mixture_call *call, vndf_instructions limit)
+{
+    (void)limit;
+    vndf_one_mixture_lanes(call);
 }
 
 #endif
@@ -93,7 +112,7 @@ static void run(vndf_call *call, vndf_instructions limit, const float *const giv
     if (!call->distribution || call->count < 2)
         vndf_one_by_one(call);
     else
-        lanes_of(limit)(call);
+        run_lanes(call, limit);
 }
 
 static void run_sample(vndf_call call, vndf_instructions limit, const float *u1, const float *u2, vndf_normals wm,
@@ -207,89 +226,81 @@ void vndf_affine_g1_n(const vndf_affine_batch *b, float *g1)
 
 /* ---- mixtures ---- */
 
-static vndf_vec3 normal_at(vndf_normals wm, size_t i)
+static void run_mixture(vndf_task task, const vndf_mixture_batch *b, const float *const given[3],
+                        float *const results[4], const int *asked, int *lobe)
 {
-    vndf_vec3 n = {wm.x[i], wm.y[i], wm.z[i]};
-    return n;
+    vndf_mixture_call call = {.task = task, .count = b->count, .lobes = b->lobes, .asked = asked, .drawn = lobe};
+    int whole = b->lobes >= 1 && b->lobes <= VNDF_MIXTURE_LOBES && b->count > 1;
+    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
+        const vndf_lobe_batch *a = &b->lobe[l];
+        const vndf_affine_batch of = {a->distribution, b->count,  b->shared, b->limit, a->xx,   a->xy,  a->yx,
+                                      a->yy,           a->mean_x, a->mean_y, b->wi_x,  b->wi_y, b->wi_z};
+        call.lobe[l] = affine_call(task, &of);
+        call.lobe[l].shared |= b->shared & VNDF_SHARED_WEIGHT ? 1u << VNDF_READ_WEIGHT : 0;
+        call.lobe[l].read[VNDF_READ_WEIGHT] = a->weight;
+        for (int i = 0; i < 3; i++)
+            call.lobe[l].read[VNDF_READ_A + i] = given[i];
+        whole = whole && a->distribution;
+    }
+    for (int i = 0; i < 4; i++)
+        call.write[i] = results[i];
+    if (whole)
+        run_mixture_lanes(&call, b->limit);
+    else
+        vndf_mixture_one_by_one(&call);
 }
 
-static vndf_mixture_view view_at(const vndf_mixture_batch *b, size_t i)
+static void run_mixture_given(vndf_task task, const vndf_mixture_batch *b, vndf_normals wm, float *result)
 {
-    vndf_mixture m = vndf_batch_mixture(b, i);
-    return vndf_mixture_view_from(&m, vndf_batch_mixture_direction(b, i));
+    const float *const given[3] = {wm.x, wm.y, wm.z};
+    float *const results[4] = {result};
+    run_mixture(task, b, given, results, NULL, NULL);
 }
 
 void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
                            float *pdf, int *lobe)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture_view view = view_at(b, i);
-        vndf_vec3 n = vndf_mixture_sample(&view, u1[i], u2[i], pdf ? &pdf[i] : NULL, lobe ? &lobe[i] : NULL);
-        wm.x[i] = n.x;
-        wm.y[i] = n.y;
-        wm.z[i] = n.z;
-    }
+    const float *const given[3] = {u1, u2};
+    float *const results[4] = {wm.x, wm.y, wm.z, pdf};
+    run_mixture(VNDF_TASK_SAMPLE, b, given, results, NULL, lobe);
 }
 
 void vndf_mixture_pdf_n(const vndf_mixture_batch *b, vndf_normals wm, float *pdf)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture_view view = view_at(b, i);
-        pdf[i] = vndf_mixture_pdf(&view, normal_at(wm, i));
-    }
+    run_mixture_given(VNDF_TASK_PDF, b, wm, pdf);
 }
 
 void vndf_mixture_visible_n(const vndf_mixture_batch *b, vndf_normals wm, float *visible)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture_view view = view_at(b, i);
-        visible[i] = vndf_mixture_visible(&view, normal_at(wm, i));
-    }
+    run_mixture_given(VNDF_TASK_VISIBLE, b, wm, visible);
 }
 
 void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const int *asked, float *u1, float *u2,
                            int *lobe)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture_view view = view_at(b, i);
-        float first, second;
-        int index = vndf_mixture_invert(&view, normal_at(wm, i), asked ? asked[i] : -1, &first, &second);
-        u1[i] = first;
-        u2[i] = second;
-        if (lobe)
-            lobe[i] = index;
-    }
+    const float *const given[3] = {wm.x, wm.y, wm.z};
+    float *const results[4] = {u1, u2};
+    run_mixture(VNDF_TASK_INVERT, b, given, results, asked, lobe);
 }
 
 void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture m = vndf_batch_mixture(b, i);
-        ndf[i] = vndf_mixture_ndf(&m, normal_at(wm, i));
-    }
+    run_mixture_given(VNDF_TASK_NDF, b, wm, ndf);
 }
 
-/* A function of mixtures and directions, for each element. */
-static void for_each_direction(const vndf_mixture_batch *b, float (*of)(const vndf_mixture *, vndf_vec3),
-                               float *to)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        vndf_mixture m = vndf_batch_mixture(b, i);
-        to[i] = of(&m, vndf_batch_mixture_direction(b, i));
-    }
-}
+static const vndf_normals NO_NORMALS = {NULL, NULL, NULL};
 
 void vndf_mixture_projected_area_n(const vndf_mixture_batch *b, float *area)
 {
-    for_each_direction(b, vndf_mixture_projected_area, area);
+    run_mixture_given(VNDF_TASK_AREA, b, NO_NORMALS, area);
 }
 
 void vndf_mixture_lambda_n(const vndf_mixture_batch *b, float *lambda)
 {
-    for_each_direction(b, vndf_mixture_lambda, lambda);
+    run_mixture_given(VNDF_TASK_LAMBDA, b, NO_NORMALS, lambda);
 }
 
 void vndf_mixture_g1_n(const vndf_mixture_batch *b, float *g1)
 {
-    for_each_direction(b, vndf_mixture_g1, g1);
+    run_mixture_given(VNDF_TASK_G1, b, NO_NORMALS, g1);
 }

@@ -15,7 +15,8 @@ typedef enum vndf_task {
     VNDF_TASK_G1
 } vndf_task;
 
-/* Arrays that are read: matrix, mean slope, direction, and the two numbers of a sample or the given normal. */
+/* Arrays that are read: matrix, mean slope, direction, the two numbers of a sample or the given normal, and the weight
+ * of a lobe. */
 enum {
     VNDF_READ_XX,
     VNDF_READ_XY,
@@ -29,6 +30,7 @@ enum {
     VNDF_READ_A,
     VNDF_READ_B,
     VNDF_READ_C,
+    VNDF_READ_WEIGHT,
     VNDF_READS
 };
 
@@ -45,14 +47,29 @@ typedef struct vndf_call {
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
 } vndf_call;
 
+/* Mixtures: what each lobe reads, a distribution among it, and what is written: two numbers of an inverse, or a normal
+ * and its density, or else one. */
+typedef struct vndf_mixture_call {
+    vndf_task task;
+    size_t count;
+    int lobes; /* 1 to VNDF_MIXTURE_LOBES */
+    vndf_call lobe[VNDF_MIXTURE_LOBES];
+    const int *asked; /* of an inverse; NULL for -1 */
+    float *write[VNDF_WRITES];
+    int *drawn; /* the lobe; or NULL */
+} vndf_mixture_call;
+
 /* Element i of what it writes equals, to the bit, the call for one element. The distribution is not NULL. */
 typedef void vndf_lanes(const vndf_call *call);
+typedef void vndf_mixture_lanes(const vndf_mixture_call *call);
 
 #if defined(__GNUC__)
 vndf_lanes vndf_lanes_4;
+vndf_mixture_lanes vndf_mixture_lanes_4;
 #endif
 #if VNDF_HAS_WIDE_LANES /* the build compiles them */
 vndf_lanes vndf_lanes_8, vndf_lanes_16;
+vndf_mixture_lanes vndf_mixture_lanes_8, vndf_mixture_lanes_16;
 #endif
 
 #endif

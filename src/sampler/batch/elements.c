@@ -3,23 +3,19 @@
 #include "sampler/batch/elements.h"
 #include "sampler/sampler.h"
 
-static float at(const float *array, size_t i, int shared)
+static float number(const vndf_call *c, int which, size_t i)
 {
-    return array ? array[shared ? 0 : i] : 0.0f;
+    const float *array = c->read[which];
+    return array ? array[c->shared >> which & 1 ? 0 : i] : 0.0f;
 }
 
-static vndf_vec3 direction(const float *x, const float *y, const float *z, size_t i, int shared)
+static vndf_vec3 triple(const vndf_call *c, int first, size_t i)
 {
-    vndf_vec3 w = {at(x, i, shared), at(y, i, shared), at(z, i, shared)};
-    return w;
+    vndf_vec3 v = {number(c, first, i), number(c, first + 1, i), number(c, first + 2, i)};
+    return v;
 }
 
 /* ---- surfaces ---- */
-
-static float number(const vndf_call *c, int which, size_t i)
-{
-    return at(c->read[which], i, (int)(c->shared >> which & 1));
-}
 
 /* A roughness that is not above 0 is invalid: it has no distribution. */
 static vndf_affine surface_at(const vndf_call *c, size_t i)
@@ -49,9 +45,7 @@ static void sample(const vndf_call *c, size_t i, const vndf_view *view)
 static void one(const vndf_call *c, size_t i)
 {
     const vndf_affine surface = surface_at(c, i);
-    const vndf_vec3 wi = {number(c, VNDF_READ_WI_X, i), number(c, VNDF_READ_WI_Y, i),
-                          number(c, VNDF_READ_WI_Z, i)};
-    const vndf_vec3 wm = {number(c, VNDF_READ_A, i), number(c, VNDF_READ_B, i), number(c, VNDF_READ_C, i)};
+    const vndf_vec3 wi = triple(c, VNDF_READ_WI_X, i), wm = triple(c, VNDF_READ_A, i);
     vndf_view view;
     float *to = &c->write[0][i], numbers[2];
     switch (c->task) {
@@ -88,23 +82,56 @@ void vndf_one_by_one(const vndf_call *call)
 
 /* ---- mixtures ---- */
 
-vndf_mixture vndf_batch_mixture(const vndf_mixture_batch *b, size_t i)
+static vndf_mixture mixture_at(const vndf_mixture_call *c, size_t i)
 {
-    int shared = (b->shared & VNDF_SHARED_ALPHA) != 0, one_weight = (b->shared & VNDF_SHARED_WEIGHT) != 0;
     vndf_mixture m;
-    m.count = b->lobes;
-    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
-        const vndf_lobe_batch *a = &b->lobe[l];
-        vndf_affine s = {a->distribution,         at(a->xx, i, shared), at(a->xy, i, shared),
-                         at(a->yx, i, shared),    at(a->yy, i, shared), at(a->mean_x, i, shared),
-                         at(a->mean_y, i, shared)};
-        m.lobe[l].surface = s;
-        m.lobe[l].weight = at(a->weight, i, one_weight);
+    m.count = c->lobes;
+    for (int l = 0; l < c->lobes && l < VNDF_MIXTURE_LOBES; l++) {
+        m.lobe[l].surface = surface_at(&c->lobe[l], i);
+        m.lobe[l].weight = number(&c->lobe[l], VNDF_READ_WEIGHT, i);
     }
     return m;
 }
 
-vndf_vec3 vndf_batch_mixture_direction(const vndf_mixture_batch *b, size_t i)
+static void sample_mixture(const vndf_mixture_call *c, size_t i, const vndf_mixture_view *view)
 {
-    return direction(b->wi_x, b->wi_y, b->wi_z, i, (b->shared & VNDF_SHARED_WI) != 0);
+    int *lobe = c->drawn ? &c->drawn[i] : NULL;
+    vndf_vec3 wm = vndf_mixture_sample(view, c->lobe[0].read[VNDF_READ_A][i], c->lobe[0].read[VNDF_READ_B][i],
+                                       c->write[3] ? &c->write[3][i] : NULL, lobe);
+    c->write[0][i] = wm.x;
+    c->write[1][i] = wm.y;
+    c->write[2][i] = wm.z;
+}
+
+static void one_mixture(const vndf_mixture_call *c, size_t i)
+{
+    const vndf_mixture m = mixture_at(c, i);
+    const vndf_vec3 wi = triple(&c->lobe[0], VNDF_READ_WI_X, i), wm = triple(&c->lobe[0], VNDF_READ_A, i);
+    vndf_mixture_view view;
+    float *to = &c->write[0][i], numbers[2];
+    int lobe;
+    if (c->task < VNDF_TASK_NDF)
+        view = vndf_mixture_view_from(&m, wi);
+    switch (c->task) {
+    case VNDF_TASK_SAMPLE: sample_mixture(c, i, &view); break;
+    case VNDF_TASK_PDF: *to = vndf_mixture_pdf(&view, wm); break;
+    case VNDF_TASK_VISIBLE: *to = vndf_mixture_visible(&view, wm); break;
+    case VNDF_TASK_INVERT:
+        lobe = vndf_mixture_invert(&view, wm, c->asked ? c->asked[i] : -1, &numbers[0], &numbers[1]);
+        *to = numbers[0];
+        c->write[1][i] = numbers[1];
+        if (c->drawn)
+            c->drawn[i] = lobe;
+        break;
+    case VNDF_TASK_NDF: *to = vndf_mixture_ndf(&m, wm); break;
+    case VNDF_TASK_AREA: *to = vndf_mixture_projected_area(&m, wi); break;
+    case VNDF_TASK_LAMBDA: *to = vndf_mixture_lambda(&m, wi); break;
+    case VNDF_TASK_G1: *to = vndf_mixture_g1(&m, wi); break;
+    }
+}
+
+void vndf_mixture_one_by_one(const vndf_mixture_call *call)
+{
+    for (size_t i = 0; i < call->count; i++)
+        one_mixture(call, i);
 }

@@ -17,10 +17,13 @@
 
 #if VNDF_LANES == 4
 #  define LANES_ENTRY vndf_lanes_4
+#  define LANES_MIXTURE vndf_mixture_lanes_4
 #elif VNDF_LANES == 8
 #  define LANES_ENTRY vndf_lanes_8
+#  define LANES_MIXTURE vndf_mixture_lanes_8
 #else
 #  define LANES_ENTRY vndf_lanes_16
+#  define LANES_MIXTURE vndf_mixture_lanes_16
 #endif
 
 enum { BLOCK = 128, GROUPS = BLOCK / LANES };
@@ -93,47 +96,124 @@ HERE table_direction put_direction(side *s, int g, frame f)
 
 /* ---- sides of the horizon ---- */
 
-/* Cells of slopes, by their squares. */
-HERE void find_knots(table t, int groups, const float *square, const float *under, whole *i)
+/* The knot of entry `at` of a step of searches. */
+HERE whole knot_of(table t, whole at, int level)
 {
-    for (int g = 0; g < groups; g++)
-        i[g] = begin_knot(t, load(square + g * LANES), load(under + g * LANES));
-    for (int step = t.stride / 2; step > 0; step /= 2)
-        for (int g = 0; g < groups; g++)
-            i[g] = step_knot(t, load(square + g * LANES), load(under + g * LANES), i[g], step);
+    return (at + at + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
 }
 
-HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
+/* One step: entries that follow `at`. */
+HERE whole step_slope(table t, real square, real under, whole at, int level)
 {
-    whole cell[GROUPS];
-    if (below)
-        find_knots(t, groups, s->read[SQUARE], s->read[UNDER], cell);
+    return follow(at, at_most(look_level(t, AT_KNOT, at, level) * under, square));
+}
+
+/* Cells of slopes whose squares have these parts. */
+HERE void find_slopes(table t, int groups, const float *square, const float *under, whole *i)
+{
+    for (int g = 0; g < groups; g++) {
+        real a = load(square + g * LANES), b = load(under + g * LANES);
+        whole at = set_whole(1);
+        LANES_UNROLLED
+        for (int level = 0; level < FIRST_LEVELS; level++)
+            at = step_slope(t, a, b, at, level);
+        i[g] = at;
+    }
+    LANES_UNROLLED
+    for (int level = FIRST_LEVELS; level < LEVELS; level++)
+        for (int g = 0; level < t.levels && g < groups; g++)
+            i[g] = step_slope(t, load(square + g * LANES), load(under + g * LANES), i[g], level);
+    for (int g = 0; g < groups; g++)
+        i[g] = (i[g] - (1 << t.levels)) * t.stride;
+    for (int step = t.stride / 2; step > 0; step /= 2)
+        for (int g = 0; g < groups; g++) {
+            whole next = least_whole(i[g] + step, set_whole(t.cells));
+            real r = look(t, VNDF_KNOT, next).a;
+            i[g] = pick_whole(at_most((r * r) * load(under + g * LANES), load(square + g * LANES)), next, i[g]);
+        }
+}
+
+/* What is seen of a side; `cell`, that of rho, is set below the horizon or for `areas`. */
+HERE void see_side(table t, int groups, const side *s, seen *v, whole *cell, const int areas, const int below)
+{
+    if (below || areas)
+        find_slopes(t, groups, s->read[SQUARE], s->read[UNDER], cell);
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
-        real height = load(at + C * BLOCK), across = load(at + S * BLOCK), rho = load(at + RHO * BLOCK);
+        real sine = load(at + S * BLOCK), c = load(at + C * BLOCK), rho = load(at + RHO * BLOCK);
         if (below)
-            v[g] = law_see_below(t, across, height, rho, cell[g]);
+            v[g] = law_see_below(t, sine, c, rho, cell[g]);
         else
-            v[g] = law_see_above(t, across, height, rho);
+            v[g] = law_see_above(t, sine, c, rho);
     }
+}
+
+/* law_sum, whose fourth term is 0 for fewer moments. */
+HERE real sum_beyond(table t, weights w, quad tail)
+{
+    real far = w.wq * tail.c;
+    if (t.moments > 3)
+        far = far + w.w4 * tail.d;
+    return (w.w1 * tail.a + w.w0 * tail.b) + far;
+}
+
+/* One step of a search for the cell of a sample. */
+HERE reached step_cell(table t, seen v, aim a, reached r, int level, const int below)
+{
+    const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
+    quad tail = zero, low = zero;
+    real beyond;
+    mask passes;
+    tail.c = look_level(t, AT_TQ, r.i, level);
+    if (below) {
+        real knot = look_level(t, AT_R, r.i, level);
+        low.a = look_level(t, AT_N1, r.i, level);
+        low.b = look_level(t, AT_N2, r.i, level);
+        beyond = law_sum_below(v.w, knot, most(knot - v.rho, set(0.0f)), tail, low);
+        passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
+    } else {
+        tail.a = look_level(t, AT_T1, r.i, level);
+        tail.b = look_level(t, AT_T0, r.i, level);
+        if (t.moments > 3)
+            tail.d = look_level(t, AT_T4, r.i, level);
+        beyond = sum_beyond(t, a.w, tail);
+        passes = at_most(a.left, beyond);
+    }
+    r.i = follow(r.i, passes);
+    r.beyond = pick(passes, beyond, r.beyond);
+    return r;
+}
+
+/* The same by rows: r.i is a knot. */
+HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int below)
+{
+    whole next = r.i + step, there = least_whole(next, set_whole(t.cells));
+    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, look(t, VNDF_TAIL, there));
+    mask passes = below ? law_passes(t, v, next, beyond, a.left) : at_most(a.left, beyond);
+    r.i = pick_whole(passes, there, r.i);
+    r.beyond = pick(passes, beyond, r.beyond);
+    return r;
 }
 
 /* Cells of samples. */
-HERE void find_cells(table t, int groups, const seen *v, const aim *a, whole *i, const int below)
+HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
 {
-    if (below) {
-        for (int g = 0; g < groups; g++)
-            i[g] = v[g].first;
-        for (int step = t.highest; step > 0; step /= 2)
-            for (int g = 0; g < groups; g++)
-                i[g] = law_step_below(t, v[g], a[g].left, i[g], step);
-        return;
+    for (int g = 0; g < groups; g++) {
+        reached at = {set_whole(1), set(0.0f)};
+        LANES_UNROLLED
+        for (int level = 0; level < FIRST_LEVELS; level++)
+            at = step_cell(t, v[g], a[g], at, level, below);
+        r[g] = at;
     }
+    LANES_UNROLLED
+    for (int level = FIRST_LEVELS; level < LEVELS; level++)
+        for (int g = 0; level < t.levels && g < groups; g++)
+            r[g] = step_cell(t, v[g], a[g], r[g], level, below);
     for (int g = 0; g < groups; g++)
-        i[g] = begin_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left);
+        r[g].i = (r[g].i - (1 << t.levels)) * t.stride;
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
-            i[g] = step_sum(t, a[g].w.w1, a[g].w.w0, a[g].w.wq, a[g].w.w4, a[g].left, i[g], step);
+            r[g] = step_rows(t, v[g], a[g], r[g], step, below);
 }
 
 /* The azimuths of u1. */
@@ -152,18 +232,19 @@ HERE void draw_azimuths(int groups, const arc *k, const float *u1, bearing *a, c
 HERE void draw_side(table t, int groups, side *s, const int weigh, const int below)
 {
     seen v[GROUPS];
+    whole cell[GROUPS];
     aim a[GROUPS];
-    whole i[GROUPS];
+    reached r[GROUPS];
     found f[GROUPS];
     drawn_length d[GROUPS];
     arc k[GROUPS];
     bearing turned[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, cell, weigh, below);
     for (int g = 0; g < groups; g++)
         a[g] = table_aim(v[g], load(s->read[GIVEN_B] + g * LANES), below);
-    find_cells(t, groups, v, a, i, below);
+    find_cells(t, groups, v, a, r, below);
     for (int g = 0; g < groups; g++)
-        f[g] = table_cell(t, v[g], a[g], i[g], below);
+        f[g] = table_cell(t, v[g], a[g], r[g], below);
     for (int g = 0; g < groups; g++)
         d[g] = table_length(t, v[g], f[g], below);
     for (int g = 0; g < groups; g++)
@@ -178,7 +259,8 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
     }
     for (int g = 0; weigh && g < groups; g++) {
         place in = law_invert(f[g].at, f[g].before);
-        real area = law_area(t, v[g]), weight = table_weight(t, v[g], i[g], f[g], in, d[g].r, k[g], area, below);
+        real area = law_area_at(t, v[g], cell[g]),
+             weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area, below);
         store(s->write[RESULT_E] + g * LANES, weight);
     }
 }
@@ -195,7 +277,7 @@ HERE void place_given(table t, int groups, const side *s, given *n)
         store(square + g * LANES, n[g].square);
         store(under + g * LANES, n[g].under);
     }
-    find_knots(t, groups, square, under, cell);
+    find_slopes(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
         n[g].cell = cell[g];
 }
@@ -203,8 +285,9 @@ HERE void place_given(table t, int groups, const side *s, given *n)
 HERE void density_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
+    whole cell[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, cell, 0, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES,
@@ -214,8 +297,9 @@ HERE void density_side(table t, int groups, side *s, const int below)
 HERE void invert_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
+    whole cell[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, below);
+    see_side(t, groups, s, v, cell, 0, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++) {
         real x = load(s->read[GIVEN_A] + g * LANES), y = load(s->read[GIVEN_B] + g * LANES);
@@ -228,9 +312,10 @@ HERE void invert_side(table t, int groups, side *s, const int below)
 HERE void area_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
-    see_side(t, groups, s, v, below);
+    whole cell[GROUPS];
+    see_side(t, groups, s, v, cell, 1, below);
     for (int g = 0; g < groups; g++)
-        store(s->write[RESULT_A] + g * LANES, law_area(t, v[g]));
+        store(s->write[RESULT_A] + g * LANES, law_area_at(t, v[g], cell[g]));
 }
 
 /* What a side does, above and below the horizon. */
@@ -286,54 +371,64 @@ STEP void area_below(table t, int groups, side *s)
     area_side(t, groups, s, 1);
 }
 
-/* Puts those elements together that are below the horizon, or those that are not; returns how many. */
-HERE int pack(const side *s, int groups, int reads, side *own, uint8_t *some, const int below)
-{
-    int count = 0;
-#if VNDF_LANES == \
-    16 /* one instruction for sixteen copies: mixed batches take 15 ns for 19. Lanes end within the row */
-    (void)some;
-    for (int g = 0; g < groups; g++) {
-        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
-        for (int r = 0; r < reads; r++) {
-            __m512 together = _mm512_maskz_compress_ps(chosen, (__m512)load(s->read[r] + g * LANES));
-            _mm512_storeu_ps(own->read[r] + count, together);
-        }
-        count += __builtin_popcount(chosen);
-    }
-#else
-    for (int i = 0; i < groups * LANES; i++) {
-        some[count] = (uint8_t)i;
-        count += (s->height[i] < 0.0f) == below;
-    }
-    for (int r = 0; r < reads; r++)
-        for (int i = 0; i < count; i++)
-            own->read[r][i] = s->read[r][some[i]];
+/* Some elements of a block, to be put together: which, how many, and in how many groups. */
+typedef struct some {
+    mask of[GROUPS];
+    int count, groups;
+#if VNDF_LANES < 16
+    uint8_t at[BLOCK];
 #endif
-    return count;
+} some;
+
+/* Counts the elements in e->of. */
+HERE void count_some(some *e, int groups)
+{
+    e->count = 0;
+    for (int g = 0; g < groups; g++) {
+#if VNDF_LANES == 16
+        e->count += __builtin_popcount(e->of[g]);
+#else
+        for (int l = 0; l < LANES; l++) {
+            e->at[e->count] = (uint8_t)(g * LANES + l);
+            e->count -= e->of[g][l];
+        }
+#endif
+    }
+    e->groups = (e->count + LANES - 1) / LANES;
 }
 
-/* Puts results back. */
-HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t *some, int count, const int below)
+/* Puts their numbers together; lanes that are left hold the first. */
+HERE void gather(const some *e, int groups, const float *from, float *to)
 {
-#if VNDF_LANES == 16
-    (void)some;
-    count = 0;
+#if VNDF_LANES == 16 /* one instruction for sixteen copies. Lanes end within the row */
+    int count = 0;
     for (int g = 0; g < groups; g++) {
-        mask low = less(load(s->height + g * LANES), set(0.0f)), chosen = (mask)(below ? low : ~low);
-        for (int w = 0; w < writes; w++) {
-            __m512 all_of = (__m512)load(s->write[w] + g * LANES);
-            store(s->write[w] + g * LANES,
-                  (real)_mm512_mask_expand_ps(all_of, chosen, _mm512_loadu_ps(own->write[w] + count)));
-        }
-        count += __builtin_popcount(chosen);
+        _mm512_storeu_ps(to + count, _mm512_maskz_compress_ps(e->of[g], (__m512)load(from + g * LANES)));
+        count += __builtin_popcount(e->of[g]);
     }
 #else
     (void)groups;
-    (void)below;
-    for (int w = 0; w < writes; w++)
-        for (int i = 0; i < count; i++)
-            s->write[w][some[i]] = own->write[w][i];
+    for (int i = 0; i < e->count; i++)
+        to[i] = from[e->at[i]];
+#endif
+    for (int i = e->count; i < e->groups * LANES; i++)
+        to[i] = to[0];
+}
+
+/* Puts numbers back. */
+HERE void scatter(const some *e, int groups, const float *from, float *to)
+{
+#if VNDF_LANES == 16
+    int count = 0;
+    for (int g = 0; g < groups; g++) {
+        __m512 before = (__m512)load(to + g * LANES);
+        store(to + g * LANES, (real)_mm512_mask_expand_ps(before, e->of[g], _mm512_loadu_ps(from + count)));
+        count += __builtin_popcount(e->of[g]);
+    }
+#else
+    (void)groups;
+    for (int i = 0; i < e->count; i++)
+        to[e->at[i]] = from[i];
 #endif
 }
 
@@ -341,13 +436,17 @@ HERE void unpack(side *s, int groups, int writes, const side *own, const uint8_t
 HERE void take_some(table t, side *s, int groups, int reads, int writes, side_step *step, const int below)
 {
     side own;
-    uint8_t some[BLOCK];
-    int count = pack(s, groups, reads, &own, some, below), padded = (count + LANES - 1) / LANES;
+    some e;
+    for (int g = 0; g < groups; g++) {
+        real height = load(s->height + g * LANES);
+        e.of[g] = below ? less(height, set(0.0f)) : at_most(set(0.0f), height);
+    }
+    count_some(&e, groups);
     for (int r = 0; r < reads; r++)
-        for (int i = count; i < padded * LANES; i++)
-            own.read[r][i] = own.read[r][0];
-    step(t, padded, &own);
-    unpack(s, groups, writes, &own, some, count, below);
+        gather(&e, groups, s->read[r], own.read[r]);
+    step(t, e.groups, &own);
+    for (int w = 0; w < writes; w++)
+        scatter(&e, groups, own.write[w], s->write[w]);
 }
 
 /* Each element by the step of its side. */
@@ -700,15 +799,16 @@ typedef struct copies {
     row read[VNDF_READS], write[VNDF_WRITES], valid[VNDF_READ_A];
 } copies;
 
-/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. */
-HERE void place_reads(block *b, size_t first, int count, copies *c)
+/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. What all elements
+ * share is copied to `fresh` copies. */
+HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
 {
     const vndf_call *call = b->call;
     for (int r = 0; r < VNDF_READS; r++) {
         const float *from = call->read[r];
         int one = !from || (call->shared >> r & 1), whole_block = count == b->groups * LANES;
         b->read[r] = !one && whole_block ? from + first : c->read[r];
-        if (one ? first > 0 : whole_block)
+        if (one ? !fresh : whole_block)
             continue;
         for (int i = 0; i < BLOCK; i++)
             c->read[r][i] = one ? (from ? *from : 0.0f) : from[first + (size_t)(i < count ? i : count - 1)];
@@ -762,31 +862,36 @@ HERE void set_valid(block *b, copies *c)
         b->read[r] = c->valid[r];
 }
 
+static void run_block(const block *b, float *const to[VNDF_WRITES])
+{
+    const vndf_kind kind = b->call->distribution->kind;
+    (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(b, to);
+}
+
 void LANES_ENTRY(const vndf_call *call)
 {
-    const vndf_kind kind = call->distribution->kind;
     table_copies table_parts;
     copies c;
     block b;
     b.call = call;
-    if (kind == VNDF_KIND_TABLE)
-        b.t = table_of(call->distribution, &table_parts, call->count);
+    if (call->distribution->kind == VNDF_KIND_TABLE)
+        b.t = table_of(call->distribution, &table_parts);
     for (size_t first = 0; first < call->count; first += BLOCK) {
         int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
         float *to[VNDF_WRITES];
         b.groups = (count + LANES - 1) / LANES;
         int in_place = count == b.groups * LANES;
-        place_reads(&b, first, count, &c);
+        place_reads(&b, first, count, first == 0, &c);
         set_valid(&b, &c);
         for (int w = 0; w < VNDF_WRITES; w++)
             to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
-        (kind == VNDF_KIND_TABLE ? block_of_table
-         : kind == VNDF_KIND_GGX ? block_of_ggx
-                                 : block_of_beckmann)(&b, to);
+        run_block(&b, to);
         for (int w = 0; !in_place && w < VNDF_WRITES; w++)
             if (call->write[w])
                 memcpy(call->write[w] + first, c.write[w], (size_t)count * sizeof(float));
     }
 }
+
+#include "sampler/batch/mixture_lanes.h"
 
 #endif
